@@ -1,0 +1,23 @@
+# Compiler settings shared by every folder.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+
+option(POLYBED_NATIVE "Compile for this machine's processor; off makes programs that run anywhere" OFF)
+option(POLYBED_WARNINGS_AS_ERRORS "Stop at a warning" OFF)
+option(POLYBED_TESTS "Build the tests" ON)
+option(POLYBED_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+
+add_library(polybed_options INTERFACE)
+target_compile_options(polybed_options INTERFACE -Wall -Wextra -Wconversion -ffp-contract=off -fno-math-errno
+                                                 $<$<BOOL:${POLYBED_WARNINGS_AS_ERRORS}>:-Werror>
+                                                 $<$<BOOL:${POLYBED_NATIVE}>:-march=native>)
+if(POLYBED_SANITIZE)
+  target_compile_options(polybed_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(polybed_options INTERFACE -fsanitize=address,undefined)
+endif()

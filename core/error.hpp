@@ -1,0 +1,66 @@
+// The errors of the program, one type per exit code, and the place where a problem in a case file stands.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace polybed::core {
+
+/// Codes at the end of the program; scripts rely on them.
+enum class ExitCode : int { done = 0, wrong_case = 2, numerics = 3, file = 4, mpi = 5, stopped = 130 };
+
+/// One problem of a case file: where it is and what to do about it.
+struct CaseProblem {
+  std::string file;     ///< as given on the command line; "--set" for an override
+  int line = 0;         ///< 1-based; 0 if the problem has no place (a key that is missing)
+  int column = 0;       ///< 1-based
+  std::string message;  ///< key, value, allowed range with unit, suggestion
+
+  /// file:line:column: message, without the parts that are not known.
+  [[nodiscard]] std::string text() const {
+    std::string place = file;
+    if (line > 0) place += ":" + std::to_string(line) + ":" + std::to_string(column);
+    return place + ": " + message;
+  }
+};
+
+/// The case or the command is wrong: everything that is wrong, at once (exit code 2).
+class CaseError : public std::runtime_error {
+ public:
+  explicit CaseError(std::vector<CaseProblem> problems)
+      : std::runtime_error(join(problems)), problems_(std::move(problems)) {}
+  explicit CaseError(const std::string& message) : std::runtime_error(message) {}
+  [[nodiscard]] const std::vector<CaseProblem>& problems() const { return problems_; }
+
+ private:
+  static std::string join(const std::vector<CaseProblem>& problems) {
+    std::string text;
+    for (const auto& p : problems) text += (text.empty() ? "" : "\n") + p.text();
+    return text;
+  }
+  std::vector<CaseProblem> problems_;
+};
+
+/// The numbers failed: time, place, values and a hint are in the text (exit code 3).
+class NumericsError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A file could not be read or written (exit code 4).
+class FileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// MPI failed or was asked for what it cannot do (exit code 5).
+class MpiError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The user stopped the run; a checkpoint has been written (exit code 130).
+class Stopped : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace polybed::core

@@ -1,0 +1,66 @@
+// The uniform staggered grid of a column and how its fields lie in memory.
+//
+// Axes: 0 = x (width), 1 = y (height, upward), 2 = z (depth; one cell thick in 2-D). Every field, on cells or on
+// faces of one axis, is one array over the same padded box, so that a cell and its low faces share an index:
+// face c of axis a lies between the cells c - stride[a] and c.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace polybed::core {
+
+using Index = std::ptrdiff_t;
+
+struct Grid {
+  static constexpr int halo = 2;  ///< layers of ghost cells on every side of an active axis
+
+  int dimensions = 2;                                  ///< 2 or 3: the number of active axes
+  std::array<int, 3> cells{1, 1, 1};                   ///< owned cells along each axis
+  std::array<double, 3> spacing{1, 1, 1};              ///< cell size, m (2-D: spacing[2] is the depth)
+  std::array<bool, 3> periodic{false, false, false};   ///< sides joined
+
+  /// Ghost layers along an axis: none where the axis is not active.
+  [[nodiscard]] int ghosts(int axis) const { return axis < dimensions ? halo : 0; }
+  /// Entries of the padded box along an axis.
+  [[nodiscard]] Index extent(int axis) const { return cells[std::size_t(axis)] + 2 * ghosts(axis); }
+  /// Distance in memory between neighbours along an axis.
+  [[nodiscard]] Index stride(int axis) const {
+    return axis == 0 ? 1 : axis == 1 ? extent(0) : extent(0) * extent(1);
+  }
+  /// Entries of a field, ghosts included.
+  [[nodiscard]] std::size_t padded_size() const { return std::size_t(extent(0) * extent(1) * extent(2)); }
+  /// Owned cells.
+  [[nodiscard]] std::size_t cell_count() const {
+    return std::size_t(cells[0]) * std::size_t(cells[1]) * std::size_t(cells[2]);
+  }
+  /// Index of cell (i, j, k); owned for 0 <= i < cells[0] and so on, ghosts outside.
+  [[nodiscard]] Index index(int i, int j, int k = 0) const {
+    return (i + ghosts(0)) + extent(0) * ((j + ghosts(1)) + extent(1) * Index(k + ghosts(2)));
+  }
+  /// Faces of an axis along that axis: one more than cells unless periodic.
+  [[nodiscard]] int faces(int axis) const {
+    return cells[std::size_t(axis)] + (periodic[std::size_t(axis)] ? 0 : 1);
+  }
+  [[nodiscard]] double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }
+  /// Centre of cell i of an axis, m; the column begins at 0.
+  [[nodiscard]] double centre(int axis, int i) const { return (i + 0.5) * spacing[std::size_t(axis)]; }
+};
+
+/// Calls body(begin, end) for every row of contiguous cells of the box lo <= (i, j, k) < hi.
+template <class Body>
+void for_each_row(const Grid& grid, const std::array<int, 3>& lo, const std::array<int, 3>& hi, Body&& body) {
+  for (int k = lo[2]; k < hi[2]; ++k)
+    for (int j = lo[1]; j < hi[1]; ++j) {
+      const Index begin = grid.index(lo[0], j, k);
+      body(begin, begin + (hi[0] - lo[0]));
+    }
+}
+
+/// Calls body(begin, end) for every row of owned cells.
+template <class Body>
+void for_each_row(const Grid& grid, Body&& body) {
+  for_each_row(grid, {0, 0, 0}, grid.cells, body);
+}
+
+}  // namespace polybed::core
