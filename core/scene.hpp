@@ -1,4 +1,5 @@
-// The scene: what a case file says, in SI units, one plain struct per table. No law and no equation lives here.
+// The scene: what a case file says, in SI units, one plain struct per table. No law and no equation lives
+// here.
 #pragma once
 
 #include <array>
@@ -13,35 +14,35 @@ namespace polybed::core {
 
 struct Column {
   int dimensions = 2;
-  std::array<double, 3> size{};           ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
-  std::array<int, 3> cells{1, 1, 1};      ///< along x, y, z; 1 along z in 2-D
-  std::string sides = "wall";             ///< wall | periodic
-  double gravity = 9.81;                  ///< m/s2, downward
-  bool closed = false;                    ///< walls all round: no inlet, no outlet
+  std::array<double, 3> size{};       ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
+  std::array<int, 3> cells{1, 1, 1};  ///< along x, y, z; 1 along z in 2-D
+  std::string sides = "wall";         ///< wall | periodic
+  double gravity = 9.81;              ///< m/s2, downward
+  bool closed = false;                ///< walls all round: no inlet, no outlet
 };
 
 struct Fluid {
-  std::string name;                       ///< water | air | none, or any name with density and viscosity given
-  std::optional<double> temperature;      ///< K
-  std::optional<double> density;          ///< kg/m3
-  std::optional<double> viscosity;        ///< Pa s
+  std::string name;                   ///< water | air | none, or any name with density and viscosity given
+  std::optional<double> temperature;  ///< K
+  std::optional<double> density;      ///< kg/m3
+  std::optional<double> viscosity;    ///< Pa s
   std::string equation_of_state = "incompressible";
 };
 
 struct Species {
   std::string name;
-  double diameter = 0;                    ///< m
-  double density = 0;                     ///< kg/m3
+  double diameter = 0;                                                         ///< m
+  double density = 0;                                                          ///< kg/m3
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;  ///< else those of [dem]
 };
 
 struct Bed {
-  std::vector<double> volume_share;       ///< x_j, sums to 1
-  double static_height = 0;               ///< m, of the settled bed
-  double solids_fraction = 0;             ///< of the settled bed
-  double start_solids_fraction = 0;       ///< of the bed at the start; the mass is that of the settled bed
-  std::vector<std::int64_t> particles;    ///< numbers of particles instead of static_height; else empty
-  std::string start = "mixed";            ///< mixed | layered | settled | checkpoint:FILE | list:FILE
+  std::vector<double> volume_share;     ///< x_j, sums to 1
+  double static_height = 0;             ///< m, of the settled bed
+  double solids_fraction = 0;           ///< of the settled bed
+  double start_solids_fraction = 0;     ///< of the bed at the start; the mass is that of the settled bed
+  std::vector<std::int64_t> particles;  ///< numbers of particles instead of static_height; else empty
+  std::string start = "mixed";          ///< mixed | layered | settled | checkpoint:FILE | list:FILE
   std::uint64_t seed = 1;
 };
 
@@ -51,27 +52,29 @@ struct Inlet {
 };
 
 struct RunPlan {
-  double until = 0;                       ///< s
+  double until = 0;  ///< s
 };
 
 struct OutputPlan {
-  double every = 0;                       ///< s, between stored fields
-  double history_every = 0;               ///< s, between rows of history.csv
-  double checkpoint_every = 0;            ///< s, between checkpoints
+  double every = 0;             ///< s, between stored fields
+  double history_every = 0;     ///< s, between rows of history.csv
+  double checkpoint_every = 0;  ///< s, between checkpoints
 };
 
 struct Tfm {
-  std::string integrator = "auto";        ///< auto | explicit | implicit
+  std::string integrator = "auto";  ///< auto | explicit | implicit
   double rtol = 1e-4;
   std::string flux = "limited";           ///< limited | upwind: the volume fractions
   std::string momentum = "upwind";        ///< convection of momentum
   std::string outlet = "screen";          ///< screen | open: what the solids meet at the top
   std::string solids_wall = "free_slip";  ///< free_slip | no_slip
-  std::string max_packing = "auto";       ///< auto (from bed.solids_fraction) | a number | fedors_landel | yu_standish
-  double frictional_pressure = 0.05;      ///< Fr of p_f, Pa
-  double frictional_onset = 0.5;          ///< solids fraction above which p_f acts
-  double bulk_viscosity = 1;              ///< alpha
-  double exchange_pressure = 0;           ///< C_s of species exchange, s/m2
+  std::string max_packing =
+      "auto";  ///< auto (from bed.solids_fraction) | a number | fedors_landel | yu_standish
+  double frictional_pressure = 0.05;  ///< Fr of p_f, Pa
+  double frictional_onset = 0.5;      ///< solids fraction above which p_f acts
+  double bulk_viscosity = 1;          ///< alpha
+  double exchange_pressure = 0;       ///< C_s of species exchange, s/m2
+  std::optional<double> fixed_step;   ///< s: steps of one length, without error control (explicit only)
   std::optional<double> pressure_tolerance;  ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
 };
 

@@ -1,0 +1,66 @@
+// The menu of drag laws: one variant, visited once per batch, so that the chosen law is inlined in the loop.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "closures/drag_batchelor.hpp"
+#include "closures/drag_carman_kozeny.hpp"
+#include "closures/drag_di_felice.hpp"
+#include "closures/drag_fand.hpp"
+#include "closures/drag_hkl.hpp"
+#include "closures/drag_richardson_zaki.hpp"
+#include "closures/drag_stokes.hpp"
+#include "closures/mixture_laws.hpp"
+
+namespace polybed::closures {
+
+/// Every law by name; the order is that of the lists shown.
+using DragLaw =
+    std::variant<EachSpecies<DragStokes>, EachSpecies<DragTurtonLevenspiel>, EachSpecies<DragSchillerNaumann>,
+                 EachSpecies<DragDallavalle>, EachSpecies<DragCarmanKozeny>, EachSpecies<DragErgun>,
+                 EachSpecies<DragFand>, EachSpecies<DragWenYu>, EachSpecies<DragDiFelice>,
+                 EachSpecies<DragBatchelor>, EachSpecies<DragRichardsonZaki>, EachSpecies<DragGidaspow>,
+                 EachSpecies<DragHkl>, EachSpecies<DragVbk>, MixtureVbkTheory, MixtureVbkCorrected,
+                 MixtureCello, MixtureYinSundaresan, MixturePatwardhanTien, MixtureSyamlal>;
+
+/// The law of a name, with or without its guard; throws std::invalid_argument for an unknown name.
+[[nodiscard]] DragLaw drag_law(std::string_view name, Guard guard);
+
+struct DragLawInfo {
+  std::string name, help;
+  bool obeys_sum_rule;
+};
+[[nodiscard]] std::vector<DragLawInfo> drag_laws();
+[[nodiscard]] std::vector<std::string> drag_law_names();
+
+/// The base law at points: f and Re df/dRe of one size. All spans of one length; counted into `count`.
+void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::span<const double> reynolds,
+                    std::span<double> f, std::span<double> re_dfdre, GuardCount& count);
+
+/// One cell with a mixture: f_j and Re df_j/dRe of every species.
+/// \param slip  superficial slip speed eps |U_f - U_j|, m/s, [species]
+void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double> share,
+                     std::span<const double> diameter, std::span<const double> slip, double fluid_density,
+                     double viscosity, std::span<double> f, std::span<double> re_dfdre);
+
+/// Work space of drag_of_cells: allocated once, for a number of cells at most.
+struct DragWorkspace {
+  std::vector<double> voidage, reynolds, offset, factor, f, re_dfdre;
+  std::vector<double> share, diameter;
+  std::vector<MixtureTerms> terms;
+  void resize(std::size_t cells, std::size_t species);
+};
+
+/// Many cells: f_j[cell] for every species, no allocation.
+/// \param voidage  [cell]  \param share, slip, f  [species], pointers to [cell]  \param diameter  [species],
+/// m
+void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
+                   std::span<const double* const> slip, std::span<const double> diameter,
+                   double fluid_density, double viscosity, std::span<double* const> f, DragWorkspace& work,
+                   GuardCount& count);
+
+}  // namespace polybed::closures

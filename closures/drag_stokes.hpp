@@ -1,0 +1,19 @@
+// Stokes' law, T(3.18).
+#pragma once
+
+#include <string_view>
+
+#include "closures/drag_value.hpp"
+
+namespace polybed::closures {
+
+struct DragStokes {
+  static constexpr std::string_view name = "stokes";
+  static constexpr std::string_view help = "single sphere, creeping flow; T(3.18), Re < 0.1";
+  Guard guard = Guard::on;
+  /// f = 1 at any voidage and Reynolds number.
+  DragValue operator()(double, double) const { return {1, 0}; }
+  [[nodiscard]] bool outside(double, double re) const { return re > 0.1; }
+};
+
+}  // namespace polybed::closures

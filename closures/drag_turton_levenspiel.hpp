@@ -1,0 +1,27 @@
+// Single sphere, Turton and Levenspiel 1986, T(3.19).
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "closures/drag_value.hpp"
+
+namespace polybed::closures {
+
+struct DragTurtonLevenspiel {
+  static constexpr std::string_view name = "turton_levenspiel";
+  static constexpr std::string_view help = "single sphere up to the drag crisis; T(3.19), Re < 2.6e5";
+  Guard guard = Guard::on;
+  /// T(Re) = 1 + 0.173 Re^0.657 + (0.413 Re/24)/(1 + 16300 Re^-1.09); Re df/dRe -> 0 at Re = 0 though df/dRe
+  /// is infinite.
+  DragValue operator()(double, double re) const {
+    if (!(re > 0)) return {1, 0};
+    const double log_re = std::log(re);
+    const double a = 0.173 * std::exp(0.657 * log_re), tail = 16300 * std::exp(-1.09 * log_re);
+    const double b = 0.413 / 24 * re / (1 + tail);
+    return {1 + a + b, 0.657 * a + b * (1 + 1.09 * tail / (1 + tail))};
+  }
+  [[nodiscard]] bool outside(double voidage, double re) const { return voidage < 1 || re > 2.6e5; }
+};
+
+}  // namespace polybed::closures

@@ -1,0 +1,36 @@
+// Lattice-Boltzmann law of Van der Hoef, Beetstra and Kuipers 2005, 2007, T(3.32).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "closures/drag_value.hpp"
+
+namespace polybed::closures {
+
+struct DragVbk {
+  static constexpr std::string_view name = "vbk";
+  static constexpr std::string_view help =
+      "lattice-Boltzmann, Van der Hoef, Beetstra and Kuipers; T(3.32), voidage 0.40-0.90, Re < 1050";
+  Guard guard = Guard::on;
+  /// f = 10 phi/eps^2 + eps^2 (1 + 1.5 sqrt phi)
+  ///     + (0.413 Re/(24 eps^2)) (1/eps + 3 eps phi + 8.4 Re^-0.343)/(1 + 10^(3 phi) Re^(-0.5-2 phi)); last
+  ///     term 0 at Re 0.
+  DragValue operator()(double eps, double re) const {
+    const double phi = std::max(1 - eps, 0.0), per_eps2 = 1 / (eps * eps);
+    const double creeping = 10 * phi * per_eps2 + eps * eps * (1 + 1.5 * std::sqrt(phi));
+    if (!(re > 0)) return {creeping, 0};
+    const double log_re = std::log(re);
+    const double power = 8.4 * std::exp(-0.343 * log_re);
+    const double above = 1 / eps + 3 * eps * phi + power;
+    const double exponent = -0.5 - 2 * phi;
+    const double tail = std::exp(3 * phi * std::numbers::ln10 + exponent * log_re);
+    const double inertia = 0.413 / 24 * re * per_eps2 * above / (1 + tail);
+    return {creeping + inertia, inertia * (1 - 0.343 * power / above - exponent * tail / (1 + tail))};
+  }
+  [[nodiscard]] bool outside(double eps, double re) const { return eps < 0.40 || eps > 0.90 || re > 1050; }
+};
+
+}  // namespace polybed::closures

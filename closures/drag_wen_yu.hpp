@@ -1,0 +1,24 @@
+// Dilute suspensions, Wen and Yu 1966, T(3.29).
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "closures/drag_schiller_naumann.hpp"
+
+namespace polybed::closures {
+
+struct DragWenYu {
+  static constexpr std::string_view name = "wen_yu";
+  static constexpr std::string_view help = "expanded beds; T(3.29), voidage > 0.8";
+  Guard guard = Guard::on;
+  /// f = f_SchillerNaumann(Re) eps^-3.65.
+  DragValue operator()(double eps, double re) const {
+    const DragValue single = DragSchillerNaumann{guard}(eps, re);
+    const double crowding = std::pow(eps, -3.65);
+    return {crowding * single.f, crowding * single.re_dfdre};
+  }
+  [[nodiscard]] bool outside(double eps, double re) const { return eps < 0.8 || re > 1000; }
+};
+
+}  // namespace polybed::closures

@@ -1,0 +1,47 @@
+// Composition of a mixture of sizes: T(1.41)-(1.44), (3.13)-(3.17), (4.18)-(4.28).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace polybed::closures {
+
+/// Sauter mean diameter 1 / sum(x_j / D_j), m. share: x_j, sums to 1; diameter: D_j, m.
+[[nodiscard]] inline double sauter_diameter(std::span<const double> share, std::span<const double> diameter) {
+  double sum = 0;
+  for (std::size_t j = 0; j < share.size(); ++j) sum += share[j] / diameter[j];
+  return 1 / sum;
+}
+
+/// Mean polydispersity index y_m = sum x_j D_j / D_Sauter; >= 1, and 1 only for equal sizes.
+[[nodiscard]] inline double poly_index_mean(std::span<const double> share, std::span<const double> diameter) {
+  double sum = 0;
+  for (std::size_t j = 0; j < share.size(); ++j) sum += share[j] * diameter[j];
+  return sum / sauter_diameter(share, diameter);
+}
+
+/// Net over pure specification coefficient: alpha_j = eps Omega_j + (1-eps) y_j^2.
+[[nodiscard]] inline double alpha_of_omega(double voidage, double omega, double poly_index) {
+  return voidage * omega + (1 - voidage) * poly_index * poly_index;
+}
+
+/// One species' drag in a mixture, as every law of the menu can be written:
+/// f_j = offset + factor f_base(voidage, rho_f |u_j| length / mu).
+struct MixtureTerms {
+  double voidage, length, offset, factor;
+};
+
+/// h(eps) of T(4.28), gamma = 0.27: (1-eps)(0.73-eps)/(0.73 eps).
+[[nodiscard]] inline double cello_h(double voidage) {
+  return (1 - voidage) * (0.73 - voidage) / (0.73 * voidage);
+}
+
+/// h with its guard G4: taken at eps >= 0.35, and not below -0.95 y_m/(y_max - 1), which keeps Omega_j > 0
+/// for every mixture and the sum rule exact.
+[[nodiscard]] inline double cello_h_guarded(double voidage, double y_max, double y_m) {
+  const double h = cello_h(std::max(voidage, 0.35));
+  return h < 0 && y_max > 1 ? std::max(h, -0.95 * y_m / (y_max - 1)) : h;
+}
+
+}  // namespace polybed::closures

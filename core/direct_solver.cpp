@@ -1,0 +1,111 @@
+#include "core/direct_solver.hpp"
+
+#include <Eigen/Sparse>
+#include <cmath>
+#include <vector>
+
+namespace polybed::core {
+
+namespace {
+
+/// Neighbour of owned cell (i, j, k) along an axis, wrapped across periodic sides; -1 outside.
+Index packed_neighbour(const Grid& grid, std::array<int, 3> cell, int axis, int step) {
+  const auto a = std::size_t(axis);
+  cell[a] += step;
+  if (cell[a] < 0 || cell[a] >= grid.cells[a]) {
+    if (!grid.periodic[a]) return -1;
+    cell[a] = (cell[a] + grid.cells[a]) % grid.cells[a];
+  }
+  return cell[0] + grid.cells[0] * (cell[1] + Index(grid.cells[1]) * cell[2]);
+}
+
+Index padded_of(const Grid& grid, Index packed) {
+  const Index nx = grid.cells[0], ny = grid.cells[1];
+  return grid.index(int(packed % nx), int(packed / nx % ny), int(packed / nx / ny));
+}
+
+template <class Body>
+void for_each_cell(const Grid& grid, Body&& body) {
+  Index packed = 0;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        body(std::array<int, 3>{i, j, k}, packed++, grid.index(i, j, k));
+}
+
+}  // namespace
+
+double relative_residual(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                         std::span<const double> shift, const Field& source, const Field& p) {
+  double left = 0, right = 0;
+  for_each_cell(grid, [&](const std::array<int, 3>& cell, Index, Index at) {
+    const auto c = std::size_t(at);
+    double r = source[c] - (shift.empty() ? 0.0 : shift[c] * p[c]);
+    for (int d = 0; d < grid.dimensions; ++d) {
+      const auto a = std::size_t(d);
+      const double w = 1 / (grid.spacing[a] * grid.spacing[a]);
+      for (int side = 0; side < 2; ++side) {
+        const Index n = packed_neighbour(grid, cell, d, side == 0 ? -1 : 1);
+        const double beyond = n < 0 ? 0.0 : p[std::size_t(padded_of(grid, n))];
+        r += w * coefficient[a][c + std::size_t(side * grid.stride(d))] * (beyond - p[c]);
+      }
+    }
+    left += r * r;
+    right += source[c] * source[c];
+  });
+  return right > 0 ? std::sqrt(left / right) : std::sqrt(left);
+}
+
+bool leaves_constant_open(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                          std::span<const double> shift) {
+  if (!shift.empty()) return false;
+  bool open = true;
+  for (int d = 0; d < grid.dimensions; ++d) {
+    const auto a = std::size_t(d);
+    if (grid.periodic[a]) continue;
+    for (const int layer : {0, grid.cells[a]}) {
+      Box box = owned_cells(grid);
+      box.lo[a] = layer;
+      box.hi[a] = layer + 1;
+      for_each_row(grid, box, [&](Index begin, Index end) {
+        for (Index f = begin; f < end; ++f) open = open && coefficient[a][std::size_t(f)] == 0;
+      });
+    }
+  }
+  return open;
+}
+
+bool solve_directly(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                    std::span<const double> shift, const Field& source, Field& p) {
+  const bool pinned = leaves_constant_open(grid, coefficient, shift);
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd right(Eigen::Index(grid.cell_count()));
+  for_each_cell(grid, [&](const std::array<int, 3>& cell, Index packed, Index at) {
+    const auto c = std::size_t(at);
+    right[packed] = source[c];
+    double diagonal = shift.empty() ? 0.0 : shift[c];
+    for (int d = 0; d < grid.dimensions; ++d) {
+      const auto a = std::size_t(d);
+      const double w = 1 / (grid.spacing[a] * grid.spacing[a]);
+      for (int side = 0; side < 2; ++side) {
+        const double value = w * coefficient[a][c + std::size_t(side * grid.stride(d))];
+        const Index n = packed_neighbour(grid, cell, d, side == 0 ? -1 : 1);
+        diagonal += value;
+        if (n >= 0 && !(pinned && (n == 0 || packed == 0))) entries.emplace_back(int(packed), int(n), -value);
+      }
+    }
+    entries.emplace_back(int(packed), int(packed), diagonal);
+  });
+  if (pinned) right[0] = 0;
+  Eigen::SparseMatrix<double> matrix(right.size(), right.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  if (factor.info() != Eigen::Success) return false;
+  const Eigen::VectorXd solution = factor.solve(right);
+  for_each_cell(grid, [&](const std::array<int, 3>&, Index packed, Index at) {
+    p[std::size_t(at)] = solution[packed];
+  });
+  return solution.allFinite();
+}
+
+}  // namespace polybed::core

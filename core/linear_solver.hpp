@@ -1,0 +1,67 @@
+// Elliptic equations on the cells of a grid, by hypre: the pressure's Poisson equation, and the coupled
+// system of the implicit integrator's preconditioner.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+
+#include "core/field.hpp"
+
+namespace polybed::core {
+
+using FaceSpans = std::array<std::span<const double>, 3>;  ///< one padded array per active axis
+
+struct PoissonResult {
+  bool converged = false;
+  int iterations = 0;
+  double residual = 0;      ///< true relative residual, recomputed after the solve
+  const char* solver = "";  ///< which one gave the answer
+};
+
+/// Solves shift p - div(B grad p) = source on the owned cells.
+/// The coefficient on a boundary face says what holds there: 0, no flux; else p = 0 in the centre of the
+/// ghost cell. Everything is set up anew for each solve: a multigrid hierarchy kept from other coefficients
+/// can stop at once and report a residual of zero.
+class PoissonSolver {
+ public:
+  explicit PoissonSolver(const Grid& grid);
+  ~PoissonSolver();
+  PoissonSolver(PoissonSolver&&) noexcept;
+  PoissonSolver& operator=(PoissonSolver&&) noexcept;
+
+  /// \param coefficient  B on faces, >= 0  \param shift  on cells, >= 0; may be empty
+  /// \param source       on cells          \param p      the first guess, then the solution (owned cells)
+  /// \param tolerance    of the residual relative to the source's norm
+  PoissonResult solve(const FaceSpans& coefficient, std::span<const double> shift, const Field& source,
+                      Field& p, double tolerance);
+
+ private:
+  struct Hypre;
+  Grid grid_;
+  std::unique_ptr<Hypre> hypre_;
+};
+
+/// A fixed number of multigrid cycles for two coupled unknowns per cell,
+///   diagonal_p p - div(C11 grad p + C12 grad(L s)) = r1,    c s - div(C21 grad p + C22 grad(L s)) = r2.
+/// Boundary faces: p as in PoissonSolver by C11; no flux of s.
+class BlockSolver {
+ public:
+  explicit BlockSolver(const Grid& grid);
+  ~BlockSolver();
+  BlockSolver(BlockSolver&&) noexcept;
+  BlockSolver& operator=(BlockSolver&&) noexcept;
+
+  /// Builds the matrix and its multigrid hierarchy; false if the library refuses.
+  [[nodiscard]] bool setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21,
+                           const FaceSpans& c22, const Field& slope, double diagonal_p, double c);
+  /// p, s start from zero; owned cells.
+  void apply(const Field& r1, const Field& r2, Field& p, Field& s, int cycles);
+
+ private:
+  struct Hypre;
+  Grid grid_;
+  std::unique_ptr<Hypre> hypre_;
+};
+
+}  // namespace polybed::core

@@ -1,0 +1,77 @@
+// Values of fields in the ghost entries around the column: walls, distributor, outlet, periodic sides.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/field.hpp"
+#include "core/scene.hpp"
+
+namespace polybed::fluid {
+
+/// What a velocity does along a wall.
+enum class WallSlip { no_slip, free_slip };
+
+/// Superficial velocity at the distributor: linear between the points of a table, constant beyond.
+class Inlet {
+ public:
+  Inlet() = default;
+  explicit Inlet(std::vector<std::pair<double, double>> table) : table_(std::move(table)) {}
+  /// Superficial velocity, m/s, at time t, s.
+  [[nodiscard]] double velocity(double t) const;
+  /// Its rate, m/s2; from the right at a kink.
+  [[nodiscard]] double rate(double t) const;
+  /// Times at which the rate jumps: the integrator must stop there.
+  [[nodiscard]] std::vector<double> kinks() const;
+
+ private:
+  std::vector<std::pair<double, double>> table_;
+};
+
+/// The column's sides: which faces are held, and how ghosts follow from the inside.
+class Boundaries {
+ public:
+  Boundaries() = default;
+  /// closed: no inlet and no outlet, walls all round.
+  Boundaries(const core::Grid& grid, bool closed) : grid_(grid), closed_(closed) {}
+
+  [[nodiscard]] bool closed() const { return closed_; }
+
+  /// Ghosts of a cell field: images across periodic sides, else the nearest owned value.
+  void fill_cells(core::Field& field) const;
+
+  /// Ghosts of a velocity on faces. Along walls and the distributor the tangential components are mirrored
+  /// (no_slip) or copied (free_slip); at the outlet everything is copied; normal components mirror at walls.
+  void fill_velocity(core::FaceField& velocity, WallSlip slip) const;
+
+  /// The faces of an axis whose velocity moves: all but those on walls and on the distributor. The outlet's
+  /// faces move for the fluid alone.
+  [[nodiscard]] core::Box moving_faces(int axis, bool of_fluid) const {
+    core::Box box = core::interior_faces(grid_, axis);
+    if (of_fluid && axis == 1 && !closed_ && !grid_.periodic[1]) ++box.hi[1];
+    return box;
+  }
+
+  /// Sets all boundary faces of a face field (sides, bottom, top) to a value, except across periodic sides.
+  void hold_boundary(core::FaceField& faces, double value) const;
+
+ private:
+  void copy_periodic(core::Field& field, int axis) const;
+  void copy_outward(core::Field& u) const;
+  void fill_beyond(core::Field& field, int axis, double sign_low, double sign_high, bool on_faces) const;
+
+  core::Grid grid_;
+  bool closed_ = false;
+};
+
+/// Calls body(begin, end, stride) for the rows of boundary faces of an axis at its low (side 0) or high end.
+template <class Body>
+void for_each_boundary_row(const core::Grid& grid, int axis, int side, Body&& body) {
+  core::Box box = core::owned_cells(grid);
+  const auto a = std::size_t(axis);
+  box.lo[a] = side == 0 ? 0 : grid.cells[a];
+  box.hi[a] = box.lo[a] + 1;
+  core::for_each_row(grid, box, body);
+}
+
+}  // namespace polybed::fluid

@@ -1,0 +1,54 @@
+// What must hold at any time, measured on the averages: mass, bounds, volume, force balance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/field.hpp"
+#include "fluid/fluid_state.hpp"
+#include "fluid/interphase.hpp"
+
+namespace polybed::fluid {
+
+/// The state of the invariants at one time.
+struct InvariantValues {
+  double mass_error = 0;      ///< largest relative change of a species' mass since the start
+  double fraction_below = 0;  ///< how far the least phi_j lies below 0
+  double packing_above = 0;   ///< how far the greatest phi lies above the maximum packing
+  double divergence = 0;      ///< max |div J| h / U
+  double force_balance = 0;   ///< pressure drop over buoyant weight per area, less 1
+};
+
+/// Largest value an invariant has had, where it was, against its limit.
+struct WorstInvariant {
+  std::string name;
+  double value = 0, limit = 0, time = 0;
+  [[nodiscard]] double share() const { return limit > 0 ? value / limit : 0; }
+};
+
+/// Watches the invariants over a run.
+class Invariants {
+ public:
+  /// \param initial_mass  of each species, any unit; a species without mass is not watched
+  /// \param rtol          relative tolerance of the time integration: sets the bounds of the fractions
+  Invariants(std::vector<double> initial_mass, double rtol);
+
+  /// Measures and keeps what is worst; collective over the owned cells.
+  InvariantValues see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid,
+                      double max_packing, double velocity_scale, double force_balance, double time);
+
+  [[nodiscard]] const std::vector<WorstInvariant>& worst() const { return worst_; }
+  /// The invariant nearest to, or furthest beyond, its limit.
+  [[nodiscard]] const WorstInvariant& nearest() const;
+
+ private:
+  void keep(std::size_t which, double value, double time);
+
+  std::vector<double> initial_mass_;
+  std::vector<WorstInvariant> worst_;
+};
+
+/// Volume of each species in the owned cells, m3, summed with compensation.
+[[nodiscard]] std::vector<double> species_volumes(const core::Grid& grid, const Interphase& solids);
+
+}  // namespace polybed::fluid

@@ -1,0 +1,88 @@
+#include "fluid/momentum.hpp"
+
+#include <algorithm>
+
+#include "core/operators.hpp"
+
+namespace polybed::fluid {
+
+using core::face_mean;
+using core::Field;
+using core::Index;
+
+void voidage(const Interphase& solids, Field& out) {
+  std::fill(out.begin(), out.end(), 1.0);
+  for (const Field& phi : solids.fraction)
+    for (std::size_t c = 0; c < out.size(); ++c) out[c] -= phi[c];
+}
+
+void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState& fluid) {
+  const double* eps = fluid.voidage.data();
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const Index s = grid.stride(axis);
+    double* u = fluid.velocity[a].data();
+    const double* flux = fluid.flux[a].data();
+    core::for_each_row(grid, core::owned_faces(grid, axis), [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) u[c] = flux[c];
+      for (std::size_t j = 0; j < solids.species(); ++j) {
+        const double *phi = solids.fraction[j].data(), *v = solids.velocity[j][a].data();
+        for (Index c = begin; c < end; ++c) u[c] -= face_mean(phi, c, s) * v[c];
+      }
+      for (Index c = begin; c < end; ++c) u[c] /= std::max(face_mean(eps, c, s), voidage_floor);
+    });
+  }
+}
+
+void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
+                       const FluidState& fluid, double density, core::FaceField& acceleration) {
+  const double* eps = fluid.voidage.data();
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const Index s = grid.stride(axis);
+    const double* u = fluid.velocity[a].data();
+    double* rate = acceleration[a].data();
+    core::for_each_row(grid, boundaries.moving_faces(axis, true), [&](Index begin, Index end) {
+      for (std::size_t j = 0; j < solids.species(); ++j) {
+        const double *phi = solids.fraction[j].data(), *b = solids.exchange[j].data(),
+                     *v = solids.velocity[j][a].data();
+        for (Index c = begin; c < end; ++c)
+          rate[c] -= face_mean(phi, c, s) * face_mean(b, c, s) * (u[c] - v[c]) /
+                     (std::max(face_mean(eps, c, s), voidage_floor) * density);
+      }
+    });
+  }
+}
+
+void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
+               const FluidState& fluid, double density, const core::FaceField& acceleration, FluxRate& out) {
+  const double* eps = fluid.voidage.data();
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const Index s = grid.stride(axis);
+    const double *u = fluid.velocity[a].data(), *a_f = acceleration[a].data();
+    double *free = out.free[a].data(), *mobility = out.mobility[a].data();
+    core::for_each_row(grid, boundaries.moving_faces(axis, true), [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) {
+        free[c] = face_mean(eps, c, s) * a_f[c];
+        mobility[c] = face_mean(eps, c, s) / density;
+      }
+      for (std::size_t j = 0; j < solids.species(); ++j) {
+        const double *phi_rate = solids.fraction_rate[j].data(), *v = solids.velocity[j][a].data();
+        for (Index c = begin; c < end; ++c) free[c] += (v[c] - u[c]) * face_mean(phi_rate, c, s);
+      }
+    });
+    core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
+      for (std::size_t j = 0; j < solids.species(); ++j) {
+        const double *phi = solids.fraction[j].data(), *a_j = solids.acceleration[j][a].data();
+        const double per_density = 1 / solids.density[j];
+        for (Index c = begin; c < end; ++c) {
+          free[c] += face_mean(phi, c, s) * a_j[c];
+          mobility[c] += face_mean(phi, c, s) * per_density;
+        }
+      }
+    });
+  }
+}
+
+}  // namespace polybed::fluid

@@ -1,0 +1,42 @@
+// Momentum of the averaged fluid and the rate of the volumetric flux, T(1.16) with T(1.17), on faces.
+//
+//   (3) a_f = -(U_f.grad)U_f - sum_j phi_j b_j (U_f - U_j) / (eps rho_f)      (gravity is in the net
+//   pressure) (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p,
+//       B = eps/rho_f + sum_j phi_j/rho_j
+//
+// J = eps U_f + sum phi_j U_j is the unknown, because its constraint div J = 0 is linear with constant
+// coefficients.
+#pragma once
+
+#include "fluid/boundaries.hpp"
+#include "fluid/fluid_state.hpp"
+#include "fluid/interphase.hpp"
+
+namespace polybed::fluid {
+
+/// What equation (4) gives before the pressure acts.
+struct FluxRate {
+  core::FaceField free;      ///< dJ/dt without -B grad p, m/s2; 0 on held faces
+  core::FaceField mobility;  ///< B, m3/kg; 0 on held faces
+
+  FluxRate() = default;
+  explicit FluxRate(const core::Grid& grid)
+      : free(core::make_face_field(grid)), mobility(core::make_face_field(grid)) {}
+};
+
+/// Voidage from the solids fractions; the ghosts of the fractions must be filled.
+void voidage(const Interphase& solids, core::Field& out);
+
+/// U_f = (J - sum phi_j U_j) / max(eps, voidage_floor) on all owned faces.
+void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState& fluid);
+
+/// Adds the drag of the solids to the fluid's acceleration a_f: the second term of (3).
+void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
+                       const FluidState& fluid, double density, core::FaceField& acceleration);
+
+/// Equation (4) without the pressure. acceleration is a_f; solids.acceleration, fraction_rate (with ghosts)
+/// are read. On the outlet's faces the solids are held, so the fluid alone moves there.
+void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
+               const FluidState& fluid, double density, const core::FaceField& acceleration, FluxRate& out);
+
+}  // namespace polybed::fluid

@@ -1,0 +1,31 @@
+#include "fluid/properties.hpp"
+
+#include <stdexcept>
+
+#include "closures/fluid_properties.hpp"
+#include "core/error.hpp"
+
+namespace polybed::fluid {
+
+FluidConstants fluid_constants(const core::Fluid& fluid) {
+  FluidConstants constants{fluid.density.value_or(0), fluid.viscosity.value_or(0)};
+  if (fluid.density && fluid.viscosity) return constants;
+  const bool water = fluid.name == "water", air = fluid.name == "air";
+  if (!water && !air)
+    throw core::CaseError("fluid '" + fluid.name +
+                          "': give fluid.density and fluid.viscosity; only water and air know theirs");
+  if (!fluid.temperature)
+    throw core::CaseError("fluid.temperature is missing: " + fluid.name +
+                          " knows its density and viscosity from it (or give both)");
+  try {
+    const double t = *fluid.temperature;
+    if (!fluid.density) constants.density = water ? closures::water_density(t) : closures::air_density(t);
+    if (!fluid.viscosity)
+      constants.viscosity = water ? closures::water_viscosity(t) : closures::air_viscosity(t);
+  } catch (const std::out_of_range& error) {
+    throw core::CaseError(std::string("fluid.temperature: ") + error.what());
+  }
+  return constants;
+}
+
+}  // namespace polybed::fluid

@@ -1,0 +1,78 @@
+// Mass to round-off, volume of the mixture to the solver's tolerance, bounds, and a restart to the bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fluid/pressure.hpp"
+#include "scenes.hpp"
+
+namespace polybed::verification {
+namespace {
+
+class Conservation : public testing::TestWithParam<const char*> {};
+
+TEST_P(Conservation, MassBoundsAndVolume) {
+  core::Scene scene = binary_bed(10, 60, 0.03, 0.18);
+  scene.tfm.integrator = GetParam();
+  scene.tfm.rtol = 1e-3;
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  model.show(0);
+  const std::vector<double> before = fluid::species_volumes(model.constants().grid, model.fields().solids);
+  advance(model, 1.0);
+  const std::vector<double> after = fluid::species_volumes(model.constants().grid, model.fields().solids);
+  for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(after[j], before[j], 1e-12 * before[j]);
+  const tfm::Fields& fields = model.fields();
+  const core::Grid& grid = model.constants().grid;
+  double least = 1, most = 0;
+  core::for_each_row(grid, [&](core::Index begin, core::Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      for (const core::Field& phi : fields.solids.fraction) least = std::min(least, phi[c]);
+      most = std::max(most, fields.solids_fraction[c]);
+    }
+  });
+  // Undershoot of a fraction: ten absolute tolerances. Overshoot: the compliance of the frictional stress.
+  EXPECT_GE(least, -10 * 0.1 * scene.tfm.rtol);
+  EXPECT_LE(most, model.effects().solids_stress->max_packing() + 1e-3);
+  EXPECT_LT(fluid::divergence_error(grid, fields.fluid.flux, model.velocity_scale()), 1e-2);
+}
+
+TEST_P(Conservation, ResumedRunGivesTheSameBits) {
+  core::Scene scene = binary_bed(6, 40, 0.018, 0.12);
+  scene.tfm.integrator = GetParam();
+  scene.tfm.rtol = 1e-3;
+  core::Timers timers;
+  tfm::Model through(scene, timers);
+  while (through.time() < 0.2) through.step(0.2);
+  through.restart();
+  const core::Checkpoint middle = through.checkpoint();
+  tfm::Model resumed(scene, timers);
+  resumed.resume(middle);
+  for (tfm::Model* model : {&through, &resumed}) {
+    while (model->time() < 0.4) model->step(0.4);
+    model->restart();
+  }
+  EXPECT_EQ(through.checkpoint().arrays.at("state"), resumed.checkpoint().arrays.at("state"));
+  EXPECT_EQ(through.work().steps, resumed.work().steps);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Conservation, testing::Values("explicit", "implicit"));
+
+TEST(Integrators, AgreeAtTightTolerance) {
+  core::Scene scene = binary_bed(6, 40, 0.018, 0.12);
+  scene.bed.start_solids_fraction = 0.45;
+  scene.tfm.rtol = 1e-6;
+  core::Timers timers;
+  tfm::Model by_steps(scene, timers);
+  scene.tfm.integrator = "implicit";
+  tfm::Model by_newton(scene, timers);
+  advance(by_steps, 0.1);
+  advance(by_newton, 0.1);
+  // Each keeps its error near 1e-6 per step; what they share is the operator. 1e-4 is a hundred times that.
+  EXPECT_LT(distance(by_steps.constants().grid, by_steps.fields().solids.fraction[0],
+                     by_newton.fields().solids.fraction[0]),
+            1e-4);
+}
+
+}  // namespace
+}  // namespace polybed::verification

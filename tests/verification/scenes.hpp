@@ -1,0 +1,81 @@
+// Scenes that several verification tests start from, and what they ask of a finished run.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "fluid/invariants.hpp"
+#include "tfm/model.hpp"
+
+namespace polybed::verification {
+
+constexpr double kelvin = 273.15;
+
+/// System B of the thesis at 15 degC on a coarse grid, mixed start at 0.55: the smallest scene with all terms
+/// on.
+inline core::Scene binary_bed(int nx, int ny, double width, double height) {
+  core::Scene scene;
+  scene.title = "binary bed";
+  scene.column.size = {width, height, 4.2e-3};
+  scene.column.cells = {nx, ny, 1};
+  scene.fluid.name = "water";
+  scene.fluid.temperature = 15 + kelvin;
+  scene.species.resize(2);
+  scene.species[0].name = "fine";
+  scene.species[0].diameter = 0.807e-3;
+  scene.species[0].density = 1395;
+  scene.species[1].name = "coarse";
+  scene.species[1].diameter = 2.010e-3;
+  scene.species[1].density = 1170;
+  scene.bed.volume_share = {0.569, 0.431};
+  scene.bed.solids_fraction = 0.62;
+  scene.bed.start_solids_fraction = 0.55;
+  scene.bed.static_height = 0.4 * height;
+  scene.inlet.superficial_velocity = {{0.0, 0.03}};
+  scene.effects = {{"drag", "cello"}, {"solids_stress", "frictional"}, {"species_exchange", "syamlal"}};
+  scene.run.until = 1;
+  scene.tfm.integrator = "explicit";
+  return scene;
+}
+
+/// Solids of one species in a fluid of given properties that fill a whole column evenly, sides periodic.
+inline core::Scene uniform_bed(double diameter, double density, double fluid_density, double viscosity,
+                               double solids_fraction, int cells, double height) {
+  core::Scene scene;
+  scene.title = "uniform bed";
+  scene.column.size = {height / cells, height, height / cells};
+  scene.column.cells = {1, cells, 1};
+  scene.column.sides = "periodic";
+  scene.fluid.name = "test fluid";
+  scene.fluid.density = fluid_density;
+  scene.fluid.viscosity = viscosity;
+  scene.species.resize(1);
+  scene.species[0].name = "solid";
+  scene.species[0].diameter = diameter;
+  scene.species[0].density = density;
+  scene.bed.volume_share = {1.0};
+  scene.bed.solids_fraction = scene.bed.start_solids_fraction = solids_fraction;
+  scene.bed.static_height = height;
+  scene.effects = {{"drag", "cello"}};
+  scene.tfm.integrator = "explicit";
+  return scene;
+}
+
+/// Advances to a time, step by step, and shows the state there.
+inline void advance(tfm::Model& model, double until) {
+  while (model.time() < until) model.step(until);
+  model.show(until);
+}
+
+/// Mean |a - b| over the owned cells.
+inline double distance(const core::Grid& grid, const core::Field& a, const core::Field& b) {
+  double sum = 0;
+  core::for_each_row(grid, [&](core::Index begin, core::Index end) {
+    for (core::Index c = begin; c < end; ++c) sum += std::abs(a[std::size_t(c)] - b[std::size_t(c)]);
+  });
+  return sum / double(grid.cell_count());
+}
+
+}  // namespace polybed::verification

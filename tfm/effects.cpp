@@ -1,0 +1,57 @@
+#include "tfm/effects.hpp"
+
+#include "closures/drag.hpp"
+#include "core/error.hpp"
+#include "tfm/effects/drag.hpp"
+#include "tfm/effects/solids_stress_frictional.hpp"
+#include "tfm/effects/species_exchange_syamlal.hpp"
+
+namespace polybed::tfm {
+
+std::vector<core::Role> roles() {
+  core::Role drag{"drag", "tfm", "Exchange", "force of the fluid on every species", "", {}};
+  for (const closures::DragLawInfo& law : closures::drag_laws())
+    drag.laws.push_back(
+        {law.name, law.help + (law.obeys_sum_rule ? "" : " [of a mixture: breaks the sum rule]")});
+  return {drag,
+          {"solids_stress",
+           "tfm",
+           "Stress",
+           "pressure of the solids where they are packed",
+           "particles have contacts instead",
+           {{"frictional", "Johnson and Jackson 1987, with bulk viscosity"}}},
+          {"species_exchange",
+           "tfm",
+           "Exchange",
+           "momentum that solid species exchange by contact",
+           "particles have contacts instead",
+           {{"syamlal", "collisions, Syamlal 1987; contact in a packed bed, Gera 2004"}}}};
+}
+
+Effects make_effects(const core::Scene& scene, const Constants& constants,
+                     const fluid::Boundaries& boundaries, Fields& fields) {
+  Effects effects;
+  const auto law = [&](const char* role) {
+    const auto found = scene.effects.find(role);
+    return found == scene.effects.end() ? std::string("none") : found->second;
+  };
+  const auto refuse = [](const char* role, const std::string& name) {
+    throw core::CaseError(std::string("effects.") + role + " = \"" + name +
+                          "\": not in the continuum model; see polybed list");
+  };
+  if (const std::string name = law("drag"); name != "none")
+    effects.drag = std::make_unique<Drag>(constants, boundaries, name);
+  if (const std::string name = law("solids_stress"); name == "frictional")
+    effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
+  else if (name != "none")
+    refuse("solids_stress", name);
+  if (const std::string name = law("species_exchange"); name == "syamlal") {
+    if (constants.species() > 1)
+      effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);
+  } else if (name != "none") {
+    refuse("species_exchange", name);
+  }
+  return effects;
+}
+
+}  // namespace polybed::tfm

@@ -1,0 +1,66 @@
+// The effects of the continuum model, by the slot they fill in the equations, and the registry that makes
+// them. What a scene does not call for is not made: it has no fields, no timer and no branch in a loop.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/registry.hpp"
+#include "core/scene.hpp"
+#include "fluid/boundaries.hpp"
+#include "tfm/fields.hpp"
+
+namespace polybed::tfm {
+
+/// How often closures were asked outside the range they are stated for.
+struct ClosureUse {
+  std::string name;
+  std::uint64_t evaluations = 0, guarded = 0;
+};
+
+/// Slot Exchange, fluid with solids: fills solids.exchange (b_j) in all owned cells, ghosts included.
+class FluidExchange {
+ public:
+  virtual ~FluidExchange() = default;
+  virtual void evaluate(Fields& fields) = 0;
+  [[nodiscard]] virtual ClosureUse use() const = 0;
+};
+
+/// Slot Exchange, solids with solids: owns and fills fields.species_exchange.
+class SolidsExchange {
+ public:
+  virtual ~SolidsExchange() = default;
+  virtual void evaluate(Fields& fields) = 0;
+};
+
+/// Slot Stress: owns and fills fields.stress.
+class StressEffect {
+ public:
+  virtual ~StressEffect() = default;
+  virtual void evaluate(Fields& fields) = 0;
+  /// Greatest solids fraction that the stress allows for the whole bed's composition.
+  [[nodiscard]] virtual double max_packing() const = 0;
+  /// Pressure, Pa, of solids at rest at a solids fraction, for the whole bed's composition.
+  [[nodiscard]] virtual double pressure_at(double solids_fraction) const = 0;
+  /// Solids fraction at which the stress carries a pressure, Pa, for the whole bed's composition.
+  [[nodiscard]] virtual double solids_fraction_at(double pressure) const = 0;
+};
+
+/// The effects that are on; null where absent.
+struct Effects {
+  std::unique_ptr<FluidExchange> drag;
+  std::unique_ptr<SolidsExchange> species_exchange;
+  std::unique_ptr<StressEffect> solids_stress;
+};
+
+/// Makes the effects that a scene names and the fields they own; throws core::CaseError for a law that the
+/// continuum model lacks.
+Effects make_effects(const core::Scene& scene, const Constants& constants,
+                     const fluid::Boundaries& boundaries, Fields& fields);
+
+/// The roles that act in the continuum model, with their laws.
+std::vector<core::Role> roles();
+
+}  // namespace polybed::tfm

@@ -1,0 +1,40 @@
+#include "tfm/effects/drag.hpp"
+
+namespace polybed::tfm {
+
+using core::Index;
+
+Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law)
+    : constants_(constants),
+      boundaries_(boundaries),
+      name_(law),
+      law_(closures::drag_law(law, closures::Guard::on)) {
+  workspace_.resize(std::size_t(constants.grid.cells[0]), constants.species());
+  share_.resize(constants.species());
+  slip_.resize(constants.species());
+  result_.resize(constants.species());
+}
+
+void Drag::evaluate(Fields& fields) {
+  const double scale = 18 * constants_.fluid.viscosity;
+  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+    const std::size_t row = std::size_t(begin), cells = std::size_t(end - begin);
+    for (std::size_t j = 0; j < constants_.species(); ++j) {
+      share_[j] = fields.share[j].data() + row;
+      slip_[j] = fields.slip_superficial[j].data() + row;
+      result_[j] = fields.solids.exchange[j].data() + row;
+    }
+    const std::span<const double> eps(fields.fluid.voidage.data() + row, cells);
+    closures::drag_of_cells(law_, eps, share_, slip_, constants_.diameter, constants_.fluid.density,
+                            constants_.fluid.viscosity, result_, workspace_, count_);
+    for (std::size_t j = 0; j < constants_.species(); ++j) {
+      const double factor = scale / (constants_.diameter[j] * constants_.diameter[j]);
+      for (std::size_t c = 0; c < cells; ++c) result_[j][c] *= factor * eps[c];
+    }
+  });
+  for (core::Field& b : fields.solids.exchange) boundaries_.fill_cells(b);
+}
+
+ClosureUse Drag::use() const { return {"drag " + name_, count_.evaluations, count_.guarded}; }
+
+}  // namespace polybed::tfm

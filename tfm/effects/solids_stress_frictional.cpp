@@ -1,0 +1,95 @@
+#include "tfm/effects/solids_stress_frictional.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tfm/initial.hpp"
+
+namespace polybed::tfm {
+
+using core::Index;
+
+namespace {
+
+/// The packing at which the settled bed has the case's solids fraction where it carries half its own weight.
+double packing_of_bed(const core::Scene& scene, const Constants& constants) {
+  double excess = 0;
+  for (std::size_t j = 0; j < constants.species(); ++j)
+    excess += constants.bed_share[j] * std::abs(constants.density[j] - constants.fluid.density);
+  const double half_weight = 0.5 * excess * std::max(constants.gravity, 1e-3) * solids_height(scene.bed);
+  return closures::max_packing_for(scene.bed.solids_fraction, half_weight, scene.tfm.frictional_pressure,
+                                   scene.tfm.frictional_onset);
+}
+
+}  // namespace
+
+FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& constants,
+                                   const fluid::Boundaries& boundaries, Fields& fields)
+    : constants_(constants),
+      boundaries_(boundaries),
+      bulk_viscosity_(scene.tfm.bulk_viscosity),
+      cell_width_(*std::min_element(constants.grid.spacing.begin(),
+                                    constants.grid.spacing.begin() + constants.grid.dimensions)) {
+  law_.strength = scene.tfm.frictional_pressure;
+  law_.onset = scene.tfm.frictional_onset;
+  if (scene.tfm.max_packing == "auto") {
+    if (scene.bed.solids_fraction <= law_.onset)
+      throw core::CaseError(
+          "bed.solids_fraction must lie above tfm.frictional_onset, or give tfm.max_packing");
+    law_.max_packing = packing_of_bed(scene, constants);
+  } else {
+    law_.max_packing = std::stod(scene.tfm.max_packing);
+  }
+  if (law_.max_packing <= law_.onset + closures::FrictionalLaw::margin)
+    throw core::CaseError("tfm.max_packing must lie above tfm.frictional_onset");
+  fields.stress.pressure = core::make_field(constants.grid);
+  fields.stress.slope = core::make_field(constants.grid);
+  fields.stress.damping = core::make_field(constants.grid);
+}
+
+double FrictionalStress::pressure_at(double solids_fraction) const { return law_(solids_fraction).pressure; }
+
+double FrictionalStress::solids_fraction_at(double pressure) const {
+  return law_.solids_fraction_at(pressure);
+}
+
+void FrictionalStress::evaluate(Fields& fields) {
+  const double* phi = fields.solids_fraction.data();
+  double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
+  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) {
+      const closures::StressValue value = law_(phi[c]);
+      pressure[c] = value.pressure;
+      slope[c] = value.slope;
+    }
+  });
+  if (bulk_viscosity_ > 0) add_bulk_viscosity(fields);
+  boundaries_.fill_cells(fields.stress.pressure);
+}
+
+void FrictionalStress::add_bulk_viscosity(Fields& fields) const {
+  const core::Grid& grid = constants_.grid;
+  const double* slope = fields.stress.slope.data();
+  double *pressure = fields.stress.pressure.data(), *damping = fields.stress.damping.data();
+  core::for_each_row(grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) {
+      damping[c] = 0;
+      if (!(slope[c] > 0)) continue;
+      double density = 0, compression = 0;
+      for (std::size_t j = 0; j < constants_.species(); ++j) {
+        density += fields.share[j][std::size_t(c)] * constants_.density[j];
+        double divergence = 0;
+        for (int axis = 0; axis < grid.dimensions; ++axis) {
+          const double* u = fields.solids.velocity[j][std::size_t(axis)].data();
+          divergence += (u[c + grid.stride(axis)] - u[c]) / grid.spacing[std::size_t(axis)];
+        }
+        compression += fields.solids.fraction[j][std::size_t(c)] * divergence;
+      }
+      damping[c] = bulk_viscosity_ * cell_width_ * std::sqrt(slope[c] * density);
+      pressure[c] -= damping[c] * compression;
+    }
+  });
+}
+
+}  // namespace polybed::tfm

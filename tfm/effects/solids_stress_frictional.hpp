@@ -1,0 +1,30 @@
+// Slot Stress: the frictional pressure of packed solids with a bulk viscosity that damps its elastic waves.
+#pragma once
+
+#include "closures/stress_frictional.hpp"
+#include "core/operators.hpp"
+#include "tfm/effects.hpp"
+
+namespace polybed::tfm {
+
+/// p_s = p_f(phi) - lambda sum_j phi_j div U_j, lambda = alpha rho_s c_s h, c_s = sqrt(p_f'/rho_s), rho_s the
+/// mean density of the cell's solids, h the smallest cell width. alpha = 0 leaves the second term out.
+class FrictionalStress : public StressEffect {
+ public:
+  FrictionalStress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
+                   Fields& fields);
+  void evaluate(Fields& fields) override;
+  [[nodiscard]] double max_packing() const override { return law_.max_packing; }
+  [[nodiscard]] double pressure_at(double solids_fraction) const override;
+  [[nodiscard]] double solids_fraction_at(double pressure) const override;
+
+ private:
+  void add_bulk_viscosity(Fields& fields) const;
+
+  const Constants& constants_;
+  const fluid::Boundaries& boundaries_;
+  closures::FrictionalLaw law_;
+  double bulk_viscosity_, cell_width_;
+};
+
+}  // namespace polybed::tfm

@@ -1,0 +1,28 @@
+#include "tfm/explicit_problem.hpp"
+
+namespace polybed::tfm {
+
+ExplicitProblem::ExplicitProblem(RightHandSide& equations, const StateLayout& layout,
+                                 double pressure_tolerance, core::Timers& timers)
+    : equations_(equations),
+      layout_(layout),
+      timers_(timers),
+      pressure_(equations.constants().grid, pressure_tolerance) {}
+
+core::Rate ExplicitProblem::rates(double t, std::span<const double> y, std::span<double> dydt) {
+  if (!equations_.evaluate(t, layout_, y)) return core::Rate::recoverable;
+  Fields& fields = equations_.fields();
+  {
+    const auto scope = timers_.scope("pressure");
+    const core::PoissonResult result =
+        pressure_.solve(fields.flux_rate, fields.fluid.flux, correction_rate_, fields.fluid.pressure);
+    ++solves_;
+    iterations_ += std::uint64_t(result.iterations);
+    if (!result.converged) return core::Rate::recoverable;
+    subtract_pressure_gradient(equations_.constants(), equations_.boundaries(), fields);
+  }
+  pack_rates(layout_, fields, dydt);
+  return core::Rate::ok;
+}
+
+}  // namespace polybed::tfm

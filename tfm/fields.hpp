@@ -1,0 +1,55 @@
+// Everything that one evaluation of the right-hand side computes: the working fields of the continuum model.
+#pragma once
+
+#include <vector>
+
+#include "core/field.hpp"
+#include "fluid/fluid_state.hpp"
+#include "fluid/interphase.hpp"
+#include "fluid/momentum.hpp"
+
+namespace polybed::tfm {
+
+/// What does not change during a run, in the order of the species.
+struct Constants {
+  core::Grid grid;
+  double gravity = 9.81;  ///< m/s2, downward
+  fluid::FluidConstants fluid;
+  std::vector<double> diameter;   ///< D_j, m
+  std::vector<double> density;    ///< rho_j, kg/m3
+  std::vector<double> bed_share;  ///< X_j: share of the species in the whole bed
+  std::vector<std::string> name;
+
+  [[nodiscard]] std::size_t species() const { return diameter.size(); }
+};
+
+/// Solids pressure on cells; empty where no stress acts.
+struct SolidsStress {
+  core::Field pressure;  ///< p_s with its bulk-viscous part, Pa
+  core::Field slope;     ///< dp_s/dphi, Pa
+  core::Field damping;   ///< lambda = alpha rho_s c_s h of the bulk-viscous part, Pa s
+  [[nodiscard]] bool present() const { return !pressure.empty(); }
+};
+
+struct Fields {
+  fluid::Interphase solids;
+  fluid::FluidState fluid;
+  core::Field solids_fraction;                ///< phi = sum phi_j
+  std::vector<core::Field> share;             ///< x_j as closures see it: [species][cell]
+  std::vector<core::Field> slip_superficial;  ///< eps |U_f - U_j| at cell centres, m/s: [species][cell]
+  core::FaceField fluid_acceleration;         ///< a_f, m/s2
+  fluid::FluxRate flux_rate;
+  SolidsStress stress;
+  std::vector<core::Field>
+      species_exchange;  ///< K_jk / (phi_j phi_k), kg/(m3 s), pairs j < k; empty if absent
+
+  Fields() = default;
+  explicit Fields(const Constants& constants);
+};
+
+/// Place of the pair j < k in a list of all pairs of n species.
+[[nodiscard]] inline std::size_t pair_index(std::size_t j, std::size_t k, std::size_t n) {
+  return j * (2 * n - j - 1) / 2 + (k - j - 1);
+}
+
+}  // namespace polybed::tfm

@@ -1,0 +1,48 @@
+#include "tfm/implicit_problem.hpp"
+
+#include "core/operators.hpp"
+
+namespace polybed::tfm {
+
+using Kind = StateLayout::Entry::Kind;
+
+ImplicitProblem::ImplicitProblem(RightHandSide& equations, const StateLayout& layout, core::Timers& timers)
+    : equations_(equations),
+      layout_(layout),
+      timers_(timers),
+      preconditioner_(equations.constants(), equations.boundaries()),
+      divergence_(core::make_field(equations.constants().grid)) {}
+
+core::Rate ImplicitProblem::residual(double t, std::span<const double> y, std::span<const double> dydt,
+                                     std::span<double> r) {
+  ++residuals_;
+  if (!equations_.evaluate(t, layout_, y)) return core::Rate::recoverable;
+  const auto scope = timers_.scope("residual");
+  Fields& fields = equations_.fields();
+  core::divergence(equations_.constants().grid, fields.fluid.flux, divergence_);
+  subtract_pressure_gradient(equations_.constants(), equations_.boundaries(), fields);
+  pack_rates(layout_, fields, r);
+  for (const StateLayout::Entry& entry : layout_.entries()) {
+    if (entry.kind == Kind::pressure)
+      layout_.pack(entry, divergence_, r);
+    else
+      for (std::size_t n = entry.begin; n < entry.begin + entry.size; ++n) r[n] = dydt[n] - r[n];
+  }
+  return core::Rate::ok;
+}
+
+core::Rate ImplicitProblem::setup(double t, std::span<const double> y, std::span<const double>,
+                                  std::span<const double>, double cj) {
+  if (!equations_.evaluate(t, layout_, y)) return core::Rate::recoverable;
+  const auto scope = timers_.scope("preconditioner set-up");
+  return preconditioner_.setup(equations_.fields(), cj) ? core::Rate::ok : core::Rate::recoverable;
+}
+
+core::Rate ImplicitProblem::precondition(double, std::span<const double> r, std::span<double> z, double,
+                                         double) {
+  const auto scope = timers_.scope("preconditioner");
+  preconditioner_.apply(layout_, r, z);
+  return core::Rate::ok;
+}
+
+}  // namespace polybed::tfm

@@ -1,0 +1,37 @@
+// The model as a differential-algebraic system of index 2: rates of all fields, and div J = 0 for the
+// pressure.
+#pragma once
+
+#include <cstdint>
+
+#include "core/integrator.hpp"
+#include "tfm/preconditioner.hpp"
+#include "tfm/pressure_coupling.hpp"
+#include "tfm/right_hand_side.hpp"
+
+namespace polybed::tfm {
+
+class ImplicitProblem : public core::DaeProblem {
+ public:
+  ImplicitProblem(RightHandSide& equations, const StateLayout& layout, core::Timers& timers);
+
+  core::Rate residual(double t, std::span<const double> y, std::span<const double> dydt,
+                      std::span<double> r) override;
+  core::Rate setup(double t, std::span<const double> y, std::span<const double> dydt,
+                   std::span<const double> r, double cj) override;
+  core::Rate precondition(double t, std::span<const double> r, std::span<double> z, double cj,
+                          double delta) override;
+
+  [[nodiscard]] std::uint64_t residuals() const { return residuals_; }
+  [[nodiscard]] const Preconditioner& preconditioner() const { return preconditioner_; }
+
+ private:
+  RightHandSide& equations_;
+  const StateLayout& layout_;
+  core::Timers& timers_;
+  Preconditioner preconditioner_;
+  core::Field divergence_;
+  std::uint64_t residuals_ = 0;
+};
+
+}  // namespace polybed::tfm

@@ -1,0 +1,117 @@
+#include "tfm/initial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+
+namespace polybed::tfm {
+
+using core::Index;
+
+double solids_height(const core::Bed& bed) { return bed.static_height * bed.solids_fraction; }
+
+namespace {
+
+/// Solids fraction of the cells of a column filled evenly from the bottom; the topmost cell takes the rest.
+std::vector<double> even_column(double solids, double fraction, const core::Grid& grid) {
+  std::vector<double> column(std::size_t(grid.cells[1]), 0.0);
+  for (double& phi : column) {
+    phi = std::clamp(solids / grid.spacing[1], 0.0, fraction);
+    solids -= phi * grid.spacing[1];
+  }
+  return column;
+}
+
+/// The solids fraction whose pressure balances that of the cell above and the weight between the two centres.
+double settled_fraction(const StressEffect& stress, double above, double weight_per_fraction,
+                        double pressure_above) {
+  double phi = above;
+  for (int n = 0; n < 200; ++n) {
+    const double next = stress.solids_fraction_at(pressure_above + 0.5 * (phi + above) * weight_per_fraction);
+    if (std::abs(next - phi) < 1e-16) break;
+    phi = next;
+  }
+  return phi;
+}
+
+/// Column of `cells` cells under a topmost one of fraction `top`, in equilibrium face by face, from the
+/// bottom up.
+std::vector<double> equilibrium_below(const StressEffect& stress, double top, int cells, double weight) {
+  std::vector<double> column{top};
+  double pressure = stress.pressure_at(top);
+  for (int k = 0; k < cells; ++k) {
+    const double phi = settled_fraction(stress, column.back(), weight, pressure);
+    pressure += 0.5 * (phi + column.back()) * weight;
+    column.push_back(phi);
+  }
+  std::reverse(column.begin(), column.end());
+  return column;
+}
+
+/// A bed at rest of a given volume of solids: the number of cells and the loose topmost one are chosen so
+/// that it comes out exactly.
+std::vector<double> settled_column(double solids, const StressEffect& stress, double weight,
+                                   const core::Grid& grid) {
+  const auto amount = [&](const std::vector<double>& c) {
+    return std::accumulate(c.begin(), c.end(), 0.0) * grid.spacing[1];
+  };
+  int cells = 0;
+  while (cells < grid.cells[1] && amount(equilibrium_below(stress, 0.0, cells + 1, weight)) <= solids)
+    ++cells;
+  double low = 0, high = stress.max_packing();
+  for (int n = 0; n < 200; ++n) {
+    const double top = 0.5 * (low + high);
+    (amount(equilibrium_below(stress, top, cells, weight)) < solids ? low : high) = top;
+  }
+  std::vector<double> column = equilibrium_below(stress, 0.5 * (low + high), cells, weight);
+  if (column.size() < std::size_t(grid.cells[1])) column.resize(std::size_t(grid.cells[1]), 0.0);
+  return column;
+}
+
+}  // namespace
+
+void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress,
+              fluid::Interphase& solids) {
+  const core::Grid& grid = constants.grid;
+  const double total = solids_height(bed), height = grid.spacing[1] * grid.cells[1];
+  if (total > bed.start_solids_fraction * height * (1 + 1e-12))
+    throw core::CaseError(
+        fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size",
+                    total / bed.start_solids_fraction, height));
+  std::vector<double> column;
+  if (bed.start == "settled") {
+    if (stress == nullptr)
+      throw core::CaseError(
+          "bed.start = \"settled\" needs a solids_stress in [effects]: nothing else holds a bed up");
+    double excess = 0;
+    for (std::size_t j = 0; j < constants.species(); ++j)
+      excess += bed.volume_share[j] * (constants.density[j] - constants.fluid.density);
+    if (excess <= 0) throw core::CaseError("bed.start = \"settled\" needs solids heavier than the fluid");
+    column = settled_column(total, *stress, excess * constants.gravity * grid.spacing[1], grid);
+  } else {
+    column = even_column(total, bed.start_solids_fraction, grid);
+  }
+  double below = 0;  // solids volume per area under the cell, m
+  for (int y = 0; y < grid.cells[1]; ++y) {
+    const double here = column[std::size_t(y)] * grid.spacing[1];
+    double layer_end = 0;
+    for (std::size_t j = 0; j < constants.species(); ++j) {
+      const double layer_begin = layer_end;
+      layer_end += bed.volume_share[j] * total;
+      const double overlap = std::max(0.0, std::min(below + here, layer_end) - std::max(below, layer_begin));
+      const double phi =
+          bed.start == "layered" ? overlap / grid.spacing[1] : bed.volume_share[j] * column[std::size_t(y)];
+      core::for_each_row(
+          grid, core::Box{{0, y, 0}, {grid.cells[0], y + 1, grid.cells[2]}}, [&](Index begin, Index end) {
+            std::fill(solids.fraction[j].begin() + begin, solids.fraction[j].begin() + end, phi);
+          });
+    }
+    below += here;
+  }
+}
+
+}  // namespace polybed::tfm

@@ -1,0 +1,18 @@
+// The bed at the start of a run.
+#pragma once
+
+#include "core/scene.hpp"
+#include "tfm/effects.hpp"
+
+namespace polybed::tfm {
+
+/// Volume of solids per area of the column, m: static height times solids fraction.
+[[nodiscard]] double solids_height(const core::Bed& bed);
+
+/// Fills the solids fractions of all owned cells as the bed says: `mixed` (one composition), `layered`
+/// (bottom first), `settled` (one composition, held up by the solids pressure cell by cell). All velocities
+/// and the pressure are left at zero. Throws core::CaseError if the column is too low for the bed.
+void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress,
+              fluid::Interphase& solids);
+
+}  // namespace polybed::tfm

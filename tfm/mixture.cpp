@@ -1,0 +1,60 @@
+#include "tfm/mixture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace polybed::tfm {
+
+using core::Field;
+using core::Index;
+
+Fields::Fields(const Constants& constants)
+    : solids(constants.grid, constants.density),
+      fluid(constants.grid),
+      solids_fraction(core::make_field(constants.grid)),
+      share(constants.species(), core::make_field(constants.grid)),
+      slip_superficial(constants.species(), core::make_field(constants.grid)),
+      fluid_acceleration(core::make_face_field(constants.grid)),
+      flux_rate(constants.grid) {}
+
+void composition(const Constants& constants, Fields& fields) {
+  const std::size_t cells = constants.grid.padded_size();
+  Field& phi = fields.solids_fraction;
+  Field& eps = fields.fluid.voidage;
+  std::fill(phi.begin(), phi.end(), 0.0);
+  std::fill(eps.begin(), eps.end(), composition_floor);
+  for (const Field& phi_j : fields.solids.fraction)
+    for (std::size_t c = 0; c < cells; ++c) {
+      phi[c] += phi_j[c];
+      eps[c] += std::max(phi_j[c], 0.0);
+    }
+  for (std::size_t c = 0; c < cells; ++c) eps[c] = 1 / eps[c];
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const double* phi_j = fields.solids.fraction[j].data();
+    const double floor = composition_floor * constants.bed_share[j];
+    for (std::size_t c = 0; c < cells; ++c) fields.share[j][c] = (std::max(phi_j[c], 0.0) + floor) * eps[c];
+  }
+  for (std::size_t c = 0; c < cells; ++c) eps[c] = 1 - phi[c];
+}
+
+void superficial_slip(const Constants& constants, Fields& fields) {
+  const core::Grid& grid = constants.grid;
+  const double* eps = fields.fluid.voidage.data();
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    double* slip = fields.slip_superficial[j].data();
+    core::for_each_row(grid, [&](Index begin, Index end) {
+      for (int axis = 0; axis < grid.dimensions; ++axis) {
+        const Index s = grid.stride(axis);
+        const double* u = fields.fluid.velocity[std::size_t(axis)].data();
+        const double* v = fields.solids.velocity[j][std::size_t(axis)].data();
+        for (Index c = begin; c < end; ++c) {
+          const double w = 0.5 * ((u[c] - v[c]) + (u[c + s] - v[c + s]));
+          slip[c] = (axis == 0 ? 0.0 : slip[c]) + w * w;
+        }
+      }
+      for (Index c = begin; c < end; ++c) slip[c] = std::max(eps[c], 0.0) * std::sqrt(slip[c]);
+    });
+  }
+}
+
+}  // namespace polybed::tfm

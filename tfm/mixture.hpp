@@ -1,0 +1,18 @@
+// What the closures see of a cell: total solids fraction, shares of the species, superficial slip.
+#pragma once
+
+#include "tfm/fields.hpp"
+
+namespace polybed::tfm {
+
+/// Solids that a cell without solids is given in its composition, so that it takes that of the whole bed:
+/// x_j = (max(phi_j, 0) + floor X_j) / (sum max(phi_k, 0) + floor). Neutral to splitting a species.
+constexpr double composition_floor = 1e-4;
+
+/// Fills solids_fraction, voidage and share in all cells, ghosts included, from the fractions.
+void composition(const Constants& constants, Fields& fields);
+
+/// Fills slip_superficial in the owned cells from all components at the centre.
+void superficial_slip(const Constants& constants, Fields& fields);
+
+}  // namespace polybed::tfm

@@ -1,0 +1,68 @@
+// The approximate inverse of the implicit system's Jacobian: drag solved in every face, pressure and solids
+// fraction coupled through two elliptic equations, continuity in flux form.
+//
+//   face:  S (dU_1..dU_N, dJ),  dU_f = (dJ - sum phi_j dU_j)/eps,  d_j = b_j/rho_j,  c = the integrator's cj
+//          row j: c dU_j + d_j (dU_j - dU_f) + species exchange
+//          row J: c dJ + sum phi_j b_j (1/rho_f - 1/rho_j)(dU_f - dU_j)
+//          R_q = S^-1 (1/rho_j.., B),   R_g = S^-1 (1/(phi rho_j).., sum phi_j/(phi rho_j))
+//   cell:  A (dp, s) = (0, c s) - div( C grad(dp, L s) ),  s = sum dphi_j,  L = p_s' + lambda c
+//   apply: 1. v = S^-1 r on faces
+//          2. A (dp, s) = ( r_p - div v_J , sum r_phi_j - div sum phi_j v_j )
+//          3. v -= R_q grad dp + R_g grad(L s)
+//          4. dphi_j = (r_phi_j - div(phi_j v_j))/c
+//
+// Step 4 has unit column sums up to 1/c: mass is kept to round-off however inexact step 2 is.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/linear_solver.hpp"
+#include "fluid/boundaries.hpp"
+#include "tfm/fields.hpp"
+#include "tfm/state_layout.hpp"
+
+namespace polybed::tfm {
+
+class Preconditioner {
+ public:
+  Preconditioner(const Constants& constants, const fluid::Boundaries& boundaries);
+
+  /// Builds S^-1, the responses and the elliptic system from the fields of one evaluation. False if it fails.
+  [[nodiscard]] bool setup(const Fields& fields, double c);
+
+  /// z = P^-1 r, entries in the order of the layout.
+  void apply(const StateLayout& layout, std::span<const double> r, std::span<double> z);
+
+ private:
+  void build(const Fields& fields, int axis, const core::Box& box, bool solids_move);
+  void invert_face(const Fields& fields, int axis, core::Index face);
+  void respond(const Fields& fields, int axis, core::Index face, bool solids_move);
+  void unpack(const StateLayout& layout, std::span<const double> r);
+  void solve_faces();
+  void elliptic_sources();
+  void divergence_of_solids(std::size_t first, std::size_t last, core::Field& out);
+  void correct_faces();
+  void pack(const StateLayout& layout, std::span<double> z);
+
+  [[nodiscard]] std::size_t inverse_at(core::Index face) const { return std::size_t(face) * rows_ * rows_; }
+
+  const Constants& constants_;
+  const fluid::Boundaries& boundaries_;
+  std::size_t rows_;  ///< species + 1: unknowns of a face
+  double c_ = 0;
+  std::array<std::vector<double>, 3> inverse_;                 ///< S^-1 by face, row major
+  std::array<std::vector<core::Field>, 3> response_pressure_;  ///< R_q by axis and row
+  std::array<std::vector<core::Field>, 3> response_stress_;    ///< R_g by axis and row
+  std::array<std::vector<core::Field>, 3> fraction_;           ///< phi_j on faces
+  std::array<core::FaceField, 4> coupling_;                    ///< C11, C12, C21, C22
+  core::Field slope_;                                          ///< L
+  std::array<std::vector<core::Field>, 3> face_value_;         ///< residuals, then corrections, by row
+  std::vector<core::Field> fraction_residual_;
+  core::Field pressure_residual_, source_p_, source_s_, dp_, s_, work_;
+  core::FaceField flux_;
+  core::BlockSolver solver_;
+};
+
+}  // namespace polybed::tfm

@@ -1,0 +1,104 @@
+#include "tfm/right_hand_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tfm/mixture.hpp"
+
+namespace polybed::tfm {
+
+using core::Index;
+
+RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, fluid::Boundaries boundaries,
+                             fluid::Inlet inlet, Discretisation discretisation, core::Timers& timers)
+    : constants_(std::move(constants)),
+      boundaries_(std::move(boundaries)),
+      inlet_(std::move(inlet)),
+      discretisation_(discretisation),
+      timers_(timers),
+      fields_(constants_),
+      effects_(make_effects(scene, constants_, boundaries_, fields_)),
+      flux_(core::make_face_field(constants_.grid)) {}
+
+// Per unit mass of each phase, from T(1.27), T(1.28) and T(1.16) with the pressure gradient of T(1.17):
+//
+//   (1) dphi_j/dt = -div(phi_j U_j)
+//   (2) dU_j/dt   = a_j - grad p / rho_j
+//       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
+//             + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
+//   (3) a_f = -(U_f.grad)U_f - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
+//   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
+bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
+  const auto timed = [&](const char* term, auto&& work) {
+    const auto scope = timers_.scope(term);
+    work();
+  };
+  timed("boundaries", [&] {
+    layout.unpack(y, fields_.solids, fields_.fluid);
+    fill_ghosts();
+  });
+  if (!admissible()) return false;
+  timed("mixture", [&] { superficial_slip(constants_, fields_); });
+  timed("convection", [&] {
+    continuity(constants_, boundaries_, discretisation_.flux, fields_, flux_);
+    convection(constants_, boundaries_, discretisation_.momentum, fields_);
+  });
+  if (effects_.solids_stress)
+    timed("solids stress", [&] {
+      effects_.solids_stress->evaluate(fields_);
+      subtract_stress(constants_, boundaries_, fields_);
+    });
+  timed("gravity", [&] { add_gravity(constants_, boundaries_, fields_); });
+  if (effects_.drag)
+    timed("drag", [&] {
+      effects_.drag->evaluate(fields_);
+      add_exchange(constants_, boundaries_, fields_);
+      fluid::subtract_exchange(constants_.grid, boundaries_, fields_.solids, fields_.fluid,
+                               constants_.fluid.density, fields_.fluid_acceleration);
+    });
+  if (effects_.species_exchange)
+    timed("species exchange", [&] {
+      effects_.species_exchange->evaluate(fields_);
+      add_species_exchange(constants_, boundaries_, fields_);
+    });
+  timed("volume flux", [&] {
+    fluid::flux_rate(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
+                     fields_.fluid_acceleration, fields_.flux_rate);
+    set_inlet_rate(t);
+  });
+  return true;
+}
+
+/// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.
+void RightHandSide::fill_ghosts() {
+  for (core::Field& phi : fields_.solids.fraction) boundaries_.fill_cells(phi);
+  composition(constants_, fields_);
+  for (core::FaceField& velocity : fields_.solids.velocity)
+    boundaries_.fill_velocity(velocity, discretisation_.solids_wall);
+  fluid::fluid_velocity(constants_.grid, fields_.solids, fields_.fluid);
+  boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);
+}
+
+/// The flux through the distributor follows the inlet exactly.
+void RightHandSide::set_inlet_rate(double t) {
+  if (boundaries_.closed() || constants_.grid.periodic[1]) return;
+  core::Field& rate = fields_.flux_rate.free[1];
+  fluid::for_each_boundary_row(constants_.grid, 1, 0, [&](Index begin, Index end) {
+    std::fill(rate.begin() + begin, rate.begin() + end, inlet_.rate(t));
+  });
+}
+
+bool RightHandSide::admissible() const {
+  double most = 0, speed = 0;
+  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      most = std::max(most, fields_.solids_fraction[c]);
+      for (int axis = 0; axis < constants_.grid.dimensions; ++axis)
+        speed += fields_.fluid.velocity[std::size_t(axis)][c];
+    }
+  });
+  return most < 1 && std::isfinite(speed);
+}
+
+}  // namespace polybed::tfm

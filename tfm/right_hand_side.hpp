@@ -1,0 +1,51 @@
+// The equations of the continuum model, one line per term: from a state to the rates of all phases before the
+// pressure acts. Both integrators use this one operator.
+#pragma once
+
+#include <span>
+
+#include "core/timers.hpp"
+#include "tfm/effects.hpp"
+#include "tfm/solids.hpp"
+#include "tfm/state_layout.hpp"
+
+namespace polybed::tfm {
+
+struct Discretisation {
+  Scheme flux = Scheme::limited;     ///< of the solids fractions
+  Scheme momentum = Scheme::upwind;  ///< of the velocities
+  fluid::WallSlip solids_wall = fluid::WallSlip::free_slip;
+};
+
+class RightHandSide {
+ public:
+  RightHandSide(const core::Scene& scene, Constants constants, fluid::Boundaries boundaries,
+                fluid::Inlet inlet, Discretisation discretisation, core::Timers& timers);
+
+  /// Evaluates every term at (t, y); the result stands in fields(). False if the state is none that closures
+  /// can be asked about (not finite, or a cell with more than its volume of solids): the step must shrink.
+  [[nodiscard]] bool evaluate(double t, const StateLayout& layout, std::span<const double> y);
+
+  [[nodiscard]] const Constants& constants() const { return constants_; }
+  [[nodiscard]] const fluid::Boundaries& boundaries() const { return boundaries_; }
+  [[nodiscard]] const fluid::Inlet& inlet() const { return inlet_; }
+  [[nodiscard]] const Effects& effects() const { return effects_; }
+  [[nodiscard]] Fields& fields() { return fields_; }
+  [[nodiscard]] const Fields& fields() const { return fields_; }
+
+ private:
+  void fill_ghosts();
+  void set_inlet_rate(double t);
+  [[nodiscard]] bool admissible() const;
+
+  Constants constants_;
+  fluid::Boundaries boundaries_;
+  fluid::Inlet inlet_;
+  Discretisation discretisation_;
+  core::Timers& timers_;
+  Fields fields_;
+  Effects effects_;
+  core::FaceField flux_;
+};
+
+}  // namespace polybed::tfm

@@ -1,0 +1,135 @@
+#include "tfm/solids.hpp"
+
+#include <algorithm>
+
+#include "core/operators.hpp"
+
+namespace polybed::tfm {
+
+using core::face_mean;
+using core::Field;
+using core::Index;
+
+namespace {
+
+/// Calls body(species, axis, begin, end) for all rows of faces on which solids move.
+template <class Body>
+void for_each_solids_row(const Constants& constants, const fluid::Boundaries& boundaries, Body&& body) {
+  for (std::size_t j = 0; j < constants.species(); ++j)
+    for (int axis = 0; axis < constants.grid.dimensions; ++axis)
+      core::for_each_row(constants.grid, boundaries.moving_faces(axis, false),
+                         [&](Index begin, Index end) { body(j, axis, begin, end); });
+}
+
+template <class Face>
+void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, const Field& fraction,
+                 const core::FaceField& velocity, core::FaceField& flux) {
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const Index s = grid.stride(axis);
+    const double *phi = fraction.data(), *u = velocity[std::size_t(axis)].data();
+    double* out = flux[std::size_t(axis)].data();
+    core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) out[c] = u[c] * Face::at(phi, c, s, u[c]);
+    });
+  }
+}
+
+template <class Difference>
+void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const core::FaceField& velocity,
+             bool of_fluid, core::FaceField& acceleration) {
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    Field& rate = acceleration[std::size_t(axis)];
+    std::fill(rate.begin(), rate.end(), 0.0);
+    core::subtract_convection<Difference>(grid, velocity, axis, boundaries.moving_faces(axis, of_fluid),
+                                          rate);
+  }
+}
+
+}  // namespace
+
+void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme,
+                Fields& fields, core::FaceField& flux) {
+  const core::Grid& grid = constants.grid;
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const Field& phi = fields.solids.fraction[j];
+    const core::FaceField& velocity = fields.solids.velocity[j];
+    if (scheme == Scheme::limited)
+      solids_flux<core::LimitedFace>(grid, boundaries, phi, velocity, flux);
+    else
+      solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
+    for (int axis = 0; axis < grid.dimensions; ++axis)
+      if (grid.periodic[std::size_t(axis)]) boundaries.fill_cells(flux[std::size_t(axis)]);
+    Field& rate = fields.solids.fraction_rate[j];
+    core::divergence(grid, flux, rate);
+    for (double& r : rate) r = -r;
+    boundaries.fill_cells(rate);
+  }
+}
+
+void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme,
+                Fields& fields) {
+  const auto convect_phase = [&](const core::FaceField& velocity, bool of_fluid,
+                                 core::FaceField& acceleration) {
+    if (scheme == Scheme::limited)
+      convect<core::LimitedDifference>(constants.grid, boundaries, velocity, of_fluid, acceleration);
+    else
+      convect<core::UpwindDifference>(constants.grid, boundaries, velocity, of_fluid, acceleration);
+  };
+  convect_phase(fields.fluid.velocity, true, fields.fluid_acceleration);
+  for (std::size_t j = 0; j < constants.species(); ++j)
+    convect_phase(fields.solids.velocity[j], false, fields.solids.acceleration[j]);
+}
+
+void add_gravity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const double weight = -(1 - constants.fluid.density / constants.density[j]) * constants.gravity;
+    double* a = fields.solids.acceleration[j][1].data();
+    core::for_each_row(constants.grid, boundaries.moving_faces(1, false), [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) a[c] += weight;
+    });
+  }
+}
+
+void add_exchange(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
+    const auto d = std::size_t(axis);
+    const Index s = constants.grid.stride(axis);
+    const double *b = fields.solids.exchange[j].data(), *u = fields.fluid.velocity[d].data(),
+                 *v = fields.solids.velocity[j][d].data();
+    double* a = fields.solids.acceleration[j][d].data();
+    const double per_density = 1 / constants.density[j];
+    for (Index c = begin; c < end; ++c) a[c] += face_mean(b, c, s) * per_density * (u[c] - v[c]);
+  });
+}
+
+void subtract_stress(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  const double *p = fields.stress.pressure.data(), *phi = fields.solids_fraction.data();
+  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
+    const Index s = constants.grid.stride(axis);
+    double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
+    const double scale = 1 / (constants.grid.spacing[std::size_t(axis)] * constants.density[j]);
+    for (Index c = begin; c < end; ++c)
+      a[c] -= scale * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);
+  });
+}
+
+void add_species_exchange(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  const std::size_t n = constants.species();
+  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
+    const auto d = std::size_t(axis);
+    const Index s = constants.grid.stride(axis);
+    const double* v = fields.solids.velocity[j][d].data();
+    double* a = fields.solids.acceleration[j][d].data();
+    const double per_density = 1 / constants.density[j];
+    for (std::size_t k = 0; k < n; ++k) {
+      if (k == j) continue;
+      const double *coefficient =
+                       fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)].data(),
+                   *phi = fields.solids.fraction[k].data(), *w = fields.solids.velocity[k][d].data();
+      for (Index c = begin; c < end; ++c)
+        a[c] += face_mean(coefficient, c, s) * face_mean(phi, c, s) * per_density * (w[c] - v[c]);
+    }
+  });
+}
+
+}  // namespace polybed::tfm

@@ -1,0 +1,41 @@
+// Continuity and momentum of the solid species, T(1.28) per unit mass of each species.
+//
+//   (1) dphi_j/dt = -div(phi_j U_j)
+//   (2) dU_j/dt   = a_j - grad p / rho_j
+//       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g + (b_j/rho_j)(U_f - U_j)
+//             - grad p_s / (phi rho_j) + sum_k K_jk (U_k - U_j) / (phi_j rho_j)
+//
+// Each function adds one term to the acceleration or the rate; nothing is divided by phi_j.
+#pragma once
+
+#include "fluid/boundaries.hpp"
+#include "tfm/fields.hpp"
+
+namespace polybed::tfm {
+
+/// Least solids fraction that the gradient of the solids pressure is divided by.
+constexpr double stress_fraction_floor = 1e-3;
+
+/// How a quantity is taken to faces or differenced.
+enum class Scheme { upwind, limited };
+
+/// (1): fraction_rate = -div F_j with F_j = U_j times phi_j from upwind, with half a limited slope if
+/// `limited`. Ghosts of the rate are filled. flux_j is work space.
+void continuity(const Constants&, const fluid::Boundaries&, Scheme, Fields&, core::FaceField& flux);
+
+/// Sets the accelerations of all phases to their convection, -(U.grad)U; the rest is added to them.
+void convection(const Constants&, const fluid::Boundaries&, Scheme, Fields&);
+
+/// Adds weight less buoyancy, (1 - rho_f/rho_j) g.
+void add_gravity(const Constants&, const fluid::Boundaries&, Fields&);
+
+/// Adds the drag of the fluid, (b_j/rho_j)(U_f - U_j).
+void add_exchange(const Constants&, const fluid::Boundaries&, Fields&);
+
+/// Subtracts grad p_s / (phi rho_j): the solids pressure shared by volume.
+void subtract_stress(const Constants&, const fluid::Boundaries&, Fields&);
+
+/// Adds the momentum that species hand each other; exact opposites for the two of a pair.
+void add_species_exchange(const Constants&, const fluid::Boundaries&, Fields&);
+
+}  // namespace polybed::tfm

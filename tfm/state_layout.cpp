@@ -1,0 +1,85 @@
+#include "tfm/state_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace polybed::tfm {
+
+using core::Box;
+using core::Field;
+using core::Index;
+using Kind = StateLayout::Entry::Kind;
+
+StateLayout::StateLayout(const core::Grid& grid, int species, bool with_pressure)
+    : grid_(grid), with_pressure_(with_pressure) {
+  for (int j = 0; j < species; ++j) add(Kind::fraction, j, -1, core::owned_cells(grid));
+  for (int j = 0; j < species; ++j)
+    for (int axis = 0; axis < grid.dimensions; ++axis)
+      add(Kind::velocity, j, axis, core::owned_faces(grid, axis));
+  for (int axis = 0; axis < grid.dimensions; ++axis) add(Kind::flux, -1, axis, core::owned_faces(grid, axis));
+  if (with_pressure) add(Kind::pressure, -1, -1, core::owned_cells(grid));
+}
+
+void StateLayout::add(Kind kind, int species, int axis, const Box& box) {
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < 3; ++d) count *= std::size_t(box.hi[d] - box.lo[d]);
+  entries_.push_back({kind, species, axis, size_, count, box});
+  size_ += count;
+}
+
+void StateLayout::unpack(const Entry& entry, std::span<const double> y, Field& field) const {
+  const double* from = y.data() + entry.begin;
+  core::for_each_row(grid_, entry.box, [&](Index begin, Index end) {
+    std::copy(from, from + (end - begin), field.begin() + begin);
+    from += end - begin;
+  });
+}
+
+void StateLayout::pack(const Entry& entry, const Field& field, std::span<double> y) const {
+  double* to = y.data() + entry.begin;
+  core::for_each_row(grid_, entry.box, [&](Index begin, Index end) {
+    to = std::copy(field.begin() + begin, field.begin() + end, to);
+  });
+}
+
+void StateLayout::unpack(std::span<const double> y, fluid::Interphase& solids,
+                         fluid::FluidState& fluid) const {
+  for (const Entry& entry : entries_) unpack(entry, y, field_of(entry, solids, fluid));
+}
+
+void StateLayout::pack(const fluid::Interphase& solids, const fluid::FluidState& fluid,
+                       std::span<double> y) const {
+  for (const Entry& entry : entries_) pack(entry, field_of(entry, solids, fluid), y);
+}
+
+std::string StateLayout::describe(std::size_t index, const std::vector<std::string>& species) const {
+  static constexpr const char* axis_name[] = {"x", "y", "z"};
+  for (const Entry& entry : entries_) {
+    if (index >= entry.begin + entry.size) continue;
+    const auto nx = std::size_t(entry.box.hi[0] - entry.box.lo[0]);
+    const auto ny = std::size_t(entry.box.hi[1] - entry.box.lo[1]);
+    const std::size_t local = index - entry.begin;
+    std::string name;
+    switch (entry.kind) {
+      case Kind::fraction:
+        name = "phi_" + species.at(std::size_t(entry.species));
+        break;
+      case Kind::velocity:
+        name = fmt::format("u_{}.{}", species.at(std::size_t(entry.species)), axis_name[entry.axis]);
+        break;
+      case Kind::flux:
+        name = fmt::format("flux.{}", axis_name[entry.axis]);
+        break;
+      case Kind::pressure:
+        name = "pressure";
+        break;
+    }
+    const std::size_t i = local % nx, j = local / nx % ny, k = local / nx / ny;
+    return grid_.dimensions == 2 ? fmt::format("{} ({}, {})", name, i, j)
+                                 : fmt::format("{} ({}, {}, {})", name, i, j, k);
+  }
+  return "?";
+}
+
+}  // namespace polybed::tfm

@@ -1,0 +1,70 @@
+// Where each unknown stands in the state vector that the integrator advances: field by field, p last.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/field.hpp"
+#include "fluid/fluid_state.hpp"
+#include "fluid/interphase.hpp"
+
+namespace polybed::tfm {
+
+/// The unknowns: phi_j (cells), U_j and J (all owned faces), and p (cells) where the integrator carries it.
+class StateLayout {
+ public:
+  /// One field of the state: its kind, species (-1 for the mixture), axis (-1 on cells), and place.
+  struct Entry {
+    enum class Kind { fraction, velocity, flux, pressure } kind;
+    int species, axis;
+    std::size_t begin, size;
+    core::Box box;
+  };
+
+  StateLayout() = default;
+  StateLayout(const core::Grid& grid, int species, bool with_pressure);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  [[nodiscard]] bool with_pressure() const { return with_pressure_; }
+
+  /// Copies the state into the padded fields; ghosts are left alone.
+  void unpack(std::span<const double> y, fluid::Interphase& solids, fluid::FluidState& fluid) const;
+  /// Copies the owned part of the padded fields into a state vector.
+  void pack(const fluid::Interphase& solids, const fluid::FluidState& fluid, std::span<double> y) const;
+  /// Copies one field of a state vector into a padded field.
+  void unpack(const Entry& entry, std::span<const double> y, core::Field& field) const;
+  /// Copies one padded field to its place in a state vector.
+  void pack(const Entry& entry, const core::Field& field, std::span<double> y) const;
+
+  /// Name of the field and the cell or face that an entry of the state belongs to, for messages.
+  [[nodiscard]] std::string describe(std::size_t index, const std::vector<std::string>& species) const;
+
+ private:
+  void add(Entry::Kind kind, int species, int axis, const core::Box& box);
+
+  core::Grid grid_;
+  bool with_pressure_ = false;
+  std::size_t size_ = 0;
+  std::vector<Entry> entries_;
+};
+
+/// The padded field that an entry of the state stands for; const if the solids and the fluid are.
+template <class Solids, class Fluid>
+[[nodiscard]] auto& field_of(const StateLayout::Entry& entry, Solids& solids, Fluid& fluid) {
+  using Kind = StateLayout::Entry::Kind;
+  switch (entry.kind) {
+    case Kind::fraction:
+      return solids.fraction[std::size_t(entry.species)];
+    case Kind::velocity:
+      return solids.velocity[std::size_t(entry.species)][std::size_t(entry.axis)];
+    case Kind::flux:
+      return fluid.flux[std::size_t(entry.axis)];
+    case Kind::pressure:
+      break;
+  }
+  return fluid.pressure;
+}
+
+}  // namespace polybed::tfm

@@ -1,0 +1,81 @@
+#include "tfm/step_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace polybed::tfm {
+
+using core::Index;
+
+namespace {
+
+/// Keeps the fastest rate, 1/s, that a process reaches in any cell.
+struct FastestRate {
+  double rate = 0;
+  Index cell = 0;
+  void see(double r, Index c) {
+    if (r > rate) {
+      rate = r;
+      cell = c;
+    }
+  }
+  [[nodiscard]] TimeScale scale(std::string process) const {
+    return {std::move(process), rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity(), cell};
+  }
+};
+
+double courant_rate(const core::Grid& grid, const core::FaceField& velocity, Index c) {
+  double rate = 0;
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const double* u = velocity[std::size_t(axis)].data();
+    rate += std::max(std::abs(u[c]), std::abs(u[c + grid.stride(axis)])) / grid.spacing[std::size_t(axis)];
+  }
+  return rate;
+}
+
+}  // namespace
+
+std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields) {
+  const core::Grid& grid = constants.grid;
+  const double h = *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
+  FastestRate convection, acoustics, damping, drag;
+  core::for_each_row(grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) {
+      const auto at = std::size_t(c);
+      double on_fluid = 0, solids_density = 0;
+      convection.see(courant_rate(grid, fields.fluid.velocity, c), c);
+      for (std::size_t j = 0; j < constants.species(); ++j) {
+        const double b = fields.solids.exchange[j][at], phi = std::max(fields.solids.fraction[j][at], 0.0);
+        convection.see(courant_rate(grid, fields.solids.velocity[j], c), c);
+        on_fluid +=
+            phi * b / (std::max(fields.fluid.voidage[at], fluid::voidage_floor) * constants.fluid.density);
+        solids_density += fields.share[j][at] * constants.density[j];
+        drag.see(b / constants.density[j] + on_fluid, c);
+      }
+      if (!fields.stress.present()) continue;
+      acoustics.see(std::sqrt(std::max(fields.stress.slope[at], 0.0) / solids_density) / h, c);
+      damping.see(2 * grid.dimensions * fields.stress.damping[at] / (solids_density * h * h), c);
+    }
+  });
+  std::vector<TimeScale> scales{convection.scale("convection"), drag.scale("drag")};
+  if (fields.stress.present()) {
+    scales.push_back(acoustics.scale("acoustics"));
+    scales.push_back(damping.scale("bulk viscosity"));
+  }
+  return scales;
+}
+
+std::string limited_by(const std::vector<TimeScale>& scales, double step, const Constants& constants) {
+  const auto nearest = std::min_element(scales.begin(), scales.end(),
+                                        [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  if (nearest == scales.end() || step < limiting_share * nearest->seconds) return "error test";
+  const core::Grid& grid = constants.grid;
+  const Index row = grid.extent(0), layer = grid.extent(0) * grid.extent(1);
+  return fmt::format("{} at ({}, {})", nearest->process, nearest->cell % row - grid.ghosts(0),
+                     nearest->cell % layer / row - grid.ghosts(1));
+}
+
+}  // namespace polybed::tfm

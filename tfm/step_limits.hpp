@@ -1,0 +1,31 @@
+// What limits an explicit step: the time scales of the state, to be held against the step that was taken.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fluid/boundaries.hpp"
+#include "tfm/fields.hpp"
+
+namespace polybed::tfm {
+
+/// The shortest time scale of one process, s, and where it is; infinite where the process is absent.
+struct TimeScale {
+  std::string process;
+  double seconds;
+  core::Index cell;
+};
+
+/// Convection (h/|U| of any phase), acoustics of the packed bed (h/c_s), its bulk viscosity (h2 rho_s/lambda)
+/// and drag (phi rho_j relaxing with the fluid), from fields of a finished evaluation.
+std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields);
+
+/// Share of its time scale beyond which a process, not the error test, is taken to limit an explicit step:
+/// third order Runge-Kutta is stable up to 1.7 on the imaginary axis and 2.5 on the real one, and steps
+/// settle below.
+constexpr double limiting_share = 0.5;
+
+/// One phrase for the step log: the process nearest to its limit if it is near, else "error test".
+std::string limited_by(const std::vector<TimeScale>& scales, double step, const Constants& constants);
+
+}  // namespace polybed::tfm
