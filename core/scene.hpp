@@ -13,7 +13,10 @@
 namespace polybed::core {
 
 struct Column {
-  int dimensions = 2;
+  std::vector<double> given_size;         ///< as the case gives it: width, height or width, depth, height, m
+  std::vector<std::int64_t> given_cells;  ///< likewise
+  std::optional<double> depth;            ///< of a 2-D column, m; else twice the largest diameter and skin
+  int dimensions = 2;                     ///< follows, as the next two do
   std::array<double, 3> size{};       ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
   std::array<int, 3> cells{1, 1, 1};  ///< along x, y, z; 1 along z in 2-D
   std::string sides = "wall";         ///< wall | periodic
@@ -40,7 +43,8 @@ struct Bed {
   std::vector<double> volume_share;     ///< x_j, sums to 1
   double static_height = 0;             ///< m, of the settled bed
   double solids_fraction = 0;           ///< of the settled bed
-  double start_solids_fraction = 0;     ///< of the bed at the start; the mass is that of the settled bed
+  std::optional<double> start_fraction;  ///< as the case gives it
+  double start_solids_fraction = 0;      ///< of the bed at the start; the mass is that of the settled bed
   std::vector<std::int64_t> particles;  ///< numbers of particles instead of static_height; else empty
   std::string start = "mixed";          ///< mixed | layered | settled | checkpoint:FILE | list:FILE
   std::uint64_t seed = 1;
@@ -56,9 +60,9 @@ struct RunPlan {
 };
 
 struct OutputPlan {
-  double every = 0;             ///< s, between stored fields
-  double history_every = 0;     ///< s, between rows of history.csv
-  double checkpoint_every = 0;  ///< s, between checkpoints
+  std::optional<double> every;             ///< s, between stored fields; else a twentieth of the run
+  std::optional<double> history_every;     ///< s, between rows of history.csv; else a 400th of the run
+  std::optional<double> checkpoint_every;  ///< s, between checkpoints; else a tenth of the run
 };
 
 struct Tfm {
@@ -66,10 +70,9 @@ struct Tfm {
   double rtol = 1e-4;
   std::string flux = "limited";           ///< limited | upwind: the volume fractions
   std::string momentum = "upwind";        ///< convection of momentum
-  std::string outlet = "screen";          ///< screen | open: what the solids meet at the top
   std::string solids_wall = "free_slip";  ///< free_slip | no_slip
   std::string max_packing =
-      "auto";  ///< auto (from bed.solids_fraction) | a number | fedors_landel | yu_standish
+      "auto";  ///< auto (from bed.solids_fraction) | a number
   double frictional_pressure = 0.05;  ///< Fr of p_f, Pa
   double frictional_onset = 0.5;      ///< solids fraction above which p_f acts
   double bulk_viscosity = 1;          ///< alpha
@@ -85,7 +88,7 @@ struct Dem {
 };
 
 struct ContactPair {
-  std::array<std::string, 2> between;
+  std::vector<std::string> between;        ///< two names of species, or one and "wall"
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;
 };
 
@@ -102,6 +105,7 @@ struct Scene {
   Tfm tfm;
   Dem dem;
   std::vector<ContactPair> contact_pairs;
+  std::vector<std::string> overrides;          ///< "key=value" of the command line, as given
 };
 
 }  // namespace polybed::core

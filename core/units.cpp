@@ -1,5 +1,6 @@
 #include "core/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -96,9 +97,9 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
 }
 
 std::string unit_name(const Dimension& d) {
-  constexpr std::array<std::pair<Dimension, std::string_view>, 5> named{
+  constexpr std::array<std::pair<Dimension, std::string_view>, 4> named{
       {{dimension::pressure, "Pa"}, {dimension::viscosity, "Pa s"}, {dimension::none, "1"},
-       {dimension::density, "kg/m3"}, {dimension::exchange, "s2/m2"}}};
+       {dimension::density, "kg/m3"}}};
   for (const auto& [dim, name] : named)
     if (dim == d) return std::string(name);
   std::string above, below;

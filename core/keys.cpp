@@ -1,0 +1,155 @@
+#include "core/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace polybed::core {
+
+namespace {
+
+/// Turns a lambda without captures into the place of a key.
+template <class T>
+AnyPlace at(Place<T> place) {
+  return place;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// clang-format off
+std::vector<Key> make_keys() {
+  using S = Scene;
+  using N = std::size_t;
+  std::vector<Key> k;
+  k.push_back({"", "title", at<std::string>([](S& s, N) -> auto& { return s.title; }), "what the case is, in one line"});
+
+  k.push_back({"column", "size", at<std::vector<double>>([](S& s, N) -> auto& { return s.column.given_size; }), "width, height; three numbers make it 3-D: width, depth, height", dimension::length, 0, 1e3, true, {}, {}, true});
+  k.push_back({"column", "cells", at<std::vector<std::int64_t>>([](S& s, N) -> auto& { return s.column.given_cells; }), "number of cells along each direction of size", {}, 1, 1e6, false, {}, {}, true});
+  k.push_back({"column", "depth", at<std::optional<double>>([](S& s, N) -> auto& { return s.column.depth; }), "of a 2-D column; default: twice the largest diameter, and a tenth of the smallest twice", dimension::length, 0, 1e3, true});
+  k.push_back({"column", "sides", at<std::string>([](S& s, N) -> auto& { return s.column.sides; }), "walls: no slip for the fluid, free slip for solids unless said; or joined", {}, -infinity, infinity, false, "wall", {"wall", "periodic"}});
+  k.push_back({"column", "gravity", at<double>([](S& s, N) -> auto& { return s.column.gravity; }), "acceleration of gravity, downward", dimension::acceleration, 0, 1e3, false, "9.81 m/s2"});
+  k.push_back({"column", "closed", at<bool>([](S& s, N) -> auto& { return s.column.closed; }), "walls all round: no inlet and no outlet", {}, -infinity, infinity, false, "false"});
+
+  k.push_back({"fluid", "name", at<std::string>([](S& s, N) -> auto& { return s.fluid.name; }), "water and air know density and viscosity from the temperature; any other name needs both", {}, -infinity, infinity, false, {}, {}, true});
+  k.push_back({"fluid", "temperature", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.temperature; }), "water 0 to 40 degC, air 200 to 1000 K", dimension::temperature, 0, 5000, true});
+  k.push_back({"fluid", "density", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.density; }), "rho_f", dimension::density, 0, 1e5, true});
+  k.push_back({"fluid", "viscosity", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.viscosity; }), "mu", dimension::viscosity, 0, 1e6, true});
+  k.push_back({"fluid", "equation_of_state", at<std::string>([](S& s, N) -> auto& { return s.fluid.equation_of_state; }), "how density depends on pressure", {}, -infinity, infinity, false, "incompressible", {"incompressible"}});
+
+  k.push_back({"species", "name", at<std::string>([](S& s, N n) -> auto& { return s.species[n].name; }), "of the species; names columns and datasets", {}, -infinity, infinity, false, {}, {}, true});
+  k.push_back({"species", "diameter", at<double>([](S& s, N n) -> auto& { return s.species[n].diameter; }), "D_j of its spheres", dimension::length, 0, 1, true, {}, {}, true});
+  k.push_back({"species", "density", at<double>([](S& s, N n) -> auto& { return s.species[n].density; }), "rho_j", dimension::density, 0, 1e16, true, {}, {}, true});
+  k.push_back({"species", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].youngs_modulus; }), "else that of [dem]", dimension::pressure, 0, 1e13, true});
+  k.push_back({"species", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].poisson_ratio; }), "else that of [dem]", {}, 0, 0.5});
+  k.push_back({"species", "friction", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].friction; }), "else that of [dem]", {}, 0, 10});
+  k.push_back({"species", "restitution", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].restitution; }), "else that of [dem]", {}, 0, 1, true});
+
+  k.push_back({"bed", "volume_share", at<std::vector<double>>([](S& s, N) -> auto& { return s.bed.volume_share; }), "x_j, share of each species in the volume of the solids; sums to 1", {}, 0, 1});
+  k.push_back({"bed", "static_height", at<double>([](S& s, N) -> auto& { return s.bed.static_height; }), "of the settled bed", dimension::length, 0, 1e3, true});
+  k.push_back({"bed", "solids_fraction", at<double>([](S& s, N) -> auto& { return s.bed.solids_fraction; }), "of the settled bed", {}, 0, 0.9, true});
+  k.push_back({"bed", "start_solids_fraction", at<std::optional<double>>([](S& s, N) -> auto& { return s.bed.start_fraction; }), "of the bed at the start, with the mass of the settled bed; default: solids_fraction", {}, 0, 0.9, true});
+  k.push_back({"bed", "particles", at<std::vector<std::int64_t>>([](S& s, N) -> auto& { return s.bed.particles; }), "numbers of particles of each species, instead of volume_share and static_height", {}, 0, 1e12});
+  k.push_back({"bed", "start", at<std::string>([](S& s, N) -> auto& { return s.bed.start; }), "mixed | layered (bottom first) | settled (in equilibrium) | checkpoint:FILE", {}, -infinity, infinity, false, "mixed"});
+  k.push_back({"bed", "seed", at<std::uint64_t>([](S& s, N) -> auto& { return s.bed.seed; }), "of random numbers", {}, 0, 9.2e18, false, "1"});
+
+  k.push_back({"inlet", "superficial_velocity", at<Points>([](S& s, N) -> auto& { return s.inlet.superficial_velocity; }), "a velocity, or a table [[time, velocity], ...]: linear between, constant beyond; two equal times make a jump", dimension::velocity, -1e3, 1e3});
+
+  k.push_back({"run", "until", at<double>([](S& s, N) -> auto& { return s.run.until; }), "simulated time", dimension::time, 0, 1e9, true, {}, {}, true});
+
+  k.push_back({"output", "every", at<std::optional<double>>([](S& s, N) -> auto& { return s.output.every; }), "between stored fields and profiles; default: a twentieth of the run", dimension::time, 0, 1e9, true});
+  k.push_back({"output", "history_every", at<std::optional<double>>([](S& s, N) -> auto& { return s.output.history_every; }), "between rows of history.csv; default: a 400th of the run", dimension::time, 0, 1e9, true});
+  k.push_back({"output", "checkpoint_every", at<std::optional<double>>([](S& s, N) -> auto& { return s.output.checkpoint_every; }), "between checkpoints; default: a tenth of the run", dimension::time, 0, 1e9, true});
+
+  k.push_back({"tfm", "integrator", at<std::string>([](S& s, N) -> auto& { return s.tfm.integrator; }), "explicit for a bed fluidised by a liquid, implicit for gas and settling; auto chooses so", {}, -infinity, infinity, false, "auto", {"auto", "explicit", "implicit"}});
+  k.push_back({"tfm", "rtol", at<double>([](S& s, N) -> auto& { return s.tfm.rtol; }), "relative tolerance of the time integration", {}, 1e-12, 0.1, false, "1e-4"});
+  k.push_back({"tfm", "flux", at<std::string>([](S& s, N) -> auto& { return s.tfm.flux; }), "solids fractions at faces: second order with a limiter, or first order", {}, -infinity, infinity, false, "limited", {"limited", "upwind"}});
+  k.push_back({"tfm", "momentum", at<std::string>([](S& s, N) -> auto& { return s.tfm.momentum; }), "convection of velocities: first order, or second with a limiter", {}, -infinity, infinity, false, "upwind", {"upwind", "limited"}});
+  k.push_back({"tfm", "solids_wall", at<std::string>([](S& s, N) -> auto& { return s.tfm.solids_wall; }), "velocity of the solids along walls", {}, -infinity, infinity, false, "free_slip", {"free_slip", "no_slip"}});
+  k.push_back({"tfm", "max_packing", at<std::string>([](S& s, N) -> auto& { return s.tfm.max_packing; }), "phi_max of the frictional pressure: a number, or auto: the settled bed then has bed.solids_fraction", {}, -infinity, infinity, false, "auto"});
+  k.push_back({"tfm", "frictional_pressure", at<double>([](S& s, N) -> auto& { return s.tfm.frictional_pressure; }), "Fr", dimension::pressure, 0, 1e6, true, "0.05 Pa", {}, false, "p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5"});
+  k.push_back({"tfm", "frictional_onset", at<double>([](S& s, N) -> auto& { return s.tfm.frictional_onset; }), "phi_min, above which solids press on each other", {}, 0, 0.9, true, "0.5", {}, false, "p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5"});
+  k.push_back({"tfm", "bulk_viscosity", at<double>([](S& s, N) -> auto& { return s.tfm.bulk_viscosity; }), "alpha; damps elastic waves of the packed bed; 0 is off", {}, 0, 10, false, "1", {}, false, "p_s = p_f - alpha rho_s c_s h sum phi_j div U_j"});
+  k.push_back({"tfm", "exchange_pressure", at<double>([](S& s, N) -> auto& { return s.tfm.exchange_pressure; }), "C_s: contact friction between species in a packed bed", dimension::per_pressure, 0, 1e9, false, "0 s/m2", {}, false, "K_jk = ... + C_s p_s phi_j phi_k/phi^2"});
+  k.push_back({"tfm", "fixed_step", at<std::optional<double>>([](S& s, N) -> auto& { return s.tfm.fixed_step; }), "steps of one length without error control, for verification; explicit only", dimension::time, 0, 1e3, true});
+  k.push_back({"tfm", "pressure_tolerance", at<std::optional<double>>([](S& s, N) -> auto& { return s.tfm.pressure_tolerance; }), "relative residual of the pressure's equation; default: the smaller of 1e-4 and rtol/10", {}, 1e-15, 0.1});
+
+  k.push_back({"dem", "steps_per_contact", at<double>([](S& s, N) -> auto& { return s.dem.steps_per_contact; }), "time steps in one contact", {}, 5, 1e5, false, "20"});
+  k.push_back({"dem", "youngs_modulus", at<double>([](S& s, N) -> auto& { return s.dem.youngs_modulus; }), "E of all species that do not say otherwise", dimension::pressure, 0, 1e13, true, "5 MPa"});
+  k.push_back({"dem", "poisson_ratio", at<double>([](S& s, N) -> auto& { return s.dem.poisson_ratio; }), "likewise", {}, 0, 0.5, false, "0.25"});
+  k.push_back({"dem", "friction", at<double>([](S& s, N) -> auto& { return s.dem.friction; }), "likewise; the TFM's species exchange reads it too", {}, 0, 10, false, "0.3"});
+  k.push_back({"dem", "restitution", at<double>([](S& s, N) -> auto& { return s.dem.restitution; }), "likewise; the TFM's species exchange reads it too", {}, 0, 1, true, "0.9"});
+  k.push_back({"dem", "fluid_every", at<int>([](S& s, N) -> auto& { return s.dem.fluid_every; }), "solid steps per fluid step", {}, 1, 1e6, false, "16"});
+
+  k.push_back({"contact_pair", "between", at<std::vector<std::string>>([](S& s, N n) -> auto& { return s.contact_pairs[n].between; }), "two species, or a species and \"wall\"", {}, -infinity, infinity, false, {}, {}, true});
+  k.push_back({"contact_pair", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].youngs_modulus; }), "of this pair", dimension::pressure, 0, 1e13, true});
+  k.push_back({"contact_pair", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].poisson_ratio; }), "of this pair", {}, 0, 0.5});
+  k.push_back({"contact_pair", "friction", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].friction; }), "of this pair", {}, 0, 10});
+  k.push_back({"contact_pair", "restitution", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].restitution; }), "of this pair", {}, 0, 1, true});
+  return k;
+}
+// clang-format on
+
+/// Edits that turn one text into the other: insert, delete, replace, swap of neighbours.
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t(0));
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
+    }
+    before = last;
+    last = now;
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::span<const Key> keys() {
+  static const std::vector<Key> table = make_keys();
+  return table;
+}
+
+bool is_array_of_tables(std::string_view table) { return table == "species" || table == "contact_pair"; }
+
+std::string kind_name(const Key& key) {
+  struct Visitor {
+    std::string operator()(Place<double>) const { return "number"; }
+    std::string operator()(Place<std::optional<double>>) const { return "number"; }
+    std::string operator()(Place<int>) const { return "count"; }
+    std::string operator()(Place<std::uint64_t>) const { return "count"; }
+    std::string operator()(Place<bool>) const { return "true or false"; }
+    std::string operator()(Place<std::string>) const { return "text"; }
+    std::string operator()(Place<std::vector<double>>) const { return "list of numbers"; }
+    std::string operator()(Place<std::vector<std::int64_t>>) const { return "list of counts"; }
+    std::string operator()(Place<std::vector<std::string>>) const { return "list of texts"; }
+    std::string operator()(Place<Points>) const { return "number or table in time"; }
+  };
+  const std::string kind = std::visit(Visitor{}, key.place);
+  return key.dimension == dimension::none ? kind : kind + ", " + unit_name(key.dimension);
+}
+
+std::string range_text(const Key& key) {
+  if (!key.words.empty()) return fmt::format("{}", fmt::join(key.words, " | "));
+  const std::string unit = key.dimension == dimension::none ? "" : " " + unit_name(key.dimension);
+  std::string text;
+  if (key.least > -infinity) text = fmt::format("{} {:g}", key.above_least ? "above" : "at least", key.least);
+  if (key.most < infinity) text += fmt::format("{}at most {:g}", text.empty() ? "" : ", ", key.most);
+  return text.empty() ? text : text + unit;
+}
+
+std::string nearest_name(std::string_view wrong, const std::vector<std::string>& names) {
+  std::string best;
+  std::size_t fewest = std::max<std::size_t>(2, wrong.size() / 3) + 1;
+  for (const std::string& name : names)
+    if (const std::size_t n = edits(wrong, name); n < fewest) {
+      fewest = n;
+      best = name;
+    }
+  return best;
+}
+
+}  // namespace polybed::core
