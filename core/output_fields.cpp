@@ -1,0 +1,195 @@
+#include "core/output_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/output_xdmf.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const FileKind index_kind{"polybed fields", 1};
+const FileKind step_kind{"polybed fields step", 1};
+constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
+
+fs::path step_file(const fs::path& directory, std::size_t step) {
+  return directory / "fields" / (step_name(step) + ".h5");
+}
+
+std::vector<double> face_positions(const Grid& grid, int axis) {
+  std::vector<double> faces;
+  for (int i = 0; i <= grid.cells[std::size_t(axis)]; ++i)
+    faces.push_back(i * grid.spacing[std::size_t(axis)]);
+  return faces;
+}
+
+/// Shape of a cell field in the file, slowest axis first.
+std::vector<std::size_t> cell_shape(const Grid& grid) {
+  std::vector<std::size_t> shape;
+  for (int axis = grid.dimensions - 1; axis >= 0; --axis)
+    shape.push_back(std::size_t(grid.cells[std::size_t(axis)]));
+  return shape;
+}
+
+[[noreturn]] void refuse(const std::string& name, int component, std::array<int, 3> cell, double value,
+                         double time) {
+  throw NumericsError(fmt::format("{} (component {}) is {} in cell ({}, {}, {}) at t = {} s: not written",
+                                  name, component, value, cell[0], cell[1], cell[2], time));
+}
+
+/// The owned cells of padded components, component fastest; `components` of them, those missing are zero.
+std::vector<double> packed(const Grid& grid, const FieldName& field, const FieldValues& values,
+                           int components, double time) {
+  std::vector<double> out;
+  out.reserve(grid.cell_count() * std::size_t(components));
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        for (int a = 0; a < components; ++a) {
+          const bool given = std::size_t(a) < values.size();
+          const double value = given ? values[std::size_t(a)][std::size_t(grid.index(i, j, k))] : 0;
+          if (!std::isfinite(value)) refuse(field.name, a, {i, j, k}, value, time);
+          out.push_back(value);
+        }
+  return out;
+}
+
+void check_sizes(const Grid& grid, const FieldName& field, const FieldValues& values) {
+  const std::size_t components = field.vector ? std::size_t(grid.dimensions) : 1;
+  const bool fits = values.size() == components && std::all_of(values.begin(), values.end(), [&](auto v) {
+                      return v.size() == grid.padded_size();
+                    });
+  if (!fits) throw std::invalid_argument("the values of " + field.name + " do not fit the grid");
+}
+
+OutputFile step_content(const Grid& grid, std::span<const FieldName> names,
+                        std::span<const FieldValues> values, double time) {
+  OutputFile file(step_kind);
+  file.make_group("step");
+  file.set_attribute("step", "time_s", time);
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    const FieldName& field = names[n];
+    check_sizes(grid, field, values[n]);
+    std::vector<std::size_t> shape = cell_shape(grid);
+    const int components = field.vector ? grid.dimensions : 1;
+    if (field.vector) shape.push_back(std::size_t(components));
+    file.write("step/" + field.name, shape, packed(grid, field, values[n], components, time), Packing::small);
+    if (!field.vector || grid.dimensions == 3) continue;
+    shape.back() = 3;
+    file.write("paraview/" + field.name, shape, packed(grid, field, values[n], 3, time),
+               Packing::small_single);
+  }
+  return file;
+}
+
+void remove_quietly(const fs::path& path) {
+  std::error_code ignored;  // a file that stays is linked by nothing
+  fs::remove(path, ignored);
+}
+
+}  // namespace
+
+FaceField cell_means(const Grid& grid, const FaceField& faces) {
+  FaceField means = make_face_field(grid);
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const int count = grid.cells[std::size_t(axis)];
+    for (int k = 0; k < grid.cells[2]; ++k)
+      for (int j = 0; j < grid.cells[1]; ++j)
+        for (int i = 0; i < grid.cells[0]; ++i) {
+          std::array<int, 3> high{i, j, k};
+          int& along = high[std::size_t(axis)];
+          along = grid.periodic[std::size_t(axis)] && along + 1 == count ? 0 : along + 1;
+          const auto& f = faces[std::size_t(axis)];
+          const auto here = std::size_t(grid.index(i, j, k));
+          means[std::size_t(axis)][here] =
+              0.5 * (f[here] + f[std::size_t(grid.index(high[0], high[1], high[2]))]);
+        }
+  }
+  return means;
+}
+
+FieldWriter::FieldWriter(fs::path run_directory, const Grid& grid, std::vector<FieldName> names,
+                         std::optional<double> resume_time)
+    : directory_(std::move(run_directory)), grid_(grid), names_(std::move(names)) {
+  make_directories(directory_ / "fields");
+  if (resume_time && fs::exists(directory_ / "fields.h5"))
+    go_on(*resume_time);
+  else
+    begin();
+}
+
+void FieldWriter::begin() {
+  index_.emplace(index_kind);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double> faces = face_positions(grid_, axis);
+    index_->write(std::string("grid/") + axis_names[std::size_t(axis)], {faces.size()}, faces);
+  }
+  index_->make_group("step");
+  index_->make_rows("time_s", 0);
+  remove_quietly(directory_ / "fields.xdmf");
+  index_->save(directory_ / "fields.h5");
+  for (std::size_t step = 0; fs::exists(step_file(directory_, step)); ++step)
+    remove_quietly(step_file(directory_, step));
+}
+
+void FieldWriter::go_on(double resume_time) {
+  index_.emplace(directory_ / "fields.h5", index_kind);
+  for (int axis = 0; axis < 3; ++axis)
+    if (index_->read(std::string("grid/") + axis_names[std::size_t(axis)]).values !=
+        face_positions(grid_, axis))
+      throw FileError((directory_ / "fields.h5").string() + " has another grid: it cannot be continued");
+  times_ = index_->read("time_s").values;
+  const std::size_t all = times_.size();
+  while (!times_.empty() && times_.back() > resume_time) times_.pop_back();
+  for (std::size_t step = times_.size(); step < all; ++step) index_->remove("step/" + step_name(step));
+  index_->keep_rows("time_s", times_.size());
+  write_description();
+  for (std::size_t step = times_.size(); step < all; ++step) remove_quietly(step_file(directory_, step));
+}
+
+void FieldWriter::write_step(double time_s, std::span<const FieldValues> values) {
+  if (values.size() != names_.size())
+    throw std::invalid_argument(fmt::format("{} fields for {} names", values.size(), names_.size()));
+  const std::size_t step = times_.size();
+  step_content(grid_, names_, values, time_s).save(step_file(directory_, step));
+  index_->link("step/" + step_name(step), "fields/" + step_name(step) + ".h5", "/step");
+  index_->append_row("time_s", std::span(&time_s, 1));
+  times_.push_back(time_s);
+  write_description();
+}
+
+void FieldWriter::write_description() const {
+  index_->save(directory_ / "fields.h5");
+  write_atomically(directory_ / "fields.xdmf", fields_xdmf(grid_, names_, times_));
+}
+
+FieldReader::FieldReader(fs::path run_directory)
+    : directory_(std::move(run_directory)),
+      index_(directory_ / "fields.h5", index_kind),
+      times_(index_.read("time_s").values) {}
+
+std::vector<double> FieldReader::faces(int axis) const {
+  return index_.read(std::string("grid/") + axis_names.at(std::size_t(axis))).values;
+}
+
+OutputFile FieldReader::open(std::size_t step) const {
+  if (step >= times_.size())
+    throw FileError(fmt::format("{} has {} steps, none numbered {}", (directory_ / "fields.h5").string(),
+                                times_.size(), step));
+  return OutputFile(step_file(directory_, step), step_kind);
+}
+
+std::vector<std::string> FieldReader::names(std::size_t step) const { return open(step).names("step"); }
+
+DataSet FieldReader::field(std::size_t step, const std::string& name) const {
+  return open(step).read("step/" + name);
+}
+
+}  // namespace polybed::core

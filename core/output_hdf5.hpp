@@ -1,0 +1,151 @@
+// What wraps HDF5's C interface: identifiers that release themselves, one check of every return value, and
+// the property lists in use. Only core/output_file.cpp includes it.
+#pragma once
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace polybed::core::hdf5 {
+
+/// Keeps HDF5 from printing its errors: they go into the exception.
+class Quiet {
+ public:
+  Quiet() {
+    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+inline herr_t keep_reason(unsigned depth, const H5E_error2_t* error, void* text) {
+  if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
+  return 0;
+}
+
+/// The one check of what HDF5 returns: negative is a failure, and its innermost reason goes into the message.
+template <class Call>
+auto checked(const std::string& what, Call&& call) {
+  const Quiet quiet;
+  const auto result = call();
+  if (result < 0) {
+    std::string reason = "no reason given";
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_reason, &reason);
+    throw FileError(fmt::format("HDF5 failed on {}: {}", what, reason));
+  }
+  return result;
+}
+
+/// Any HDF5 identifier, released at the end of the scope.
+class Handle {
+ public:
+  template <class Call>
+  Handle(const std::string& what, Call&& call) : id_(checked(what, call)) {}
+  ~Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+};
+
+/// Text of any length, which h5py shows as str.
+inline Handle text_type() {
+  return Handle("a text type", [] {
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    return H5Tset_size(type, H5T_VARIABLE) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0 ? hid_t(-1) : type;
+  });
+}
+
+inline Handle simple_space(const std::vector<std::size_t>& shape) {
+  const std::vector<hsize_t> dims(shape.begin(), shape.end());
+  return Handle("a shape", [&] {
+    return dims.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(int(dims.size()), dims.data(), nullptr);
+  });
+}
+
+/// Groups on the way to a new object are made with it.
+inline Handle making_groups() {
+  return Handle("a property list", [] {
+    const hid_t list = H5Pcreate(H5P_LINK_CREATE);
+    return H5Pset_create_intermediate_group(list, 1) < 0 ? hid_t(-1) : list;
+  });
+}
+
+/// Equal data make equal bytes: no time stamps.
+inline Handle dataset_properties() {
+  return Handle("a property list", [] {
+    const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+    return H5Pset_obj_track_times(list, false) < 0 ? hid_t(-1) : list;
+  });
+}
+
+inline void set_packing(hid_t properties, const std::vector<std::size_t>& shape) {
+  const std::vector<hsize_t> chunk(shape.begin(), shape.end());
+  checked("the chunks", [&] { return H5Pset_chunk(properties, int(chunk.size()), chunk.data()); });
+  checked("shuffle", [&] { return H5Pset_shuffle(properties); });
+  checked("deflate", [&] { return H5Pset_deflate(properties, 4); });
+}
+
+/// Chunks of at most this many numbers (8 MB): HDF5 wants less than 4 GB, caches 1 MB.
+inline constexpr std::size_t chunk_numbers = 1 << 20;
+
+inline std::vector<std::size_t> chunk_shape(std::vector<std::size_t> shape) {
+  for (std::size_t axis = 0; axis < shape.size(); ++axis) {
+    std::size_t rest = 1;
+    for (std::size_t later = axis + 1; later < shape.size(); ++later) rest *= shape[later];
+    shape[axis] = std::clamp<std::size_t>(chunk_numbers / rest, 1, shape[axis]);
+  }
+  return shape;
+}
+
+inline std::vector<std::size_t> shape_of(hid_t dataset, const std::string& name) {
+  const Handle space(name, [&] { return H5Dget_space(dataset); });
+  const int rank = checked(name, [&] { return H5Sget_simple_extent_ndims(space); });
+  std::vector<hsize_t> dims(std::size_t(rank), 0);
+  checked(name, [&] { return H5Sget_simple_extent_dims(space, dims.data(), nullptr); });
+  return {dims.begin(), dims.end()};
+}
+
+inline std::size_t product(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t(1), std::multiplies<>());
+}
+
+/// Takes a text out of a buffer that HDF5 has allocated.
+inline std::string taken(char* buffer) {
+  std::string text = buffer != nullptr ? buffer : "";
+  H5free_memory(buffer);
+  return text;
+}
+
+inline herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+/// Whether every link on the way exists; asking HDF5 for a path with a missing part is an error.
+inline bool exists(hid_t file, const std::string& name) {
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    const std::string part = name.substr(0, end);
+    if (checked(name, [&] { return H5Lexists(file, part.c_str(), H5P_DEFAULT); }) == 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+}  // namespace polybed::core::hdf5
