@@ -110,6 +110,23 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
       law);
 }
 
+double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
+                    std::span<const double> diameter, std::span<const double> f) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (std::remove_cvref_t<decltype(l)>::mean_is_base) {
+          return l.base(voidage, reynolds).f;
+        } else {
+          const double mean = sauter_diameter(share, diameter);
+          double sum = 0;
+          for (std::size_t j = 0; j < f.size(); ++j)
+            sum += share[j] * f[j] * (mean / diameter[j]) * (mean / diameter[j]);
+          return sum;
+        }
+      },
+      law);
+}
+
 void DragWorkspace::resize(std::size_t cells, std::size_t species) {
   for (auto* v : {&voidage, &reynolds, &offset, &factor, &f, &re_dfdre}) v->resize(cells * species);
   share.resize(species);

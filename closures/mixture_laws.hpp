@@ -24,6 +24,7 @@ using Diameters = std::span<const double>;
 struct MixtureCello {
   static constexpr std::string_view name = "cello", help = DragCello::help;
   static constexpr bool obeys_sum_rule = true;
+  static constexpr bool mean_is_base = true;
   using Base = DragCello;
   Base base;
   void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
@@ -41,6 +42,7 @@ struct MixtureCello {
 struct MixtureVbkTheory {
   static constexpr std::string_view name = "vbk_theory", help = "vbk with Omega_j = y_j; T(3.53)";
   static constexpr bool obeys_sum_rule = true;
+  static constexpr bool mean_is_base = true;
   using Base = DragVbk;
   Base base;
   void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
@@ -54,6 +56,7 @@ struct MixtureVbkCorrected {
   static constexpr std::string_view name = "vbk_corrected",
                                     help = "vbk with Omega_j = y_j + 0.064 y_j^3; T(3.54)";
   static constexpr bool obeys_sum_rule = false;
+  static constexpr bool mean_is_base = true;
   using Base = DragVbk;
   Base base;
   void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
@@ -72,6 +75,7 @@ struct MixtureYinSundaresan {
       name = "yin_sundaresan",
       help = "Yin and Sundaresan 2009 on cello; T(3.55)-(3.56), Re -> 0, voidage 0.60-0.90";
   static constexpr bool obeys_sum_rule = false;
+  static constexpr bool mean_is_base = true;
   using Base = DragCello;
   Base base;
   void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
@@ -90,6 +94,7 @@ struct MixturePatwardhanTien {
       name = "patwardhan_tien",
       help = "a voidage for each species, Patwardhan and Tien 1985; T(3.34)-(3.36)";
   static constexpr bool obeys_sum_rule = false;
+  static constexpr bool mean_is_base = false;
   using Base = DragCello;
   Base base;
   /// eps_j of one species; 1 at eps >= 1. mean_diameter: sum x_k D_k, m.
@@ -111,6 +116,7 @@ struct MixtureSyamlal {
   static constexpr std::string_view name = "syamlal",
                                     help = "x_j times gidaspow, Syamlal 1985; T(3.37), for comparison";
   static constexpr bool obeys_sum_rule = false;
+  static constexpr bool mean_is_base = true;
   using Base = DragGidaspow;
   Base base;
   void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
@@ -124,6 +130,7 @@ template <class Law>
 struct EachSpecies {
   static constexpr std::string_view name = Law::name, help = Law::help;
   static constexpr bool obeys_sum_rule = false;
+  static constexpr bool mean_is_base = false;
   using Base = Law;
   Base base;
   void terms(double eps, Shares, Diameters diameter, std::span<MixtureTerms> out) const {

@@ -18,14 +18,14 @@ struct Unit {
 };
 
 constexpr std::array units{
-    Unit{"m", 1, {1, 0, 0, 0}},         Unit{"cm", 1e-2, {1, 0, 0, 0}},     Unit{"mm", 1e-3, {1, 0, 0, 0}},
-    Unit{"um", 1e-6, {1, 0, 0, 0}},     Unit{"nm", 1e-9, {1, 0, 0, 0}},     Unit{"kg", 1, {0, 1, 0, 0}},
-    Unit{"g", 1e-3, {0, 1, 0, 0}},      Unit{"mg", 1e-6, {0, 1, 0, 0}},     Unit{"s", 1, {0, 0, 1, 0}},
-    Unit{"ms", 1e-3, {0, 0, 1, 0}},     Unit{"us", 1e-6, {0, 0, 1, 0}},     Unit{"min", 60, {0, 0, 1, 0}},
-    Unit{"h", 3600, {0, 0, 1, 0}},      Unit{"K", 1, {0, 0, 0, 1}},         Unit{"Pa", 1, {-1, 1, -2, 0}},
-    Unit{"kPa", 1e3, {-1, 1, -2, 0}},   Unit{"MPa", 1e6, {-1, 1, -2, 0}},   Unit{"GPa", 1e9, {-1, 1, -2, 0}},
-    Unit{"mPa", 1e-3, {-1, 1, -2, 0}},  Unit{"bar", 1e5, {-1, 1, -2, 0}},   Unit{"N", 1, {1, 1, -2, 0}},
-    Unit{"J", 1, {2, 1, -2, 0}},        Unit{"l", 1e-3, {3, 0, 0, 0}},      Unit{"%", 1e-2, {0, 0, 0, 0}},
+    Unit{"m", 1, {1, 0, 0, 0}},        Unit{"cm", 1e-2, {1, 0, 0, 0}},   Unit{"mm", 1e-3, {1, 0, 0, 0}},
+    Unit{"um", 1e-6, {1, 0, 0, 0}},    Unit{"nm", 1e-9, {1, 0, 0, 0}},   Unit{"kg", 1, {0, 1, 0, 0}},
+    Unit{"g", 1e-3, {0, 1, 0, 0}},     Unit{"mg", 1e-6, {0, 1, 0, 0}},   Unit{"s", 1, {0, 0, 1, 0}},
+    Unit{"ms", 1e-3, {0, 0, 1, 0}},    Unit{"us", 1e-6, {0, 0, 1, 0}},   Unit{"min", 60, {0, 0, 1, 0}},
+    Unit{"h", 3600, {0, 0, 1, 0}},     Unit{"K", 1, {0, 0, 0, 1}},       Unit{"Pa", 1, {-1, 1, -2, 0}},
+    Unit{"kPa", 1e3, {-1, 1, -2, 0}},  Unit{"MPa", 1e6, {-1, 1, -2, 0}}, Unit{"GPa", 1e9, {-1, 1, -2, 0}},
+    Unit{"mPa", 1e-3, {-1, 1, -2, 0}}, Unit{"bar", 1e5, {-1, 1, -2, 0}}, Unit{"N", 1, {1, 1, -2, 0}},
+    Unit{"J", 1, {2, 1, -2, 0}},       Unit{"l", 1e-3, {3, 0, 0, 0}},    Unit{"%", 1e-2, {0, 0, 0, 0}},
 };
 
 const Unit* find_unit(std::string_view name) {
@@ -37,7 +37,8 @@ const Unit* find_unit(std::string_view name) {
 /// Multiplies one "m3" or "s-1" into the quantity; false if it is no unit.
 bool apply_unit(std::string_view token, int sign, Quantity& q) {
   std::size_t letters = 0;
-  while (letters < token.size() && (std::isalpha(static_cast<unsigned char>(token[letters])) || token[letters] == '%'))
+  while (letters < token.size() &&
+         (std::isalpha(static_cast<unsigned char>(token[letters])) || token[letters] == '%'))
     ++letters;
   const Unit* unit = find_unit(token.substr(0, letters));
   if (unit == nullptr) return false;
@@ -49,7 +50,13 @@ bool apply_unit(std::string_view token, int sign, Quantity& q) {
     if (error != std::errc() || end != rest.data() + rest.size() || std::abs(power) > 9) return false;
   }
   power *= sign;
-  q.value *= std::pow(unit->factor, power);
+  // A power of ten below one divides: 0.807 mm is then the double nearest to 0.000807.
+  const double inverse = std::round(1 / unit->factor);
+  for (int n = 0; n < std::abs(power); ++n) {
+    const bool divide = (power > 0) == (unit->factor < 1);
+    q.value = divide ? q.value / (unit->factor < 1 ? inverse : unit->factor)
+                     : q.value * (unit->factor < 1 ? inverse : unit->factor);
+  }
   q.dimension.length += power * unit->dimension.length;
   q.dimension.mass += power * unit->dimension.mass;
   q.dimension.time += power * unit->dimension.time;
@@ -97,9 +104,10 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
 }
 
 std::string unit_name(const Dimension& d) {
-  constexpr std::array<std::pair<Dimension, std::string_view>, 4> named{
-      {{dimension::pressure, "Pa"}, {dimension::viscosity, "Pa s"}, {dimension::none, "1"},
-       {dimension::density, "kg/m3"}}};
+  constexpr std::array<std::pair<Dimension, std::string_view>, 4> named{{{dimension::pressure, "Pa"},
+                                                                         {dimension::viscosity, "Pa s"},
+                                                                         {dimension::none, "1"},
+                                                                         {dimension::density, "kg/m3"}}};
   for (const auto& [dim, name] : named)
     if (dim == d) return std::string(name);
   std::string above, below;

@@ -65,6 +65,7 @@ InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids
     }
   });
   now.fraction_below = -least;
+  now.most_solids = most;
   now.packing_above = std::max(0.0, most - max_packing);
   now.divergence = divergence_error(grid, fluid.flux, velocity_scale);
   now.force_balance = force_balance;

@@ -14,6 +14,7 @@ namespace polybed::fluid {
 struct InvariantValues {
   double mass_error = 0;      ///< largest relative change of a species' mass since the start
   double fraction_below = 0;  ///< how far the least phi_j lies below 0
+  double most_solids = 0;     ///< greatest phi
   double packing_above = 0;   ///< how far the greatest phi lies above the maximum packing
   double divergence = 0;      ///< max |div J| h / U
   double force_balance = 0;   ///< pressure drop over buoyant weight per area, less 1

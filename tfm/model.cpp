@@ -142,6 +142,7 @@ void Model::make_integrator() {
     core::ExplicitOptions options;
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
+    options.fixed_step = options_.fixed_step.value_or(0);
     integrator_ = core::make_explicit(*explicit_, std::move(options));
   }
 }
@@ -242,6 +243,15 @@ core::Checkpoint Model::checkpoint() const {
   c.integers["newton_iterations"] = std::int64_t(done.newton_iterations);
   c.integers["krylov_iterations"] = std::int64_t(done.krylov_iterations);
   return c;
+}
+
+void Model::keep_last_state() { y_.assign(integrator_->state().begin(), integrator_->state().end()); }
+
+void Model::start_from(const core::Checkpoint& checkpoint) {
+  resume(checkpoint);
+  time_ = step_ = 0;
+  before_ = {};
+  begin_integration();
 }
 
 void Model::resume(const core::Checkpoint& checkpoint) {

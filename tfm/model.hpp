@@ -41,6 +41,10 @@ class Model : public core::Simulation {
 
   /// The whole state, to the bit; valid right after restart().
   [[nodiscard]] core::Checkpoint checkpoint() const;
+  /// Keeps the state last accepted as the one that checkpoint() returns, after a step has failed.
+  void keep_last_state();
+  /// Begins at time 0 from the state of a checkpoint of the same species and grid.
+  void start_from(const core::Checkpoint& checkpoint);
   /// Takes a run up again; throws core::FileError if the checkpoint is of another scene.
   void resume(const core::Checkpoint& checkpoint);
 

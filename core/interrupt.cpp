@@ -1,0 +1,31 @@
+#include "core/interrupt.hpp"
+
+#include <csignal>
+
+namespace polybed::core {
+
+namespace {
+
+volatile std::sig_atomic_t asked = 0;
+
+void note(int signal) {
+  asked = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  asked = 0;
+  std::signal(SIGINT, note);
+  std::signal(SIGTERM, note);
+}
+
+Interrupt::~Interrupt() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+bool Interrupt::wanted() const { return asked != 0; }
+
+}  // namespace polybed::core

@@ -1,0 +1,17 @@
+// The user's wish to stop: Ctrl-C or a termination request, noted and asked for between steps.
+#pragma once
+
+namespace polybed::core {
+
+/// Notes SIGINT and SIGTERM while it lives; a second signal ends the program at once. One at a time: a signal
+/// handler has no other place for its note than a global.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+  [[nodiscard]] bool wanted() const;
+};
+
+}  // namespace polybed::core

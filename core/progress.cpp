@@ -1,0 +1,68 @@
+#include "core/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace polybed::core {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double terminal_interval = 0.25;  ///< s
+constexpr int lines_in_pipe = 20, bar_width = 24;
+
+double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const auto s = long(seconds + 0.5);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
+  return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+}
+
+Progress::Progress(bool quiet, double from, double until)
+    : quiet_(quiet),
+      terminal_(isatty(2) == 1),
+      from_(from),
+      until_(until),
+      next_(from),
+      begin_(Clock::now()),
+      last_(begin_) {}
+
+Progress::~Progress() {
+  if (!quiet_ && terminal_) fmt::print(stderr, "\n");
+}
+
+bool Progress::due(double time) const {
+  if (quiet_) return false;
+  return terminal_ ? since(last_) > terminal_interval || time >= until_ : time >= next_ || time >= until_;
+}
+
+void Progress::show(const ProgressLine& line) {
+  last_ = Clock::now();
+  while (next_ <= line.time) next_ += (until_ - from_) / lines_in_pipe;
+  const double done = line.time - from_, share = std::clamp(done / (until_ - from_), 0.0, 1.0);
+  const double rate = done > 0 ? since(begin_) / done : 0;
+  constexpr double enough_to_tell = 1e-3;  // share of the run below which its speed says nothing yet
+  const std::string speed = share < enough_to_tell ? ""
+                                                   : fmt::format("  {:.2f} s/s  left {}", rate,
+                                                                 duration_text(rate * (until_ - line.time)));
+  const std::string text =
+      fmt::format("t {:.3f}/{:g} s  dt {:.2g} s ({})  bed {:.1f} mm  {}{}", line.time, line.until, line.step,
+                  line.limited_by, 1e3 * line.bed_height, line.worst_invariant, speed);
+  if (!terminal_) {
+    fmt::print(stderr, "{}\n", text);
+    return;
+  }
+  const int full = int(share * bar_width);
+  fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(std::size_t(full), '#'),
+             std::string(std::size_t(bar_width - full), '.'), text);
+  std::fflush(stderr);
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,40 @@
+// Progress on the screen: a bar with one line of state on a terminal, plain lines in a pipe, nothing when
+// quiet.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace polybed::core {
+
+/// What one line says.
+struct ProgressLine {
+  double time = 0, until = 0, step = 0;  ///< s
+  std::string limited_by;
+  double bed_height = 0;  ///< m
+  std::string worst_invariant;
+};
+
+class Progress {
+ public:
+  /// from: time at which the run begins, s. Writes to standard error, which keeps standard output for
+  /// answers.
+  Progress(bool quiet, double from, double until);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Whether a line is due: four times a second on a terminal, at every twentieth of the run in a pipe.
+  [[nodiscard]] bool due(double time) const;
+  void show(const ProgressLine& line);
+
+ private:
+  bool quiet_, terminal_;
+  double from_, until_, next_;
+  std::chrono::steady_clock::time_point begin_, last_;
+};
+
+/// A length of time for people: "42 s", "3 min 20 s", "2 h 5 min".
+[[nodiscard]] std::string duration_text(double seconds);
+
+}  // namespace polybed::core

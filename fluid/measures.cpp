@@ -1,0 +1,160 @@
+#include "fluid/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace polybed::fluid {
+
+namespace {
+
+constexpr std::size_t slice_count = 50;
+
+double volume_of(const Profile& profile, std::size_t k) {
+  return std::max(profile.solids_fraction(k), 0.0) * profile.slab;
+}
+
+double total_volume(const Profile& profile) {
+  double sum = 0;
+  for (std::size_t k = 0; k < profile.slabs(); ++k) sum += volume_of(profile, k);
+  return sum;
+}
+
+/// Slices of equal solids volume from the bottom up: the shares of the species in each, and its top.
+struct Slices {
+  std::vector<std::vector<double>> share;  ///< [slice][species]
+  std::vector<double> top;                 ///< m
+};
+
+/// Volume of a species per area below a height, m.
+double volume_below(const Profile& profile, std::size_t species, double z) {
+  double sum = 0;
+  for (std::size_t k = 0; k < profile.slabs(); ++k) {
+    const double part = std::clamp(z / profile.slab - double(k), 0.0, 1.0);
+    sum += part * std::max(profile.fraction[species][k], 0.0) * profile.slab;
+  }
+  return sum;
+}
+
+std::optional<Slices> slices_of(const Profile& profile) {
+  Slices slices;
+  const std::size_t species = profile.fraction.size();
+  std::vector<double> last(species, 0.0);
+  for (std::size_t n = 1; n <= slice_count; ++n) {
+    const auto top = volume_quantile(profile, double(n) / slice_count);
+    if (!top) return std::nullopt;
+    std::vector<double> share(species);
+    double sum = 0;
+    for (std::size_t j = 0; j < species; ++j) {
+      const double below = volume_below(profile, j, *top);
+      share[j] = below - last[j];
+      last[j] = below;
+      sum += share[j];
+    }
+    if (!(sum > 0)) return std::nullopt;
+    for (double& x : share) x /= sum;
+    slices.share.push_back(share);
+    slices.top.push_back(*top);
+  }
+  return slices;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
+  return most;
+}
+
+}  // namespace
+
+std::optional<double> volume_quantile(const Profile& profile, double q) {
+  const double total = total_volume(profile);
+  if (!(total > 0)) return std::nullopt;
+  double below = 0;
+  for (std::size_t k = 0; k < profile.slabs(); ++k) {
+    const double here = volume_of(profile, k);
+    if (here > 0 && below + here >= q * total * (1 - 1e-14))
+      return profile.slab * (double(k) + std::clamp((q * total - below) / here, 0.0, 1.0));
+    below += here;
+  }
+  return profile.slab * double(profile.slabs());
+}
+
+std::optional<double> bed_height(const Profile& profile) {
+  const auto low = volume_quantile(profile, 0.80), high = volume_quantile(profile, 0.95);
+  if (!low || !high) return std::nullopt;
+  double weighted = 0, volume = 0;
+  for (std::size_t k = 0; k < profile.slabs(); ++k) {
+    const double bottom = double(k) * profile.slab, top = bottom + profile.slab;
+    const double part = std::max(0.0, std::min(top, *high) - std::max(bottom, *low));
+    const double phi = std::max(profile.solids_fraction(k), 0.0);
+    weighted += part * phi * phi;
+    volume += part * phi;
+  }
+  if (!(volume > 0)) return std::nullopt;
+  const double half = 0.5 * weighted / volume;
+  for (std::size_t k = profile.slabs(); k-- > 0;) {
+    const double here = profile.solids_fraction(k);
+    if (here < half) continue;
+    if (k + 1 == profile.slabs()) return profile.slab * double(profile.slabs());
+    const double above = profile.solids_fraction(k + 1);
+    return profile.centre(k) + profile.slab * (here - half) / (here - above);
+  }
+  return std::nullopt;
+}
+
+std::optional<double> centre(const Profile& profile, std::size_t species) {
+  double moment = 0, volume = 0;
+  for (std::size_t k = 0; k < profile.slabs(); ++k) {
+    moment += profile.centre(k) * profile.fraction[species][k];
+    volume += profile.fraction[species][k];
+  }
+  return volume > 0 ? std::optional(moment / volume) : std::nullopt;
+}
+
+std::optional<double> interface_height(const Profile& profile, double tolerance) {
+  if (profile.fraction.size() < 2) return std::nullopt;
+  const auto slices = slices_of(profile);
+  if (!slices) return std::nullopt;
+  std::size_t first = 0;
+  while (first + 1 < slice_count &&
+         largest_difference(slices->share[first + 1], slices->share[first]) > tolerance)
+    ++first;
+  if (first + 1 == slice_count) return std::nullopt;
+  std::vector<double> sum(profile.fraction.size(), 0.0), mean(sum);
+  std::optional<double> top;
+  for (std::size_t n = first; n < slice_count; ++n) {
+    for (std::size_t j = 0; j < sum.size(); ++j) {
+      sum[j] += slices->share[n][j];
+      mean[j] = sum[j] / double(n - first + 1);
+    }
+    if (largest_difference(slices->share[n], mean) < tolerance) top = slices->top[n];
+  }
+  return top;
+}
+
+std::optional<double> mixing(const Profile& profile) {
+  const std::size_t species = profile.fraction.size();
+  const auto slices = slices_of(profile);
+  if (species < 2 || !slices) return std::nullopt;
+  double sum = 0;
+  std::size_t counted = 0;
+  for (std::size_t j = 0; j < species; ++j) {
+    double mean = 0, spread = 0;
+    for (const auto& share : slices->share) mean += share[j] / slice_count;
+    for (const auto& share : slices->share) spread += (share[j] - mean) * (share[j] - mean) / slice_count;
+    if (!(mean > 0 && mean < 1)) continue;
+    sum += 1 - spread / (mean * (1 - mean));
+    ++counted;
+  }
+  return counted > 0 ? std::optional(sum / double(counted)) : std::nullopt;
+}
+
+double pressure_drop(const Profile& profile) {
+  const auto& p = profile.pressure;
+  if (p.empty()) return 0;
+  if (p.size() == 1) return 2 * p[0];
+  const std::size_t n = p.size();
+  return (1.5 * p[0] - 0.5 * p[1]) - (1.5 * p[n - 1] - 0.5 * p[n - 2]);
+}
+
+}  // namespace polybed::fluid

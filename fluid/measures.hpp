@@ -1,0 +1,35 @@
+// Quantities of interest of a bed, from its vertical profile: one definition for both models and for the
+// comparison.
+#pragma once
+
+#include <optional>
+
+#include "fluid/profile.hpp"
+
+namespace polybed::fluid {
+
+/// z_q: height, m, below which the share q of the solids volume lies; linear within a slab. Empty for an
+/// empty bed.
+[[nodiscard]] std::optional<double> volume_quantile(const Profile& profile, double q);
+
+/// Highest z, m, where phi, linear between slab centres, equals half of phi_top, the volume-weighted mean of
+/// phi between z_0.80 and z_0.95 (so a dense lower layer does not decide). Empty for an empty bed.
+[[nodiscard]] std::optional<double> bed_height(const Profile& profile);
+
+/// Height, m, of the centre of volume of a species; empty if there is none of it.
+[[nodiscard]] std::optional<double> centre(const Profile& profile, std::size_t species);
+
+/// Top, m, of the lower layer of the thesis: the profile is cut from below into 50 slices of equal solids
+/// volume; slices are dropped from below while the next one differs from them by more than `tolerance` in the
+/// share of any species; the interface is the top of the last slice whose shares are within `tolerance` of
+/// those accumulated from the first kept slice. Empty for one species or where nothing is alike.
+[[nodiscard]] std::optional<double> interface_height(const Profile& profile, double tolerance = 0.05);
+
+/// 1 - mean over the 50 slices of (x - x_mean)^2 / (x_mean (1 - x_mean)), mean over species: 1 mixed, 0
+/// separated.
+[[nodiscard]] std::optional<double> mixing(const Profile& profile);
+
+/// Net pressure at the bottom less that at the top, Pa: linear continuation of the outermost two slabs.
+[[nodiscard]] double pressure_drop(const Profile& profile);
+
+}  // namespace polybed::fluid

@@ -1,0 +1,18 @@
+#include "fluid/profile.hpp"
+
+namespace polybed::fluid {
+
+std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field) {
+  std::vector<double> mean;
+  for (int y = 0; y < grid.cells[1]; ++y) {
+    const core::Box layer{{0, y, 0}, {grid.cells[0], y + 1, grid.cells[2]}};
+    double sum = 0;
+    core::for_each_row(grid, layer, [&](core::Index begin, core::Index end) {
+      for (core::Index c = begin; c < end; ++c) sum += field[std::size_t(c)];
+    });
+    mean.push_back(sum / (double(grid.cells[0]) * grid.cells[2]));
+  }
+  return mean;
+}
+
+}  // namespace polybed::fluid

@@ -1,0 +1,30 @@
+// Lateral averages of a bed on its vertical axis: what both models measure from.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/field.hpp"
+
+namespace polybed::fluid {
+
+/// Slabs of one thickness from the bottom up.
+struct Profile {
+  double slab = 0;                            ///< thickness, m
+  std::vector<std::vector<double>> fraction;  ///< phi_j, [species][slab]
+  std::vector<double> pressure;               ///< net p, Pa; may be empty
+
+  [[nodiscard]] std::size_t slabs() const { return fraction.empty() ? 0 : fraction.front().size(); }
+  [[nodiscard]] double centre(std::size_t k) const { return (double(k) + 0.5) * slab; }
+  /// phi = sum phi_j of a slab, negative fractions taken as they are.
+  [[nodiscard]] double solids_fraction(std::size_t k) const {
+    double sum = 0;
+    for (const auto& phi : fraction) sum += phi[k];
+    return sum;
+  }
+};
+
+/// Mean over each horizontal layer of owned cells of a padded cell field; [layer from the bottom].
+[[nodiscard]] std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field);
+
+}  // namespace polybed::fluid

@@ -1,0 +1,112 @@
+// polybed inversion: the inversion point of a binary case, with the bands of its inputs.
+#include "multiscale/inversion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/case_file.hpp"
+#include "core/json.hpp"
+#include "fluid/properties.hpp"
+#include "multiscale/commands/options.hpp"
+#include "multiscale/roles.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+BinaryBed binary_bed(const core::Scene& scene) {
+  if (scene.species.size() != 2)
+    throw core::CaseError(fmt::format("inversion needs two species, the case has {}", scene.species.size()));
+  BinaryBed bed;
+  for (std::size_t j = 0; j < 2; ++j) {
+    bed.diameter[j] = scene.species[j].diameter;
+    bed.density[j] = scene.species[j].density;
+    bed.share[j] = scene.bed.volume_share[j];
+  }
+  bed.fluid = fluid::fluid_constants(scene.fluid);
+  bed.gravity = scene.column.gravity;
+  return bed;
+}
+
+/// How far one uncertain input moves the answer.
+struct Band {
+  std::string input;
+  double low, high;  ///< m/s
+};
+
+/// The least and greatest velocity over two variations; empty where a variation has no root.
+std::vector<Band> bands(const core::Scene& scene, const closures::DragLaw& law, const std::string& method,
+                        double voidage) {
+  std::vector<Band> result;
+  const auto vary = [&](const std::string& input, auto&& change) {
+    double low = 1e300, high = -1e300;
+    for (const int sign : {-1, 1}) {
+      core::Scene varied = scene;
+      try {
+        change(varied, sign);
+        const auto points = inversion_points(binary_bed(varied), law, method);
+        if (points.empty()) return;
+        const auto near = *std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
+          return std::abs(a.voidage - voidage) < std::abs(b.voidage - voidage);
+        });
+        low = std::min(low, near.velocity);
+        high = std::max(high, near.velocity);
+      } catch (const core::CaseError&) {
+        return;  // the fluid is not known at that temperature
+      }
+    }
+    result.push_back({input, low, high});
+  };
+  if (scene.fluid.temperature && !(scene.fluid.density && scene.fluid.viscosity))
+    vary("temperature +-1 K", [](core::Scene& s, int sign) { *s.fluid.temperature += sign; });
+  for (std::size_t j = 0; j < 2; ++j)
+    vary("density of " + scene.species[j].name + " +-1 %",
+         [&](core::Scene& s, int sign) { s.species[j].density *= 1 + 0.01 * sign; });
+  return result;
+}
+
+void print_json(const std::string& law, const std::string& method, const std::vector<InversionPoint>& points,
+                const std::vector<Band>& band) {
+  core::Json json;
+  json.begin_object().member("law", law);
+  points.empty() ? json.key("velocity_m_s").null() : json.member("velocity_m_s", points.back().velocity);
+  points.empty() ? json.key("voidage").null() : json.member("voidage", points.back().voidage);
+  json.key("roots").begin_array();
+  for (const InversionPoint& p : points)
+    json.begin_object().member("velocity_m_s", p.velocity).member("voidage", p.voidage).end_object();
+  json.end_array().member("method", method).key("bands").begin_array();
+  for (const Band& b : band)
+    json.begin_object()
+        .member("input", b.input)
+        .member("low_m_s", b.low)
+        .member("high_m_s", b.high)
+        .end_object();
+  json.end_array().end_object();
+  fmt::print("{}\n", json.text());
+}
+
+}  // namespace
+
+void run_inversion(const InversionOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.temperature.empty()) overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
+  if (!options.law.empty()) overrides.push_back("effects.drag=\"" + options.law + "\"");
+  const core::Scene scene = core::read_case(options.case_path, overrides, all_roles());
+  const auto named = scene.effects.find("drag");
+  if (named == scene.effects.end())
+    throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
+  const closures::DragLaw law = closures::drag_law(named->second, closures::Guard::on);
+  const auto points = inversion_points(binary_bed(scene), law, options.method);
+  const std::vector<Band> band =
+      points.empty() ? std::vector<Band>{} : bands(scene, law, options.method, points.back().voidage);
+  if (options.json) return print_json(named->second, options.method, points, band);
+  if (points.empty())
+    fmt::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, named->second);
+  for (const InversionPoint& p : points)
+    fmt::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage,
+               options.method, named->second);
+  for (const Band& b : band) fmt::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,212 @@
+#include "multiscale/inversion.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "closures/terminal_velocity.hpp"
+#include "core/error.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using closures::DragLaw;
+using Residual = std::function<std::optional<double>(double)>;
+
+constexpr double least_voidage = 0.2;
+constexpr int scan = 4000;  ///< intervals of the scan for roots
+
+/// Roots of a residual that may be undefined in places, in (low, high): sign changes of a scan, refined by
+/// bisection.
+std::vector<double> roots(const Residual& residual, double low, double high) {
+  std::vector<double> found;
+  std::optional<double> last;
+  double last_at = low;
+  for (int n = 1; n < scan; ++n) {
+    const double at = low + (high - low) * n / scan;
+    const std::optional<double> here = residual(at);
+    if (last && here && *last * *here <= 0 && *last != 0) {
+      double a = last_at, b = at;
+      for (int k = 0; k < 100; ++k) {
+        const double middle = 0.5 * (a + b);
+        const std::optional<double> value = residual(middle);
+        if (!value) break;
+        (*value * *last > 0 ? a : b) = middle;
+      }
+      found.push_back(0.5 * (a + b));
+    }
+    last = here;
+    last_at = at;
+  }
+  return found;
+}
+
+/// u > 0 with load(u) = target, for a load that grows with u; bisection in the logarithm.
+double velocity_of(const std::function<double(double)>& load, double target) {
+  double low = 1e-12, high = 1e3;
+  for (int n = 0; n < 200 && high / low > 1 + 1e-15; ++n) {
+    const double middle = std::sqrt(low * high);
+    (load(middle) < target ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+double bulk_density(const BinaryBed& bed, double voidage) {
+  return (1 - voidage) * (bed.share[0] * bed.density[0] + bed.share[1] * bed.density[1]) +
+         voidage * bed.fluid.density;
+}
+
+/// Drag of species j per volume, Pa/m, at a superficial velocity through particles at rest: 18 mu u f_j /
+/// D_j^2.
+double drag_per_volume(const BinaryBed& bed, const DragLaw& law, double voidage, double u, std::size_t j) {
+  std::array<double, 2> f{}, slope{};
+  const std::array<double, 2> slip{u, u};
+  closures::drag_of_mixture(law, voidage, bed.share, bed.diameter, slip, bed.fluid.density,
+                            bed.fluid.viscosity, f, slope);
+  return 18 * bed.fluid.viscosity * u * f[j] / (bed.diameter[j] * bed.diameter[j]);
+}
+
+/// Velocity at which species j rests in the mixture; none where it floats in the bulk.
+std::optional<double> resting_velocity(const BinaryBed& bed, const DragLaw& law, double voidage,
+                                       std::size_t j) {
+  const double weight = (bed.density[j] - bulk_density(bed, voidage)) * bed.gravity;
+  if (!(weight > 0)) return std::nullopt;
+  return velocity_of([&](double u) { return drag_per_volume(bed, law, voidage, u, j); }, weight);
+}
+
+std::vector<InversionPoint> by_force_balance(const BinaryBed& bed, const DragLaw& law) {
+  const Residual residual = [&](double voidage) -> std::optional<double> {
+    const auto u1 = resting_velocity(bed, law, voidage, 0), u2 = resting_velocity(bed, law, voidage, 1);
+    return u1 && u2 ? std::optional(std::log(*u1 / *u2)) : std::nullopt;
+  };
+  std::vector<InversionPoint> points;
+  for (double voidage : roots(residual, least_voidage, 1))
+    points.push_back({*resting_velocity(bed, law, voidage, 1), voidage});
+  return points;
+}
+
+/// Voidage of a uniform bed of species j alone at u: f(eps, Re) 18 mu u / (eps D^2) = (rho_j - rho_f) g.
+std::optional<double> pure_voidage(const BinaryBed& bed, const DragLaw& law, double u, std::size_t j) {
+  const double weight = (bed.density[j] - bed.fluid.density) * bed.gravity, d = bed.diameter[j];
+  const double re = bed.fluid.density * u * d / bed.fluid.viscosity;
+  const auto excess = [&](double eps) {
+    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law);
+    return 18 * bed.fluid.viscosity * u * f / (eps * d * d) - weight;
+  };
+  double low = least_voidage, high = 1;
+  if (!(weight > 0) || excess(low) < 0 || excess(high) > 0) return std::nullopt;
+  for (int n = 0; n < 100; ++n) {
+    const double middle = 0.5 * (low + high);
+    (excess(middle) > 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<InversionPoint> by_bulk_density(const BinaryBed& bed, const DragLaw& law) {
+  const auto voidages = [&](double log_u) {
+    return std::pair(pure_voidage(bed, law, std::exp(log_u), 0), pure_voidage(bed, law, std::exp(log_u), 1));
+  };
+  const Residual residual = [&](double log_u) -> std::optional<double> {
+    const auto [e1, e2] = voidages(log_u);
+    if (!e1 || !e2) return std::nullopt;
+    return (1 - *e1) * (bed.density[0] - bed.fluid.density) -
+           (1 - *e2) * (bed.density[1] - bed.fluid.density);
+  };
+  std::vector<InversionPoint> points;
+  for (double log_u : roots(residual, std::log(1e-6), std::log(10.0))) {
+    const auto [e1, e2] = voidages(log_u);
+    points.push_back({std::exp(log_u), 1 - 1 / (bed.share[0] / (1 - *e1) + bed.share[1] / (1 - *e2))});
+  }
+  return points;
+}
+
+std::vector<InversionPoint> by_expansion(const BinaryBed& bed) {
+  std::array<double, 2> terminal{}, exponent{};
+  for (std::size_t j = 0; j < 2; ++j) {
+    const closures::DragTurtonLevenspiel single;
+    terminal[j] = closures::terminal_velocity([&](double eps, double re) { return single(eps, re).f; },
+                                              bed.diameter[j], bed.density[j] - bed.fluid.density,
+                                              bed.fluid.density, bed.fluid.viscosity, bed.gravity);
+    exponent[j] = closures::DragRichardsonZaki{}.exponent(bed.fluid.density * terminal[j] * bed.diameter[j] /
+                                                          bed.fluid.viscosity);
+  }
+  const double average = bed.share[0] * bed.diameter[0] + bed.share[1] * bed.diameter[1];
+  const auto slip = [&](double voidage, std::size_t j) {
+    const double own = closures::MixturePatwardhanTien::own_voidage(voidage, bed.diameter[j], average);
+    return terminal[j] * std::pow(own, exponent[j] - 2) * (bed.density[j] - bulk_density(bed, voidage)) /
+           (bed.density[j] - bed.fluid.density);
+  };
+  const Residual residual = [&](double voidage) -> std::optional<double> {
+    const double a = slip(voidage, 0), b = slip(voidage, 1);
+    return a > 0 && b > 0 ? std::optional(std::log(a / b)) : std::nullopt;
+  };
+  std::vector<InversionPoint> points;
+  for (double voidage : roots(residual, least_voidage, 1))
+    points.push_back({voidage * slip(voidage, 1), voidage});
+  return points;
+}
+
+/// Left less right side of T(5.10) with rho_f (printed rho_b), for a share x of species 1.
+double gibilaro(const BinaryBed& bed, double x, double voidage, double u) {
+  const double mean = 1 / (x / bed.diameter[0] + (1 - x) / bed.diameter[1]);
+  const double re = bed.fluid.density * u * mean / bed.fluid.viscosity;
+  const double tanh = std::tanh(20 * voidage - 8);
+  const double s = voidage < 0.4 ? 2.55 : 2.55 - 2.1 * std::pow(tanh, 0.99);
+  const double excess =
+      x * (bed.density[0] - bed.fluid.density) + (1 - x) * (bed.density[1] - bed.fluid.density);
+  return std::pow(std::pow(17.3 / re, s) + std::pow(0.336, s), 1 / s) * bed.fluid.density * u * u /
+             (bed.gravity * mean) -
+         std::pow(voidage, 4.8) * excess;
+}
+
+std::vector<InversionPoint> by_density_maximum(const BinaryBed& bed) {
+  const auto voidage_at = [&](double x, double u, double near) {
+    double low = std::max(near - 0.02, 0.1), high = std::min(near + 0.02, 1.2);
+    for (int n = 0; n < 100; ++n) {
+      const double middle = 0.5 * (low + high);
+      (gibilaro(bed, x, middle, u) > 0 ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  };
+  const auto velocity_at = [&](double voidage) {
+    return velocity_of([&](double u) { return gibilaro(bed, bed.share[0], voidage, u); }, 0);
+  };
+  const Residual slope_of_density = [&](double voidage) -> std::optional<double> {
+    const double u = velocity_at(voidage), step = 1e-4;
+    const auto density = [&](double x) {
+      const double eps = voidage_at(x, u, voidage);
+      return (1 - eps) * (x * bed.density[0] + (1 - x) * bed.density[1]) + eps * bed.fluid.density;
+    };
+    return (density(bed.share[0] + step) - density(bed.share[0] - step)) / (2 * step);
+  };
+  std::vector<InversionPoint> points;
+  for (double voidage : roots(slope_of_density, least_voidage, 1))
+    points.push_back({velocity_at(voidage), voidage});
+  return points;
+}
+
+}  // namespace
+
+const std::vector<InversionMethod>& inversion_methods() {
+  static const std::vector<InversionMethod> methods{
+      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)"},
+      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)"},
+      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)"},
+      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)"}};
+  return methods;
+}
+
+std::vector<InversionPoint> inversion_points(const BinaryBed& bed, const DragLaw& law,
+                                             const std::string& method) {
+  if (method == "force_balance") return by_force_balance(bed, law);
+  if (method == "bulk_density") return by_bulk_density(bed, law);
+  if (method == "expansion") return by_expansion(bed);
+  if (method == "density_maximum") return by_density_maximum(bed);
+  std::string names;
+  for (const InversionMethod& m : inversion_methods()) names += "\n  " + m.name + ": " + m.help;
+  throw core::CaseError("unknown method '" + method + "'; allowed are" + names);
+}
+
+}  // namespace polybed::multiscale

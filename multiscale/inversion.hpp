@@ -1,0 +1,44 @@
+// The inversion point of a binary bed without a run: the velocity and voidage at which both species would
+// rest in a uniform mixture. The models of section 5.2 of the thesis that are defined there.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "closures/drag.hpp"
+#include "fluid/fluid_state.hpp"
+
+namespace polybed::multiscale {
+
+/// Two species in a fluid.
+struct BinaryBed {
+  std::array<double, 2> diameter{};  ///< m
+  std::array<double, 2> density{};   ///< kg/m3
+  std::array<double, 2> share{};     ///< x_j, sums to 1
+  fluid::FluidConstants fluid;
+  double gravity = 9.81;  ///< m/s2
+};
+
+struct InversionPoint {
+  double velocity;  ///< superficial, m/s
+  double voidage;
+};
+
+/// The methods by name, with what each is, for messages and lists.
+struct InversionMethod {
+  std::string name, help;
+};
+[[nodiscard]] const std::vector<InversionMethod>& inversion_methods();
+
+/// All inversion points with 0.2 < voidage < 1, by rising voidage; empty if there is none.
+/// Throws core::CaseError for an unknown method.
+///   force_balance    T(5.4), (5.7), (5.12): F_d,j = (rho_j - rho_b) g V_j for both species; with di_felice
+///   T(5.13) bulk_density     T(5.8), Epstein and LeClair 1985: the pure beds at equal velocity have equal
+///   bulk density expansion        T(5.9), Masliyah 1979, with the voidages of Patwardhan and Tien and the
+///   exponent q_j - 2 density_maximum  T(5.10), Gibilaro 1986: the composition has the largest bulk density
+///   at that velocity
+[[nodiscard]] std::vector<InversionPoint> inversion_points(const BinaryBed& bed, const closures::DragLaw& law,
+                                                           const std::string& method);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,150 @@
+// The command line of polybed: the only place that sees CLI11, catches, and exits.
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+#include "core/error.hpp"
+#include "core/version.hpp"
+#include "multiscale/commands/options.hpp"
+
+namespace {
+
+using namespace polybed;
+
+/// Starts and ends MPI around everything.
+class Mpi {
+ public:
+  Mpi(int& argc, char**& argv) {
+    if (MPI_Init(&argc, &argv) != MPI_SUCCESS) throw core::MpiError("MPI cannot be started");
+    int ranks = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    if (ranks > 1) throw core::MpiError("polybed runs on one rank in this version: leave out -n and mpirun");
+  }
+  ~Mpi() { MPI_Finalize(); }
+  Mpi(const Mpi&) = delete;
+  Mpi& operator=(const Mpi&) = delete;
+
+ private:
+  int rank_ = 0;
+};
+
+void add_case(CLI::App& command, multiscale::CaseOptions& options) {
+  command.add_option("CASE", options.case_path, "the case file")->required();
+  command.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_flag("--json", options.json, "one JSON object on standard output, nothing else there");
+}
+
+int exit_code(core::ExitCode code) { return static_cast<int>(code); }
+
+int fail(core::ExitCode code, const std::exception& error) {
+  fmt::print(stderr, "{}\n", error.what());
+  return exit_code(code);
+}
+
+int guarded(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const core::CaseError& error) {
+    return fail(core::ExitCode::wrong_case, error);
+  } catch (const core::NumericsError& error) {
+    return fail(core::ExitCode::numerics, error);
+  } catch (const core::FileError& error) {
+    return fail(core::ExitCode::file, error);
+  } catch (const core::MpiError& error) {
+    return fail(core::ExitCode::mpi, error);
+  } catch (const core::Stopped& error) {
+    return fail(core::ExitCode::stopped, error);
+  } catch (const std::exception& error) {
+    return fail(core::ExitCode::numerics, error);
+  }
+}
+
+int run(int argc, char** argv) {
+  using namespace multiscale;
+  CLI::App app{"polybed: beds of particles of several sizes and densities in a liquid or a gas"};
+  app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")");
+  app.require_subcommand(1);
+
+  RunOptions tfm;
+  CLI::App* tfm_command = app.add_subcommand("tfm", "run the case as a continuum (two-fluid model)");
+  add_case(*tfm_command, tfm);
+  tfm_command->add_option("-o,--output", tfm.output, "run directory; default runs/<case name>-tfm");
+  tfm_command->add_option("--until", tfm.until, "simulated time, e.g. \"20 s\"");
+  tfm_command->add_flag("--resume", tfm.resume, "go on from the checkpoint in the run directory");
+  tfm_command->add_flag("--force", tfm.force, "replace a run directory that exists");
+  tfm_command->add_flag("--quiet", tfm.quiet, "no progress");
+
+  CaseOptions check;
+  add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);
+
+  DragOptions drag;
+  std::string guard = "on";
+  CLI::App* drag_command =
+      app.add_subcommand("drag", "evaluate a drag closure at a point, or for every row of a CSV file");
+  drag_command->add_option("--law", drag.law, "see polybed list");
+  drag_command->add_option("--voidage", drag.voidage, "eps");
+  drag_command->add_option("--re", drag.reynolds,
+                           "Reynolds number of the diameter and the superficial slip velocity");
+  drag_command->add_option("--csv", drag.csv, "file with columns eps,Re or eps,Re,x1,D1,x2,D2,...");
+  drag_command->add_option("--guard", guard, "on | off: the bare published formula")
+      ->check(CLI::IsMember({"on", "off"}));
+  drag_command->add_flag("--json", drag.json, "one JSON object");
+
+  InversionOptions inversion;
+  CLI::App* inversion_command =
+      app.add_subcommand("inversion", "the inversion point by force balance, without a run");
+  add_case(*inversion_command, inversion);
+  inversion_command->add_option("--law", inversion.law, "drag law in place of the case's");
+  inversion_command->add_option("--temperature", inversion.temperature,
+                                "in place of the case's, e.g. \"20 degC\"");
+  inversion_command->add_option("--method", inversion.method,
+                                "force_balance | bulk_density | expansion | density_maximum");
+
+  std::filesystem::path plotted;
+  app.add_subcommand("plot", "pictures of a finished or a running run")
+      ->add_option("RUN", plotted, "run directory")
+      ->required();
+  bool schema_json = false, schema_markdown = false, list_json = false, explain_json = false;
+  CLI::App* schema = app.add_subcommand("schema", "all keys of the case file");
+  schema->add_flag("--json", schema_json, "as JSON");
+  schema->add_flag("--markdown", schema_markdown, "as the page of the documentation");
+  std::string key;
+  CLI::App* explain = app.add_subcommand("explain", "one key with its range, default and equation");
+  explain->add_option("KEY", key, "e.g. tfm.rtol")->required();
+  explain->add_flag("--json", explain_json, "as JSON");
+  app.add_subcommand("list", "the effects and their laws")->add_flag("--json", list_json, "as JSON");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == 0;
+    app.exit(error);
+    return asked ? 0 : exit_code(core::ExitCode::wrong_case);
+  }
+  drag.guard = guard == "on";
+  if (app.got_subcommand("tfm")) run_tfm(tfm);
+  if (app.got_subcommand("check")) run_check(check);
+  if (app.got_subcommand("drag")) run_drag(drag);
+  if (app.got_subcommand("inversion")) run_inversion(inversion);
+  if (app.got_subcommand("plot")) run_plot(plotted);
+  if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);
+  if (app.got_subcommand("explain")) run_explain(key, explain_json);
+  if (app.got_subcommand("list")) run_list(list_json);
+  return exit_code(core::ExitCode::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return guarded([&] {
+    const Mpi mpi(argc, argv);
+    return guarded([&] { return run(argc, argv); });
+  });
+}

@@ -1,0 +1,30 @@
+// run.json: what a run was, what it did, and how it stands.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/scene.hpp"
+#include "core/timers.hpp"
+#include "tfm/observers.hpp"
+
+namespace polybed::multiscale {
+
+/// Everything that goes into the record; borrowed for the call.
+struct RunRecord {
+  const core::Scene& scene;
+  const tfm::Model& model;
+  const tfm::Observers& observers;
+  const core::Timers& timers;
+  std::string state;   ///< running | done | stopped by the user | failed: ...
+  double begin;        ///< simulated time at which this process began, s
+  double cpu_seconds;  ///< of this process
+};
+
+/// The record as one JSON object.
+[[nodiscard]] std::string run_record_text(const RunRecord& record);
+
+/// Puts run.json in place in a run directory.
+void write_run_record(const std::filesystem::path& directory, const RunRecord& record);
+
+}  // namespace polybed::multiscale

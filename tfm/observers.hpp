@@ -1,0 +1,52 @@
+// What a run of the continuum model writes while it goes: history, profiles, fields, the step log, its
+// invariants.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/output.hpp"
+#include "fluid/invariants.hpp"
+#include "fluid/measures.hpp"
+#include "tfm/model.hpp"
+
+namespace polybed::tfm {
+
+/// The vertical profile of the fields last shown.
+[[nodiscard]] fluid::Profile profile_of(const Model& model);
+
+class Observers {
+ public:
+  /// Starts the files of a run directory, or goes on with them from a time.
+  /// \param initial_mass  of each species, kg, that mass is checked against
+  Observers(const Model& model, const std::filesystem::path& directory, double rtol,
+            std::vector<double> initial_mass, std::optional<double> resume_time);
+
+  /// One row of history.csv; also measures the invariants.
+  void write_history(double time);
+  /// One row of profiles.h5 and one step of fields.h5.
+  void write_fields(double time);
+  /// One row of steps.csv.
+  void log_step();
+  void flush();
+
+  [[nodiscard]] const fluid::Invariants& invariants() const { return invariants_; }
+  /// Bed height of the last row of the history, m.
+  [[nodiscard]] double bed_height() const { return bed_height_; }
+  /// Pressure drop over buoyant weight in the last row of the history.
+  [[nodiscard]] double force_balance() const { return force_balance_; }
+
+ private:
+  const Model& model_;
+  fluid::Invariants invariants_;
+  core::HistoryWriter history_;
+  core::ProfileWriter profiles_;
+  core::FieldWriter fields_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> steps_;
+  double bed_height_ = 0, force_balance_ = 0;
+};
+
+/// Mass of each species in the column, kg.
+[[nodiscard]] std::vector<double> masses(const Model& model);
+
+}  // namespace polybed::tfm
