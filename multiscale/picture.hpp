@@ -1,4 +1,4 @@
-// Pictures of a run, drawn by the Python package.
+// The picture of a run, drawn by the Python package.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,10 @@
 
 namespace polybed::multiscale {
 
-/// Draws picture.png in a run directory; false, with the reason, if Python or a package is missing or fails.
+/// Draws picture.png into a run directory, finished or running. Nothing is printed and nothing thrown: a run
+/// is complete without its picture. \param message  where the picture is; or, if false is returned, why there
+/// is none (Python or a package of it
+///                 missing, nothing stored yet)
 [[nodiscard]] bool draw_picture(const std::filesystem::path& run_directory, std::string& message);
 
 }  // namespace polybed::multiscale

@@ -1,0 +1,152 @@
+"""A run directory as an object: fields, profiles and history by name, as numpy arrays.
+
+    import polybed
+    run = polybed.read("runs/bed-tfm")
+    run.phi_fine[-1]                  # last stored field, [y][x]
+    run.time, run.history["bed_height_m"], run.profiles["voidage"]
+
+Nothing is read before it is asked for, and a run that is still going on can be read: each file is whole.
+"""
+
+import json
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+VERSIONS = {"polybed fields": 1, "polybed fields step": 1, "polybed profiles": 1, "polybed run": 1}
+
+
+class FormatError(Exception):
+    """A file is of a kind or a version that this package does not know."""
+
+
+def check_kind(attributes, filetype, path):
+    """Raises FormatError unless a file is what it should be."""
+    found = (attributes.get("filetype"), attributes.get("version"))
+    if found[0] != filetype or found[1] != VERSIONS[filetype]:
+        raise FormatError(
+            f"{path} is '{found[0]}' version {found[1]}; this package reads '{filetype}' version {VERSIONS[filetype]}"
+        )
+
+
+class Series:
+    """One field over all stored steps: series[-1] is the last array, series[2:5] a list made one array."""
+
+    def __init__(self, run, name):
+        self._run, self._name = run, name
+
+    def __len__(self):
+        return len(self._run.time)
+
+    def __getitem__(self, step):
+        if isinstance(step, slice):
+            return np.array([self[n] for n in range(*step.indices(len(self)))])
+        count = len(self)
+        if not -count <= step < count:
+            raise IndexError(f"{self._name} has {count} steps, none numbered {step}")
+        return self._run._field(step % count, self._name)
+
+    def __iter__(self):
+        return (self[n] for n in range(len(self)))
+
+
+class Run:
+    """A run directory. Fields are attributes (run.voidage, run.u_fluid, run.phi_<name>) or run.field(name)."""
+
+    def __init__(self, directory):
+        self.directory = Path(directory)
+        if not self.directory.is_dir():
+            raise FileNotFoundError(f"{directory} is no run directory")
+        self.time = np.empty(0)
+        self.faces = {}
+        path = self.directory / "fields.h5"
+        if path.exists():
+            with h5py.File(path, "r") as file:
+                check_kind(file.attrs, "polybed fields", path)
+                self.time = file["time_s"][:]
+                self.faces = {axis: file["grid"][axis][:] for axis in "xyz"}
+        self.fields = self._field_names()
+
+    def _step_path(self, step):
+        return self.directory / "fields" / f"{step + 1:06d}.h5"
+
+    def _field_names(self):
+        if len(self.time) == 0:
+            return []
+        with h5py.File(self._step_path(0), "r") as file:
+            check_kind(file.attrs, "polybed fields step", self._step_path(0))
+            return sorted(file["step"])
+
+    def _field(self, step, name):
+        with h5py.File(self._step_path(step), "r") as file:
+            return file["step"][name][...]
+
+    def field(self, name):
+        """A field over time, as a sequence of arrays [y][x] or [z][y][x], a vector with its components behind."""
+        if name not in self.fields:
+            raise KeyError(f"{name} is not stored in {self.directory}; there are {', '.join(self.fields)}")
+        return Series(self, name)
+
+    def __getattr__(self, name):
+        if not name.startswith("_") and name in self.__dict__.get("fields", ()):
+            return Series(self, name)
+        raise AttributeError(f"a run has no '{name}'; its fields are {self.__dict__.get('fields', [])}")
+
+    def __dir__(self):
+        return [*super().__dir__(), *self.fields]
+
+    @property
+    def dimensions(self):
+        """2 or 3."""
+        return self.field(self.fields[0])[0].ndim if self.fields and len(self.time) else 0
+
+    @property
+    def record(self):
+        """run.json as a dictionary; empty if there is none yet."""
+        path = self.directory / "run.json"
+        if not path.exists():
+            return {}
+        record = json.loads(path.read_text())
+        check_kind(record, "polybed run", path)
+        return record
+
+    @property
+    def species(self):
+        """Names of the species, in the order of the case, which the columns of the history keep."""
+        stored = [name[len("phi_") :] for name in self.fields if name.startswith("phi_")]
+        columns = [column[len("centre_") : -len("_m")] for column in self.history if column.startswith("centre_")]
+        return [name for name in columns if name in stored] + [name for name in stored if name not in columns]
+
+    @property
+    def history(self):
+        """history.csv: a dictionary of columns; entries without value are NaN; a row being written is left out."""
+        path = self.directory / "history.csv"
+        if not path.exists():
+            return {}
+        lines = path.read_text().split("\n")[:-1]
+        names = lines[0].split(",")
+        rows = [[float(entry) if entry else np.nan for entry in line.split(",")] for line in lines[1:]]
+        table = np.array(rows, dtype=float).reshape(len(rows), len(names))
+        return {name: table[:, n] for n, name in enumerate(names)}
+
+    @property
+    def profiles(self):
+        """profiles.h5: a dictionary of time_s [time], y_m [y] and profiles [time][y]."""
+        path = self.directory / "profiles.h5"
+        if not path.exists():
+            return {}
+        with h5py.File(path, "r") as file:
+            check_kind(file.attrs, "polybed profiles", path)
+            return {name: data[...] for name, data in file.items()}
+
+    def step_at(self, time):
+        """Number of the stored step nearest to a time."""
+        if len(self.time) == 0:
+            raise IndexError(f"{self.directory} has no stored fields yet")
+        return int(np.argmin(np.abs(self.time - time)))
+
+
+def read(directory):
+    """Opens a run directory, of a finished or a running run."""
+    return Run(directory)
