@@ -16,8 +16,9 @@ namespace {
 
 constexpr int most_iterations = 100;
 
-/// Opens hypre once per process.
-void open_library() {
+}  // namespace
+
+void open_linear_solvers() {
   static const int opened = [] {
     int mpi = 0;
     MPI_Initialized(&mpi);
@@ -26,8 +27,6 @@ void open_library() {
   }();
   if (opened != 0) throw NumericsError("hypre cannot be started");
 }
-
-}  // namespace
 
 struct PoissonSolver::Hypre {
   int dimensions;
@@ -39,7 +38,7 @@ struct PoissonSolver::Hypre {
   std::vector<double> entries, packed;
 
   explicit Hypre(const Grid& g) : dimensions(g.dimensions) {
-    open_library();
+    open_linear_solvers();
     std::array<HYPRE_Int, 3> period{0, 0, 0};
     for (std::size_t d = 0; d < 3; ++d) {
       upper[d] = g.cells[d] - 1;

@@ -10,6 +10,9 @@
 
 namespace polybed::core {
 
+/// Starts MPI, if nobody has, and hypre; once per process. Throws NumericsError.
+void open_linear_solvers();
+
 using FaceSpans = std::array<std::span<const double>, 3>;  ///< one padded array per active axis
 
 struct PoissonResult {

@@ -19,6 +19,7 @@ struct BlockSolver::Hypre {
   std::vector<double> value, packed;
 
   explicit Hypre(const Grid& grid) : rows(HYPRE_Int(2 * grid.cell_count())), packed(std::size_t(rows)) {
+    open_linear_solvers();
     row.resize(std::size_t(rows));
     row_size.resize(std::size_t(rows));
     for (HYPRE_Int n = 0; n < rows; ++n) row[std::size_t(n)] = n;

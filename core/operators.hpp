@@ -5,12 +5,12 @@
 
 namespace polybed::core {
 
-/// Slope of van Albada (1982) from the differences a, b on either side; 0 at an extremum. The 1e-12 keeps it
-/// smooth where both differences vanish; it belongs to fields of order one (volume fractions, velocities in
-/// m/s).
+/// Slope of van Albada (1982) from the differences a, b on either side; 0 at an extremum. Without the usual small
+/// number below the fraction line, so that it scales with its arguments: a species may be cut in two. Where the
+/// product is above 0 the denominator is, too.
 [[nodiscard]] inline double limited_slope(double a, double b) {
   const double product = a * b;
-  return product > 0 ? product * (a + b) / (a * a + b * b + 1e-12) : 0.0;
+  return product > 0 ? product * (a + b) / (a * a + b * b) : 0.0;
 }
 
 /// Difference over one cell of the quantity q at entry c, taken against a velocity of sign `u`: first order.

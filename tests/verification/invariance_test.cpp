@@ -46,7 +46,7 @@ TEST(Invariance, ASpeciesCutInTwoMovesAsOne) {
   const Finished a(whole, 0.1), b(cut, 0.1);
   core::Field sum = b.phi(1);
   for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += b.phi(2)[c];
-  // The limiter's 1e-12 is not scaled with the fraction it limits; it leaves 1e-10.
+  // Round-off of other sums, amplified over 100 steps of an unsteady bed.
   EXPECT_LT(distance(a.model.constants().grid, a.phi(0), b.phi(0)), 1e-10);
   EXPECT_LT(distance(a.model.constants().grid, a.phi(1), sum), 1e-10);
 }
@@ -62,17 +62,21 @@ TEST(Invariance, OrderOfSpeciesDoesNotMatter) {
 
 TEST(Invariance, LeftAndRightAreMirrorImages) {
   core::Scene scene = binary_bed(8, 40, 0.024, 0.12);
+  scene.tfm.fixed_step = 1e-3;
   scene.tfm.pressure_tolerance = 1e-13;
-  const Finished run(scene, 0.5);
-  const core::Grid& grid = run.model.constants().grid;
-  double worst = 0;
-  for (int j = 0; j < grid.cells[1]; ++j)
-    for (int i = 0; i < grid.cells[0]; ++i)
-      worst = std::max(worst, std::abs(run.phi(0)[std::size_t(grid.index(i, j))] -
-                                       run.phi(0)[std::size_t(grid.index(grid.cells[0] - 1 - i, j))]));
-  // Ten times the cell height over the inlet velocity is 1 s; the pressure solver is not symmetric to the
-  // bit.
-  EXPECT_LT(worst, 1e-10);
+  const auto asymmetry = [&](double until) {
+    const Finished run(scene, until);
+    const core::Grid& grid = run.model.constants().grid;
+    double worst = 0;
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        worst = std::max(worst, std::abs(run.phi(0)[std::size_t(grid.index(i, j))] -
+                                         run.phi(0)[std::size_t(grid.index(grid.cells[0] - 1 - i, j))]));
+    return worst;
+  };
+  // Ten times cell height over inlet velocity. The operators are symmetric to the bit; the multigrid cycle is not,
+  // and leaves its tolerance in every stage.
+  EXPECT_LT(asymmetry(1.0), 1e-12);
 }
 
 }  // namespace
