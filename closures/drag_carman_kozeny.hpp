@@ -1,6 +1,7 @@
 // Packed bed in creeping flow, Carman 1937, T(3.23).
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
 #include "closures/drag_value.hpp"
@@ -13,7 +14,7 @@ struct DragCarmanKozeny {
       "packed bed, creeping flow; T(3.23), kappa 5, Re < 1; 0, not 1, at voidage 1";
   Guard guard = Guard::on;
   /// f = 2 kappa (1-eps)/eps^2 with kappa = 5.
-  DragValue operator()(double eps, double) const { return {10 * (1 - eps) / (eps * eps), 0}; }
+  DragValue operator()(double eps, double) const { return {10 * std::max(1 - eps, 0.0) / (eps * eps), 0}; }
   [[nodiscard]] bool outside(double eps, double re) const { return eps > 0.54 || re > 1; }
 };
 

@@ -1,6 +1,7 @@
 // Packed bed, Ergun 1952, T(3.24).
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
 #include "closures/drag_value.hpp"
@@ -14,7 +15,7 @@ struct DragErgun {
   /// f = (150/18)(1-eps)/eps^2 + (1.75/18) Re/eps^2.
   DragValue operator()(double eps, double re) const {
     const double inertia = 1.75 / 18 * re / (eps * eps);
-    return {150.0 / 18 * (1 - eps) / (eps * eps) + inertia, inertia};
+    return {150.0 / 18 * std::max(1 - eps, 0.0) / (eps * eps) + inertia, inertia};
   }
   [[nodiscard]] bool outside(double eps, double) const { return eps > 0.8; }
 };

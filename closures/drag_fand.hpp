@@ -1,6 +1,7 @@
 // Packed bed in three regimes, Fand et al. 1987, T(3.25).
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,7 +18,7 @@ struct DragFand {
   /// 120: 225, 1.61; linear in Re across the gaps. Bare: A 210 below 2.3, as printed, and the gaps are
   /// refused (std::domain_error).
   DragValue operator()(double eps, double re) const {
-    const double scale = 1 / (18 * eps * eps), solids = 1 - eps;
+    const double scale = 1 / (18 * eps * eps), solids = std::max(1 - eps, 0.0);
     const auto regime = [&](double a, double b, double r) { return scale * (a * solids + b * r); };
     const auto between = [&](double r0, double f0, double r1, double f1) {
       const double slope = (f1 - f0) / (r1 - r0);

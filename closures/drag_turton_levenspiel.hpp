@@ -17,9 +17,9 @@ struct DragTurtonLevenspiel {
   DragValue operator()(double, double re) const {
     if (!(re > 0)) return {1, 0};
     const double log_re = std::log(re);
-    const double a = 0.173 * std::exp(0.657 * log_re), tail = 16300 * std::exp(-1.09 * log_re);
-    const double b = 0.413 / 24 * re / (1 + tail);
-    return {1 + a + b, 0.657 * a + b * (1 + 1.09 * tail / (1 + tail))};
+    const double a = 0.173 * std::exp(0.657 * log_re), power = std::exp(1.09 * log_re);
+    const double b = 0.413 / 24 * re * power / (power + 16300);
+    return {1 + a + b, 0.657 * a + b * (1 + 1.09 * 16300 / (power + 16300))};
   }
   [[nodiscard]] bool outside(double voidage, double re) const { return voidage < 1 || re > 2.6e5; }
 };

@@ -25,10 +25,11 @@ struct DragVbk {
     const double log_re = std::log(re);
     const double power = 8.4 * std::exp(-0.343 * log_re);
     const double above = 1 / eps + 3 * eps * phi + power;
-    const double exponent = -0.5 - 2 * phi;
-    const double tail = std::exp(3 * phi * std::numbers::ln10 + exponent * log_re);
-    const double inertia = 0.413 / 24 * re * per_eps2 * above / (1 + tail);
-    return {creeping + inertia, inertia * (1 - 0.343 * power / above - exponent * tail / (1 + tail))};
+    // 1/(1 + 10^(3 phi) Re^(-m)) as q/(1 + q), q = 10^(-3 phi) Re^m, which cannot overflow at small Re.
+    const double exponent = 0.5 + 2 * phi;
+    const double q = std::exp(exponent * log_re - 3 * phi * std::numbers::ln10);
+    const double inertia = 0.413 / 24 * re * per_eps2 * above * q / (1 + q);
+    return {creeping + inertia, inertia * (1 - 0.343 * power / above + exponent / (1 + q))};
   }
   [[nodiscard]] bool outside(double eps, double re) const { return eps < 0.40 || eps > 0.90 || re > 1050; }
 };

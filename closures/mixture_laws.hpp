@@ -79,7 +79,8 @@ struct MixtureYinSundaresan {
   using Base = DragCello;
   Base base;
   void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
-    const double mean = sauter_diameter(share, diameter), phi = std::clamp(1 - eps, 0.0, 0.4);
+    const double mean = sauter_diameter(share, diameter),
+                 phi = base.guard == Guard::on ? std::clamp(1 - eps, 0.0, 0.4) : 1 - eps;
     const double a = 1 + phi * (-2.660 + phi * (9.096 - 11.33 * phi));
     for (std::size_t j = 0; j < diameter.size(); ++j) {
       const double y = diameter[j] / mean, weight = a * y + (1 - a) * y * y;
