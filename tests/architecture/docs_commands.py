@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+"""Every command in a ```sh block of the README, the docs and the cases runs and ends with 0.
+
+A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
+`polybed tfm` line gets `--until 0.1s` in place of its own end. Usage: docs_commands.py PROGRAM
+"""
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+from sources import ROOT, report, tracked
+
+MOST_NOT_RUN = 6
+SHORT = ["--until", "0.1 s", "--quiet"]
+
+
+def blocks(text):
+    """(mark, commands) of each sh block; a line that ends in a backslash goes on."""
+    for mark, body in re.findall(r"^```sh( no-run)?\n(.*?)^```", text, re.M | re.S):
+        body = body.replace("\\\n", " ")
+        yield mark.strip(), [line.strip() for line in body.split("\n") if line.strip() and not line.startswith("#")]
+
+
+def shortened(command, program):
+    words = shlex.split(command, comments=True)
+    words[0] = program if words[0] in ("./polybed", "polybed") else words[0]
+    if len(words) > 1 and words[1] == "tfm":
+        if "--until" in words:
+            at = words.index("--until")
+            del words[at:at + 2]
+        words += SHORT
+    return words
+
+
+def run(command, program, scratch):
+    done = subprocess.run(shortened(command, program), cwd=scratch, capture_output=True, text=True, timeout=300)
+    return [] if done.returncode == 0 else [f"{command}\n  ended with {done.returncode}: {done.stderr[-500:]}"]
+
+
+def self_test():
+    assert list(blocks("```sh\na b\n```\n```sh no-run\nc\n```\n")) == [("", ["a b"]), ("no-run", ["c"])]
+    assert shortened("./polybed tfm x --until '20 s'", "p") == ["p", "tfm", "x", *SHORT]
+    assert run("false", "p", ".")
+
+
+if __name__ == "__main__":
+    self_test()
+    problems, ran, left = [], 0, 0
+    with tempfile.TemporaryDirectory() as scratch:
+        for name in ("cases", "docs"):
+            os.symlink(ROOT / name, os.path.join(scratch, name))
+        for path in tracked("README.md", ".md"):
+            for mark, commands in blocks(path.read_text()):
+                for command in commands:
+                    if mark:
+                        left += 1
+                        continue
+                    ran += 1
+                    problems += [f"{path.relative_to(ROOT)}: {p}" for p in run(command, sys.argv[1], scratch)]
+    if left > MOST_NOT_RUN:
+        problems.append(f"{left} commands are marked no-run, at most {MOST_NOT_RUN}")
+    print(f"{ran} commands run, {left} marked no-run")
+    sys.exit(report(problems, "documented commands"))

@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+"""Files stay short, nothing is left over, no machine's paths, sources are formatted, effects and laws have tests and docs."""
+import re
+import shutil
+import subprocess
+import sys
+
+from sources import ROOT, report, tracked
+
+LONGEST = 400
+ARGUED = "Longer than 400 lines because"
+LEFT_OVER = re.compile(r"\b(TO" + r"DO|FIX" + r"ME|XX" + r"X|HA" + r"CK)\b")
+MACHINE = re.compile(r"(^|[^\w./])/(work|root|home|tmp)/")
+
+
+def too_long(name, text):
+    lines = text.count("\n")
+    return [f"{name}: {lines} lines, at most {LONGEST}"] if lines > LONGEST and ARGUED not in text[:2000] else []
+
+
+def left_over(name, text):
+    return [f"{name}:{n}: {line.strip()[:80]}" for n, line in enumerate(text.split("\n"), 1)
+            if LEFT_OVER.search(line) or MACHINE.search(line)]
+
+
+def unformatted(paths):
+    tool = shutil.which("clang-format-14") or shutil.which("clang-format")
+    if tool is None:
+        print("clang-format is not installed: formatting is not checked")
+        return []
+    run = subprocess.run([tool, "--dry-run", *map(str, paths)], capture_output=True, text=True)
+    return sorted({line.split(":")[0].replace(str(ROOT) + "/", "") + ": not formatted"
+                   for line in run.stderr.split("\n") if "warning:" in line or "error:" in line})
+
+
+def laws_without_docs():
+    page = (ROOT / "docs/closures.md").read_text()
+    names = re.findall(r'name = "(\w+)"', "".join(p.read_text() for p in (ROOT / "closures").glob("*.hpp")))
+    return [f"docs/closures.md does not mention the law {n}" for n in names if f"`{n}`" not in page]
+
+
+def self_test():
+    assert too_long("a", "x\n" * 401) and not too_long("a", "x\n" * 400)
+    assert left_over("a", "int x;  // TO" + "DO later") and left_over("a", 'open("/ro' + 'ot/x")')
+    assert not left_over("a", "a method, and a/work/b")
+
+
+if __name__ == "__main__":
+    self_test()
+    code = tracked(".hpp", ".cpp")
+    problems = []
+    for path in code + tracked(".py", ".cmake", "CMakeLists.txt"):
+        problems += too_long(str(path.relative_to(ROOT)), path.read_text())
+    for path in code + tracked(".py", ".md", ".cmake", "CMakeLists.txt", "polybed", ".toml"):
+        problems += left_over(str(path.relative_to(ROOT)), path.read_text())
+    problems += unformatted(code) + laws_without_docs()
+    sys.exit(report(problems, "habits"))
