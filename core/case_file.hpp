@@ -14,20 +14,20 @@
 
 namespace polybed::core {
 
-/// Reads a case file. Throws CaseError with all problems (place, key, value, range, suggestion), FileError if the
-/// file cannot be read.
-/// \param overrides  "key=value" each, e.g. "inlet.superficial_velocity=37 mm/s", "species.fine.diameter=1 mm"
-/// \param roles      what [effects] may name
+/// Reads a case file. Throws CaseError with all problems (place, key, value, range, suggestion), FileError if
+/// the file cannot be read. \param overrides  "key=value" each, e.g. "inlet.superficial_velocity=37 mm/s",
+/// "species.fine.diameter=1 mm" \param roles      what [effects] may name
 [[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
                               std::span<const Role> roles);
 
 /// The same from text; `name` stands for the file in messages.
-[[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                               std::span<const Role> roles);
+[[nodiscard]] Scene parse_case(std::string_view text, const std::string& name,
+                               std::span<const std::string> overrides, std::span<const Role> roles);
 
-/// What the keys say of each other: sums, sizes, conflicts, a bed that does not fit. Fills in what follows from them
-/// (axes of the column, depth, shares, defaults of output). Problems have no line.
-[[nodiscard]] std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool bed_given_by_particles);
+/// What the keys say of each other: sums, sizes, conflicts, a bed that does not fit. Fills in what follows
+/// from them (axes of the column, depth, shares, defaults of output). Problems have no line.
+[[nodiscard]] std::vector<CaseProblem> resolve(Scene& scene, const std::string& name,
+                                               bool bed_given_by_particles);
 
 /// The whole case in SI as TOML; reads back to the same scene.
 [[nodiscard]] std::string resolved_case(const Scene& scene);

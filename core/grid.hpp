@@ -1,8 +1,8 @@
 // The uniform staggered grid of a column and how its fields lie in memory.
 //
-// Axes: 0 = x (width), 1 = y (height, upward), 2 = z (depth; one cell thick in 2-D). Every field, on cells or on
-// faces of one axis, is one array over the same padded box, so that a cell and its low faces share an index:
-// face c of axis a lies between the cells c - stride[a] and c.
+// Axes: 0 = x (width), 1 = y (height, upward), 2 = z (depth; one cell thick in 2-D). Every field, on cells or
+// on faces of one axis, is one array over the same padded box, so that a cell and its low faces share an
+// index: face c of axis a lies between the cells c - stride[a] and c.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@ using Index = std::ptrdiff_t;
 struct Grid {
   static constexpr int halo = 2;  ///< layers of ghost cells on every side of an active axis
 
-  int dimensions = 2;                                  ///< 2 or 3: the number of active axes
-  std::array<int, 3> cells{1, 1, 1};                   ///< owned cells along each axis
-  std::array<double, 3> spacing{1, 1, 1};              ///< cell size, m (2-D: spacing[2] is the depth)
-  std::array<bool, 3> periodic{false, false, false};   ///< sides joined
+  int dimensions = 2;                                 ///< 2 or 3: the number of active axes
+  std::array<int, 3> cells{1, 1, 1};                  ///< owned cells along each axis
+  std::array<double, 3> spacing{1, 1, 1};             ///< cell size, m (2-D: spacing[2] is the depth)
+  std::array<bool, 3> periodic{false, false, false};  ///< sides joined
 
   /// Ghost layers along an axis: none where the axis is not active.
   [[nodiscard]] int ghosts(int axis) const { return axis < dimensions ? halo : 0; }

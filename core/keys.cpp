@@ -50,7 +50,7 @@ std::vector<Key> make_keys() {
   k.push_back({"bed", "solids_fraction", at<double>([](S& s, N) -> auto& { return s.bed.solids_fraction; }), "of the settled bed", {}, 0, 0.9, true});
   k.push_back({"bed", "start_solids_fraction", at<std::optional<double>>([](S& s, N) -> auto& { return s.bed.start_fraction; }), "of the bed at the start, with the mass of the settled bed; default: solids_fraction", {}, 0, 0.9, true});
   k.push_back({"bed", "particles", at<std::vector<std::int64_t>>([](S& s, N) -> auto& { return s.bed.particles; }), "numbers of particles of each species, instead of volume_share and static_height", {}, 0, 1e12});
-  k.push_back({"bed", "start", at<std::string>([](S& s, N) -> auto& { return s.bed.start; }), "mixed | layered (bottom first) | settled (in equilibrium) | checkpoint:FILE", {}, -infinity, infinity, false, "mixed"});
+  k.push_back({"bed", "start", at<std::string>([](S& s, N) -> auto& { return s.bed.start; }), "the bed at time zero; layered: in the order of the species, the first at the bottom; settled: in equilibrium", {}, -infinity, infinity, false, "mixed", {"mixed", "layered", "settled", "checkpoint:FILE"}});
   k.push_back({"bed", "seed", at<std::uint64_t>([](S& s, N) -> auto& { return s.bed.seed; }), "of random numbers", {}, 0, 9.2e18, false, "1"});
 
   k.push_back({"inlet", "superficial_velocity", at<Points>([](S& s, N) -> auto& { return s.inlet.superficial_velocity; }), "a velocity, or a table [[time, velocity], ...]: linear between, constant beyond; two equal times make a jump", dimension::velocity, -1e3, 1e3});
@@ -66,7 +66,7 @@ std::vector<Key> make_keys() {
   k.push_back({"tfm", "flux", at<std::string>([](S& s, N) -> auto& { return s.tfm.flux; }), "solids fractions at faces: second order with a limiter, or first order", {}, -infinity, infinity, false, "limited", {"limited", "upwind"}});
   k.push_back({"tfm", "momentum", at<std::string>([](S& s, N) -> auto& { return s.tfm.momentum; }), "convection of velocities: first order, or second with a limiter", {}, -infinity, infinity, false, "upwind", {"upwind", "limited"}});
   k.push_back({"tfm", "solids_wall", at<std::string>([](S& s, N) -> auto& { return s.tfm.solids_wall; }), "velocity of the solids along walls", {}, -infinity, infinity, false, "free_slip", {"free_slip", "no_slip"}});
-  k.push_back({"tfm", "max_packing", at<std::string>([](S& s, N) -> auto& { return s.tfm.max_packing; }), "phi_max of the frictional pressure: a number, or auto: the settled bed then has bed.solids_fraction", {}, -infinity, infinity, false, "auto"});
+  k.push_back({"tfm", "max_packing", at<std::string>([](S& s, N) -> auto& { return s.tfm.max_packing; }), "phi_max of the frictional pressure: a number, or auto: the settled bed then has bed.solids_fraction", {}, 0, 1, true, "auto", {"auto"}, false, {}, true});
   k.push_back({"tfm", "frictional_pressure", at<double>([](S& s, N) -> auto& { return s.tfm.frictional_pressure; }), "Fr", dimension::pressure, 0, 1e6, true, "0.05 Pa", {}, false, "p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5"});
   k.push_back({"tfm", "frictional_onset", at<double>([](S& s, N) -> auto& { return s.tfm.frictional_onset; }), "phi_min, above which solids press on each other", {}, 0, 0.9, true, "0.5", {}, false, "p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5"});
   k.push_back({"tfm", "bulk_viscosity", at<double>([](S& s, N) -> auto& { return s.tfm.bulk_viscosity; }), "alpha; damps elastic waves of the packed bed; 0 is off", {}, 0, 10, false, "1", {}, false, "p_s = p_f - alpha rho_s c_s h sum phi_j div U_j"});
@@ -98,7 +98,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
     now[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        now[j] = std::min(now[j], before[j - 2] + 1);
     }
     before = last;
     last = now;
@@ -132,13 +133,23 @@ std::string kind_name(const Key& key) {
   return key.dimension == dimension::none ? kind : kind + ", " + unit_name(key.dimension);
 }
 
+bool is_word(const Key& key, std::string_view text) {
+  constexpr std::string_view file = "FILE";
+  return std::any_of(key.words.begin(), key.words.end(), [&](std::string_view word) {
+    if (!word.ends_with(file)) return word == text;
+    word.remove_suffix(file.size());
+    return text.starts_with(word) && text.size() > word.size();
+  });
+}
+
 std::string range_text(const Key& key) {
-  if (!key.words.empty()) return fmt::format("{}", fmt::join(key.words, " | "));
+  if (!key.words.empty() && !key.or_number) return fmt::format("{}", fmt::join(key.words, " | "));
   const std::string unit = key.dimension == dimension::none ? "" : " " + unit_name(key.dimension);
   std::string text;
   if (key.least > -infinity) text = fmt::format("{} {:g}", key.above_least ? "above" : "at least", key.least);
   if (key.most < infinity) text += fmt::format("{}at most {:g}", text.empty() ? "" : ", ", key.most);
-  return text.empty() ? text : text + unit;
+  if (!text.empty()) text += unit;
+  return key.or_number ? fmt::format("{} | a number {}", fmt::join(key.words, " | "), text) : text;
 }
 
 std::string nearest_name(std::string_view wrong, const std::vector<std::string>& names) {

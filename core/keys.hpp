@@ -1,4 +1,5 @@
-// The one table of the keys of a case file: it drives reading, checking, the schema, explanations and the docs.
+// The one table of the keys of a case file: it drives reading, checking, the schema, explanations and the
+// docs.
 #pragma once
 
 #include <limits>
@@ -29,11 +30,12 @@ struct Key {
   std::string_view help;
   Dimension dimension{};
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
-  bool above_least = false;          ///< the least value itself is not allowed
-  std::string_view standard{};       ///< default as text; empty: none
+  bool above_least = false;               ///< the least value itself is not allowed
+  std::string_view standard{};            ///< default as text; empty: none
   std::vector<std::string_view> words{};  ///< allowed texts; empty: any
   bool required = false;
   std::string_view equation{};
+  bool or_number = false;  ///< a text that may also be a number, of this dimension and range
 
   [[nodiscard]] std::string path() const {
     return table.empty() ? std::string(name) : std::string(table) + "." + std::string(name);
@@ -51,6 +53,9 @@ struct Key {
 
 /// Range for people: "above 0, at most 1"; empty if there is none.
 [[nodiscard]] std::string range_text(const Key& key);
+
+/// Whether a text is one of the key's words; a word that ends in FILE stands for any name of a file there.
+[[nodiscard]] bool is_word(const Key& key, std::string_view text);
 
 /// The name nearest to a misspelt one, or empty if none is near.
 [[nodiscard]] std::string nearest_name(std::string_view wrong, const std::vector<std::string>& names);

@@ -5,9 +5,9 @@
 
 namespace polybed::core {
 
-/// Slope of van Albada (1982) from the differences a, b on either side; 0 at an extremum. Without the usual small
-/// number below the fraction line, so that it scales with its arguments: a species may be cut in two. Where the
-/// product is above 0 the denominator is, too.
+/// Slope of van Albada (1982) from the differences a, b on either side; 0 at an extremum. Without the usual
+/// small number below the fraction line, so that it scales with its arguments: a species may be cut in two.
+/// Where the product is above 0 the denominator is, too.
 [[nodiscard]] inline double limited_slope(double a, double b) {
   const double product = a * b;
   return product > 0 ? product * (a + b) / (a * a + b * b) : 0.0;

@@ -1,5 +1,5 @@
-// What an effect is called and where it acts. A model offers its roles as data; the case file is checked against
-// them, and `polybed list`, the schema and the docs are made from them.
+// What an effect is called and where it acts. A model offers its roles as data; the case file is checked
+// against them, and `polybed list`, the schema and the docs are made from them.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ struct Law {
 };
 
 struct Role {
-  std::string name;     ///< key in [effects]
-  std::string models;   ///< "tfm", "dem" or "tfm, dem"
-  std::string slot;     ///< place in the discrete equation: Exchange, Stress, Pair ...
-  std::string help;     ///< one line
-  std::string absent;   ///< what the other model does without it, e.g. "reaches the TFM through a table"
+  std::string name;       ///< key in [effects]
+  std::string models;     ///< "tfm", "dem" or "tfm, dem"
+  std::string slot;       ///< place in the discrete equation: Exchange, Stress, Pair ...
+  std::string help;       ///< one line
+  std::string absent;     ///< what the other model does without it, e.g. "reaches the TFM through a table"
   std::vector<Law> laws;  ///< "none" is always allowed and need not be listed
 };
 

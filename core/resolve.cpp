@@ -38,9 +38,13 @@ class Checker {
 void Checker::column() {
   Column& c = scene_.column;
   const std::size_t n = c.given_size.size();
-  if (n != 2 && n != 3) return add("column.size has {} numbers: two (width, height) or three (width, depth, height)", n);
-  if (c.given_cells.size() != n) return add("column.cells has {} numbers, column.size {}", c.given_cells.size(), n);
-  if (n == 3) return add("column.size has three numbers: three dimensions are not in this version; give width and height");
+  if (n != 2 && n != 3)
+    return add("column.size has {} numbers: two (width, height) or three (width, depth, height)", n);
+  if (c.given_cells.size() != n)
+    return add("column.cells has {} numbers, column.size {}", c.given_cells.size(), n);
+  if (n == 3)
+    return add(
+        "column.size has three numbers: three dimensions are not in this version; give width and height");
   double smallest = 1, largest = 0;
   for (const Species& s : scene_.species) {
     smallest = std::min(smallest, s.diameter);
@@ -52,7 +56,8 @@ void Checker::column() {
   constexpr double most_cells = 2e7;
   const double cells = double(c.given_cells[0]) * double(c.given_cells[1]);
   if (cells > most_cells)
-    add("column.cells: {:.3g} cells would need about {:.3g} GB of memory; at most {:.0e} here", cells, cells * 1e-6, most_cells);
+    add("column.cells: {:.3g} cells would need about {:.3g} GB of memory; at most {:.0e} here", cells,
+        cells * 1e-6, most_cells);
 }
 
 void Checker::species() {
@@ -73,38 +78,45 @@ void Checker::bed(bool by_particles) {
   const std::size_t species = scene_.species.size();
   const double area = scene_.column.size[0] * scene_.column.size[2];
   if (by_particles) {
-    if (bed.particles.size() != species) return add("bed.particles has {} numbers, there are {} species", bed.particles.size(), species);
+    if (bed.particles.size() != species)
+      return add("bed.particles has {} numbers, there are {} species", bed.particles.size(), species);
     double total = 0;
     bed.volume_share.assign(species, 0.0);
     for (std::size_t j = 0; j < species; ++j) {
-      bed.volume_share[j] = double(bed.particles[j]) * std::numbers::pi / 6 * std::pow(scene_.species[j].diameter, 3);
+      bed.volume_share[j] =
+          double(bed.particles[j]) * std::numbers::pi / 6 * std::pow(scene_.species[j].diameter, 3);
       total += bed.volume_share[j];
     }
     if (!(total > 0)) return add("bed.particles: no particles at all");
     for (double& x : bed.volume_share) x /= total;
     bed.static_height = total / (area * bed.solids_fraction);
   }
-  if (bed.volume_share.size() != species) return add("bed.volume_share has {} numbers, there are {} species", bed.volume_share.size(), species);
+  if (bed.volume_share.size() != species)
+    return add("bed.volume_share has {} numbers, there are {} species", bed.volume_share.size(), species);
   const double sum = std::accumulate(bed.volume_share.begin(), bed.volume_share.end(), 0.0);
   if (std::abs(sum - 1) > 1e-9) add("bed.volume_share sums to {:.9g}, not to 1", sum);
   bed.start_solids_fraction = bed.start_fraction.value_or(bed.solids_fraction);
   if (bed.start_solids_fraction > bed.solids_fraction)
-    add("bed.start_solids_fraction = {} is denser than the settled bed, {}", bed.start_solids_fraction, bed.solids_fraction);
+    add("bed.start_solids_fraction = {} is denser than the settled bed, {}", bed.start_solids_fraction,
+        bed.solids_fraction);
   const double height = bed.static_height * bed.solids_fraction / bed.start_solids_fraction;
   if (height > scene_.column.size[1])
-    add("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size", height, scene_.column.size[1]);
-  const bool known = bed.start == "mixed" || bed.start == "layered" || bed.start == "settled" || bed.start.starts_with("checkpoint:");
-  if (bed.start.starts_with("list:")) add("bed.start = \"{}\": lists of particles belong to the DEM, which is not in this version", bed.start);
-  else if (!known) add("bed.start = \"{}\": allowed are mixed | layered | settled | checkpoint:FILE", bed.start);
+    add("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size", height,
+        scene_.column.size[1]);
 }
 
 void Checker::numerics() {
   const Tfm& tfm = scene_.tfm;
-  if (tfm.fixed_step && tfm.integrator == "implicit") add("tfm.fixed_step works with the explicit integrator only");
+  if (tfm.fixed_step && tfm.integrator == "implicit")
+    add("tfm.fixed_step works with the explicit integrator only");
   if (tfm.integrator == "implicit" && tfm.rtol > 2e-3)
-    add("tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past packing", tfm.rtol);
-  if (scene_.fluid.name == "none") add("fluid.name = \"none\" is a scene for the DEM, which is not in this version");
-  if (scene_.effects.contains("solids_stress") && tfm.max_packing == "auto" && scene_.bed.solids_fraction <= tfm.frictional_onset)
+    add("tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past "
+        "packing",
+        tfm.rtol);
+  if (scene_.fluid.name == "none")
+    add("fluid.name = \"none\" is a scene for the DEM, which is not in this version");
+  if (scene_.effects.contains("solids_stress") && tfm.max_packing == "auto" &&
+      scene_.bed.solids_fraction <= tfm.frictional_onset)
     add("bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
         scene_.bed.solids_fraction, tfm.frictional_onset);
   const double until = scene_.run.until;
@@ -163,12 +175,10 @@ void write_table(Scene& scene, std::string_view table, std::size_t index, std::s
   for (const Key& key : keys()) {
     if (key.table != table) continue;
     const bool by_particles = !scene.bed.particles.empty();
-    if (by_particles && table == "bed" && (key.name == "volume_share" || key.name == "static_height")) continue;
-    if (key.name == "max_packing" && scene.tfm.max_packing != "auto") {
-      out += "max_packing = " + scene.tfm.max_packing + "\n";
+    if (by_particles && table == "bed" && (key.name == "volume_share" || key.name == "static_height"))
       continue;
-    }
-    const std::string value = std::visit(AsToml{scene, index}, key.place);
+    std::string value = std::visit(AsToml{scene, index}, key.place);
+    if (key.or_number && value.find_first_of("0123456789") == 1) value = value.substr(1, value.size() - 2);
     if (!value.empty()) out += fmt::format("{} = {}\n", key.name, value);
   }
 }

@@ -17,11 +17,11 @@ struct Column {
   std::vector<std::int64_t> given_cells;  ///< likewise
   std::optional<double> depth;            ///< of a 2-D column, m; else twice the largest diameter and skin
   int dimensions = 2;                     ///< follows, as the next two do
-  std::array<double, 3> size{};       ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
-  std::array<int, 3> cells{1, 1, 1};  ///< along x, y, z; 1 along z in 2-D
-  std::string sides = "wall";         ///< wall | periodic
-  double gravity = 9.81;              ///< m/s2, downward
-  bool closed = false;                ///< walls all round: no inlet, no outlet
+  std::array<double, 3> size{};           ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
+  std::array<int, 3> cells{1, 1, 1};      ///< along x, y, z; 1 along z in 2-D
+  std::string sides = "wall";             ///< wall | periodic
+  double gravity = 9.81;                  ///< m/s2, downward
+  bool closed = false;                    ///< walls all round: no inlet, no outlet
 };
 
 struct Fluid {
@@ -40,13 +40,13 @@ struct Species {
 };
 
 struct Bed {
-  std::vector<double> volume_share;     ///< x_j, sums to 1
-  double static_height = 0;             ///< m, of the settled bed
-  double solids_fraction = 0;           ///< of the settled bed
+  std::vector<double> volume_share;      ///< x_j, sums to 1
+  double static_height = 0;              ///< m, of the settled bed
+  double solids_fraction = 0;            ///< of the settled bed
   std::optional<double> start_fraction;  ///< as the case gives it
   double start_solids_fraction = 0;      ///< of the bed at the start; the mass is that of the settled bed
-  std::vector<std::int64_t> particles;  ///< numbers of particles instead of static_height; else empty
-  std::string start = "mixed";          ///< mixed | layered | settled | checkpoint:FILE | list:FILE
+  std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
+  std::string start = "mixed";           ///< mixed | layered | settled | checkpoint:FILE | list:FILE
   std::uint64_t seed = 1;
 };
 
@@ -71,13 +71,12 @@ struct Tfm {
   std::string flux = "limited";           ///< limited | upwind: the volume fractions
   std::string momentum = "upwind";        ///< convection of momentum
   std::string solids_wall = "free_slip";  ///< free_slip | no_slip
-  std::string max_packing =
-      "auto";  ///< auto (from bed.solids_fraction) | a number
-  double frictional_pressure = 0.05;  ///< Fr of p_f, Pa
-  double frictional_onset = 0.5;      ///< solids fraction above which p_f acts
-  double bulk_viscosity = 1;          ///< alpha
-  double exchange_pressure = 0;       ///< C_s of species exchange, s/m2
-  std::optional<double> fixed_step;   ///< s: steps of one length, without error control (explicit only)
+  std::string max_packing = "auto";       ///< auto (from bed.solids_fraction) | a number
+  double frictional_pressure = 0.05;      ///< Fr of p_f, Pa
+  double frictional_onset = 0.5;          ///< solids fraction above which p_f acts
+  double bulk_viscosity = 1;              ///< alpha
+  double exchange_pressure = 0;           ///< C_s of species exchange, s/m2
+  std::optional<double> fixed_step;       ///< s: steps of one length, without error control (explicit only)
   std::optional<double> pressure_tolerance;  ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
 };
 
@@ -88,7 +87,7 @@ struct Dem {
 };
 
 struct ContactPair {
-  std::vector<std::string> between;        ///< two names of species, or one and "wall"
+  std::vector<std::string> between;  ///< two names of species, or one and "wall"
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;
 };
 
@@ -105,7 +104,7 @@ struct Scene {
   Tfm tfm;
   Dem dem;
   std::vector<ContactPair> contact_pairs;
-  std::vector<std::string> overrides;          ///< "key=value" of the command line, as given
+  std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
 };
 
 }  // namespace polybed::core

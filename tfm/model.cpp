@@ -152,10 +152,11 @@ void Model::make_integrator() {
 void Model::begin_integration() {
   if (explicit_) explicit_->begin_step(step_);
   if (implicit_) {
-    // The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed run
-    // gives the same bits.
+    // The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed
+    // run gives the same bits.
     for (const StateLayout::Entry& entry : layout_.entries())
-      if (entry.kind == Kind::pressure) std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
+      if (entry.kind == Kind::pressure)
+        std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
     ExplicitProblem projected(equations_, layout_, 1e-8, timers_);
     if (projected.rates(time_, y_, dydt_) != core::Rate::ok)
       throw core::NumericsError("the state at the start has no rates: check the bed's solids fraction");

@@ -2,7 +2,8 @@
 """Every command in a ```sh block of the README, the docs and the cases runs and ends with 0.
 
 A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
-`polybed tfm` line gets `--until 0.1s` in place of its own end. Usage: docs_commands.py PROGRAM
+`polybed tfm` line gets `--until 0.1s` in place of its own end, and replaces an earlier run of the same page. Each page
+has a folder of its own, so that it must stand alone. Usage: docs_commands.py PROGRAM
 """
 import os
 import re
@@ -31,7 +32,7 @@ def shortened(command, program):
         if "--until" in words:
             at = words.index("--until")
             del words[at:at + 2]
-        words += SHORT
+        words += SHORT + ([] if {"--resume", "--force"} & set(words) else ["--force"])
     return words
 
 
@@ -42,23 +43,24 @@ def run(command, program, scratch):
 
 def self_test():
     assert list(blocks("```sh\na b\n```\n```sh no-run\nc\n```\n")) == [("", ["a b"]), ("no-run", ["c"])]
-    assert shortened("./polybed tfm x --until '20 s'", "p") == ["p", "tfm", "x", *SHORT]
+    assert shortened("./polybed tfm x --until '20 s'", "p") == ["p", "tfm", "x", *SHORT, "--force"]
+    assert "--force" not in shortened("./polybed tfm x --resume", "p")
     assert run("false", "p", ".")
 
 
 if __name__ == "__main__":
     self_test()
     problems, ran, left = [], 0, 0
-    with tempfile.TemporaryDirectory() as scratch:
-        for name in ("cases", "docs"):
-            os.symlink(ROOT / name, os.path.join(scratch, name))
-        for path in tracked("README.md", ".md"):
+    for path in tracked(".md"):
+        with tempfile.TemporaryDirectory() as scratch:
+            for name in ("cases", "docs"):
+                os.symlink(ROOT / name, os.path.join(scratch, name))
             for mark, commands in blocks(path.read_text()):
+                if mark:
+                    left += len(commands)
+                    continue
+                ran += len(commands)
                 for command in commands:
-                    if mark:
-                        left += 1
-                        continue
-                    ran += 1
                     problems += [f"{path.relative_to(ROOT)}: {p}" for p in run(command, sys.argv[1], scratch)]
     if left > MOST_NOT_RUN:
         problems.append(f"{left} commands are marked no-run, at most {MOST_NOT_RUN}")

@@ -74,8 +74,8 @@ TEST(Invariance, LeftAndRightAreMirrorImages) {
                                          run.phi(0)[std::size_t(grid.index(grid.cells[0] - 1 - i, j))]));
     return worst;
   };
-  // Ten times cell height over inlet velocity. The operators are symmetric to the bit; the multigrid cycle is not,
-  // and leaves its tolerance in every stage.
+  // Ten times cell height over inlet velocity. The operators are symmetric to the bit; the multigrid cycle is
+  // not, and leaves its tolerance in every stage.
   EXPECT_LT(asymmetry(1.0), 1e-12);
 }
 

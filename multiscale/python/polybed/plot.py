@@ -31,7 +31,7 @@ STYLE = {
 }
 
 
-def in_plane(run, field):
+def in_plane(field):
     """A field as [y][x]: of a 3-D run the plane at half depth."""
     return field[field.shape[0] // 2] if field.ndim == 3 else field
 
@@ -40,7 +40,7 @@ def shown_height(run, maps):
     """Top of the picture, m: a fifth above the highest solids (1 % by volume), so that a bed in a tall column is
     not a strip at the bottom; never above the column."""
     faces = run.faces["y"]
-    rows = np.flatnonzero(sum(maps).max(axis=1) > 0.01)
+    rows = np.flatnonzero(sum(maps).max(axis=1) > 0.01) if maps else []
     top = faces[rows[-1] + 1] if len(rows) else faces[-1]
     return min(1.2 * top, faces[-1])
 
@@ -60,8 +60,9 @@ def draw_map(axes, run, values, title, colours, limits):
     return mesh
 
 
-def draw_profiles(axes, run, time):
-    """Lateral averages against height, at the stored time nearest to that of the maps."""
+def draw_profiles(axes, run, time, legend):
+    """Lateral averages against height, at the stored time nearest to that of the maps. Without its legend the
+    colours are told by that of the history."""
     profiles = run.profiles
     if not profiles or len(profiles["time_s"]) == 0:
         axes.set_axis_off()
@@ -77,7 +78,8 @@ def draw_profiles(axes, run, time):
     axes.set_title("lateral mean")
     axes.set_xlabel("volume fraction")
     axes.tick_params(labelleft=False)
-    axes.legend(loc="upper center", fontsize=8, handlelength=1.4)
+    if legend:
+        axes.legend(loc="upper center", fontsize=8, handlelength=1.4)
 
 
 def draw_history(axes, run, time):
@@ -110,48 +112,74 @@ def title_of(run, time):
     return "   ".join(part for part in parts if part)
 
 
+class Layout:
+    """Where everything stands, in inches: maps and profiles in a row, colour bars below them, the history last."""
+
+    LEFT, GAP, PROFILE, RIGHT, HEAD, BARS, HISTORY, LEGEND = 0.75, 0.45, 2.0, 0.25, 0.75, 0.95, 1.9, 1.9
+
+    def __init__(self, maps, width_over_height):
+        self.map_width = float(np.clip(MAP_HEIGHT * width_over_height, *MAP_WIDTHS))
+        self.map_height = min(MAP_HEIGHT, self.map_width / width_over_height)
+        self.maps = maps
+        row = self.LEFT + maps * (self.map_width + self.GAP) + self.PROFILE + self.RIGHT
+        self.width = max(row, 7.0)
+        self.height = self.HEAD + self.map_height + self.BARS + self.HISTORY
+        self._start = self.LEFT + (self.width - row) / 2
+        self._base = self.HISTORY + self.BARS
+        self.figure = plt.figure(figsize=(self.width, self.height), dpi=160)
+
+    def _axes(self, x, y, width, height):
+        return self.figure.add_axes((x / self.width, y / self.height, width / self.width, height / self.height))
+
+    def _left(self, n):
+        return self._start + n * (self.map_width + self.GAP)
+
+    def map(self, n):
+        return self._axes(self._left(n), self._base, self.map_width, self.map_height)
+
+    def bar(self, n):
+        return self._axes(self._left(n), self._base - 0.62, self.map_width, 0.1)
+
+    def profile(self):
+        return self._axes(self._left(self.maps), self._base, self.PROFILE, self.map_height)
+
+    def history(self):
+        return self._axes(self.LEFT, 0.5, self.width - self.LEFT - self.LEGEND, self.HISTORY - 0.75)
+
+
+def panels(run, step):
+    """Title, values, colours and limits of each map: the species on one scale, then the voidage."""
+    fractions = [in_plane(run.field(f"phi_{name}")[step]) for name in run.species]
+    voidage = in_plane(run.field("voidage")[step])
+    largest = max([0.1] + [float(values.max()) for values in fractions])
+    maps = [(f"$\\phi$ {name}", values, "viridis", (0, largest)) for name, values in zip(run.species, fractions)]
+    least = float(np.floor(voidage.min() * 10) / 10)
+    return [*maps, ("voidage $\\varepsilon$", voidage, "cividis", (min(least, 0.9), 1))]
+
+
 def draw(run, step):
     """The figure of a run at a stored step."""
     time = run.time[step]
-    species = run.species
-    fractions = [in_plane(run, run.field(f"phi_{name}")[step]) for name in species]
-    voidage = in_plane(run, run.voidage[step])
-    top = shown_height(run, fractions) if fractions else run.faces["y"][-1]
-    map_width = float(np.clip(MAP_HEIGHT * run.faces["x"][-1] / top, *MAP_WIDTHS))
-    map_height = min(MAP_HEIGHT, map_width * top / run.faces["x"][-1])
-    map_width, gap, left, bars, below, head, side = map_width, 0.45, 0.75, 0.95, 1.9, 0.75, 0.25
-    count, profile_width = len(species) + 1, 2.0
-    width = left + count * (map_width + gap) + profile_width + side
-    below_width = max(width, 7.0)
-    height = head + map_height + bars + below
-    figure = plt.figure(figsize=(below_width, height), dpi=160)
-    start = left + (below_width - width) / 2
-
-    def place(x, y, w, h):
-        return figure.add_axes((x / below_width, y / height, w / below_width, h / height))
-
-    base = below + bars
-    largest = max([0.1] + [float(values.max()) for values in fractions])
-    panels = [(f"$\\phi$ {name}", values, "viridis", (0, largest)) for name, values in zip(species, fractions)]
-    panels.append(("voidage $\\varepsilon$", voidage, "cividis", (float(np.floor(voidage.min() * 10) / 10), 1)))
-    for n, (label, values, colours, limits) in enumerate(panels):
-        x = start + n * (map_width + gap)
-        axes = place(x, base, map_width, map_height)
+    maps = panels(run, step)
+    top = shown_height(run, [values for _, values, _, _ in maps[:-1]])
+    layout = Layout(len(maps), run.faces["x"][-1] / top)
+    for n, (label, values, colours, limits) in enumerate(maps):
+        axes = layout.map(n)
         mesh = draw_map(axes, run, values, label, colours, limits)
         axes.set_ylim(0, top * 1e3)
         if n == 0:
             axes.set_ylabel("y (mm)")
         else:
             axes.tick_params(labelleft=False)
-        bar = figure.colorbar(mesh, cax=place(x, base - 0.62, map_width, 0.1), orientation="horizontal")
-        bar.set_ticks([limits[0], limits[1]], labels=[f"{limits[0]:.2g}", f"{limits[1]:.2g}"])
+        bar = layout.figure.colorbar(mesh, cax=layout.bar(n), orientation="horizontal")
+        bar.set_ticks(limits, labels=[f"{limit:.2g}" for limit in limits])
         bar.outline.set_linewidth(0.5)
-    profile = place(start + count * (map_width + gap), base, profile_width, map_height)
-    draw_profiles(profile, run, time)
+    profile = layout.profile()
+    draw_profiles(profile, run, time, legend=layout.map_height > 2.5)
     profile.set_ylim(0, top * 1e3)
-    draw_history(place(left, 0.5, below_width - left - 1.9, below - 0.75), run, time)
-    figure.suptitle(title_of(run, time), y=1 - 0.22 / height, fontsize=11)
-    return figure
+    draw_history(layout.history(), run, time)
+    layout.figure.suptitle(title_of(run, time), y=1 - 0.22 / layout.height, fontsize=11)
+    return layout.figure
 
 
 def picture(directory, time=None, output=None):
