@@ -17,7 +17,7 @@ LIBRARIES = {
     r"(arkode|ida|nvector|sundials|sunlinsol|sunmatrix)/": r"core/integrator\.cpp",
     r"_?HYPRE": r"core/linear_solver(_block)?\.cpp",
     r"hdf5": r"core/output_(file\.cpp|hdf5\.hpp)",
-    r"toml\+\+/": r"core/case_file\.cpp",
+    r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
     r"CLI/": r"multiscale/main\.cpp",
     r"mpi\.h": r"(core/linear_solver(_block)?\.cpp|multiscale/main\.cpp)",
 }

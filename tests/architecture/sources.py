@@ -1,4 +1,4 @@
-"""The files that the checks read: those that git tracks, or, outside git, all below the root."""
+"""The files that the checks read: those that git tracks or would track, or, outside git, all below the root."""
 import pathlib
 import subprocess
 
@@ -6,7 +6,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def tracked(*suffixes):
-    found = subprocess.run(["git", "-C", str(ROOT), "ls-files"], capture_output=True, text=True)
+    found = subprocess.run(["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True)
     if found.returncode == 0:
         names = found.stdout.split("\n")
     else:
