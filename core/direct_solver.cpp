@@ -19,9 +19,21 @@ Index packed_neighbour(const Grid& grid, std::array<int, 3> cell, int axis, int 
   return cell[0] + grid.cells[0] * (cell[1] + Index(grid.cells[1]) * cell[2]);
 }
 
-Index padded_of(const Grid& grid, Index packed) {
-  const Index nx = grid.cells[0], ny = grid.cells[1];
-  return grid.index(int(packed % nx), int(packed / nx % ny), int(packed / nx / ny));
+/// The ghost cells beside the owned ones: 0, or the image across periodic sides.
+void set_ghosts(const Grid& grid, Field& p) {
+  for (int d = 0; d < grid.dimensions; ++d) {
+    const auto a = std::size_t(d);
+    const Index across = grid.cells[a] * grid.stride(d);
+    for (const int side : {-1, 1}) {
+      Box box = owned_cells(grid);
+      box.lo[a] = side < 0 ? -1 : grid.cells[a];
+      box.hi[a] = box.lo[a] + 1;
+      for_each_row(grid, box, [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c)
+          p[std::size_t(c)] = grid.periodic[a] ? p[std::size_t(c - side * across)] : 0.0;
+      });
+    }
+  }
 }
 
 template <class Body>
@@ -36,22 +48,22 @@ void for_each_cell(const Grid& grid, Body&& body) {
 }  // namespace
 
 double relative_residual(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
-                         std::span<const double> shift, const Field& source, const Field& p) {
+                         std::span<const double> shift, const Field& source, Field& p) {
+  set_ghosts(grid, p);
   double left = 0, right = 0;
-  for_each_cell(grid, [&](const std::array<int, 3>& cell, Index, Index at) {
-    const auto c = std::size_t(at);
-    double r = source[c] - (shift.empty() ? 0.0 : shift[c] * p[c]);
-    for (int d = 0; d < grid.dimensions; ++d) {
-      const auto a = std::size_t(d);
-      const double w = 1 / (grid.spacing[a] * grid.spacing[a]);
-      for (int side = 0; side < 2; ++side) {
-        const Index n = packed_neighbour(grid, cell, d, side == 0 ? -1 : 1);
-        const double beyond = n < 0 ? 0.0 : p[std::size_t(padded_of(grid, n))];
-        r += w * coefficient[a][c + std::size_t(side * grid.stride(d))] * (beyond - p[c]);
+  for_each_row(grid, [&](Index begin, Index end) {
+    for (Index at = begin; at < end; ++at) {
+      const auto c = std::size_t(at);
+      double r = source[c] - (shift.empty() ? 0.0 : shift[c] * p[c]);
+      for (int d = 0; d < grid.dimensions; ++d) {
+        const auto a = std::size_t(d);
+        const auto step = std::size_t(grid.stride(d));
+        r += (coefficient[a][c + step] * (p[c + step] - p[c]) + coefficient[a][c] * (p[c - step] - p[c])) /
+             (grid.spacing[a] * grid.spacing[a]);
       }
+      left += r * r;
+      right += source[c] * source[c];
     }
-    left += r * r;
-    right += source[c] * source[c];
   });
   return right > 0 ? std::sqrt(left / right) : std::sqrt(left);
 }

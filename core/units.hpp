@@ -27,9 +27,8 @@ struct Quantity {
 };
 
 /// Reads "number unit", e.g. "0.807 mm", "15 degC", "1395 kg/m3", "1.14e-3 Pa s", "12"; units are joined by
-/// spaces,
-/// '*' or '/', a digit after a unit is its power. degC alone is shifted to K. Empty if the text is no
-/// quantity.
+/// spaces, '*' or '/', a digit after a unit is its power. degC alone is shifted to K. Empty if the text is
+/// no quantity.
 [[nodiscard]] std::optional<Quantity> parse_quantity(std::string_view text);
 
 /// The SI unit of a dimension as text, e.g. "kg/m3"; "1" for none.
