@@ -1,0 +1,241 @@
+#include "core/case_file.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "core/keys.hpp"
+#include "tests/unit/core/scratch.hpp"
+
+namespace polybed::core {
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<Role> roles{
+    {"drag", "tfm", "Exchange", "", "", {{"cello", ""}, {"vbk", ""}}},
+    {"solids_stress", "tfm", "Stress", "", "", {{"frictional", ""}}},
+    {"species_exchange", "tfm", "Exchange", "", "", {{"syamlal", ""}}},
+    {"contact", "dem", "Pair", "", "", {{"hertz_mindlin", ""}}},
+};
+
+std::string shipped() {
+  std::ifstream file(POLYBED_SOURCE_DIR "/cases/matsuura-akehata/case.toml");
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A whole case in 22 lines; the tests change one of them.
+const std::string good = R"(title = "bed"
+[column]
+size = ["60 mm", "600 mm"]
+cells = [12, 120]
+[fluid]
+name = "water"
+temperature = "15 degC"
+[[species]]
+name = "fine"
+diameter = "0.8 mm"
+density = "1395 kg/m3"
+[bed]
+volume_share = [1.0]
+static_height = "60 mm"
+solids_fraction = 0.6
+[inlet]
+superficial_velocity = "30 mm/s"
+[effects]
+drag = "cello"
+solids_stress = "frictional"
+[run]
+until = "2 s"
+)";
+
+std::string with(const std::string& line, const std::string& changed) {
+  std::string text = good;
+  const auto at = text.find(line);
+  if (at == std::string::npos) throw std::logic_error("no line " + line);
+  return text.replace(at, line.size(), changed);
+}
+
+std::string message_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    (void)parse_case(text, "case.toml", overrides, roles);
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CaseFile, ReadsTheExample) {
+  const Scene scene = parse_case(good, "case.toml", {}, roles);
+  EXPECT_EQ(scene.column.size[0], 0.06);
+  EXPECT_EQ(scene.column.cells[1], 120);
+  EXPECT_EQ(scene.species.at(0).diameter, 0.8e-3);
+  EXPECT_EQ(scene.fluid.temperature, 288.15);
+  EXPECT_EQ(scene.inlet.superficial_velocity.at(0).second, 0.03);
+  EXPECT_EQ(scene.effects.at("drag"), "cello");
+}
+
+struct Wrong {
+  std::string line, changed, message;
+};
+
+class WrongCase : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongCase, IsToldWithPlaceRangeAndSuggestion) {
+  const auto& [line, changed, message] = GetParam();
+  EXPECT_THAT(message_of(with(line, changed)), HasSubstr(message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CaseFile, WrongCase,
+    testing::Values(
+        Wrong{"diameter = \"0.8 mm\"", "diametre = \"0.8 mm\"",
+              "case.toml:10:1: unknown key 'diametre' in [[species]]; did you mean 'diameter'?"},
+        Wrong{"diameter = \"0.8 mm\"", "diametre = \"0.8 mm\"", "case.toml:8:1: species.diameter is missing"},
+        Wrong{"diameter = \"0.8 mm\"", "diameter = \"-1 mm\"",
+              "case.toml:10:12: species.diameter = '-1 mm' is out of range: above 0"},
+        Wrong{"diameter = \"0.8 mm\"", "diameter = 0.8",
+              "case.toml:10:12: species.diameter = 0.8 m is larger than any particle here: did you mean "
+              "\"0.8 mm\"?"},
+        Wrong{"diameter = \"0.8 mm\"", "diameter = \"0.8 s\"",
+              "case.toml:10:12: species.diameter = '0.8 s': expected a value in m, this one is in s"},
+        Wrong{"diameter = \"0.8 mm\"", "diameter = \"0.8 millimetre\"",
+              "expected a number with a unit such as \"1 m\""},
+        Wrong{"diameter = \"0.8 mm\"", "diameter = nan",
+              "case.toml:10:12: species.diameter = nan is out of range"},
+        Wrong{"diameter = \"0.8 mm\"", "diameter = inf", "out of range"},
+        Wrong{"cells = [12, 120]", "cells = [12, 120.5]",
+              "case.toml:4:14: column.cells = 120.5: expected a whole number"},
+        Wrong{"cells = [12, 120]", "cells = [12]", "column.cells has 1 numbers, column.size 2"},
+        Wrong{"cells = [12, 120]", "cells = [0, 120]",
+              "case.toml:4:10: column.cells = 0 is out of range: at least 1"},
+        Wrong{
+            "drag = \"cello\"", "drag = \"celo\"",
+            "case.toml:19:8: effects.drag = 'celo': allowed are none | cello | vbk; did you mean \"cello\"?"},
+        Wrong{"drag = \"cello\"", "darg = \"cello\"",
+              "case.toml:19:1: unknown key 'darg' in [effects]; did you mean 'drag'?"},
+        Wrong{"volume_share = [1.0]", "volume_share = [0.9]", "bed.volume_share sums to 0.9, not to 1"},
+        Wrong{"volume_share = [1.0]", "volume_share = [0.5, 0.5]",
+              "bed.volume_share has 2 numbers, there are 1 species"},
+        Wrong{"static_height = \"60 mm\"", "", "bed.static_height is missing (or give bed.particles)"},
+        Wrong{"static_height = \"60 mm\"", "static_height = \"700 mm\"", "enlarge column.size"},
+        Wrong{"static_height = \"60 mm\"", "static_height = \"60 mm\"\nparticles = [100]", "give one"},
+        Wrong{"solids_fraction = 0.6", "solids_fraction = 0.6\nstart = \"mxed\"", "did you mean \"mixed\"?"},
+        Wrong{"[[species]]", "[species]", "species is an array of tables: write [[species]]"},
+        Wrong{"[column]", "[colum]", "unknown key 'colum'; did you mean 'column'?"},
+        Wrong{"[run]\nuntil = \"2 s\"", "", "[run] is missing"},
+        Wrong{"until = \"2 s\"", "until = \"2 s", "case.toml:22:"},
+        Wrong{"superficial_velocity = \"30 mm/s\"", "superficial_velocity = [[0, 0.03], [-1, 0.04]]",
+              "out of range"},
+        Wrong{"superficial_velocity = \"30 mm/s\"", "superficial_velocity = [[2, 0.03], [1, 0.04]]",
+              "times must not fall"},
+        Wrong{"superficial_velocity = \"30 mm/s\"", "",
+              "superficial_velocity is missing (or set column.closed = true)"}));
+
+TEST(CaseFile, TellsEverythingAtOnceInTheOrderOfTheFile) {
+  std::string text = with("diameter = \"0.8 mm\"", "diametre = 1");
+  text.replace(text.find("solids_fraction = 0.6"), 21, "solids_fraction = 1.6");
+  text.replace(text.find("until = \"2 s\""), 13, "until = \"-2 s\"");
+  const std::string message = message_of(text);
+  const auto first = message.find("diametre"), second = message.find("solids_fraction = 1.6"),
+             third = message.find("run.until");
+  EXPECT_LT(first, second);
+  EXPECT_LT(second, third);
+  EXPECT_NE(third, std::string::npos) << message;
+}
+
+TEST(CaseFile, OverridesTakeThePlaceOfTheFile) {
+  const std::vector<std::string> set{"inlet.superficial_velocity=37 mm/s", "species.fine.diameter=\"1 mm\"",
+                                     "column.cells=[6, 60]", "effects.drag=vbk"};
+  const Scene scene = parse_case(good, "case.toml", set, roles);
+  EXPECT_EQ(scene.inlet.superficial_velocity.at(0).second, 0.037);
+  EXPECT_EQ(scene.species[0].diameter, 1e-3);
+  EXPECT_EQ(scene.column.cells[0], 6);
+  EXPECT_EQ(scene.effects.at("drag"), "vbk");
+}
+
+TEST(CaseFile, WrongOverridesAreToldByTheirKey) {
+  EXPECT_THAT(message_of(good, {"tfm.rtoll=1"}), HasSubstr("--set tfm.rtoll: unknown key 'rtoll' in [tfm]"));
+  EXPECT_THAT(message_of(good, {"species.coarse.diameter=1"}), HasSubstr("no 'coarse' in [[species]]"));
+  EXPECT_THAT(message_of(good, {"nonsense"}), HasSubstr("expected KEY=VALUE"));
+  EXPECT_THAT(message_of(good, {"run.until=\xff"}), HasSubstr("--set run.until: "));
+}
+
+TEST(CaseFile, TheResolvedCaseReadsBackToItself) {
+  const Scene scene = parse_case(good, "case.toml", {}, roles);
+  const std::string text = resolved_case(scene);
+  EXPECT_EQ(resolved_case(parse_case(text, "again.toml", {}, roles)), text);
+}
+
+TEST(CaseFile, EveryKeyHasHelpAndAReadableDefault) {
+  for (const Key& key : keys()) {
+    EXPECT_FALSE(key.help.empty()) << key.path();
+    if (key.standard.empty() || key.words.empty()) continue;
+    EXPECT_TRUE(is_word(key, key.standard)) << key.path() << " = " << key.standard;
+  }
+}
+
+TEST(CaseFile, AFileThatCannotBeReadSaysWhy) {
+  const test::Scratch scratch;
+  EXPECT_THROW((void)read_case(scratch.path() / "none.toml", {}, roles), FileError);
+  EXPECT_THROW((void)read_case(scratch.path(), {}, roles), FileError);
+}
+
+/// One random change of a text: a byte, a line, a number, a cut.
+std::string mutated(std::string text, std::mt19937& random) {
+  const auto at = [&](std::size_t size) {
+    return std::uniform_int_distribution<std::size_t>(0, size - 1)(random);
+  };
+  const auto any = [&] { return char(std::uniform_int_distribution<int>(0, 255)(random)); };
+  static const std::vector<std::string> odd{
+      "nan",  "-inf", "1e308",      "[]", "{}",   "''",  "-1",           "9223372036854775808",
+      "[[[[", "\"\"", "1979-05-27", "0x", "true", "= =", "[[species]]\n"};
+  for (int changes = 1 + int(at(3)); changes > 0 && !text.empty(); --changes) switch (at(5)) {
+      case 0:
+        text[at(text.size())] = any();
+        break;
+      case 1:
+        text.insert(at(text.size()), 1, any());
+        break;
+      case 2:
+        text.erase(at(text.size()), 1 + at(20));
+        break;
+      case 3:
+        text.insert(at(text.size()), odd[at(odd.size())]);
+        break;
+      default: {
+        const std::size_t from = at(text.size()), to = at(text.size());
+        text.insert(to, text.substr(from, at(30)));
+      }
+    }
+  return text;
+}
+
+// Whatever is in the file, reading ends with a scene or with problems in words; nothing else is thrown. 10
+// 000 of them take two seconds; the count has no other reason.
+TEST(CaseFile, MutationsNeverCrash) {
+  std::mt19937 random(7);
+  int scenes = 0, refused = 0;
+  const std::string original = shipped();
+  for (int n = 0; n < 10'000; ++n) {
+    try {
+      const Scene scene = parse_case(mutated(original, random), "case.toml", {}, roles);
+      EXPECT_GT(scene.column.size[0], 0);
+      ++scenes;
+    } catch (const CaseError& error) {
+      EXPECT_STRNE(error.what(), "");
+      ++refused;
+    }
+  }
+  EXPECT_GT(scenes, 100);
+  EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace polybed::core
