@@ -1,0 +1,196 @@
+#include "core/integrator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "core/error.hpp"
+
+namespace polybed::core {
+namespace {
+
+/// y' = f(t, y) from a function.
+class Ode : public OdeProblem {
+ public:
+  using Function = std::function<Rate(double, std::span<const double>, std::span<double>)>;
+  explicit Ode(Function f) : f_(std::move(f)) {}
+  Rate rates(double t, std::span<const double> y, std::span<double> dydt) override {
+    ++evaluations;
+    return f_(t, y, dydt);
+  }
+  int evaluations = 0;
+
+ private:
+  Function f_;
+};
+
+/// Two bodies on a circle: y = (cos t, sin t).
+Ode circle() {
+  return Ode([](double, std::span<const double> y, std::span<double> f) {
+    f[0] = -y[1];
+    f[1] = y[0];
+    return Rate::ok;
+  });
+}
+
+double run(Integrator& integrator, double until) {
+  integrator.restart(0, std::vector<double>{1.0, 0.0}, {}, 0);
+  for (double t = 0; t < until;) t = integrator.step(until).time;
+  return std::hypot(integrator.state()[0] - std::cos(until), integrator.state()[1] - std::sin(until));
+}
+
+// Bogacki and Shampine's method is of order 3: halving the step divides the error by 8; 0.15 in the exponent
+// covers the next term of the series at these steps.
+TEST(Explicit, IsOfOrderThree) {
+  double before = 0;
+  for (const double h : {0.1, 0.05, 0.025}) {
+    Ode problem = circle();
+    const auto integrator = make_explicit(problem, {.rtol = 1e-3, .atol = {1e-6, 1e-6}, .fixed_step = h});
+    const double error = run(*integrator, 2.0);
+    if (before > 0) {
+      EXPECT_NEAR(std::log2(before / error), 3.0, 0.15) << h;
+    }
+    before = error;
+  }
+}
+
+// Error control per step: the error at the end follows the tolerance. A hundred times less tolerance must
+// give at least ten times less error.
+TEST(Explicit, TheErrorFollowsTheTolerance) {
+  double before = 0;
+  for (const double rtol : {1e-3, 1e-5, 1e-7}) {
+    Ode problem = circle();
+    const auto integrator = make_explicit(problem, {.rtol = rtol, .atol = {rtol, rtol}});
+    const double error = run(*integrator, 5.0);
+    EXPECT_LT(error, 30 * rtol);
+    if (before > 0) {
+      EXPECT_LT(error, before / 10);
+    }
+    before = error;
+  }
+}
+
+TEST(Explicit, LandsOnTheTimeToTheBitAndInterpolatesWithin) {
+  Ode problem = circle();
+  const auto integrator = make_explicit(problem, {.rtol = 1e-6, .atol = {1e-9, 1e-9}});
+  integrator->restart(0, std::vector<double>{1.0, 0.0}, {}, 0);
+  double before = 0, t = 0;
+  while (t < 0.1) {
+    before = t;
+    t = integrator->step(0.1).time;
+  }
+  EXPECT_EQ(t, 0.1);
+  std::vector<double> y(2);
+  const double middle = 0.5 * (before + t);
+  integrator->interpolate(middle, y);
+  EXPECT_NEAR(y[0], std::cos(middle), 1e-6);  // third-order Hermite between two points of error below rtol
+}
+
+// Where a state cannot be evaluated the step shrinks and the run goes on; here y > 1 is forbidden, and y' = 1
+// - y from 0 never gets there, but a long first step would.
+TEST(Explicit, ARecoverableErrorShrinksTheStep) {
+  Ode problem([](double, std::span<const double> y, std::span<double> f) {
+    f[0] = 1 - y[0];
+    return y[0] > 1 ? Rate::recoverable : Rate::ok;
+  });
+  const auto integrator = make_explicit(problem, {.rtol = 1e-4, .atol = {1e-8}});
+  integrator->restart(0, std::vector<double>{0.0}, {}, 50.0);
+  double t = 0;
+  while (t < 2) t = integrator->step(2).time;
+  EXPECT_NEAR(integrator->state()[0], 1 - std::exp(-2.0), 1e-3);
+  EXPECT_GT(integrator->statistics().recoverable_failures, 0U);
+}
+
+TEST(Explicit, AStateThatNeverEvaluatesEndsWithTheReason) {
+  Ode problem([](double, std::span<const double>, std::span<double>) { return Rate::recoverable; });
+  const auto integrator = make_explicit(problem, {.rtol = 1e-4, .atol = {1e-8}});
+  integrator->restart(0, std::vector<double>{0.0}, {}, 1e-3);
+  EXPECT_THROW(integrator->step(1), NumericsError);
+}
+
+TEST(Explicit, AnExceptionPassesThrough) {
+  Ode problem([](double t, std::span<const double>, std::span<double> f) {
+    if (t > 0.5) throw std::runtime_error("from inside");
+    f[0] = 1;
+    return Rate::ok;
+  });
+  const auto integrator = make_explicit(problem, {.rtol = 1e-4, .atol = {1e-8}});
+  integrator->restart(0, std::vector<double>{0.0}, {}, 0.1);
+  EXPECT_THROW(while (true) integrator->step(1), std::runtime_error);
+}
+
+TEST(Explicit, WhatFollowsARestartDependsOnItsArgumentsAlone) {
+  Ode problem = circle();
+  const ExplicitOptions options{.rtol = 1e-5, .atol = {1e-8, 1e-8}};
+  const auto used = make_explicit(problem, options), fresh = make_explicit(problem, options);
+  (void)run(*used, 3.0);
+  const std::vector<double> y{0.3, -0.7};
+  used->restart(1.5, y, {}, 0.01);
+  fresh->restart(1.5, y, {}, 0.01);
+  for (double t = 1.5; t < 4;) {
+    const StepReport a = used->step(4), b = fresh->step(4);
+    ASSERT_EQ(a.time, b.time);
+    ASSERT_EQ(used->state()[0], fresh->state()[0]);
+    t = a.time;
+  }
+}
+
+/// x' = -k (x - cos t), 0 = z - x^2: stiff, with one algebraic entry; x -> cos t for large k.
+class StiffDae : public DaeProblem {
+ public:
+  double k = 1e6;
+  Rate residual(double t, std::span<const double> y, std::span<const double> dydt,
+                std::span<double> r) override {
+    r[0] = dydt[0] + k * (y[0] - std::cos(t));
+    r[1] = y[1] - y[0] * y[0];
+    return Rate::ok;
+  }
+  Rate setup(double, std::span<const double> y, std::span<const double>, std::span<const double>,
+             double) override {
+    x_ = y[0];
+    return Rate::ok;
+  }
+  Rate precondition(double, std::span<const double> r, std::span<double> z, double cj, double) override {
+    z[0] = r[0] / (cj + k);
+    z[1] = r[1] + 2 * x_ * z[0];
+    return Rate::ok;
+  }
+
+ private:
+  double x_ = 0;
+};
+
+// A stiff equation with a smooth solution: as many steps as the solution needs, not as many as 1/k would ask
+// for (2e6 steps for an explicit method). The error at the end stays within a few times the tolerance.
+TEST(Implicit, StepsOverWhatIsStiff) {
+  StiffDae problem;
+  const auto integrator = make_implicit(problem, {.rtol = 1e-5, .atol = {1e-7, 1e-7}, .id = {1, 0}});
+  const std::vector<double> y{1.0, 1.0}, dydt{0.0, 0.0};
+  integrator->restart(0, y, dydt, 1e-6);
+  for (double t = 0; t < 2;) t = integrator->step(2).time;
+  const double exact = std::cos(2.0);
+  EXPECT_NEAR(integrator->state()[0], exact, 3e-4);
+  EXPECT_NEAR(integrator->state()[1], exact * exact, 3e-4);
+  EXPECT_LT(integrator->statistics().steps, 1000U);
+}
+
+TEST(Implicit, WhatFollowsARestartDependsOnItsArgumentsAlone) {
+  StiffDae problem, other;
+  const ImplicitOptions options{.rtol = 1e-4, .atol = {1e-7, 1e-7}, .id = {1, 0}};
+  const auto used = make_implicit(problem, options), fresh = make_implicit(other, options);
+  const std::vector<double> y{1.0, 1.0}, dydt{0.0, 0.0};
+  used->restart(0, y, dydt, 1e-5);
+  for (int n = 0; n < 20; ++n) used->step(1);
+  used->restart(0, y, dydt, 1e-4);
+  fresh->restart(0, y, dydt, 1e-4);
+  for (double t = 0; t < 1;) {
+    t = used->step(1).time;
+    ASSERT_EQ(t, fresh->step(1).time);
+    ASSERT_EQ(used->state()[0], fresh->state()[0]);
+  }
+}
+
+}  // namespace
+}  // namespace polybed::core
