@@ -1,0 +1,98 @@
+#include "fluid/invariants.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "fluid/profile.hpp"
+#include "fluid/properties.hpp"
+
+namespace polybed::fluid {
+namespace {
+
+core::Grid small() {
+  core::Grid grid;
+  grid.cells = {4, 6, 1};
+  grid.spacing = {0.01, 0.01, 0.002};
+  return grid;
+}
+
+TEST(Profile, IsTheMeanOfTheOwnedCellsOfALayer) {
+  const core::Grid grid = small();
+  core::Field field = core::make_field(grid, -99.0);  // ghosts must not count
+  for (int j = 0; j < 6; ++j)
+    for (int i = 0; i < 4; ++i) field[std::size_t(grid.index(i, j))] = i + 10.0 * j;
+  const auto mean = lateral_mean(grid, field);
+  ASSERT_EQ(mean.size(), 6U);
+  for (std::size_t j = 0; j < 6; ++j) EXPECT_DOUBLE_EQ(mean[j], 1.5 + 10.0 * double(j));
+}
+
+/// A bed in which one invariant is broken by a known amount.
+class Watch : public testing::Test {
+ protected:
+  Watch() : solids_(grid_, {2000.0}), fluid_(grid_) {
+    for (auto& phi : solids_.fraction) phi.assign(phi.size(), 0.3);
+    fluid_.voidage.assign(fluid_.voidage.size(), 0.7);
+  }
+  InvariantValues see(double rtol = 1e-3) {
+    invariants_ = Invariants({0.3 * 2000 * 24 * grid_.cell_volume()}, rtol);
+    return invariants_.see(grid_, solids_, fluid_, 0.6, 0.1, 0.0, 2.0);
+  }
+  core::Grid grid_ = small();
+  Interphase solids_;
+  FluidState fluid_;
+  Invariants invariants_{{1.0}, 1e-3};
+};
+
+TEST_F(Watch, ABedAtRestBreaksNothing) {
+  const InvariantValues now = see();
+  EXPECT_LT(now.mass_error, 1e-15);
+  EXPECT_EQ(now.fraction_below, 0);
+  EXPECT_EQ(now.packing_above, 0);
+  EXPECT_LE(invariants_.nearest().share(), 1);
+}
+
+TEST_F(Watch, LostMassIsSeen) {
+  solids_.fraction[0][std::size_t(grid_.index(1, 1))] -= 1e-6;
+  EXPECT_NEAR(see().mass_error, 1e-6 / (0.3 * 24), 1e-12);
+  EXPECT_EQ(invariants_.nearest().name, "mass");
+  EXPECT_GT(invariants_.nearest().share(), 1);
+  EXPECT_EQ(invariants_.nearest().time, 2.0);
+}
+
+TEST_F(Watch, AFractionOutOfBoundsIsSeen) {
+  solids_.fraction[0][std::size_t(grid_.index(0, 0))] = -0.01;
+  solids_.fraction[0][std::size_t(grid_.index(3, 5))] = 0.65;
+  fluid_.voidage[std::size_t(grid_.index(3, 5))] = 0.35;
+  const InvariantValues now = see();
+  EXPECT_DOUBLE_EQ(now.fraction_below, 0.01);
+  EXPECT_DOUBLE_EQ(now.most_solids, 0.65);
+  EXPECT_NEAR(now.packing_above, 0.05, 1e-15);
+}
+
+TEST_F(Watch, AVolumeFluxThatDivergesIsSeen) {
+  fluid_.flux[1][std::size_t(grid_.index(2, 3))] = 0.003;  // |div J| h / U = 0.003 / 0.1
+  EXPECT_NEAR(see().divergence, 0.03, 1e-12);
+}
+
+TEST(Properties, AFluidWithoutPropertiesIsRefusedByName) {
+  core::Fluid honey;
+  honey.name = "honey";
+  EXPECT_THROW((void)fluid_constants(honey), core::CaseError);
+  honey.density = 1400;
+  honey.viscosity = 10;
+  EXPECT_EQ(fluid_constants(honey).density, 1400);
+}
+
+TEST(Properties, WhatIsGivenOverridesWhatIsKnown) {
+  core::Fluid water;
+  water.name = "water";
+  water.temperature = 288.15;
+  const double density = fluid_constants(water).density;
+  EXPECT_NEAR(density, 999.1, 0.05);  // CRC: 999.10 kg/m3 at 15 degC
+  water.viscosity = 2e-3;
+  EXPECT_EQ(fluid_constants(water).viscosity, 2e-3);
+  EXPECT_EQ(fluid_constants(water).density, density);
+}
+
+}  // namespace
+}  // namespace polybed::fluid

@@ -1,0 +1,109 @@
+#include "fluid/measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace polybed::fluid {
+namespace {
+
+constexpr double slab = 2e-3;
+
+/// phi_j(z) from functions, 100 slabs of 2 mm, sampled at the centres.
+template <class... Phi>
+Profile profile_of(Phi... phi) {
+  Profile p;
+  p.slab = slab;
+  (p.fraction.push_back([&] {
+    std::vector<double> values(100);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = phi((double(k) + 0.5) * slab);
+    return values;
+  }()),
+   ...);
+  return p;
+}
+
+double step(double z, double from, double to, double value) { return z > from && z < to ? value : 0.0; }
+
+TEST(Measures, OfAUniformBed) {
+  const Profile p = profile_of([](double z) { return step(z, 0, 0.1, 0.5); });
+  EXPECT_NEAR(*bed_height(p), 0.1, slab / 2);  // the step lies between two centres
+  EXPECT_NEAR(*centre(p, 0), 0.05, 1e-15);
+  EXPECT_NEAR(*volume_quantile(p, 0.25), 0.025, 1e-15);
+  EXPECT_FALSE(mixing(p));
+  EXPECT_FALSE(interface_height(p));
+}
+
+// A dense lower layer must not decide: half of the mean of both, 0.45, is more than the upper layer's 0.3.
+TEST(Measures, TheHeightIsThatOfTheTopNotOfTheInterface) {
+  const Profile p = profile_of([](double z) { return step(z, 0, 0.06, 0.6); },
+                               [](double z) { return step(z, 0.06, 0.16, 0.3); });
+  EXPECT_NEAR(*bed_height(p), 0.16, slab / 2);
+}
+
+// Volumes 0.6 * 0.06 = 0.036 below and 0.3 * 0.1 = 0.030 above; the interface at 0.06 lies within slice 28 of
+// 50, whose thickness there is 0.066 / 50 / 0.6 = 2.2 mm below and 4.4 mm above.
+TEST(Measures, TheInterfaceLiesBetweenTwoLayers) {
+  const Profile p = profile_of([](double z) { return step(z, 0, 0.06, 0.6); },
+                               [](double z) { return step(z, 0.06, 0.16, 0.3); });
+  EXPECT_NEAR(*interface_height(p), 0.06, 4.4e-3);
+  // One of the 50 slices holds the interface, 3/11 : 8/11 of both; all others are pure.
+  EXPECT_NEAR(*mixing(p), 0.0, 1.0 / 50 + 1e-12);
+  EXPECT_NEAR(*centre(p, 0), 0.03, 1e-12);
+  EXPECT_NEAR(*centre(p, 1), 0.11, 1e-12);
+}
+
+TEST(Measures, AMixedBedIsMixed) {
+  const Profile p = profile_of([](double z) { return step(z, 0, 0.1, 0.3); },
+                               [](double z) { return step(z, 0, 0.1, 0.2); });
+  EXPECT_NEAR(*mixing(p), 1.0, 1e-12);
+  EXPECT_NEAR(*interface_height(p), 0.1, 1e-12);  // one layer: its top is the bed's
+}
+
+TEST(Measures, OfAnEmptyBedAreEmpty) {
+  const Profile p = profile_of([](double) { return 0.0; }, [](double) { return 0.0; });
+  EXPECT_FALSE(bed_height(p));
+  EXPECT_FALSE(centre(p, 0));
+  EXPECT_FALSE(volume_quantile(p, 0.5));
+  EXPECT_FALSE(interface_height(p));
+  EXPECT_FALSE(mixing(p));
+}
+
+TEST(Measures, AFullColumnIsAsHighAsTheColumn) {
+  const Profile p = profile_of([](double) { return 0.4; });
+  EXPECT_DOUBLE_EQ(*bed_height(p), 0.2);
+}
+
+// The same bed as cells and as 20 000 particles of 0.1 mm counted into the slabs: within the slab, and within
+// the noise of counting, 0.3 m/sqrt(20 000) < 1 mm in a centre.
+TEST(Measures, CellsAndParticlesGiveTheSame) {
+  const auto phi = [](double z) { return z < 0.12 ? 0.5 - 2 * z : 0.0; };
+  const Profile cells = profile_of(phi);
+  Profile particles = profile_of([](double) { return 0.0; });
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> height(0, 0.12), chance(0, 0.5);
+  int placed = 0;
+  while (placed < 20'000) {
+    const double z = height(random);
+    if (chance(random) > phi(z)) continue;
+    particles.fraction[0][std::size_t(z / slab)] += 1;
+    ++placed;
+  }
+  double volume = 0;
+  for (double v : cells.fraction[0]) volume += v;
+  for (double& v : particles.fraction[0]) v *= volume / placed;
+  EXPECT_NEAR(*bed_height(particles), *bed_height(cells), slab);
+  EXPECT_NEAR(*centre(particles, 0), *centre(cells, 0), 1e-3);
+  EXPECT_NEAR(*volume_quantile(particles, 0.9), *volume_quantile(cells, 0.9), slab);
+}
+
+TEST(Measures, ThePressureDropContinuesToBothEnds) {
+  Profile p = profile_of([](double) { return 0.1; });
+  p.pressure.resize(100);
+  for (std::size_t k = 0; k < 100; ++k) p.pressure[k] = 50 - 200 * p.centre(k);
+  EXPECT_NEAR(pressure_drop(p), 200 * 0.2, 1e-10);  // exact for a straight line
+}
+
+}  // namespace
+}  // namespace polybed::fluid
