@@ -17,6 +17,7 @@ struct BlockSolver::Hypre {
   HYPRE_Solver multigrid = nullptr;
   std::vector<HYPRE_Int> row, row_size, column;
   std::vector<double> value, packed;
+  std::size_t first = 0;  ///< of the row that is being filled
 
   explicit Hypre(const Grid& grid) : rows(HYPRE_Int(2 * grid.cell_count())), packed(std::size_t(rows)) {
     open_linear_solvers();
@@ -43,6 +44,19 @@ struct BlockSolver::Hypre {
     multigrid = nullptr;
     matrix = nullptr;
   }
+
+  void begin_row() { first = value.size(); }
+  /// Adds to an entry of the present row; across periodic sides of one or two cells both neighbours are one.
+  void add(HYPRE_Int at, double v) {
+    for (std::size_t n = first; n < value.size(); ++n)
+      if (column[n] == at) {
+        value[n] += v;
+        return;
+      }
+    column.push_back(at);
+    value.push_back(v);
+  }
+  void end_row(HYPRE_Int n) { row_size[std::size_t(n)] = HYPRE_Int(value.size() - first); }
 
   void assemble() {
     clear();
@@ -86,41 +100,42 @@ bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSp
   h.column.clear();
   h.value.clear();
   const auto cells = grid_.cells;
+  const std::array<HYPRE_Int, 3> jump{1, cells[0], cells[0] * cells[1]};
   HYPRE_Int cell = 0;
+  /// Flux of one unknown's equation through one face of cell (i, j, k): there, and to the cell beyond.
+  const auto couple = [&](const std::array<int, 3>& here, int d, int side, double of_p, double of_s) {
+    const auto a = std::size_t(d);
+    std::array<int, 3> beyond = here;
+    beyond[a] += side;
+    HYPRE_Int other = cell + side * jump[a];
+    h.add(2 * cell, of_p);
+    if (beyond[a] < 0 || beyond[a] >= cells[a]) {
+      if (!grid_.periodic[a]) return;
+      beyond[a] -= side * cells[a];
+      other -= side * HYPRE_Int(cells[a]) * jump[a];
+    }
+    h.add(2 * cell + 1, of_s * slope[std::size_t(grid_.index(here[0], here[1], here[2]))]);
+    h.add(2 * other, -of_p);
+    h.add(2 * other + 1, -of_s * slope[std::size_t(grid_.index(beyond[0], beyond[1], beyond[2]))]);
+  };
   for (int k = 0; k < cells[2]; ++k)
     for (int j = 0; j < cells[1]; ++j)
       for (int i = 0; i < cells[0]; ++i, ++cell)
         for (int unknown = 0; unknown < 2; ++unknown) {
           const FaceSpans& of_p = unknown == 0 ? c11 : c21;
           const FaceSpans& of_s = unknown == 0 ? c12 : c22;
-          const auto at = std::size_t(grid_.index(i, j, k));
-          const std::size_t first = h.value.size();
-          h.column.insert(h.column.end(), {2 * cell, 2 * cell + 1});
-          h.value.insert(h.value.end(), {unknown == 0 ? diagonal_p : 0.0, unknown == 0 ? 0.0 : c});
-          const std::array<int, 3> here{i, j, k};
-          const std::array<HYPRE_Int, 3> jump{1, cells[0], cells[0] * cells[1]};
+          h.begin_row();
+          h.add(2 * cell, unknown == 0 ? diagonal_p : 0.0);
+          h.add(2 * cell + 1, unknown == 0 ? 0.0 : c);
           for (int d = 0; d < grid_.dimensions; ++d) {
             const auto a = std::size_t(d);
             const double w = 1 / (grid_.spacing[a] * grid_.spacing[a]);
-            for (int side = -1; side <= 1; side += 2) {
-              const std::size_t face = side < 0 ? at : at + std::size_t(grid_.stride(d));
-              const double p = w * of_p[a][face], s = w * of_s[a][face];
-              h.value[first] += p;
-              int beyond = here[a] + side;
-              HYPRE_Int other = cell + side * jump[a];
-              if (beyond < 0 || beyond >= cells[a]) {
-                if (!grid_.periodic[a]) continue;
-                other -= side * HYPRE_Int(cells[a]) * jump[a];
-              }
-              const std::size_t neighbour = std::size_t(grid_.index(
-                  d == 0 ? (beyond + cells[0]) % cells[0] : i, d == 1 ? (beyond + cells[1]) % cells[1] : j,
-                  d == 2 ? (beyond + cells[2]) % cells[2] : k));
-              h.value[first + 1] += s * slope[at];
-              h.column.insert(h.column.end(), {2 * other, 2 * other + 1});
-              h.value.insert(h.value.end(), {-p, -s * slope[neighbour]});
+            for (const int side : {-1, 1}) {
+              const auto face = std::size_t(grid_.index(i, j, k) + (side < 0 ? 0 : grid_.stride(d)));
+              couple({i, j, k}, d, side, w * of_p[a][face], w * of_s[a][face]);
             }
           }
-          h.row_size[std::size_t(2 * cell + unknown)] = HYPRE_Int(h.value.size() - first);
+          h.end_row(2 * cell + unknown);
         }
   h.assemble();
   const bool fine = HYPRE_GetError() == 0;

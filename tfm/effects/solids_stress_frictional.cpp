@@ -38,6 +38,11 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
       throw core::CaseError(
           "bed.solids_fraction must lie above tfm.frictional_onset, or give tfm.max_packing");
     law_.max_packing = packing_of_bed(scene, constants);
+    if (!(law_.max_packing < 1))
+      throw core::CaseError(
+          "tfm.max_packing = \"auto\": the bed is too light to be held at bed.solids_fraction by any phi_max "
+          "below "
+          "1; give tfm.max_packing, e.g. 0.64");
   } else {
     law_.max_packing = std::stod(scene.tfm.max_packing);
   }

@@ -1,0 +1,50 @@
+// Homogeneous expansion: the voidage at which a liquid carries a bed, and which way the bed goes elsewhere.
+//
+// The homogeneous bed of this material is unstable: waves of voidage grow in it (in a run of 20 s to +-0.05).
+// The test therefore asks for the equilibrium itself, in the middle of an even column, before anything has
+// grown.
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+namespace polybed::verification {
+namespace {
+
+/// Velocity of the solids, m/s, in the middle of an even column after 0.1 s, one relaxation time:
+/// 1 mm, 2200 kg/m3, water at 20 degC.
+double drift(double superficial_velocity, double voidage, const std::string& integrator) {
+  constexpr int cells = 40;
+  core::Scene scene = uniform_bed(1e-3, 2200, 998.207, 1.00157e-3, 1 - voidage, cells, 0.4);
+  scene.inlet.superficial_velocity = {{0.0, superficial_velocity}};
+  scene.tfm.integrator = integrator;
+  scene.tfm.rtol = 1e-6;
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  advance(model, 0.1);
+  return model.fields().solids.velocity[0][1][std::size_t(model.constants().grid.index(0, cells / 2))];
+}
+
+struct Point {
+  double velocity, voidage;
+};
+
+class Expansion : public testing::TestWithParam<std::tuple<Point, const char*>> {};
+
+// References from f U/eps = D^2 (rho_s - rho_f) g/(18 mu) with `cello`, solved apart from this code, to five
+// digits. The drift is a smooth function of the voidage; the secant over +-0.001 finds its zero to better
+// than 1e-5.
+TEST_P(Expansion, DragCarriesTheBedAtTheForceBalance) {
+  const auto& [point, integrator] = GetParam();
+  const double denser = drift(point.velocity, point.voidage - 1e-3, integrator);
+  const double looser = drift(point.velocity, point.voidage + 1e-3, integrator);
+  EXPECT_GT(denser, 0) << "too dense a bed must rise";
+  EXPECT_LT(looser, 0) << "too loose a bed must sink";
+  EXPECT_NEAR(point.voidage + 1e-3 * (denser + looser) / (denser - looser), point.voidage, 2e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(ForceBalance, Expansion,
+                         testing::Combine(testing::Values(Point{0.030, 0.63991}, Point{0.050, 0.76397}),
+                                          testing::Values("explicit", "implicit")));
+
+}  // namespace
+}  // namespace polybed::verification
