@@ -1,0 +1,50 @@
+// Order in time of the whole model: pressure projection, drag and inlet included.
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+namespace polybed::verification {
+namespace {
+
+/// Fractions of the first species after 80 ms of an expanding bed, below the onset of the frictional stress.
+core::Field fractions(double fixed_step, double rtol) {
+  core::Scene scene = binary_bed(6, 24, 0.03, 0.12);
+  scene.bed.start_solids_fraction = 0.45;
+  if (fixed_step > 0) scene.tfm.fixed_step = fixed_step;
+  scene.tfm.rtol = rtol;
+  scene.tfm.pressure_tolerance = 1e-12;
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  advance(model, 0.08);
+  return model.fields().solids.fraction[0];
+}
+
+core::Grid grid_of_scene() {
+  core::Timers timers;
+  return tfm::Model(binary_bed(6, 24, 0.03, 0.12), timers).constants().grid;
+}
+
+// Halving the step divides the error by 8; above that by the next term of the series, which still counts a
+// tenth at 1 ms (0.3 in the exponent), so the bound below is the sharp one.
+TEST(TimeOrder, OfTheExplicitIntegratorIsThree) {
+  const core::Grid grid = grid_of_scene();
+  const core::Field reference = fractions(1.25e-4, 1e-3);
+  const double coarse = distance(grid, fractions(1e-3, 1e-3), reference);
+  const double fine = distance(grid, fractions(5e-4, 1e-3), reference);
+  EXPECT_GT(std::log2(coarse / fine), 2.9);
+  EXPECT_LT(std::log2(coarse / fine), 3.5);
+}
+
+// The error that error control leaves falls with rtol: a factor of 100 must bring at least 10 (order 3 of 2/3
+// and the errors of many steps in sum).
+TEST(TimeOrder, TheErrorFollowsTheTolerance) {
+  const core::Grid grid = grid_of_scene();
+  const core::Field reference = fractions(1.25e-4, 1e-3);
+  const double loose = distance(grid, fractions(0, 1e-3), reference);
+  const double tight = distance(grid, fractions(0, 1e-5), reference);
+  EXPECT_LT(tight, loose / 10);
+  EXPECT_LT(loose, 1e-3);
+}
+
+}  // namespace
+}  // namespace polybed::verification
