@@ -48,8 +48,8 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
                      double viscosity, std::span<double> f, std::span<double> re_dfdre);
 
 /// f_mean of a mixture whose species have the drag f at a common slip: the base law at the Sauter diameter
-/// where the law is built on it, else sum x_j f_j / y_j^2, T(3.45). \param reynolds  of the Sauter diameter
-/// and the superficial slip velocity
+/// where the law is built on it, else sum x_j f_j / y_j^2, T(3.45).
+/// \param reynolds  of the Sauter diameter and the superficial slip velocity
 [[nodiscard]] double drag_of_mean(const DragLaw& law, double voidage, double reynolds,
                                   std::span<const double> share, std::span<const double> diameter,
                                   std::span<const double> f);

@@ -58,8 +58,9 @@ struct FrictionalLaw {
 };
 
 /// The maximum packing at which solids of a given fraction carry a given pressure: solves p_f(phi; phi_max) =
-/// p for phi_max in closed form, phi_max = phi + [Fr (phi - phi_min)^2 / p]^(1/5). \param solids_fraction phi
-/// > onset  \param pressure  p, Pa, > 0
+/// p for phi_max in closed form, phi_max = phi + [Fr (phi - phi_min)^2 / p]^(1/5).
+/// \param solids_fraction  phi > onset
+/// \param pressure  p, Pa, > 0
 [[nodiscard]] double max_packing_for(double solids_fraction, double pressure, double strength, double onset);
 
 }  // namespace polybed::closures

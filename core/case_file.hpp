@@ -15,8 +15,10 @@
 namespace polybed::core {
 
 /// Reads a case file. Throws CaseError with all problems (place, key, value, range, suggestion), FileError if
-/// the file cannot be read. \param overrides  "key=value" each, e.g. "inlet.superficial_velocity=37 mm/s",
-/// "species.fine.diameter=1 mm" \param roles      what [effects] may name
+/// the file cannot be read.
+/// \param overrides  "key=value" each, e.g. "inlet.superficial_velocity=37 mm/s",
+/// "species.fine.diameter=1 mm"
+/// \param roles      what [effects] may name
 [[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
                               std::span<const Role> roles);
 

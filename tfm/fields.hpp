@@ -40,8 +40,8 @@ struct Fields {
   core::FaceField fluid_acceleration;         ///< a_f, m/s2
   fluid::FluxRate flux_rate;
   SolidsStress stress;
-  std::vector<core::Field>
-      species_exchange;  ///< K_jk / (phi_j phi_k), kg/(m3 s), pairs j < k; empty if absent
+  /// K_jk / (phi_j phi_k), kg/(m3 s), pairs j < k; empty if absent.
+  std::vector<core::Field> species_exchange;
 
   Fields() = default;
   explicit Fields(const Constants& constants);
