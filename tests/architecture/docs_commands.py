@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every command in a ```sh block of the README, the docs and the cases runs and ends with 0.
+"""Every command in a ```sh block of the README, the docs and the cases runs and ends with 0; so does every ```python block.
 
 A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
 `polybed tfm` line gets `--until 0.1s` in place of its own end, and replaces an earlier run of the same page. Each page
@@ -14,13 +14,17 @@ import tempfile
 
 from sources import ROOT, report, tracked
 
+PYTHON = "/usr/bin/python3"
 MOST_NOT_RUN = 6
 SHORT = ["--until", "0.1 s", "--quiet"]
 
 
 def blocks(text):
-    """(mark, commands) of each sh block; a line that ends in a backslash goes on."""
-    for mark, body in re.findall(r"^```sh( no-run)?\n(.*?)^```", text, re.M | re.S):
+    """(mark, commands) of each block; a line that ends in a backslash goes on; a python block is one command."""
+    for language, mark, body in re.findall(r"^```(sh|python)( no-run)?\n(.*?)^```", text, re.M | re.S):
+        if language == "python":
+            yield mark.strip(), [shlex.join([PYTHON, "-c", body])]
+            continue
         body = body.replace("\\\n", " ")
         yield mark.strip(), [line.strip() for line in body.split("\n") if line.strip() and not line.startswith("#")]
 
@@ -37,12 +41,15 @@ def shortened(command, program):
 
 
 def run(command, program, scratch):
-    done = subprocess.run(shortened(command, program), cwd=scratch, capture_output=True, text=True, timeout=300)
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "multiscale/python")}
+    done = subprocess.run(shortened(command, program), cwd=scratch, env=environment, capture_output=True, text=True,
+                          timeout=300)
     return [] if done.returncode == 0 else [f"{command}\n  ended with {done.returncode}: {done.stderr[-500:]}"]
 
 
 def self_test():
     assert list(blocks("```sh\na b\n```\n```sh no-run\nc\n```\n")) == [("", ["a b"]), ("no-run", ["c"])]
+    assert list(blocks("```python\nprint(1)\n```\n")) == [("", [f"{PYTHON} -c 'print(1)\n'"])]
     assert shortened("./polybed tfm x --until '20 s'", "p") == ["p", "tfm", "x", *SHORT, "--force"]
     assert "--force" not in shortened("./polybed tfm x --resume", "p")
     assert run("false", "p", ".")
