@@ -18,6 +18,19 @@ void for_each_law(Body&& body) {
   for_each_law(body, std::make_index_sequence<std::variant_size_v<DragLaw>>{});
 }
 
+/// The bare law of the thesis over rows. Compiled for wider vectors as well, the widest that the processor has being
+/// chosen when the program starts; without fused multiply-adds (-ffp-contract=off) all give the same bits.
+#if defined(__x86_64__) && defined(__gnu_linux__)
+__attribute__((target_clones("avx512f", "avx2", "default")))
+#endif
+void cello_rows(std::size_t rows, const double* voidage, const double* reynolds, double* f, double* re_dfdre) {
+  for (std::size_t n = 0; n < rows; ++n) {
+    const DragValue value = DragCello::bare(voidage[n], reynolds[n]);
+    f[n] = value.f;
+    re_dfdre[n] = value.re_dfdre;
+  }
+}
+
 /// Law over rows. A law without costly guard is called as it is; cello runs branch-free over all rows and a
 /// second pass redoes those outside its data.
 template <class Law>
@@ -25,11 +38,7 @@ void evaluate(const Law& law, std::size_t rows, const double* voidage, const dou
               double* re_dfdre, GuardCount& count) {
   std::size_t outside = 0;
   if constexpr (std::is_same_v<Law, DragCello>) {
-    for (std::size_t n = 0; n < rows; ++n) {
-      const DragValue value = DragCello::bare(voidage[n], reynolds[n]);
-      f[n] = value.f;
-      re_dfdre[n] = value.re_dfdre;
-    }
+    cello_rows(rows, voidage, reynolds, f, re_dfdre);
     for (std::size_t n = 0; n < rows; ++n) {
       // Re_c is at least 687 within the data, so most rows need no square root.
       constexpr double always_inside = 600;
@@ -101,8 +110,7 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
       [&](const auto& l) {
         l.terms(voidage, share, diameter, terms);
         for (std::size_t j = 0; j < diameter.size(); ++j) {
-          const DragValue base =
-              l.base(terms[j].voidage, fluid_density * slip[j] * terms[j].length / viscosity);
+          const DragValue base = l.base(terms[j].voidage, fluid_density * slip[j] * terms[j].length / viscosity);
           f[j] = terms[j].offset + terms[j].factor * base.f;
           re_dfdre[j] = terms[j].factor * base.re_dfdre;
         }
@@ -135,9 +143,8 @@ void DragWorkspace::resize(std::size_t cells, std::size_t species) {
 }
 
 void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
-                   std::span<const double* const> slip, std::span<const double> diameter,
-                   double fluid_density, double viscosity, std::span<double* const> f, DragWorkspace& work,
-                   GuardCount& count) {
+                   std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
+                   double viscosity, std::span<double* const> f, DragWorkspace& work, GuardCount& count) {
   const std::size_t cells = voidage.size(), species = diameter.size();
   const double per_viscosity = fluid_density / viscosity;
   std::visit(

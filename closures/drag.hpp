@@ -22,10 +22,10 @@ namespace polybed::closures {
 using DragLaw =
     std::variant<EachSpecies<DragStokes>, EachSpecies<DragTurtonLevenspiel>, EachSpecies<DragSchillerNaumann>,
                  EachSpecies<DragDallavalle>, EachSpecies<DragCarmanKozeny>, EachSpecies<DragErgun>,
-                 EachSpecies<DragFand>, EachSpecies<DragWenYu>, EachSpecies<DragDiFelice>,
-                 EachSpecies<DragBatchelor>, EachSpecies<DragRichardsonZaki>, EachSpecies<DragGidaspow>,
-                 EachSpecies<DragHkl>, EachSpecies<DragVbk>, MixtureVbkTheory, MixtureVbkCorrected,
-                 MixtureCello, MixtureYinSundaresan, MixturePatwardhanTien, MixtureSyamlal>;
+                 EachSpecies<DragFand>, EachSpecies<DragWenYu>, EachSpecies<DragDiFelice>, EachSpecies<DragBatchelor>,
+                 EachSpecies<DragRichardsonZaki>, EachSpecies<DragGidaspow>, EachSpecies<DragHkl>, EachSpecies<DragVbk>,
+                 MixtureVbkTheory, MixtureVbkCorrected, MixtureCello, MixtureYinSundaresan, MixturePatwardhanTien,
+                 MixtureSyamlal>;
 
 /// The law of a name, with or without its guard; throws std::invalid_argument for an unknown name.
 [[nodiscard]] DragLaw drag_law(std::string_view name, Guard guard);
@@ -50,9 +50,8 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
 /// f_mean of a mixture whose species have the drag f at a common slip: the base law at the Sauter diameter
 /// where the law is built on it, else sum x_j f_j / y_j^2, T(3.45).
 /// \param reynolds  of the Sauter diameter and the superficial slip velocity
-[[nodiscard]] double drag_of_mean(const DragLaw& law, double voidage, double reynolds,
-                                  std::span<const double> share, std::span<const double> diameter,
-                                  std::span<const double> f);
+[[nodiscard]] double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
+                                  std::span<const double> diameter, std::span<const double> f);
 
 /// Work space of drag_of_cells: allocated once, for a number of cells at most.
 struct DragWorkspace {
@@ -63,11 +62,9 @@ struct DragWorkspace {
 };
 
 /// Many cells: f_j[cell] for every species, no allocation.
-/// \param voidage  [cell]  \param share, slip, f  [species], pointers to [cell]  \param diameter  [species],
-/// m
+/// \param voidage  [cell]  \param share, slip, f  [species], pointers to [cell]  \param diameter  [species], m
 void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
-                   std::span<const double* const> slip, std::span<const double> diameter,
-                   double fluid_density, double viscosity, std::span<double* const> f, DragWorkspace& work,
-                   GuardCount& count);
+                   std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
+                   double viscosity, std::span<double* const> f, DragWorkspace& work, GuardCount& count);
 
 }  // namespace polybed::closures

@@ -1,5 +1,4 @@
-// The drag law of the thesis: Cello, Di Renzo and Di Maio, T(4.1)-(4.2), one size, regressed on
-// lattice-Boltzmann data.
+// The drag law of the thesis: Cello, Di Renzo and Di Maio, T(4.1)-(4.2), one size, regressed on lattice-Boltzmann data.
 //
 //   f  = K1 + K2 eps^4 + K3 (1 - eps^4),   K0 = (1-eps)/(1+3 eps)
 //   K1 = (1 + 128 K0 + 715 K0^2) / (eps^2 (1 + 49.5 K0))
@@ -11,9 +10,8 @@
 //
 // The bare formula has a pole in Re, behind which f < 0, and explodes below eps 0.33. The guard continues it:
 //   G1  eps >= 0.35, Re <= Re_c:  the formula;   Re_c = min(1050, 0.5463 Re_s), Re_s the pole
-//   G2  eps >= 0.35, Re > Re_c:   f_c T/T_c + (f'_c - f_c T'_c/T_c)(Re - Re_c)(Re_c/Re)^3, T:
-//   Turton-Levenspiel G3  eps < 0.35:               K1(eps) + [f(0.35, Re) - K1(0.35)] (0.35/eps)^2, eps at
-//   least 0.10
+//   G2  eps >= 0.35, Re > Re_c:   f_c T/T_c + (f'_c - f_c T'_c/T_c)(Re - Re_c)(Re_c/Re)^3, T: Turton-Levenspiel
+//   G3  eps < 0.35:               K1(eps) + [f(0.35, Re) - K1(0.35)] (0.35/eps)^2, eps at least 0.10
 #pragma once
 
 #include <algorithm>
@@ -45,8 +43,7 @@ struct DragCello {
     const double eps2 = eps * eps, eps4 = eps2 * eps2;
     const double k0 = (1 - eps) / (1 + 3 * eps);
     const double up2 = 1 + re * (0.13 + 6.66e-4 * re), down2 = 1 + re * (3.42e-2 + 6.92e-6 * re);
-    const double d2 =
-        re * ((0.13 + 2 * 6.66e-4 * re) * down2 - up2 * (3.42e-2 + 2 * 6.92e-6 * re)) / (down2 * down2);
+    const double d2 = re * ((0.13 + 2 * 6.66e-4 * re) * down2 - up2 * (3.42e-2 + 2 * 6.92e-6 * re)) / (down2 * down2);
     const double k2 = k0 * k0, k4 = k2 * k2, k8 = k4 * k4, k20 = k8 * k8 * k4;
     const double linear = 9.2e7 * k20 - 0.066, up3 = eps * (-410 + 1900 * eps) + linear * re;
     const double down3 = pole_constant(eps) + re * (4.92e-4 - 1.31e-4 * re);
@@ -73,9 +70,7 @@ struct DragCello {
   }
 
  private:
-  [[nodiscard]] static double pole_constant(double eps) {
-    return eps * (6600 + eps * (-43000 + 7.38e4 * eps));
-  }
+  [[nodiscard]] static double pole_constant(double eps) { return eps * (6600 + eps * (-43000 + 7.38e4 * eps)); }
 
   [[nodiscard]] static DragValue guarded(double eps, double re) {
     if (eps >= least_voidage) return beyond_data(eps, re);
@@ -88,8 +83,7 @@ struct DragCello {
   [[nodiscard]] static DragValue beyond_data(double eps, double re) {
     const double re_c = most_reynolds(eps);
     if (re <= re_c) return bare(eps, re);
-    const DragValue at_c = bare(eps, re_c), t_c = DragTurtonLevenspiel{}(1, re_c),
-                    t = DragTurtonLevenspiel{}(1, re);
+    const DragValue at_c = bare(eps, re_c), t_c = DragTurtonLevenspiel{}(1, re_c), t = DragTurtonLevenspiel{}(1, re);
     const double mismatch = (at_c.re_dfdre - at_c.f * t_c.re_dfdre / t_c.f) / re_c;
     const double ratio = re_c / re, fade = (re - re_c) * ratio * ratio * ratio;
     return {at_c.f * t.f / t_c.f + mismatch * fade,

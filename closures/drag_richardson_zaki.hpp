@@ -44,8 +44,7 @@ struct DragRichardsonZaki {
     if (re_t < 1) return guard == Guard::on ? -0.2 / std::log(5.0) : -0.03 * exponent(re_t);
     return re_t <= 500 ? -0.1 * exponent(re_t) : 0;
   }
-  /// ln Re_t of ln Re_t + q(Re_t) ln eps = ln Re, by bisection: the left side grows with Re_t, jumps
-  /// included.
+  /// ln Re_t of ln Re_t + q(Re_t) ln eps = ln Re, by bisection: the left side grows with Re_t, jumps included.
   [[nodiscard]] double terminal(double eps, double log_re) const {
     const double log_eps = std::log(eps);
     double low = log_re, high = log_re - 4.65 * log_eps + 1e-12;

@@ -13,9 +13,8 @@ constexpr double zero_celsius = 273.15;
 
 void check_range(const char* fluid, double kelvin, double least, double most) {
   if (kelvin >= least && kelvin <= most) return;
-  throw std::out_of_range(std::string("temperature of ") + fluid + ": " +
-                          std::to_string(kelvin - zero_celsius) + " degC is outside " +
-                          std::to_string(int(std::lround(least - zero_celsius))) + " to " +
+  throw std::out_of_range(std::string("temperature of ") + fluid + ": " + std::to_string(kelvin - zero_celsius) +
+                          " degC is outside " + std::to_string(int(std::lround(least - zero_celsius))) + " to " +
                           std::to_string(int(std::lround(most - zero_celsius))) + " degC");
 }
 

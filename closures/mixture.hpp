@@ -33,9 +33,7 @@ struct MixtureTerms {
 };
 
 /// h(eps) of T(4.28), gamma = 0.27: (1-eps)(0.73-eps)/(0.73 eps).
-[[nodiscard]] inline double cello_h(double voidage) {
-  return (1 - voidage) * (0.73 - voidage) / (0.73 * voidage);
-}
+[[nodiscard]] inline double cello_h(double voidage) { return (1 - voidage) * (0.73 - voidage) / (0.73 * voidage); }
 
 /// h with its guard G4: taken at eps >= 0.35, and not below -0.95 y_m/(y_max - 1), which keeps Omega_j > 0
 /// for every mixture and the sum rule exact.

@@ -1,8 +1,7 @@
 // The drag laws of mixtures, each as f_j = offset_j + factor_j f_base(eps_j, Re_j): see MixtureTerms.
 //
 // Each struct has the base law, and terms(eps, share, diameter, out) for all species of a cell. The sum rule
-// sum x_j f_j / y_j^2 = f_mean, T(3.45), is what gives the right pressure drop; obeys_sum_rule says who keeps
-// it.
+// sum x_j f_j / y_j^2 = f_mean, T(3.45), is what gives the right pressure drop; obeys_sum_rule says who keeps it.
 #pragma once
 
 #include <algorithm>
@@ -53,8 +52,7 @@ struct MixtureVbkTheory {
 
 /// Omega_j = y_j + 0.064 y_j^3, T(3.54); voidage 0.35-0.90, y 0.44-2.52.
 struct MixtureVbkCorrected {
-  static constexpr std::string_view name = "vbk_corrected",
-                                    help = "vbk with Omega_j = y_j + 0.064 y_j^3; T(3.54)";
+  static constexpr std::string_view name = "vbk_corrected", help = "vbk with Omega_j = y_j + 0.064 y_j^3; T(3.54)";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
   using Base = DragVbk;
@@ -68,12 +66,11 @@ struct MixtureVbkCorrected {
   }
 };
 
-/// f_j = 1/eps + (f_mean - 1/eps)[a y_j + (1-a) y_j^2], T(3.55)-(3.56), Yin and Sundaresan 2009; a at phi <=
-/// 0.4.
+/// f_j = 1/eps + (f_mean - 1/eps)[a y_j + (1-a) y_j^2], T(3.55)-(3.56), Yin and Sundaresan 2009; a at phi <= 0.4.
 struct MixtureYinSundaresan {
-  static constexpr std::string_view
-      name = "yin_sundaresan",
-      help = "Yin and Sundaresan 2009 on cello; T(3.55)-(3.56), Re -> 0, voidage 0.60-0.90";
+  static constexpr std::string_view name = "yin_sundaresan",
+                                    help =
+                                        "Yin and Sundaresan 2009 on cello; T(3.55)-(3.56), Re -> 0, voidage 0.60-0.90";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
   using Base = DragCello;
@@ -91,9 +88,8 @@ struct MixtureYinSundaresan {
 
 /// f_j = cello(eps_j, Re_j), eps_j = 1 - (1 + delta/D_j)^-3, T(3.34)-(3.36), Patwardhan and Tien 1985.
 struct MixturePatwardhanTien {
-  static constexpr std::string_view
-      name = "patwardhan_tien",
-      help = "a voidage for each species, Patwardhan and Tien 1985; T(3.34)-(3.36)";
+  static constexpr std::string_view name = "patwardhan_tien",
+                                    help = "a voidage for each species, Patwardhan and Tien 1985; T(3.34)-(3.36)";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = false;
   using Base = DragCello;

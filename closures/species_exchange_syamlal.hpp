@@ -1,5 +1,4 @@
-// Momentum that two solid species exchange: collisions after Syamlal 1987, and contact in a packed bed after
-// Gera 2004.
+// Momentum that two solid species exchange: collisions after Syamlal 1987, and contact in a packed bed after Gera 2004.
 #pragma once
 
 #include <numbers>
@@ -17,8 +16,8 @@ struct SpeciesPair {
 /// Radial distribution at contact, Lebowitz 1964: 1/eps + 3 D_j D_k sum(phi_m/D_m) / [eps^2 (D_j + D_k)].
 /// \param surface  sum over all species of phi_m/D_m, 1/m
 [[nodiscard]] inline double radial_distribution(const SpeciesPair& pair, double voidage, double surface) {
-  return 1 / voidage + 3 * pair.diameter_j * pair.diameter_k * surface /
-                           (voidage * voidage * (pair.diameter_j + pair.diameter_k));
+  return 1 / voidage +
+         3 * pair.diameter_j * pair.diameter_k * surface / (voidage * voidage * (pair.diameter_j + pair.diameter_k));
 }
 
 /// K_jk / (phi_j phi_k), kg/(m3 s): finite where a species vanishes, the same for (j, k) and (k, j).
@@ -26,14 +25,13 @@ struct SpeciesPair {
 ///   C_s p_s/phi^2
 /// \param g0       radial_distribution  \param speed  |U_j - U_k|, m/s
 /// \param contact  C_s p_s / phi^2, kg/(m3 s): friction of a packed bed, 0 where nothing is packed
-[[nodiscard]] inline double species_exchange(const SpeciesPair& pair, double g0, double speed,
-                                             double contact) {
+[[nodiscard]] inline double species_exchange(const SpeciesPair& pair, double g0, double speed, double contact) {
   constexpr double pi = std::numbers::pi;
   const double reach = pair.diameter_j + pair.diameter_k;
   const double mass_j = pair.density_j * pair.diameter_j * pair.diameter_j * pair.diameter_j;
   const double mass_k = pair.density_k * pair.diameter_k * pair.diameter_k * pair.diameter_k;
-  return 3 * (1 + pair.restitution) * (pi / 2 + pair.friction * pi * pi / 8) * reach * reach *
-             pair.density_j * pair.density_k * g0 * speed / (2 * pi * (mass_j + mass_k)) +
+  return 3 * (1 + pair.restitution) * (pi / 2 + pair.friction * pi * pi / 8) * reach * reach * pair.density_j *
+             pair.density_k * g0 * speed / (2 * pi * (mass_j + mass_k)) +
          contact;
 }
 

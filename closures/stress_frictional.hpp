@@ -21,9 +21,7 @@ struct FrictionalLaw {
   static constexpr double margin = 0.005;  ///< distance from phi_max at which the tangent begins
 
   /// p_f and dp_f/dphi at a solids fraction, any finite number.
-  [[nodiscard]] StressValue operator()(double solids_fraction) const {
-    return at(solids_fraction, max_packing);
-  }
+  [[nodiscard]] StressValue operator()(double solids_fraction) const { return at(solids_fraction, max_packing); }
 
   /// The same with another maximum packing, e.g. that of a cell's composition.
   [[nodiscard]] StressValue at(double solids_fraction, double packing) const {
@@ -36,8 +34,7 @@ struct FrictionalLaw {
     return {pressure + slope * std::max(solids_fraction - joint, 0.0), slope};
   }
 
-  /// The solids fraction, above phi_min, that carries a pressure, Pa, >= 0. To round-off, by bisection and
-  /// Newton.
+  /// The solids fraction, above phi_min, that carries a pressure, Pa, >= 0. To round-off, by bisection and Newton.
   [[nodiscard]] double solids_fraction_at(double pressure) const {
     if (pressure <= 0) return onset;
     const double joint = max_packing - margin;

@@ -14,8 +14,8 @@ namespace polybed::closures {
 /// \param viscosity      mu, Pa s, > 0
 /// \param gravity        g, m/s2
 template <class Drag>
-[[nodiscard]] double terminal_velocity(Drag&& f, double diameter, double excess, double fluid_density,
-                                       double viscosity, double gravity) {
+[[nodiscard]] double terminal_velocity(Drag&& f, double diameter, double excess, double fluid_density, double viscosity,
+                                       double gravity) {
   const double stokes = diameter * diameter * std::abs(excess) * gravity / (18 * viscosity);
   double low = 0, high = stokes;
   while (high > 0 && high * f(1.0, fluid_density * high * diameter / viscosity) < stokes) high *= 2;

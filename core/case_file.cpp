@@ -18,8 +18,7 @@ namespace {
 /// One reading of a case: the scene as it grows, and the problems found so far.
 class CaseReader {
  public:
-  CaseReader(std::string name, std::span<const Role> roles)
-      : name_(std::move(name)), roles_(roles), values_(name_) {}
+  CaseReader(std::string name, std::span<const Role> roles) : name_(std::move(name)), roles_(roles), values_(name_) {}
 
   void read(toml::table& root, std::span<const std::string> overrides);
   Scene finish();
@@ -108,14 +107,12 @@ void CaseReader::read_table(const toml::table& table, std::string_view name, std
 void CaseReader::read_effects(const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr) {
-    values_.add(
-        node.source(),
-        "effects: name the roles in a table [effects]; choosing them by itself is not in this version");
+    values_.add(node.source(),
+                "effects: name the roles in a table [effects]; choosing them by itself is not in this version");
     return;
   }
   for (const auto& [name, value] : *table) {
-    const auto role =
-        std::find_if(roles_.begin(), roles_.end(), [&](const Role& r) { return r.name == name.str(); });
+    const auto role = std::find_if(roles_.begin(), roles_.end(), [&](const Role& r) { return r.name == name.str(); });
     if (role == roles_.end()) {
       wrong_key(name, "effects");
       continue;
@@ -125,9 +122,9 @@ void CaseReader::read_effects(const toml::node& node) {
     for (const Law& l : role->laws) laws.push_back(l.name);
     if (!law || std::find(laws.begin(), laws.end(), *law) == laws.end()) {
       const std::string near = law ? nearest_name(*law, laws) : "";
-      values_.add(value.source(), fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value),
-                                              fmt::join(laws, " | "),
-                                              near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+      values_.add(value.source(),
+                  fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value), fmt::join(laws, " | "),
+                              near.empty() ? "" : "; did you mean \"" + near + "\"?"));
       continue;
     }
     if (*law != "none") scene_.effects[role->name] = *law;
@@ -135,8 +132,7 @@ void CaseReader::read_effects(const toml::node& node) {
 }
 
 void CaseReader::read_entry(std::string_view table, const toml::key& name, const toml::node& node) {
-  const bool known =
-      std::any_of(keys().begin(), keys().end(), [&](const Key& k) { return k.table == table; });
+  const bool known = std::any_of(keys().begin(), keys().end(), [&](const Key& k) { return k.table == table; });
   if (!known) return wrong_key(name, "");
   if (is_array_of_tables(table)) {
     const toml::array* entries = node.as_array();
@@ -147,8 +143,7 @@ void CaseReader::read_entry(std::string_view table, const toml::key& name, const
     for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), table, n);
     return;
   }
-  if (!node.is_table())
-    return values_.add(node.source(), fmt::format("{} is a table: write [{}]", table, table));
+  if (!node.is_table()) return values_.add(node.source(), fmt::format("{} is a table: write [{}]", table, table));
   read_table(*node.as_table(), table, 0);
 }
 
@@ -158,9 +153,8 @@ void CaseReader::read(toml::table& root, std::span<const std::string> overrides)
   for (const auto& [name, node] : root) {
     if (name.str() == "effects")
       read_effects(node);
-    else if (const auto top =
-                 std::find_if(keys().begin(), keys().end(),
-                              [&](const Key& k) { return k.table.empty() && k.name == name.str(); });
+    else if (const auto top = std::find_if(keys().begin(), keys().end(),
+                                           [&](const Key& k) { return k.table.empty() && k.name == name.str(); });
              top != keys().end())
       read_key(*top, 0, node);
     else
@@ -222,16 +216,14 @@ Scene read_case(const std::filesystem::path& path, std::span<const std::string> 
                 std::span<const Role> roles) {
   constexpr std::uintmax_t largest = 10'000'000;
   std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw FileError(path.string() + " is a folder: name its case.toml");
+  if (std::filesystem::is_directory(path, error)) throw FileError(path.string() + " is a folder: name its case.toml");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
   if (const auto size = std::filesystem::file_size(path, error); !error && size > largest)
     throw FileError(fmt::format("{}: {} bytes is too long for a case file", path.string(), size));
   std::stringstream text;
   text << file.rdbuf();
-  if (file.bad())
-    throw FileError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
+  if (file.bad()) throw FileError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
   return parse_case(text.str(), path.string(), overrides, roles);
 }
 

@@ -23,13 +23,12 @@ namespace polybed::core {
                               std::span<const Role> roles);
 
 /// The same from text; `name` stands for the file in messages.
-[[nodiscard]] Scene parse_case(std::string_view text, const std::string& name,
-                               std::span<const std::string> overrides, std::span<const Role> roles);
+[[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
+                               std::span<const Role> roles);
 
 /// What the keys say of each other: sums, sizes, conflicts, a bed that does not fit. Fills in what follows
 /// from them (axes of the column, depth, shares, defaults of output). Problems have no line.
-[[nodiscard]] std::vector<CaseProblem> resolve(Scene& scene, const std::string& name,
-                                               bool bed_given_by_particles);
+[[nodiscard]] std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool bed_given_by_particles);
 
 /// The whole case in SI as TOML; reads back to the same scene.
 [[nodiscard]] std::string resolved_case(const Scene& scene);

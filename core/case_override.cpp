@@ -47,8 +47,7 @@ void apply_override(toml::table& root, const std::string& given, CaseValues& val
           chosen = entry;
       }
       if (chosen == nullptr)
-        return values.problems().push_back(
-            {source, 0, 0, fmt::format("no '{}' in [[{}]]", parts[n], parts[n - 1])});
+        return values.problems().push_back({source, 0, 0, fmt::format("no '{}' in [[{}]]", parts[n], parts[n - 1])});
       at = chosen;
       continue;
     }

@@ -64,9 +64,8 @@ std::optional<double> CaseValues::number(const Key& key, const toml::node& node)
     }
     q = *parsed;
     if (q.has_unit && !(q.dimension == key.dimension)) {
-      expected(
-          key, node,
-          fmt::format("a value in {}, this one is in {}", unit_name(key.dimension), unit_name(q.dimension)));
+      expected(key, node,
+               fmt::format("a value in {}, this one is in {}", unit_name(key.dimension), unit_name(q.dimension)));
       return std::nullopt;
     }
   } else {
@@ -78,8 +77,7 @@ std::optional<double> CaseValues::number(const Key& key, const toml::node& node)
     std::string hint;
     if (key.dimension == dimension::length && !q.has_unit && q.value * 1e-3 <= key.most && q.value > key.most)
       hint = fmt::format("; did you mean \"{:g} mm\"?", q.value);
-    add(node.source(),
-        fmt::format("{} = {} is out of range: {}{}", key.path(), shown(node), range_text(key), hint));
+    add(node.source(), fmt::format("{} = {} is out of range: {}{}", key.path(), shown(node), range_text(key), hint));
     return std::nullopt;
   }
   if (key.table == "species" && key.name == "diameter" && !q.has_unit && q.value > 0.05) {

@@ -1,5 +1,4 @@
-// Values of a case file: one TOML node read as what its key asks for, or a problem with its place and a
-// suggestion.
+// Values of a case file: one TOML node read as what its key asks for, or a problem with its place and a suggestion.
 #pragma once
 
 #include <toml++/toml.h>
@@ -18,8 +17,7 @@ namespace polybed::core {
 /// A node's text for messages, one line, cut when long.
 [[nodiscard]] std::string shown(const toml::node& node);
 
-/// Reads values and collects what is wrong with them. Each reader returns nothing after it has noted a
-/// problem.
+/// Reads values and collects what is wrong with them. Each reader returns nothing after it has noted a problem.
 class CaseValues {
  public:
   explicit CaseValues(std::string file) : file_(std::move(file)) {}

@@ -31,8 +31,7 @@ Seal seal_of(std::span<const std::byte> image) {
   std::memcpy(seal.data(), mark.data(), mark.size());
   const std::array<std::uint64_t, 2> numbers{image.size(), crc64(image)};
   for (std::size_t n = 0; n < 2; ++n)
-    for (std::size_t b = 0; b < 8; ++b)
-      seal[mark.size() + 8 * n + b] = std::byte((numbers[n] >> (8 * b)) & 0xFF);
+    for (std::size_t b = 0; b < 8; ++b) seal[mark.size() + 8 * n + b] = std::byte((numbers[n] >> (8 * b)) & 0xFF);
   return seal;
 }
 
@@ -43,8 +42,7 @@ std::span<const std::byte> unsealed(const Bytes& bytes, const fs::path& path) {
     const Seal seal = seal_of(image);
     if (std::memcmp(seal.data(), bytes.data() + image.size(), seal_size) == 0) return image;
   }
-  throw FileError(
-      fmt::format("the checkpoint {} is cut short or damaged (its checksum does not hold)", path.string()));
+  throw FileError(fmt::format("the checkpoint {} is cut short or damaged (its checksum does not hold)", path.string()));
 }
 
 bool is_whole(const fs::path& path) {
@@ -91,18 +89,15 @@ void keep_previous(const fs::path& path) {
   if (!linked && errno == ENOENT) return;
   const fs::path& source = linked ? spare : path;
   if (std::rename(source.c_str(), previous.c_str()) != 0)
-    throw FileError(
-        fmt::format("cannot write {}: {}", previous.string(), std::system_category().message(errno)));
+    throw FileError(fmt::format("cannot write {}: {}", previous.string(), std::system_category().message(errno)));
   ::unlink(spare.c_str());  // still there if both names were of one file
 }
 
 Checkpoint content(const OutputFile& file) {
   Checkpoint checkpoint;
   for (const auto& name : file.names("arrays")) checkpoint.arrays[name] = file.read("arrays/" + name).values;
-  for (const auto& name : file.names("numbers"))
-    checkpoint.numbers[name] = file.read("numbers/" + name).values.at(0);
-  for (const auto& name : file.names("integers"))
-    checkpoint.integers[name] = file.read_integer("integers/" + name);
+  for (const auto& name : file.names("numbers")) checkpoint.numbers[name] = file.read("numbers/" + name).values.at(0);
+  for (const auto& name : file.names("integers")) checkpoint.integers[name] = file.read_integer("integers/" + name);
   for (const auto& name : file.names("texts")) checkpoint.texts[name] = file.read_text("texts/" + name);
   return checkpoint;
 }
@@ -131,8 +126,7 @@ Checkpoint read_checkpoint(const fs::path& path) {
   } catch (const FileError& error) {
     const fs::path previous = previous_checkpoint(path);
     if (!is_whole(previous)) throw;
-    throw FileError(
-        fmt::format("{}; the checkpoint before it, {}, is whole", error.what(), previous.string()));
+    throw FileError(fmt::format("{}; the checkpoint before it, {}, is whole", error.what(), previous.string()));
   }
 }
 

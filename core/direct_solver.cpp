@@ -41,8 +41,7 @@ void for_each_cell(const Grid& grid, Body&& body) {
   Index packed = 0;
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
-      for (int i = 0; i < grid.cells[0]; ++i)
-        body(std::array<int, 3>{i, j, k}, packed++, grid.index(i, j, k));
+      for (int i = 0; i < grid.cells[0]; ++i) body(std::array<int, 3>{i, j, k}, packed++, grid.index(i, j, k));
 }
 
 }  // namespace
@@ -114,9 +113,8 @@ bool solve_directly(const Grid& grid, const std::array<std::span<const double>, 
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
   if (factor.info() != Eigen::Success) return false;
   const Eigen::VectorXd solution = factor.solve(right);
-  for_each_cell(grid, [&](const std::array<int, 3>&, Index packed, Index at) {
-    p[std::size_t(at)] = solution[packed];
-  });
+  for_each_cell(grid,
+                [&](const std::array<int, 3>&, Index packed, Index at) { p[std::size_t(at)] = solution[packed]; });
   return solution.allFinite();
 }
 

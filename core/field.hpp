@@ -14,9 +14,7 @@ using Field = std::vector<double>;
 /// One number per face, axis by axis; the axes that a 2-D grid lacks are empty.
 using FaceField = std::array<Field, 3>;
 
-[[nodiscard]] inline Field make_field(const Grid& grid, double value = 0) {
-  return Field(grid.padded_size(), value);
-}
+[[nodiscard]] inline Field make_field(const Grid& grid, double value = 0) { return Field(grid.padded_size(), value); }
 
 [[nodiscard]] inline FaceField make_face_field(const Grid& grid, double value = 0) {
   FaceField field;

@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& deed, const fs::path& path, int reason) {
-  throw FileError(
-      fmt::format("cannot {} {}: {}", deed, path.string(), std::system_category().message(reason)));
+  throw FileError(fmt::format("cannot {} {}: {}", deed, path.string(), std::system_category().message(reason)));
 }
 
 /// An open file, closed at the end of the scope.
@@ -56,8 +55,7 @@ int write_and_flush(Descriptor& file, std::span<const std::byte> bytes) {
   return file.close();
 }
 
-/// Makes a rename survive a power cut. Some file systems cannot flush a directory, which costs nothing but
-/// that.
+/// Makes a rename survive a power cut. Some file systems cannot flush a directory, which costs nothing but that.
 void flush_directory(const fs::path& directory) {
   const Descriptor handle(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (handle.number() >= 0) ::fsync(handle.number());

@@ -25,9 +25,7 @@ struct Grid {
   /// Entries of the padded box along an axis.
   [[nodiscard]] Index extent(int axis) const { return cells[std::size_t(axis)] + 2 * ghosts(axis); }
   /// Distance in memory between neighbours along an axis.
-  [[nodiscard]] Index stride(int axis) const {
-    return axis == 0 ? 1 : axis == 1 ? extent(0) : extent(0) * extent(1);
-  }
+  [[nodiscard]] Index stride(int axis) const { return axis == 0 ? 1 : axis == 1 ? extent(0) : extent(0) * extent(1); }
   /// Entries of a field, ghosts included.
   [[nodiscard]] std::size_t padded_size() const { return std::size_t(extent(0) * extent(1) * extent(2)); }
   /// Owned cells.
@@ -39,9 +37,7 @@ struct Grid {
     return (i + ghosts(0)) + extent(0) * ((j + ghosts(1)) + extent(1) * Index(k + ghosts(2)));
   }
   /// Faces of an axis along that axis: one more than cells unless periodic.
-  [[nodiscard]] int faces(int axis) const {
-    return cells[std::size_t(axis)] + (periodic[std::size_t(axis)] ? 0 : 1);
-  }
+  [[nodiscard]] int faces(int axis) const { return cells[std::size_t(axis)] + (periodic[std::size_t(axis)] ? 0 : 1); }
   [[nodiscard]] double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }
   /// Centre of cell i of an axis, m; the column begins at 0.
   [[nodiscard]] double centre(int axis, int i) const { return (i + 0.5) * spacing[std::size_t(axis)]; }

@@ -50,9 +50,7 @@ class Vector {
   [[nodiscard]] std::span<double> span() const {
     return {N_VGetArrayPointer(vector_), std::size_t(N_VGetLength(vector_))};
   }
-  void assign(std::span<const double> values) const {
-    std::copy(values.begin(), values.end(), span().begin());
-  }
+  void assign(std::span<const double> values) const { std::copy(values.begin(), values.end(), span().begin()); }
 
  private:
   N_Vector vector_;
@@ -126,9 +124,8 @@ class ExplicitIntegrator : public Integrator {
           flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_FIRST_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR;
       constexpr double least_shrink = 1e-9;
       if (!refused || shrink < least_shrink)
-        throw NumericsError(
-            fmt::format("t = {:.9g} s: the explicit integrator cannot go on ({}), last step {:.3g} s", time_,
-                        flag_name(ARKStepGetReturnFlagName, flag), last_step_));
+        throw NumericsError(fmt::format("t = {:.9g} s: the explicit integrator cannot go on ({}), last step {:.3g} s",
+                                        time_, flag_name(ARKStepGetReturnFlagName, flag), last_step_));
     }
   }
 
@@ -251,9 +248,8 @@ class ImplicitIntegrator : public Integrator {
     const int flag = IDASolve(memory_, t_stop, &t, y_, dydt_, IDA_ONE_STEP);
     if (kept_) std::rethrow_exception(std::exchange(kept_, nullptr));
     if (flag < 0)
-      throw NumericsError(
-          fmt::format("t = {:.9g} s: the implicit integrator cannot go on ({}), last step {:.3g} s", time_,
-                      flag_name(IDAGetReturnFlagName, flag), last_step_));
+      throw NumericsError(fmt::format("t = {:.9g} s: the implicit integrator cannot go on ({}), last step {:.3g} s",
+                                      time_, flag_name(IDAGetReturnFlagName, flag), last_step_));
     StepReport r;
     r.time = time_ = t;
     IDAGetLastStep(memory_, &r.step);
@@ -292,8 +288,8 @@ class ImplicitIntegrator : public Integrator {
     return guarded(me(self).kept_,
                    [&] { return me(self).problem_.setup(t, entries(y), entries(dydt), entries(r), cj); });
   }
-  static int precondition(double t, N_Vector, N_Vector, N_Vector, N_Vector r, N_Vector z, double cj,
-                          double delta, void* self) {
+  static int precondition(double t, N_Vector, N_Vector, N_Vector, N_Vector r, N_Vector z, double cj, double delta,
+                          void* self) {
     return guarded(me(self).kept_,
                    [&] { return me(self).problem_.precondition(t, entries(r), entries(z), cj, delta); });
   }

@@ -23,27 +23,25 @@ class OdeProblem {
 class DaeProblem {
  public:
   virtual ~DaeProblem() = default;
-  virtual Rate residual(double t, std::span<const double> y, std::span<const double> dydt,
-                        std::span<double> r) = 0;
-  virtual Rate setup(double t, std::span<const double> y, std::span<const double> dydt,
-                     std::span<const double> r, double cj) = 0;
-  virtual Rate precondition(double t, std::span<const double> r, std::span<double> z, double cj,
-                            double delta) = 0;
+  virtual Rate residual(double t, std::span<const double> y, std::span<const double> dydt, std::span<double> r) = 0;
+  virtual Rate setup(double t, std::span<const double> y, std::span<const double> dydt, std::span<const double> r,
+                     double cj) = 0;
+  virtual Rate precondition(double t, std::span<const double> r, std::span<double> z, double cj, double delta) = 0;
 };
 
 /// One accepted step.
 struct StepReport {
   double time = 0, step = 0, next_step = 0;  ///< s
-  double error_norm = 0;        ///< weighted root mean square of the local error; accepted below 1
-  std::size_t worst_entry = 0;  ///< where the weighted local error is largest
-  double worst_error = 0;       ///< that error over its weight
+  double error_norm = 0;                     ///< weighted root mean square of the local error; accepted below 1
+  std::size_t worst_entry = 0;               ///< where the weighted local error is largest
+  double worst_error = 0;                    ///< that error over its weight
   int order = 0;
 };
 
 /// Counts since the integrator was made; they repeat exactly.
 struct IntegratorStatistics {
-  std::uint64_t steps = 0, error_failures = 0, recoverable_failures = 0, newton_iterations = 0,
-                newton_failures = 0, linear_iterations = 0, preconditioner_setups = 0;
+  std::uint64_t steps = 0, error_failures = 0, recoverable_failures = 0, newton_iterations = 0, newton_failures = 0,
+                linear_iterations = 0, preconditioner_setups = 0;
 };
 
 class Integrator {

@@ -54,8 +54,7 @@ Json& Json::value(bool truth) {
 }
 
 Json& Json::value(double number) {
-  if (!std::isfinite(number))
-    throw NumericsError("a number that is not finite was about to be written as JSON");
+  if (!std::isfinite(number)) throw NumericsError("a number that is not finite was about to be written as JSON");
   separate();
   text_ += fmt::format("{}", number);
   return *this;

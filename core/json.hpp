@@ -22,8 +22,7 @@ class Json {
   Json& value(const char* text) { return value(std::string_view(text)); }
   Json& value(const std::string& text) { return value(std::string_view(text)); }
   Json& value(bool truth);
-  Json& value(
-      double number);  ///< 17 digits at most, shortest that reads back; throws NumericsError if not finite
+  Json& value(double number);  ///< 17 digits at most, shortest that reads back; throws NumericsError if not finite
   Json& value(std::int64_t number);
   Json& value(std::uint64_t number);
   Json& value(int number) { return value(std::int64_t(number)); }

@@ -1,5 +1,4 @@
-// The one table of the keys of a case file: it drives reading, checking, the schema, explanations and the
-// docs.
+// The one table of the keys of a case file: it drives reading, checking, the schema, explanations and the docs.
 #pragma once
 
 #include <limits>
@@ -19,10 +18,9 @@ using Points = std::vector<std::pair<double, double>>;
 /// Where a key's value lives in a scene. The index chooses the entry of an array of tables, e.g. the species.
 template <class T>
 using Place = T& (*)(Scene&, std::size_t index);
-using AnyPlace =
-    std::variant<Place<double>, Place<std::optional<double>>, Place<int>, Place<std::uint64_t>, Place<bool>,
-                 Place<std::string>, Place<std::vector<double>>, Place<std::vector<std::int64_t>>,
-                 Place<std::vector<std::string>>, Place<Points>>;
+using AnyPlace = std::variant<Place<double>, Place<std::optional<double>>, Place<int>, Place<std::uint64_t>,
+                              Place<bool>, Place<std::string>, Place<std::vector<double>>,
+                              Place<std::vector<std::int64_t>>, Place<std::vector<std::string>>, Place<Points>>;
 
 struct Key {
   std::string_view table, name;

@@ -95,8 +95,7 @@ struct PoissonSolver::Hypre {
     });
     drop_outward(g);
     std::array<HYPRE_Int, 4> which{0, 1, 2, 3};
-    HYPRE_StructMatrixSetBoxValues(matrix, lower.data(), upper.data(), dimensions + 1, which.data(),
-                                   entries.data());
+    HYPRE_StructMatrixSetBoxValues(matrix, lower.data(), upper.data(), dimensions + 1, which.data(), entries.data());
     HYPRE_StructMatrixAssemble(matrix);
   }
 
@@ -118,8 +117,7 @@ struct PoissonSolver::Hypre {
 
   void set(HYPRE_StructVector v, const Grid& g, const Field& field) {
     double* to = packed.data();
-    for_each_row(
-        g, [&](Index begin, Index end) { to = std::copy(field.begin() + begin, field.begin() + end, to); });
+    for_each_row(g, [&](Index begin, Index end) { to = std::copy(field.begin() + begin, field.begin() + end, to); });
     HYPRE_StructVectorSetBoxValues(v, lower.data(), upper.data(), packed.data());
     HYPRE_StructVectorAssemble(v);
   }
@@ -196,8 +194,7 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
   HYPRE_ClearAllErrors();
   hypre_->get(grid_, p);
   result.residual = relative_residual(grid_, coefficient, shift, source, p);
-  // The residual that the iteration carries along and the true one drift apart by round-off: twice is
-  // granted.
+  // The residual that the iteration carries along and the true one drift apart by round-off: twice is granted.
   result.converged = !error && result.residual <= 2 * tolerance;
   if (!result.converged) {
     result.solver = "direct";

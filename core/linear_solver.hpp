@@ -36,8 +36,8 @@ class PoissonSolver {
   /// \param coefficient  B on faces, >= 0  \param shift  on cells, >= 0; may be empty
   /// \param source       on cells          \param p      the first guess, then the solution (owned cells)
   /// \param tolerance    of the residual relative to the source's norm
-  PoissonResult solve(const FaceSpans& coefficient, std::span<const double> shift, const Field& source,
-                      Field& p, double tolerance);
+  PoissonResult solve(const FaceSpans& coefficient, std::span<const double> shift, const Field& source, Field& p,
+                      double tolerance);
 
  private:
   struct Hypre;
@@ -56,8 +56,8 @@ class BlockSolver {
   BlockSolver& operator=(BlockSolver&&) noexcept;
 
   /// Builds the matrix and its multigrid hierarchy; false if the library refuses.
-  [[nodiscard]] bool setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21,
-                           const FaceSpans& c22, const Field& slope, double diagonal_p, double c);
+  [[nodiscard]] bool setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
+                           const Field& slope, double diagonal_p, double c);
   /// p, s start from zero; owned cells.
   void apply(const Field& r1, const Field& r2, Field& p, Field& s, int cycles);
 

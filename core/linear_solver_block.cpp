@@ -94,8 +94,8 @@ BlockSolver::~BlockSolver() = default;
 BlockSolver::BlockSolver(BlockSolver&&) noexcept = default;
 BlockSolver& BlockSolver::operator=(BlockSolver&&) noexcept = default;
 
-bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21,
-                        const FaceSpans& c22, const Field& slope, double diagonal_p, double c) {
+bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
+                        const Field& slope, double diagonal_p, double c) {
   Hypre& h = *hypre_;
   h.column.clear();
   h.value.clear();

@@ -15,9 +15,7 @@ namespace polybed::core {
 
 /// Difference over one cell of the quantity q at entry c, taken against a velocity of sign `u`: first order.
 struct UpwindDifference {
-  static double at(const double* q, Index c, Index s, double u) {
-    return u > 0 ? q[c] - q[c - s] : q[c + s] - q[c];
-  }
+  static double at(const double* q, Index c, Index s, double u) { return u > 0 ? q[c] - q[c - s] : q[c + s] - q[c]; }
 };
 
 /// The same with limited linear reconstructions on both sides of the entry: second order where q is smooth.
@@ -30,8 +28,7 @@ struct LimitedDifference {
   }
 };
 
-/// Value of q at the face between c - s and c, taken from the side that the velocity u comes from: first
-/// order.
+/// Value of q at the face between c - s and c, taken from the side that the velocity u comes from: first order.
 struct UpwindFace {
   static double at(const double* q, Index c, Index s, double u) { return u > 0 ? q[c - s] : q[c]; }
 };
@@ -58,8 +55,7 @@ void subtract_convection(const Grid& grid, const FaceField& velocity, int axis, 
   const Index s = grid.stride(axis);
   const double per_length = 1 / grid.spacing[std::size_t(axis)];
   for_each_row(grid, box, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c)
-      rate[std::size_t(c)] -= u[c] * per_length * Difference::at(u, c, s, u[c]);
+    for (Index c = begin; c < end; ++c) rate[std::size_t(c)] -= u[c] * per_length * Difference::at(u, c, s, u[c]);
   });
   for (int across = 0; across < grid.dimensions; ++across) {
     if (across == axis) continue;

@@ -25,28 +25,25 @@ fs::path step_file(const fs::path& directory, std::size_t step) {
 
 std::vector<double> face_positions(const Grid& grid, int axis) {
   std::vector<double> faces;
-  for (int i = 0; i <= grid.cells[std::size_t(axis)]; ++i)
-    faces.push_back(i * grid.spacing[std::size_t(axis)]);
+  for (int i = 0; i <= grid.cells[std::size_t(axis)]; ++i) faces.push_back(i * grid.spacing[std::size_t(axis)]);
   return faces;
 }
 
 /// Shape of a cell field in the file, slowest axis first.
 std::vector<std::size_t> cell_shape(const Grid& grid) {
   std::vector<std::size_t> shape;
-  for (int axis = grid.dimensions - 1; axis >= 0; --axis)
-    shape.push_back(std::size_t(grid.cells[std::size_t(axis)]));
+  for (int axis = grid.dimensions - 1; axis >= 0; --axis) shape.push_back(std::size_t(grid.cells[std::size_t(axis)]));
   return shape;
 }
 
-[[noreturn]] void refuse(const std::string& name, int component, std::array<int, 3> cell, double value,
-                         double time) {
-  throw NumericsError(fmt::format("{} (component {}) is {} in cell ({}, {}, {}) at t = {} s: not written",
-                                  name, component, value, cell[0], cell[1], cell[2], time));
+[[noreturn]] void refuse(const std::string& name, int component, std::array<int, 3> cell, double value, double time) {
+  throw NumericsError(fmt::format("{} (component {}) is {} in cell ({}, {}, {}) at t = {} s: not written", name,
+                                  component, value, cell[0], cell[1], cell[2], time));
 }
 
 /// The owned cells of padded components, component fastest; `components` of them, those missing are zero.
-std::vector<double> packed(const Grid& grid, const FieldName& field, const FieldValues& values,
-                           int components, double time) {
+std::vector<double> packed(const Grid& grid, const FieldName& field, const FieldValues& values, int components,
+                           double time) {
   std::vector<double> out;
   out.reserve(grid.cell_count() * std::size_t(components));
   for (int k = 0; k < grid.cells[2]; ++k)
@@ -63,14 +60,13 @@ std::vector<double> packed(const Grid& grid, const FieldName& field, const Field
 
 void check_sizes(const Grid& grid, const FieldName& field, const FieldValues& values) {
   const std::size_t components = field.vector ? std::size_t(grid.dimensions) : 1;
-  const bool fits = values.size() == components && std::all_of(values.begin(), values.end(), [&](auto v) {
-                      return v.size() == grid.padded_size();
-                    });
+  const bool fits = values.size() == components &&
+                    std::all_of(values.begin(), values.end(), [&](auto v) { return v.size() == grid.padded_size(); });
   if (!fits) throw std::invalid_argument("the values of " + field.name + " do not fit the grid");
 }
 
-OutputFile step_content(const Grid& grid, std::span<const FieldName> names,
-                        std::span<const FieldValues> values, double time) {
+OutputFile step_content(const Grid& grid, std::span<const FieldName> names, std::span<const FieldValues> values,
+                        double time) {
   OutputFile file(step_kind);
   file.make_group("step");
   file.set_attribute("step", "time_s", time);
@@ -83,8 +79,7 @@ OutputFile step_content(const Grid& grid, std::span<const FieldName> names,
     file.write("step/" + field.name, shape, packed(grid, field, values[n], components, time), Packing::small);
     if (!field.vector || grid.dimensions == 3) continue;
     shape.back() = 3;
-    file.write("paraview/" + field.name, shape, packed(grid, field, values[n], 3, time),
-               Packing::small_single);
+    file.write("paraview/" + field.name, shape, packed(grid, field, values[n], 3, time), Packing::small_single);
   }
   return file;
 }
@@ -108,8 +103,7 @@ FaceField cell_means(const Grid& grid, const FaceField& faces) {
           along = grid.periodic[std::size_t(axis)] && along + 1 == count ? 0 : along + 1;
           const auto& f = faces[std::size_t(axis)];
           const auto here = std::size_t(grid.index(i, j, k));
-          means[std::size_t(axis)][here] =
-              0.5 * (f[here] + f[std::size_t(grid.index(high[0], high[1], high[2]))]);
+          means[std::size_t(axis)][here] = 0.5 * (f[here] + f[std::size_t(grid.index(high[0], high[1], high[2]))]);
         }
   }
   return means;
@@ -142,8 +136,7 @@ void FieldWriter::begin() {
 void FieldWriter::go_on(double resume_time) {
   index_.emplace(directory_ / "fields.h5", index_kind);
   for (int axis = 0; axis < 3; ++axis)
-    if (index_->read(std::string("grid/") + axis_names[std::size_t(axis)]).values !=
-        face_positions(grid_, axis))
+    if (index_->read(std::string("grid/") + axis_names[std::size_t(axis)]).values != face_positions(grid_, axis))
       throw FileError((directory_ / "fields.h5").string() + " has another grid: it cannot be continued");
   times_ = index_->read("time_s").values;
   const std::size_t all = times_.size();
@@ -181,15 +174,13 @@ std::vector<double> FieldReader::faces(int axis) const {
 
 OutputFile FieldReader::open(std::size_t step) const {
   if (step >= times_.size())
-    throw FileError(fmt::format("{} has {} steps, none numbered {}", (directory_ / "fields.h5").string(),
-                                times_.size(), step));
+    throw FileError(
+        fmt::format("{} has {} steps, none numbered {}", (directory_ / "fields.h5").string(), times_.size(), step));
   return OutputFile(step_file(directory_, step), step_kind);
 }
 
 std::vector<std::string> FieldReader::names(std::size_t step) const { return open(step).names("step"); }
 
-DataSet FieldReader::field(std::size_t step, const std::string& name) const {
-  return open(step).read("step/" + name);
-}
+DataSet FieldReader::field(std::size_t step, const std::string& name) const { return open(step).read("step/" + name); }
 
 }  // namespace polybed::core

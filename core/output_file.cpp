@@ -30,8 +30,7 @@ struct OutputFile::State {
     checked("a file in memory", [&] { return H5Pset_fapl_core(access, growth, false); });
     const std::string name = fmt::format("memory {}", static_cast<const void*>(this));
     if (image.empty()) {
-      file =
-          checked("a new file", [&] { return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access); });
+      file = checked("a new file", [&] { return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access); });
       return;
     }
     checked("a file in memory",
@@ -45,17 +44,14 @@ struct OutputFile::State {
   [[nodiscard]] Handle dataset(const std::string& name) const {
     return Handle(name, [&] { return H5Dopen2(file, name.c_str(), H5P_DEFAULT); });
   }
-  [[nodiscard]] Handle make_dataset(const std::string& name, hid_t type, hid_t space,
-                                    hid_t properties) const {
+  [[nodiscard]] Handle make_dataset(const std::string& name, hid_t type, hid_t space, hid_t properties) const {
     const Handle links = making_groups();
-    return Handle(
-        name, [&] { return H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT); });
+    return Handle(name, [&] { return H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT); });
   }
-  void write_attribute(const std::string& object_name, const std::string& name, hid_t type,
-                       const void* value) const {
+  void write_attribute(const std::string& object_name, const std::string& name, hid_t type, const void* value) const {
     const Handle owner = object(object_name), space = simple_space({});
-    const Handle attribute(
-        name, [&] { return H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT); });
+    const Handle attribute(name,
+                           [&] { return H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT); });
     checked(name, [&] { return H5Awrite(attribute, type, value); });
   }
 };
@@ -70,8 +66,7 @@ OutputFile::OutputFile(const FileKind& kind) : state_(std::make_unique<State>())
 OutputFile::OutputFile(const std::filesystem::path& path, const FileKind& kind)
     : OutputFile(read_whole_file(path), path, kind) {}
 
-OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::path& path,
-                       const FileKind& kind)
+OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::path& path, const FileKind& kind)
     : state_(std::make_unique<State>()) {
   if (bytes.empty()) throw FileError(fmt::format("{} is empty", path.string()));
   std::string filetype;
@@ -84,8 +79,8 @@ OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::
     throw FileError(fmt::format("{} is damaged or no file of polybed: {}", path.string(), error.what()));
   }
   if (filetype != kind.filetype || version != kind.version)
-    throw FileError(fmt::format("{} is '{}' version {}; this program reads '{}' version {}", path.string(),
-                                filetype, version, kind.filetype, kind.version));
+    throw FileError(fmt::format("{} is '{}' version {}; this program reads '{}' version {}", path.string(), filetype,
+                                version, kind.filetype, kind.version));
 }
 
 OutputFile::~OutputFile() = default;
@@ -94,22 +89,19 @@ OutputFile& OutputFile::operator=(OutputFile&&) noexcept = default;
 
 void OutputFile::make_group(const std::string& name) {
   const Handle links = making_groups();
-  const Handle group(name,
-                     [&] { return H5Gcreate2(state_->file, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT); });
+  const Handle group(name, [&] { return H5Gcreate2(state_->file, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT); });
 }
 
-void OutputFile::write(const std::string& name, const std::vector<std::size_t>& shape,
-                       std::span<const double> values, Packing packing) {
+void OutputFile::write(const std::string& name, const std::vector<std::size_t>& shape, std::span<const double> values,
+                       Packing packing) {
   if (values.size() != product(shape))
     throw FileError(fmt::format("{}: {} numbers do not fill its shape", name, values.size()));
   const Handle space = simple_space(shape), properties = dataset_properties();
-  if (packing != Packing::plain && !values.empty() && !shape.empty())
-    set_packing(properties, chunk_shape(shape));
+  if (packing != Packing::plain && !values.empty() && !shape.empty()) set_packing(properties, chunk_shape(shape));
   const hid_t stored = packing == Packing::small_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
   const Handle data = state_->make_dataset(name, stored, space, properties);
   if (values.empty()) return;
-  checked(name,
-          [&] { return H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+  checked(name, [&] { return H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
 }
 
 void OutputFile::write(const std::string& name, std::int64_t value) {
@@ -119,8 +111,7 @@ void OutputFile::write(const std::string& name, std::int64_t value) {
 }
 
 void OutputFile::write(const std::string& name, const std::string& text) {
-  if (text.find('\0') != std::string::npos)
-    throw FileError(name + ": a text with a zero byte cannot be kept");
+  if (text.find('\0') != std::string::npos) throw FileError(name + ": a text with a zero byte cannot be kept");
   const Handle space = simple_space({}), properties = dataset_properties(), type = text_type();
   const Handle data = state_->make_dataset(name, type, space, properties);
   const char* begin = text.c_str();
@@ -176,9 +167,8 @@ void OutputFile::append_row(const std::string& name, std::span<const double> row
     throw FileError(fmt::format("{}: a row of {} numbers does not fit", name, row.size()));
   checked(name, [&] { return H5Dset_extent(data, dims.data()); });
   const Handle place(name, [&] { return H5Dget_space(data); });
-  checked(name, [&] {
-    return H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  });
+  checked(name,
+          [&] { return H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr); });
   const Handle source = simple_space({row.size()});
   checked(name, [&] { return H5Dwrite(data, H5T_NATIVE_DOUBLE, source, place, H5P_DEFAULT, row.data()); });
 }
@@ -196,8 +186,7 @@ bool OutputFile::has(const std::string& name) const { return exists(state_->file
 std::vector<std::string> OutputFile::names(const std::string& group) const {
   std::vector<std::string> found;
   const Handle handle = state_->object(group);
-  checked(group,
-          [&] { return H5Literate(handle, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &found); });
+  checked(group, [&] { return H5Literate(handle, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &found); });
   return found;
 }
 
@@ -206,9 +195,8 @@ DataSet OutputFile::read(const std::string& name) const {
   DataSet result{shape_of(data, name), {}};
   result.values.resize(product(result.shape));
   if (!result.values.empty())
-    checked(name, [&] {
-      return H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data());
-    });
+    checked(name,
+            [&] { return H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()); });
   return result;
 }
 

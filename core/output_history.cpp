@@ -19,9 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string joined(const std::vector<std::string>& columns) {
-  return fmt::format("{}\n", fmt::join(columns, ","));
-}
+std::string joined(const std::vector<std::string>& columns) { return fmt::format("{}\n", fmt::join(columns, ",")); }
 
 /// The lines that end, so that one cut short is left out; without their ends.
 std::vector<std::string_view> whole_lines(std::string_view text) {
@@ -80,14 +78,12 @@ HistoryWriter::HistoryWriter(const fs::path& run_directory, std::vector<std::str
   write_atomically(path_, go_on ? text_until(path_, header, *resume_time) : header);
   file_.reset(std::fopen(path_.c_str(), "ae"));
   if (!file_)
-    throw FileError(
-        fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
+    throw FileError(fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
 }
 
 void HistoryWriter::append(const std::string& line) {
   if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size())
-    throw FileError(
-        fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
+    throw FileError(fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
 }
 
 void HistoryWriter::write_row(std::span<const std::optional<double>> row) {
@@ -106,8 +102,7 @@ void HistoryWriter::write_row(std::span<const std::optional<double>> row) {
 
 void HistoryWriter::flush() {
   if (std::fflush(file_.get()) != 0)
-    throw FileError(
-        fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
+    throw FileError(fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
 }
 
 const std::vector<double>& History::of(const std::string& column) const {

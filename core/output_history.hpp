@@ -45,8 +45,7 @@ struct History {
   [[nodiscard]] const std::vector<double>& of(const std::string& column) const;
 };
 
-/// Reads history.csv; a last row that was cut short is left out, anything else that is no number is a
-/// FileError.
+/// Reads history.csv; a last row that was cut short is left out, anything else that is no number is a FileError.
 [[nodiscard]] History read_history(const std::filesystem::path& run_directory);
 
 }  // namespace polybed::core

@@ -26,8 +26,8 @@ void refuse_if_not_finite(const std::string& name, const std::vector<double>& ro
 
 }  // namespace
 
-ProfileWriter::ProfileWriter(const fs::path& run_directory, std::vector<double> height,
-                             std::vector<std::string> names, std::optional<double> resume_time)
+ProfileWriter::ProfileWriter(const fs::path& run_directory, std::vector<double> height, std::vector<std::string> names,
+                             std::optional<double> resume_time)
     : path_(run_directory / "profiles.h5"), height_(std::move(height)), names_(std::move(names)) {
   if (resume_time && fs::exists(path_))
     go_on(*resume_time);

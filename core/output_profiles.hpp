@@ -18,8 +18,8 @@ class ProfileWriter {
   /// \param names   of the datasets [time][y]: "phi_fine", "voidage", "u_fine", "p"
   /// \param resume_time  empty: a new file. Else s: rows later than that are removed.
   /// Throws FileError, also if the file that it goes on with has other heights or names.
-  ProfileWriter(const std::filesystem::path& run_directory, std::vector<double> height,
-                std::vector<std::string> names, std::optional<double> resume_time = std::nullopt);
+  ProfileWriter(const std::filesystem::path& run_directory, std::vector<double> height, std::vector<std::string> names,
+                std::optional<double> resume_time = std::nullopt);
 
   /// Adds a row to each dataset, in the order of the names; complete on the disk when it returns.
   /// Throws NumericsError, and writes nothing, if a value is not finite.

@@ -17,16 +17,15 @@ std::string dimensions(const Grid& grid, int more) {
 }
 
 std::string data_item(const std::string& shape, int precision, const std::string& place) {
-  return fmt::format(
-      R"(<DataItem Dimensions="{}" NumberType="Float" Precision="{}" Format="HDF">{}</DataItem>)", shape,
-      precision, place);
+  return fmt::format(R"(<DataItem Dimensions="{}" NumberType="Float" Precision="{}" Format="HDF">{}</DataItem>)", shape,
+                     precision, place);
 }
 
 std::string geometry(const Grid& grid) {
   const bool flat = grid.dimensions == 2;
-  std::string text = fmt::format(
-      "        <Topology TopologyType=\"{}\" Dimensions=\"{}\"/>\n        <Geometry GeometryType=\"{}\">\n",
-      flat ? "2DRectMesh" : "3DRectMesh", dimensions(grid, 1), flat ? "VXVY" : "VXVYVZ");
+  std::string text =
+      fmt::format("        <Topology TopologyType=\"{}\" Dimensions=\"{}\"/>\n        <Geometry GeometryType=\"{}\">\n",
+                  flat ? "2DRectMesh" : "3DRectMesh", dimensions(grid, 1), flat ? "VXVY" : "VXVYVZ");
   constexpr const char* axes = "xyz";
   for (int axis = 0; axis < grid.dimensions; ++axis)
     text += fmt::format("          {}\n", data_item(std::to_string(grid.cells[std::size_t(axis)] + 1), 8,
@@ -38,9 +37,8 @@ std::string geometry(const Grid& grid) {
 std::string attribute(const Grid& grid, const FieldName& field, const std::string& file) {
   const std::string shape = dimensions(grid, 0);
   const bool copied = field.vector && grid.dimensions == 2;
-  const std::string item =
-      data_item(field.vector ? shape + " 3" : shape, copied ? 4 : 8,
-                fmt::format("{}:/{}/{}", file, copied ? "paraview" : "step", field.name));
+  const std::string item = data_item(field.vector ? shape + " 3" : shape, copied ? 4 : 8,
+                                     fmt::format("{}:/{}/{}", file, copied ? "paraview" : "step", field.name));
   return fmt::format(
       "        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Cell\">\n          {}\n"
       "        </Attribute>\n",
@@ -64,8 +62,7 @@ std::string fields_xdmf(const Grid& grid, std::span<const FieldName> names, std:
     text += fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n",
                         step_name(step), times[step]);
     text += mesh;
-    for (const FieldName& field : names)
-      text += attribute(grid, field, fmt::format("fields/{}.h5", step_name(step)));
+    for (const FieldName& field : names) text += attribute(grid, field, fmt::format("fields/{}.h5", step_name(step)));
     text += "      </Grid>\n";
   }
   return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";

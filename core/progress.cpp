@@ -49,12 +49,11 @@ void Progress::show(const ProgressLine& line) {
   const double done = line.time - from_, share = std::clamp(done / (until_ - from_), 0.0, 1.0);
   const double rate = done > 0 ? since(begin_) / done : 0;
   constexpr double enough_to_tell = 1e-3;  // share of the run below which its speed says nothing yet
-  const std::string speed = share < enough_to_tell ? ""
-                                                   : fmt::format("  {:.2f} s/s  left {}", rate,
-                                                                 duration_text(rate * (until_ - line.time)));
-  const std::string text =
-      fmt::format("t {:.3f}/{:g} s  dt {:.2g} s ({})  bed {:.1f} mm  {}{}", line.time, line.until, line.step,
-                  line.limited_by, 1e3 * line.bed_height, line.worst_invariant, speed);
+  const std::string speed =
+      share < enough_to_tell ? ""
+                             : fmt::format("  {:.2f} s/s  left {}", rate, duration_text(rate * (until_ - line.time)));
+  const std::string text = fmt::format("t {:.3f}/{:g} s  dt {:.2g} s ({})  bed {:.1f} mm  {}{}", line.time, line.until,
+                                       line.step, line.limited_by, 1e3 * line.bed_height, line.worst_invariant, speed);
   if (!terminal_) {
     fmt::print(stderr, "{}\n", text);
     return;

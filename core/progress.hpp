@@ -1,5 +1,4 @@
-// Progress on the screen: a bar with one line of state on a terminal, plain lines in a pipe, nothing when
-// quiet.
+// Progress on the screen: a bar with one line of state on a terminal, plain lines in a pipe, nothing when quiet.
 #pragma once
 
 #include <chrono>
@@ -17,8 +16,7 @@ struct ProgressLine {
 
 class Progress {
  public:
-  /// from: time at which the run begins, s. Writes to standard error, which keeps standard output for
-  /// answers.
+  /// from: time at which the run begins, s. Writes to standard error, which keeps standard output for answers.
   Progress(bool quiet, double from, double until);
   ~Progress();
   Progress(const Progress&) = delete;

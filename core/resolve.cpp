@@ -40,11 +40,9 @@ void Checker::column() {
   const std::size_t n = c.given_size.size();
   if (n != 2 && n != 3)
     return add("column.size has {} numbers: two (width, height) or three (width, depth, height)", n);
-  if (c.given_cells.size() != n)
-    return add("column.cells has {} numbers, column.size {}", c.given_cells.size(), n);
+  if (c.given_cells.size() != n) return add("column.cells has {} numbers, column.size {}", c.given_cells.size(), n);
   if (n == 3)
-    return add(
-        "column.size has three numbers: three dimensions are not in this version; give width and height");
+    return add("column.size has three numbers: three dimensions are not in this version; give width and height");
   double smallest = 1, largest = 0;
   for (const Species& s : scene_.species) {
     smallest = std::min(smallest, s.diameter);
@@ -56,8 +54,8 @@ void Checker::column() {
   constexpr double most_cells = 2e7;
   const double cells = double(c.given_cells[0]) * double(c.given_cells[1]);
   if (cells > most_cells)
-    add("column.cells: {:.3g} cells would need about {:.3g} GB of memory; at most {:.0e} here", cells,
-        cells * 1e-6, most_cells);
+    add("column.cells: {:.3g} cells would need about {:.3g} GB of memory; at most {:.0e} here", cells, cells * 1e-6,
+        most_cells);
 }
 
 void Checker::species() {
@@ -83,8 +81,7 @@ void Checker::bed(bool by_particles) {
     double total = 0;
     bed.volume_share.assign(species, 0.0);
     for (std::size_t j = 0; j < species; ++j) {
-      bed.volume_share[j] =
-          double(bed.particles[j]) * std::numbers::pi / 6 * std::pow(scene_.species[j].diameter, 3);
+      bed.volume_share[j] = double(bed.particles[j]) * std::numbers::pi / 6 * std::pow(scene_.species[j].diameter, 3);
       total += bed.volume_share[j];
     }
     if (!(total > 0)) return add("bed.particles: no particles at all");
@@ -107,14 +104,12 @@ void Checker::bed(bool by_particles) {
 
 void Checker::numerics() {
   const Tfm& tfm = scene_.tfm;
-  if (tfm.fixed_step && tfm.integrator == "implicit")
-    add("tfm.fixed_step works with the explicit integrator only");
+  if (tfm.fixed_step && tfm.integrator == "implicit") add("tfm.fixed_step works with the explicit integrator only");
   if (tfm.integrator == "implicit" && tfm.rtol > 2e-3)
     add("tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past "
         "packing",
         tfm.rtol);
-  if (scene_.fluid.name == "none")
-    add("fluid.name = \"none\" is a scene for the DEM, which is not in this version");
+  if (scene_.fluid.name == "none") add("fluid.name = \"none\" is a scene for the DEM, which is not in this version");
   if (scene_.effects.contains("solids_stress") && tfm.max_packing == "auto" &&
       scene_.bed.solids_fraction <= tfm.frictional_onset)
     add("bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
@@ -175,8 +170,7 @@ void write_table(Scene& scene, std::string_view table, std::size_t index, std::s
   for (const Key& key : keys()) {
     if (key.table != table) continue;
     const bool by_particles = !scene.bed.particles.empty();
-    if (by_particles && table == "bed" && (key.name == "volume_share" || key.name == "static_height"))
-      continue;
+    if (by_particles && table == "bed" && (key.name == "volume_share" || key.name == "static_height")) continue;
     std::string value = std::visit(AsToml{scene, index}, key.place);
     if (key.or_number && value.find_first_of("0123456789") == 1) value = value.substr(1, value.size() - 2);
     if (!value.empty()) out += fmt::format("{} = {}\n", key.name, value);

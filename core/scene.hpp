@@ -1,5 +1,4 @@
-// The scene: what a case file says, in SI units, one plain struct per table. No law and no equation lives
-// here.
+// The scene: what a case file says, in SI units, one plain struct per table. No law and no equation lives here.
 #pragma once
 
 #include <array>
@@ -68,15 +67,15 @@ struct OutputPlan {
 struct Tfm {
   std::string integrator = "auto";  ///< auto | explicit | implicit
   double rtol = 1e-4;
-  std::string flux = "limited";           ///< limited | upwind: the volume fractions
-  std::string momentum = "upwind";        ///< convection of momentum
-  std::string solids_wall = "free_slip";  ///< free_slip | no_slip
-  std::string max_packing = "auto";       ///< auto (from bed.solids_fraction) | a number
-  double frictional_pressure = 0.05;      ///< Fr of p_f, Pa
-  double frictional_onset = 0.5;          ///< solids fraction above which p_f acts
-  double bulk_viscosity = 1;              ///< alpha
-  double exchange_pressure = 0;           ///< C_s of species exchange, s/m2
-  std::optional<double> fixed_step;       ///< s: steps of one length, without error control (explicit only)
+  std::string flux = "limited";              ///< limited | upwind: the volume fractions
+  std::string momentum = "upwind";           ///< convection of momentum
+  std::string solids_wall = "free_slip";     ///< free_slip | no_slip
+  std::string max_packing = "auto";          ///< auto (from bed.solids_fraction) | a number
+  double frictional_pressure = 0.05;         ///< Fr of p_f, Pa
+  double frictional_onset = 0.5;             ///< solids fraction above which p_f acts
+  double bulk_viscosity = 1;                 ///< alpha
+  double exchange_pressure = 0;              ///< C_s of species exchange, s/m2
+  std::optional<double> fixed_step;          ///< s: steps of one length, without error control (explicit only)
   std::optional<double> pressure_tolerance;  ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
 };
 

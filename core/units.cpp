@@ -47,8 +47,7 @@ struct Units {
 /// Multiplies one "m3" or "s-1" into the units; false if it is no unit.
 bool apply_unit(std::string_view token, int sign, Units& all) {
   std::size_t letters = 0;
-  while (letters < token.size() &&
-         (std::isalpha(static_cast<unsigned char>(token[letters])) || token[letters] == '%'))
+  while (letters < token.size() && (std::isalpha(static_cast<unsigned char>(token[letters])) || token[letters] == '%'))
     ++letters;
   const Unit* unit = find_unit(token.substr(0, letters));
   if (unit == nullptr) return false;

@@ -14,9 +14,9 @@ struct Dimension {
 };
 
 namespace dimension {
-constexpr Dimension none{}, length{1, 0, 0, 0}, time{0, 0, 1, 0}, temperature{0, 0, 0, 1},
-    velocity{1, 0, -1, 0}, acceleration{1, 0, -2, 0}, density{-3, 1, 0, 0}, viscosity{-1, 1, -1, 0},
-    pressure{-1, 1, -2, 0}, per_pressure{-2, 0, 1, 0};
+constexpr Dimension none{}, length{1, 0, 0, 0}, time{0, 0, 1, 0}, temperature{0, 0, 0, 1}, velocity{1, 0, -1, 0},
+    acceleration{1, 0, -2, 0}, density{-3, 1, 0, 0}, viscosity{-1, 1, -1, 0}, pressure{-1, 1, -2, 0},
+    per_pressure{-2, 0, 1, 0};
 }  // namespace dimension
 
 /// A number read from text, in SI.
@@ -27,8 +27,7 @@ struct Quantity {
 };
 
 /// Reads "number unit", e.g. "0.807 mm", "15 degC", "1395 kg/m3", "1.14e-3 Pa s", "12"; units are joined by
-/// spaces, '*' or '/', a digit after a unit is its power. degC alone is shifted to K. Empty if the text is
-/// no quantity.
+/// spaces, '*' or '/', a digit after a unit is its power. degC alone is shifted to K. Empty if the text is no quantity.
 [[nodiscard]] std::optional<Quantity> parse_quantity(std::string_view text);
 
 /// The SI unit of a dimension as text, e.g. "kg/m3"; "1" for none.

@@ -23,8 +23,7 @@ double Inlet::velocity(double t) const {
 double Inlet::rate(double t) const {
   if (table_.empty() || t < table_.front().first) return 0;
   for (std::size_t n = 1; n < table_.size(); ++n)
-    if (t < table_[n].first)
-      return (table_[n].second - table_[n - 1].second) / (table_[n].first - table_[n - 1].first);
+    if (t < table_[n].first) return (table_[n].second - table_[n - 1].second) / (table_[n].first - table_[n - 1].first);
   return 0;
 }
 
@@ -83,8 +82,7 @@ void Boundaries::fill_beyond(Field& field, int axis, double sign_low, double sig
   }
 }
 
-/// Ends of the vertical velocity: what leaves or enters goes on as it is beyond the distributor and the
-/// outlet.
+/// Ends of the vertical velocity: what leaves or enters goes on as it is beyond the distributor and the outlet.
 void Boundaries::copy_outward(Field& u) const {
   const Index s = grid_.stride(1);
   const int n = grid_.cells[1];

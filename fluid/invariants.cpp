@@ -49,14 +49,12 @@ std::vector<double> species_volumes(const core::Grid& grid, const Interphase& so
 }
 
 InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid,
-                                double max_packing, double velocity_scale, double force_balance,
-                                double time) {
+                                double max_packing, double velocity_scale, double force_balance, double time) {
   InvariantValues now;
   const std::vector<double> volume_now = species_volumes(grid, solids);
   for (std::size_t j = 0; j < solids.species(); ++j)
     if (initial_mass_[j] > 0)
-      now.mass_error =
-          std::max(now.mass_error, std::abs(volume_now[j] * solids.density[j] / initial_mass_[j] - 1));
+      now.mass_error = std::max(now.mass_error, std::abs(volume_now[j] * solids.density[j] / initial_mass_[j] - 1));
   double least = 0, most = 0;
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {

@@ -116,8 +116,7 @@ std::optional<double> interface_height(const Profile& profile, double tolerance)
   const auto slices = slices_of(profile);
   if (!slices) return std::nullopt;
   std::size_t first = 0;
-  while (first + 1 < slice_count &&
-         largest_difference(slices->share[first + 1], slices->share[first]) > tolerance)
+  while (first + 1 < slice_count && largest_difference(slices->share[first + 1], slices->share[first]) > tolerance)
     ++first;
   if (first + 1 == slice_count) return std::nullopt;
   std::vector<double> sum(profile.fraction.size(), 0.0), mean(sum);

@@ -1,5 +1,4 @@
-// Quantities of interest of a bed, from its vertical profile: one definition for both models and for the
-// comparison.
+// Quantities of interest of a bed, from its vertical profile: one definition for both models and for the comparison.
 #pragma once
 
 #include <optional>
@@ -8,8 +7,7 @@
 
 namespace polybed::fluid {
 
-/// z_q: height, m, below which the share q of the solids volume lies; linear within a slab. Empty for an
-/// empty bed.
+/// z_q: height, m, below which the share q of the solids volume lies; linear within a slab. Empty for an empty bed.
 [[nodiscard]] std::optional<double> volume_quantile(const Profile& profile, double q);
 
 /// Highest z, m, where phi, linear between slab centres, equals half of phi_top, the volume-weighted mean of
@@ -25,8 +23,7 @@ namespace polybed::fluid {
 /// those accumulated from the first kept slice. Empty for one species or where nothing is alike.
 [[nodiscard]] std::optional<double> interface_height(const Profile& profile, double tolerance = 0.05);
 
-/// 1 - mean over the 50 slices of (x - x_mean)^2 / (x_mean (1 - x_mean)), mean over species: 1 mixed, 0
-/// separated.
+/// 1 - mean over the 50 slices of (x - x_mean)^2 / (x_mean (1 - x_mean)), mean over species: 1 mixed, 0 separated.
 [[nodiscard]] std::optional<double> mixing(const Profile& profile);
 
 /// Net pressure at the bottom less that at the top, Pa: linear continuation of the outermost two slabs.

@@ -54,8 +54,8 @@ void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, con
   }
 }
 
-void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
-               const FluidState& fluid, double density, const core::FaceField& acceleration, FluxRate& out) {
+void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids, const FluidState& fluid,
+               double density, const core::FaceField& acceleration, FluxRate& out) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);

@@ -4,8 +4,7 @@
 //   pressure) (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p,
 //       B = eps/rho_f + sum_j phi_j/rho_j
 //
-// J = eps U_f + sum phi_j U_j is the unknown, because its constraint div J = 0 is linear with constant
-// coefficients.
+// J = eps U_f + sum phi_j U_j is the unknown, because its constraint div J = 0 is linear with constant coefficients.
 #pragma once
 
 #include "fluid/boundaries.hpp"
@@ -36,7 +35,7 @@ void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, con
 
 /// Equation (4) without the pressure. acceleration is a_f; solids.acceleration, fraction_rate (with ghosts)
 /// are read. On the outlet's faces the solids are held, so the fluid alone moves there.
-void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
-               const FluidState& fluid, double density, const core::FaceField& acceleration, FluxRate& out);
+void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids, const FluidState& fluid,
+               double density, const core::FaceField& acceleration, FluxRate& out);
 
 }  // namespace polybed::fluid

@@ -17,16 +17,13 @@ Pressure::Pressure(const core::Grid& grid, double tolerance)
       divergence_(core::make_field(grid)),
       source_(core::make_field(grid)) {}
 
-core::PoissonResult Pressure::solve(const FluxRate& rate, const core::FaceField& flux, double w,
-                                    Field& pressure) {
+core::PoissonResult Pressure::solve(const FluxRate& rate, const core::FaceField& flux, double w, Field& pressure) {
   core::divergence(grid_, rate.free, source_);
   core::divergence(grid_, flux, divergence_);
   core::for_each_row(grid_, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-      source_[c] = -(source_[c] + w * divergence_[c]);
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) source_[c] = -(source_[c] + w * divergence_[c]);
   });
-  return solver_.solve({rate.mobility[0], rate.mobility[1], rate.mobility[2]}, {}, source_, pressure,
-                       tolerance_);
+  return solver_.solve({rate.mobility[0], rate.mobility[1], rate.mobility[2]}, {}, source_, pressure, tolerance_);
 }
 
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, Field& pressure) {
@@ -35,9 +32,8 @@ void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, F
   core::Box beyond = core::owned_cells(grid);
   beyond.lo[1] = grid.cells[1];
   beyond.hi[1] = grid.cells[1] + 1;
-  core::for_each_row(grid, beyond, [&](Index begin, Index end) {
-    std::fill(pressure.begin() + begin, pressure.begin() + end, 0.0);
-  });
+  core::for_each_row(grid, beyond,
+                     [&](Index begin, Index end) { std::fill(pressure.begin() + begin, pressure.begin() + end, 0.0); });
 }
 
 double divergence_error(const core::Grid& grid, const core::FaceField& flux, double velocity_scale) {

@@ -19,8 +19,7 @@ class Pressure {
   /// \param rate  dJ/dt without pressure and the mobility B
   /// \param flux  J, m/s
   /// \param w     rate at which div J is driven to zero, 1/s
-  core::PoissonResult solve(const FluxRate& rate, const core::FaceField& flux, double w,
-                            core::Field& pressure);
+  core::PoissonResult solve(const FluxRate& rate, const core::FaceField& flux, double w, core::Field& pressure);
 
  private:
   core::Grid grid_;
@@ -32,8 +31,7 @@ class Pressure {
 /// Calls body(begin, end, gradient) for rows of an axis's moving faces, where gradient(c) is dp/dx_axis,
 /// Pa/m, at face c. p must be 0 in the ghosts at the outlet (set_outlet_pressure).
 template <class Body>
-void for_each_gradient_row(const core::Grid& grid, const core::Box& box, int axis, const core::Field& p,
-                           Body&& body) {
+void for_each_gradient_row(const core::Grid& grid, const core::Box& box, int axis, const core::Field& p, Body&& body) {
   const core::Index s = grid.stride(axis);
   const double per_length = 1 / grid.spacing[std::size_t(axis)];
   const double* value = p.data();
@@ -46,7 +44,6 @@ void for_each_gradient_row(const core::Grid& grid, const core::Box& box, int axi
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, core::Field& pressure);
 
 /// Largest |div J| h / U over the cells: how well volume is conserved. U: a velocity scale, m/s.
-[[nodiscard]] double divergence_error(const core::Grid& grid, const core::FaceField& flux,
-                                      double velocity_scale);
+[[nodiscard]] double divergence_error(const core::Grid& grid, const core::FaceField& flux, double velocity_scale);
 
 }  // namespace polybed::fluid

@@ -20,8 +20,7 @@ FluidConstants fluid_constants(const core::Fluid& fluid) {
   try {
     const double t = *fluid.temperature;
     if (!fluid.density) constants.density = water ? closures::water_density(t) : closures::air_density(t);
-    if (!fluid.viscosity)
-      constants.viscosity = water ? closures::water_viscosity(t) : closures::air_viscosity(t);
+    if (!fluid.viscosity) constants.viscosity = water ? closures::water_viscosity(t) : closures::air_viscosity(t);
   } catch (const std::out_of_range& error) {
     throw core::CaseError(std::string("fluid.temperature: ") + error.what());
   }

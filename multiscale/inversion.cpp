@@ -18,8 +18,7 @@ using Residual = std::function<std::optional<double>(double)>;
 constexpr double least_voidage = 0.2;
 constexpr int scan = 4000;  ///< intervals of the scan for roots
 
-/// Roots of a residual that may be undefined in places, in (low, high): sign changes of a scan, refined by
-/// bisection.
+/// Roots of a residual that may be undefined in places, in (low, high): sign changes of a scan, refined by bisection.
 std::vector<double> roots(const Residual& residual, double low, double high) {
   std::vector<double> found;
   std::optional<double> last;
@@ -54,23 +53,20 @@ double velocity_of(const std::function<double(double)>& load, double target) {
 }
 
 double bulk_density(const BinaryBed& bed, double voidage) {
-  return (1 - voidage) * (bed.share[0] * bed.density[0] + bed.share[1] * bed.density[1]) +
-         voidage * bed.fluid.density;
+  return (1 - voidage) * (bed.share[0] * bed.density[0] + bed.share[1] * bed.density[1]) + voidage * bed.fluid.density;
 }
 
-/// Drag of species j per volume, Pa/m, at a superficial velocity through particles at rest: 18 mu u f_j /
-/// D_j^2.
+/// Drag of species j per volume, Pa/m, at a superficial velocity through particles at rest: 18 mu u f_j / D_j^2.
 double drag_per_volume(const BinaryBed& bed, const DragLaw& law, double voidage, double u, std::size_t j) {
   std::array<double, 2> f{}, slope{};
   const std::array<double, 2> slip{u, u};
-  closures::drag_of_mixture(law, voidage, bed.share, bed.diameter, slip, bed.fluid.density,
-                            bed.fluid.viscosity, f, slope);
+  closures::drag_of_mixture(law, voidage, bed.share, bed.diameter, slip, bed.fluid.density, bed.fluid.viscosity, f,
+                            slope);
   return 18 * bed.fluid.viscosity * u * f[j] / (bed.diameter[j] * bed.diameter[j]);
 }
 
 /// Velocity at which species j rests in the mixture; none where it floats in the bulk.
-std::optional<double> resting_velocity(const BinaryBed& bed, const DragLaw& law, double voidage,
-                                       std::size_t j) {
+std::optional<double> resting_velocity(const BinaryBed& bed, const DragLaw& law, double voidage, std::size_t j) {
   const double weight = (bed.density[j] - bulk_density(bed, voidage)) * bed.gravity;
   if (!(weight > 0)) return std::nullopt;
   return velocity_of([&](double u) { return drag_per_volume(bed, law, voidage, u, j); }, weight);
@@ -111,8 +107,7 @@ std::vector<InversionPoint> by_bulk_density(const BinaryBed& bed, const DragLaw&
   const Residual residual = [&](double log_u) -> std::optional<double> {
     const auto [e1, e2] = voidages(log_u);
     if (!e1 || !e2) return std::nullopt;
-    return (1 - *e1) * (bed.density[0] - bed.fluid.density) -
-           (1 - *e2) * (bed.density[1] - bed.fluid.density);
+    return (1 - *e1) * (bed.density[0] - bed.fluid.density) - (1 - *e2) * (bed.density[1] - bed.fluid.density);
   };
   std::vector<InversionPoint> points;
   for (double log_u : roots(residual, std::log(1e-6), std::log(10.0))) {
@@ -126,9 +121,9 @@ std::vector<InversionPoint> by_expansion(const BinaryBed& bed) {
   std::array<double, 2> terminal{}, exponent{};
   for (std::size_t j = 0; j < 2; ++j) {
     const closures::DragTurtonLevenspiel single;
-    terminal[j] = closures::terminal_velocity([&](double eps, double re) { return single(eps, re).f; },
-                                              bed.diameter[j], bed.density[j] - bed.fluid.density,
-                                              bed.fluid.density, bed.fluid.viscosity, bed.gravity);
+    terminal[j] = closures::terminal_velocity([&](double eps, double re) { return single(eps, re).f; }, bed.diameter[j],
+                                              bed.density[j] - bed.fluid.density, bed.fluid.density,
+                                              bed.fluid.viscosity, bed.gravity);
     exponent[j] = closures::DragRichardsonZaki{}.exponent(bed.fluid.density * terminal[j] * bed.diameter[j] /
                                                           bed.fluid.viscosity);
   }
@@ -143,8 +138,7 @@ std::vector<InversionPoint> by_expansion(const BinaryBed& bed) {
     return a > 0 && b > 0 ? std::optional(std::log(a / b)) : std::nullopt;
   };
   std::vector<InversionPoint> points;
-  for (double voidage : roots(residual, least_voidage, 1))
-    points.push_back({voidage * slip(voidage, 1), voidage});
+  for (double voidage : roots(residual, least_voidage, 1)) points.push_back({voidage * slip(voidage, 1), voidage});
   return points;
 }
 
@@ -154,8 +148,7 @@ double gibilaro(const BinaryBed& bed, double x, double voidage, double u) {
   const double re = bed.fluid.density * u * mean / bed.fluid.viscosity;
   const double tanh = std::tanh(20 * voidage - 8);
   const double s = voidage < 0.4 ? 2.55 : 2.55 - 2.1 * std::pow(tanh, 0.99);
-  const double excess =
-      x * (bed.density[0] - bed.fluid.density) + (1 - x) * (bed.density[1] - bed.fluid.density);
+  const double excess = x * (bed.density[0] - bed.fluid.density) + (1 - x) * (bed.density[1] - bed.fluid.density);
   return std::pow(std::pow(17.3 / re, s) + std::pow(0.336, s), 1 / s) * bed.fluid.density * u * u /
              (bed.gravity * mean) -
          std::pow(voidage, 4.8) * excess;
@@ -182,8 +175,7 @@ std::vector<InversionPoint> by_density_maximum(const BinaryBed& bed) {
     return (density(bed.share[0] + step) - density(bed.share[0] - step)) / (2 * step);
   };
   std::vector<InversionPoint> points;
-  for (double voidage : roots(slope_of_density, least_voidage, 1))
-    points.push_back({velocity_at(voidage), voidage});
+  for (double voidage : roots(slope_of_density, least_voidage, 1)) points.push_back({velocity_at(voidage), voidage});
   return points;
 }
 
@@ -198,8 +190,7 @@ const std::vector<InversionMethod>& inversion_methods() {
   return methods;
 }
 
-std::vector<InversionPoint> inversion_points(const BinaryBed& bed, const DragLaw& law,
-                                             const std::string& method) {
+std::vector<InversionPoint> inversion_points(const BinaryBed& bed, const DragLaw& law, const std::string& method) {
   if (method == "force_balance") return by_force_balance(bed, law);
   if (method == "bulk_density") return by_bulk_density(bed, law);
   if (method == "expansion") return by_expansion(bed);

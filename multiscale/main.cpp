@@ -90,20 +90,17 @@ int run(int argc, char** argv) {
       app.add_subcommand("drag", "evaluate a drag closure at a point, or for every row of a CSV file");
   drag_command->add_option("--law", drag.law, "see polybed list");
   drag_command->add_option("--voidage", drag.voidage, "eps");
-  drag_command->add_option("--re", drag.reynolds,
-                           "Reynolds number of the diameter and the superficial slip velocity");
+  drag_command->add_option("--re", drag.reynolds, "Reynolds number of the diameter and the superficial slip velocity");
   drag_command->add_option("--csv", drag.csv, "file with columns eps,Re or eps,Re,x1,D1,x2,D2,...");
   drag_command->add_option("--guard", guard, "on | off: the bare published formula")
       ->check(CLI::IsMember({"on", "off"}));
   drag_command->add_flag("--json", drag.json, "one JSON object");
 
   InversionOptions inversion;
-  CLI::App* inversion_command =
-      app.add_subcommand("inversion", "the inversion point by force balance, without a run");
+  CLI::App* inversion_command = app.add_subcommand("inversion", "the inversion point by force balance, without a run");
   add_case(*inversion_command, inversion);
   inversion_command->add_option("--law", inversion.law, "drag law in place of the case's");
-  inversion_command->add_option("--temperature", inversion.temperature,
-                                "in place of the case's, e.g. \"20 degC\"");
+  inversion_command->add_option("--temperature", inversion.temperature, "in place of the case's, e.g. \"20 degC\"");
   inversion_command->add_option("--method", inversion.method,
                                 "force_balance | bulk_density | expansion | density_maximum");
 

@@ -53,8 +53,8 @@ int start(std::vector<std::string> arguments, int output, int unused, pid_t& chi
   posix_spawn_file_actions_addclose(&actions, unused);
   posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
-  const int reason = posix_spawn(&child, arguments.front().c_str(), &actions, nullptr,
-                                 pointers(arguments).data(), pointers(settings).data());
+  const int reason = posix_spawn(&child, arguments.front().c_str(), &actions, nullptr, pointers(arguments).data(),
+                                 pointers(settings).data());
   posix_spawn_file_actions_destroy(&actions);
   return reason;
 }

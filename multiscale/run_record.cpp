@@ -51,9 +51,7 @@ std::string run_record_text(const RunRecord& record) {
   const double simulated = model.time() - record.begin;
   Json json;
   json.begin_object().member("filetype", "polybed run").member("version", 1).member("model", "tfm");
-  json.member("program", core::version())
-      .member("git_commit", core::git_commit())
-      .member("state", record.state);
+  json.member("program", core::version()).member("git_commit", core::git_commit()).member("state", record.state);
   json.member("case", text).member("case_hash", core::text_hash(text)).key("overrides").begin_array();
   for (const std::string& override : record.scene.overrides) json.value(override);
   json.end_array().member("ranks", 1);

@@ -11,8 +11,7 @@ namespace polybed::tfm {
 std::vector<core::Role> roles() {
   core::Role drag{"drag", "tfm", "Exchange", "force of the fluid on every species", "", {}};
   for (const closures::DragLawInfo& law : closures::drag_laws())
-    drag.laws.push_back(
-        {law.name, law.help + (law.obeys_sum_rule ? "" : " [of a mixture: breaks the sum rule]")});
+    drag.laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [of a mixture: breaks the sum rule]")});
   return {drag,
           {"solids_stress",
            "tfm",
@@ -28,8 +27,8 @@ std::vector<core::Role> roles() {
            {{"syamlal", "collisions, Syamlal 1987; contact in a packed bed, Gera 2004"}}}};
 }
 
-Effects make_effects(const core::Scene& scene, const Constants& constants,
-                     const fluid::Boundaries& boundaries, Fields& fields) {
+Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
+                     Fields& fields) {
   Effects effects;
   const auto law = [&](const char* role) {
     const auto found = scene.effects.find(role);

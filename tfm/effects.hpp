@@ -57,8 +57,8 @@ struct Effects {
 
 /// Makes the effects that a scene names and the fields they own; throws core::CaseError for a law that the
 /// continuum model lacks.
-Effects make_effects(const core::Scene& scene, const Constants& constants,
-                     const fluid::Boundaries& boundaries, Fields& fields);
+Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
+                     Fields& fields);
 
 /// The roles that act in the continuum model, with their laws.
 std::vector<core::Role> roles();

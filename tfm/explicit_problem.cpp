@@ -2,8 +2,8 @@
 
 namespace polybed::tfm {
 
-ExplicitProblem::ExplicitProblem(RightHandSide& equations, const StateLayout& layout,
-                                 double pressure_tolerance, core::Timers& timers)
+ExplicitProblem::ExplicitProblem(RightHandSide& equations, const StateLayout& layout, double pressure_tolerance,
+                                 core::Timers& timers)
     : equations_(equations),
       layout_(layout),
       timers_(timers),

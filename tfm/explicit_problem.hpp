@@ -11,8 +11,7 @@ namespace polybed::tfm {
 
 class ExplicitProblem : public core::OdeProblem {
  public:
-  ExplicitProblem(RightHandSide& equations, const StateLayout& layout, double pressure_tolerance,
-                  core::Timers& timers);
+  ExplicitProblem(RightHandSide& equations, const StateLayout& layout, double pressure_tolerance, core::Timers& timers);
 
   core::Rate rates(double t, std::span<const double> y, std::span<double> dydt) override;
 

@@ -31,15 +31,14 @@ core::Rate ImplicitProblem::residual(double t, std::span<const double> y, std::s
   return core::Rate::ok;
 }
 
-core::Rate ImplicitProblem::setup(double t, std::span<const double> y, std::span<const double>,
-                                  std::span<const double>, double cj) {
+core::Rate ImplicitProblem::setup(double t, std::span<const double> y, std::span<const double>, std::span<const double>,
+                                  double cj) {
   if (!equations_.evaluate(t, layout_, y)) return core::Rate::recoverable;
   const auto scope = timers_.scope("preconditioner set-up");
   return preconditioner_.setup(equations_.fields(), cj) ? core::Rate::ok : core::Rate::recoverable;
 }
 
-core::Rate ImplicitProblem::precondition(double, std::span<const double> r, std::span<double> z, double,
-                                         double) {
+core::Rate ImplicitProblem::precondition(double, std::span<const double> r, std::span<double> z, double, double) {
   const auto scope = timers_.scope("preconditioner");
   preconditioner_.apply(layout_, r, z);
   return core::Rate::ok;

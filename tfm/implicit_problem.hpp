@@ -1,5 +1,4 @@
-// The model as a differential-algebraic system of index 2: rates of all fields, and div J = 0 for the
-// pressure.
+// The model as a differential-algebraic system of index 2: rates of all fields, and div J = 0 for the pressure.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +14,10 @@ class ImplicitProblem : public core::DaeProblem {
  public:
   ImplicitProblem(RightHandSide& equations, const StateLayout& layout, core::Timers& timers);
 
-  core::Rate residual(double t, std::span<const double> y, std::span<const double> dydt,
-                      std::span<double> r) override;
-  core::Rate setup(double t, std::span<const double> y, std::span<const double> dydt,
-                   std::span<const double> r, double cj) override;
-  core::Rate precondition(double t, std::span<const double> r, std::span<double> z, double cj,
-                          double delta) override;
+  core::Rate residual(double t, std::span<const double> y, std::span<const double> dydt, std::span<double> r) override;
+  core::Rate setup(double t, std::span<const double> y, std::span<const double> dydt, std::span<const double> r,
+                   double cj) override;
+  core::Rate precondition(double t, std::span<const double> r, std::span<double> z, double cj, double delta) override;
 
   [[nodiscard]] std::uint64_t residuals() const { return residuals_; }
   [[nodiscard]] const Preconditioner& preconditioner() const { return preconditioner_; }

@@ -27,8 +27,7 @@ std::vector<double> even_column(double solids, double fraction, const core::Grid
 }
 
 /// The solids fraction whose pressure balances that of the cell above and the weight between the two centres.
-double settled_fraction(const StressEffect& stress, double above, double weight_per_fraction,
-                        double pressure_above) {
+double settled_fraction(const StressEffect& stress, double above, double weight_per_fraction, double pressure_above) {
   double phi = above;
   for (int n = 0; n < 200; ++n) {
     const double next = stress.solids_fraction_at(pressure_above + 0.5 * (phi + above) * weight_per_fraction);
@@ -38,8 +37,7 @@ double settled_fraction(const StressEffect& stress, double above, double weight_
   return phi;
 }
 
-/// Column of `cells` cells under a topmost one of fraction `top`, in equilibrium face by face, from the
-/// bottom up.
+/// Column of `cells` cells under a topmost one of fraction `top`, in equilibrium face by face, from the bottom up.
 std::vector<double> equilibrium_below(const StressEffect& stress, double top, int cells, double weight) {
   std::vector<double> column{top};
   double pressure = stress.pressure_at(top);
@@ -54,14 +52,12 @@ std::vector<double> equilibrium_below(const StressEffect& stress, double top, in
 
 /// A bed at rest of a given volume of solids: the number of cells and the loose topmost one are chosen so
 /// that it comes out exactly.
-std::vector<double> settled_column(double solids, const StressEffect& stress, double weight,
-                                   const core::Grid& grid) {
+std::vector<double> settled_column(double solids, const StressEffect& stress, double weight, const core::Grid& grid) {
   const auto amount = [&](const std::vector<double>& c) {
     return std::accumulate(c.begin(), c.end(), 0.0) * grid.spacing[1];
   };
   int cells = 0;
-  while (cells < grid.cells[1] && amount(equilibrium_below(stress, 0.0, cells + 1, weight)) <= solids)
-    ++cells;
+  while (cells < grid.cells[1] && amount(equilibrium_below(stress, 0.0, cells + 1, weight)) <= solids) ++cells;
   double low = 0, high = stress.max_packing();
   for (int n = 0; n < 200; ++n) {
     const double top = 0.5 * (low + high);
@@ -74,19 +70,16 @@ std::vector<double> settled_column(double solids, const StressEffect& stress, do
 
 }  // namespace
 
-void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress,
-              fluid::Interphase& solids) {
+void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress, fluid::Interphase& solids) {
   const core::Grid& grid = constants.grid;
   const double total = solids_height(bed), height = grid.spacing[1] * grid.cells[1];
   if (total > bed.start_solids_fraction * height * (1 + 1e-12))
-    throw core::CaseError(
-        fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size",
-                    total / bed.start_solids_fraction, height));
+    throw core::CaseError(fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size",
+                                      total / bed.start_solids_fraction, height));
   std::vector<double> column;
   if (bed.start == "settled") {
     if (stress == nullptr)
-      throw core::CaseError(
-          "bed.start = \"settled\" needs a solids_stress in [effects]: nothing else holds a bed up");
+      throw core::CaseError("bed.start = \"settled\" needs a solids_stress in [effects]: nothing else holds a bed up");
     double excess = 0;
     for (std::size_t j = 0; j < constants.species(); ++j)
       excess += bed.volume_share[j] * (constants.density[j] - constants.fluid.density);
@@ -105,10 +98,10 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
       const double overlap = std::max(0.0, std::min(below + here, layer_end) - std::max(below, layer_begin));
       const double phi =
           bed.start == "layered" ? overlap / grid.spacing[1] : bed.volume_share[j] * column[std::size_t(y)];
-      core::for_each_row(
-          grid, core::Box{{0, y, 0}, {grid.cells[0], y + 1, grid.cells[2]}}, [&](Index begin, Index end) {
-            std::fill(solids.fraction[j].begin() + begin, solids.fraction[j].begin() + end, phi);
-          });
+      core::for_each_row(grid, core::Box{{0, y, 0}, {grid.cells[0], y + 1, grid.cells[2]}},
+                         [&](Index begin, Index end) {
+                           std::fill(solids.fraction[j].begin() + begin, solids.fraction[j].begin() + end, phi);
+                         });
     }
     below += here;
   }

@@ -12,7 +12,6 @@ namespace polybed::tfm {
 /// Fills the solids fractions of all owned cells as the bed says: `mixed` (one composition), `layered`
 /// (bottom first), `settled` (one composition, held up by the solids pressure cell by cell). All velocities
 /// and the pressure are left at zero. Throws core::CaseError if the column is too low for the bed.
-void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress,
-              fluid::Interphase& solids);
+void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress, fluid::Interphase& solids);
 
 }  // namespace polybed::tfm

@@ -46,18 +46,15 @@ Constants make_constants(const core::Scene& scene) {
 double greatest_terminal_velocity(const Constants& constants) {
   double greatest = 0;
   for (std::size_t j = 0; j < constants.species(); ++j)
-    greatest = std::max(greatest,
-                        closures::terminal_velocity(
-                            [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; },
-                            constants.diameter[j], constants.density[j] - constants.fluid.density,
-                            constants.fluid.density, constants.fluid.viscosity, constants.gravity));
+    greatest = std::max(greatest, closures::terminal_velocity(
+                                      [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; },
+                                      constants.diameter[j], constants.density[j] - constants.fluid.density,
+                                      constants.fluid.density, constants.fluid.viscosity, constants.gravity));
   return greatest;
 }
 
 Discretisation make_discretisation(const core::Tfm& options) {
-  const auto scheme = [](const std::string& name) {
-    return name == "limited" ? Scheme::limited : Scheme::upwind;
-  };
+  const auto scheme = [](const std::string& name) { return name == "limited" ? Scheme::limited : Scheme::upwind; };
   return {scheme(options.flux), scheme(options.momentum),
           options.solids_wall == "no_slip" ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip};
 }
@@ -67,8 +64,7 @@ Discretisation make_discretisation(const core::Tfm& options) {
 Model::Model(const core::Scene& scene, core::Timers& timers)
     : timers_(timers),
       options_(scene.tfm),
-      equations_(scene, make_constants(scene),
-                 fluid::Boundaries(make_grid(scene.column), scene.column.closed),
+      equations_(scene, make_constants(scene), fluid::Boundaries(make_grid(scene.column), scene.column.closed),
                  fluid::Inlet(scene.inlet.superficial_velocity), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
@@ -98,8 +94,7 @@ void Model::choose_integrator(const core::Scene& scene) {
   integrator_reason_ = "as the case says";
   if (integrator_name_ == "auto") {
     double fastest = 0;
-    for (const auto& point : scene.inlet.superficial_velocity)
-      fastest = std::max(fastest, std::abs(point.second));
+    for (const auto& point : scene.inlet.superficial_velocity) fastest = std::max(fastest, std::abs(point.second));
     const bool gas = equations_.constants().fluid.density < 100;
     const bool still = scene.column.closed || fastest == 0;
     integrator_name_ = gas || still ? "implicit" : "explicit";
@@ -109,9 +104,9 @@ void Model::choose_integrator(const core::Scene& scene) {
   }
   constexpr double coarsest_implicit = 2e-3;
   if (integrator_name_ == "implicit" && options_.rtol > coarsest_implicit)
-    throw core::CaseError(fmt::format(
-        "tfm.rtol = {} with the implicit integrator: at most {} (its predictor jumps beyond packing)",
-        options_.rtol, coarsest_implicit));
+    throw core::CaseError(
+        fmt::format("tfm.rtol = {} with the implicit integrator: at most {} (its predictor jumps beyond packing)",
+                    options_.rtol, coarsest_implicit));
 }
 
 std::vector<double> Model::absolute_tolerances() const {
@@ -133,8 +128,7 @@ void Model::make_integrator() {
     options.atol = absolute_tolerances();
     options.id.assign(layout_.size(), 1.0);
     for (const StateLayout::Entry& entry : layout_.entries())
-      if (entry.kind == Kind::pressure)
-        std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
+      if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
     integrator_ = core::make_implicit(*implicit_, std::move(options));
   } else {
     const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
@@ -155,8 +149,7 @@ void Model::begin_integration() {
     // The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed
     // run gives the same bits.
     for (const StateLayout::Entry& entry : layout_.entries())
-      if (entry.kind == Kind::pressure)
-        std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
+      if (entry.kind == Kind::pressure) std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
     ExplicitProblem projected(equations_, layout_, 1e-8, timers_);
     if (projected.rates(time_, y_, dydt_) != core::Rate::ok)
       throw core::NumericsError("the state at the start has no rates: check the bed's solids fraction");

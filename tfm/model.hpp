@@ -18,8 +18,8 @@ namespace polybed::tfm {
 
 /// What the model has done so far; repeats exactly from run to run.
 struct Work {
-  std::uint64_t steps = 0, rejected_steps = 0, right_hand_sides = 0, pressure_solves = 0,
-                pressure_iterations = 0, newton_iterations = 0, krylov_iterations = 0;
+  std::uint64_t steps = 0, rejected_steps = 0, right_hand_sides = 0, pressure_solves = 0, pressure_iterations = 0,
+                newton_iterations = 0, krylov_iterations = 0;
 };
 
 /// One line of the step log.

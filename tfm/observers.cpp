@@ -19,8 +19,7 @@ std::vector<std::string> history_columns(const Constants& constants) {
     columns.push_back("centre_" + name + "_m");
     columns.push_back("mass_" + name + "_kg");
   }
-  columns.insert(columns.end(),
-                 {"interface_m", "mixing", "max_solids_fraction", "min_fraction", "divergence"});
+  columns.insert(columns.end(), {"interface_m", "mixing", "max_solids_fraction", "min_fraction", "divergence"});
   return columns;
 }
 
@@ -87,8 +86,7 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
     : model_(model),
       invariants_(std::move(initial_mass), rtol),
       history_(directory, history_columns(model.constants()), resume_time),
-      profiles_(directory, slab_centres(model.constants().grid), profile_names(model.constants()),
-                resume_time),
+      profiles_(directory, slab_centres(model.constants().grid), profile_names(model.constants()), resume_time),
       fields_(directory, model.constants().grid, field_names(model.constants()), resume_time),
       steps_(open_steps(directory / "steps.csv", resume_time), std::fclose) {}
 
@@ -96,17 +94,16 @@ void Observers::write_history(double time) {
   const Constants& constants = model_.constants();
   const fluid::Profile profile = profile_of(model_);
   const std::vector<double> mass = masses(model_);
-  const double area = constants.grid.spacing[0] * constants.grid.cells[0] * constants.grid.spacing[2] *
-                      constants.grid.cells[2];
+  const double area =
+      constants.grid.spacing[0] * constants.grid.cells[0] * constants.grid.spacing[2] * constants.grid.cells[2];
   double weight = 0;
   for (std::size_t j = 0; j < constants.species(); ++j)
     weight += mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity / area;
   const double drop = fluid::pressure_drop(profile);
   force_balance_ = weight != 0 ? drop / weight : 0;
   const double packing = model_.effects().solids_stress ? model_.effects().solids_stress->max_packing() : 1.0;
-  const fluid::InvariantValues now =
-      invariants_.see(constants.grid, model_.fields().solids, model_.fields().fluid, packing,
-                      model_.velocity_scale(), force_balance_ - 1, time);
+  const fluid::InvariantValues now = invariants_.see(constants.grid, model_.fields().solids, model_.fields().fluid,
+                                                     packing, model_.velocity_scale(), force_balance_ - 1, time);
   const auto height = fluid::bed_height(profile);
   bed_height_ = height.value_or(0);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
@@ -114,8 +111,8 @@ void Observers::write_history(double time) {
     row.push_back(fluid::centre(profile, j));
     row.push_back(mass[j]);
   }
-  row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), now.most_solids,
-                         -now.fraction_below, now.divergence});
+  row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), now.most_solids, -now.fraction_below,
+                         now.divergence});
   history_.write_row(row);
 }
 
@@ -131,8 +128,7 @@ void Observers::write_fields(double time) {
     for (int a = 0; a < grid.dimensions; ++a) values.emplace_back(u[std::size_t(a)]);
     return values;
   };
-  std::vector<core::FieldValues> values{
-      {fields.fluid.voidage}, {fields.fluid.pressure}, components(velocities[0])};
+  std::vector<core::FieldValues> values{{fields.fluid.voidage}, {fields.fluid.pressure}, components(velocities[0])};
   for (std::size_t j = 0; j < fields.solids.species(); ++j) {
     rows.push_back(fluid::lateral_mean(grid, fields.solids.fraction[j]));
     rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));

@@ -1,5 +1,4 @@
-// What a run of the continuum model writes while it goes: history, profiles, fields, the step log, its
-// invariants.
+// What a run of the continuum model writes while it goes: history, profiles, fields, the step log, its invariants.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +18,8 @@ class Observers {
  public:
   /// Starts the files of a run directory, or goes on with them from a time.
   /// \param initial_mass  of each species, kg, that mass is checked against
-  Observers(const Model& model, const std::filesystem::path& directory, double rtol,
-            std::vector<double> initial_mass, std::optional<double> resume_time);
+  Observers(const Model& model, const std::filesystem::path& directory, double rtol, std::vector<double> initial_mass,
+            std::optional<double> resume_time);
 
   /// One row of history.csv; also measures the invariants.
   void write_history(double time);

@@ -67,11 +67,9 @@ bool Preconditioner::setup(const Fields& fields, double c) {
   if (fields.stress.present())
     for (std::size_t cell = 0; cell < slope_.size(); ++cell)
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
-  const auto faces = [](const core::FaceField& f) {
-    return std::array<std::span<const double>, 3>{f[0], f[1], f[2]};
-  };
-  return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]),
-                       slope_, 0.0, c);
+  const auto faces = [](const core::FaceField& f) { return std::array<std::span<const double>, 3>{f[0], f[1], f[2]}; };
+  return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]), slope_, 0.0,
+                       c);
 }
 
 void Preconditioner::build(const Fields& fields, int axis, const core::Box& box, bool solids_move) {

@@ -5,8 +5,7 @@ namespace polybed::tfm {
 using core::Index;
 using Kind = StateLayout::Entry::Kind;
 
-void subtract_pressure_gradient(const Constants& constants, const fluid::Boundaries& boundaries,
-                                Fields& fields) {
+void subtract_pressure_gradient(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
   const core::Grid& grid = constants.grid;
   core::Field& p = fields.fluid.pressure;
   fluid::set_outlet_pressure(grid, boundaries, p);
@@ -23,8 +22,7 @@ void subtract_pressure_gradient(const Constants& constants, const fluid::Boundar
       const double per_density = 1 / constants.density[j];
       fluid::for_each_gradient_row(grid, boundaries.moving_faces(axis, false), axis, p,
                                    [&](Index begin, Index end, auto gradient) {
-                                     for (Index c = begin; c < end; ++c)
-                                       acceleration[c] -= per_density * gradient(c);
+                                     for (Index c = begin; c < end; ++c) acceleration[c] -= per_density * gradient(c);
                                    });
     }
   }

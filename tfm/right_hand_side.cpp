@@ -54,8 +54,8 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     timed("drag", [&] {
       effects_.drag->evaluate(fields_);
       add_exchange(constants_, boundaries_, fields_);
-      fluid::subtract_exchange(constants_.grid, boundaries_, fields_.solids, fields_.fluid,
-                               constants_.fluid.density, fields_.fluid_acceleration);
+      fluid::subtract_exchange(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
+                               fields_.fluid_acceleration);
     });
   if (effects_.species_exchange)
     timed("species exchange", [&] {

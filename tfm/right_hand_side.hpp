@@ -19,8 +19,8 @@ struct Discretisation {
 
 class RightHandSide {
  public:
-  RightHandSide(const core::Scene& scene, Constants constants, fluid::Boundaries boundaries,
-                fluid::Inlet inlet, Discretisation discretisation, core::Timers& timers);
+  RightHandSide(const core::Scene& scene, Constants constants, fluid::Boundaries boundaries, fluid::Inlet inlet,
+                Discretisation discretisation, core::Timers& timers);
 
   /// Evaluates every term at (t, y); the result stands in fields(). False if the state is none that closures
   /// can be asked about (not finite, or a cell with more than its volume of solids): the step must shrink.

@@ -40,15 +40,14 @@ void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const 
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     Field& rate = acceleration[std::size_t(axis)];
     std::fill(rate.begin(), rate.end(), 0.0);
-    core::subtract_convection<Difference>(grid, velocity, axis, boundaries.moving_faces(axis, of_fluid),
-                                          rate);
+    core::subtract_convection<Difference>(grid, velocity, axis, boundaries.moving_faces(axis, of_fluid), rate);
   }
 }
 
 }  // namespace
 
-void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme,
-                Fields& fields, core::FaceField& flux) {
+void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields,
+                core::FaceField& flux) {
   const core::Grid& grid = constants.grid;
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const Field& phi = fields.solids.fraction[j];
@@ -66,10 +65,8 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
   }
 }
 
-void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme,
-                Fields& fields) {
-  const auto convect_phase = [&](const core::FaceField& velocity, bool of_fluid,
-                                 core::FaceField& acceleration) {
+void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields) {
+  const auto convect_phase = [&](const core::FaceField& velocity, bool of_fluid, core::FaceField& acceleration) {
     if (scheme == Scheme::limited)
       convect<core::LimitedDifference>(constants.grid, boundaries, velocity, of_fluid, acceleration);
     else
@@ -123,8 +120,7 @@ void add_species_exchange(const Constants& constants, const fluid::Boundaries& b
     const double per_density = 1 / constants.density[j];
     for (std::size_t k = 0; k < n; ++k) {
       if (k == j) continue;
-      const double *coefficient =
-                       fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)].data(),
+      const double *coefficient = fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)].data(),
                    *phi = fields.solids.fraction[k].data(), *w = fields.solids.velocity[k][d].data();
       for (Index c = begin; c < end; ++c)
         a[c] += face_mean(coefficient, c, s) * face_mean(phi, c, s) * per_density * (w[c] - v[c]);

@@ -15,8 +15,7 @@ StateLayout::StateLayout(const core::Grid& grid, int species, bool with_pressure
     : grid_(grid), with_pressure_(with_pressure) {
   for (int j = 0; j < species; ++j) add(Kind::fraction, j, -1, core::owned_cells(grid));
   for (int j = 0; j < species; ++j)
-    for (int axis = 0; axis < grid.dimensions; ++axis)
-      add(Kind::velocity, j, axis, core::owned_faces(grid, axis));
+    for (int axis = 0; axis < grid.dimensions; ++axis) add(Kind::velocity, j, axis, core::owned_faces(grid, axis));
   for (int axis = 0; axis < grid.dimensions; ++axis) add(Kind::flux, -1, axis, core::owned_faces(grid, axis));
   if (with_pressure) add(Kind::pressure, -1, -1, core::owned_cells(grid));
 }
@@ -38,18 +37,15 @@ void StateLayout::unpack(const Entry& entry, std::span<const double> y, Field& f
 
 void StateLayout::pack(const Entry& entry, const Field& field, std::span<double> y) const {
   double* to = y.data() + entry.begin;
-  core::for_each_row(grid_, entry.box, [&](Index begin, Index end) {
-    to = std::copy(field.begin() + begin, field.begin() + end, to);
-  });
+  core::for_each_row(grid_, entry.box,
+                     [&](Index begin, Index end) { to = std::copy(field.begin() + begin, field.begin() + end, to); });
 }
 
-void StateLayout::unpack(std::span<const double> y, fluid::Interphase& solids,
-                         fluid::FluidState& fluid) const {
+void StateLayout::unpack(std::span<const double> y, fluid::Interphase& solids, fluid::FluidState& fluid) const {
   for (const Entry& entry : entries_) unpack(entry, y, field_of(entry, solids, fluid));
 }
 
-void StateLayout::pack(const fluid::Interphase& solids, const fluid::FluidState& fluid,
-                       std::span<double> y) const {
+void StateLayout::pack(const fluid::Interphase& solids, const fluid::FluidState& fluid, std::span<double> y) const {
   for (const Entry& entry : entries_) pack(entry, field_of(entry, solids, fluid), y);
 }
 

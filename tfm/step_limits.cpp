@@ -50,8 +50,7 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
       for (std::size_t j = 0; j < constants.species(); ++j) {
         const double b = fields.solids.exchange[j][at], phi = std::max(fields.solids.fraction[j][at], 0.0);
         convection.see(courant_rate(grid, fields.solids.velocity[j], c), c);
-        on_fluid +=
-            phi * b / (std::max(fields.fluid.voidage[at], fluid::voidage_floor) * constants.fluid.density);
+        on_fluid += phi * b / (std::max(fields.fluid.voidage[at], fluid::voidage_floor) * constants.fluid.density);
         solids_density += fields.share[j][at] * constants.density[j];
         drag.see(b / constants.density[j] + on_fluid, c);
       }

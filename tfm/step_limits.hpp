@@ -21,8 +21,7 @@ struct TimeScale {
 std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields);
 
 /// Share of its time scale beyond which a process, not the error test, is taken to limit an explicit step:
-/// third order Runge-Kutta is stable up to 1.7 on the imaginary axis and 2.5 on the real one, and steps
-/// settle below.
+/// third order Runge-Kutta is stable up to 1.7 on the imaginary axis and 2.5 on the real one, and steps settle below.
 constexpr double limiting_share = 0.5;
 
 /// One phrase for the step log: the process nearest to its limit if it is near, else "error test".

@@ -52,18 +52,15 @@ Derived derive(const core::Scene& scene) {
   derived.unknowns = model.unknowns();
   if (model.effects().solids_stress) derived.max_packing = model.effects().solids_stress->max_packing();
   double fastest = 0;
-  for (const auto& point : scene.inlet.superficial_velocity)
-    fastest = std::max(fastest, std::abs(point.second));
+  for (const auto& point : scene.inlet.superficial_velocity) fastest = std::max(fastest, std::abs(point.second));
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const double excess = constants.density[j] - constants.fluid.density;
-    derived.weight += scene.bed.volume_share[j] * scene.bed.static_height * scene.bed.solids_fraction *
-                      excess * constants.gravity;
+    derived.weight +=
+        scene.bed.volume_share[j] * scene.bed.static_height * scene.bed.solids_fraction * excess * constants.gravity;
     derived.terminal.push_back(closures::terminal_velocity(
-        [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; },
-        constants.diameter[j], excess, constants.fluid.density, constants.fluid.viscosity,
-        constants.gravity));
-    derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] /
-                               constants.fluid.viscosity);
+        [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; }, constants.diameter[j], excess,
+        constants.fluid.density, constants.fluid.viscosity, constants.gravity));
+    derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] / constants.fluid.viscosity);
     if (fastest > derived.terminal[j])
       derived.notes.push_back(
           fmt::format("the inlet's {:.4g} m/s is above the terminal velocity of {}, {:.4g} m/s: it will be "
@@ -88,8 +85,7 @@ void run_check(const CaseOptions& options) {
   if (options.json) {
     core::Json json;
     json.begin_object().member("case", text).member("hash", core::text_hash(text));
-    json.member("fluid_density_kg_m3", derived.fluid.density)
-        .member("fluid_viscosity_Pa_s", derived.fluid.viscosity);
+    json.member("fluid_density_kg_m3", derived.fluid.density).member("fluid_viscosity_Pa_s", derived.fluid.viscosity);
     json.member("integrator", derived.integrator).member("unknowns", std::uint64_t(derived.unknowns));
     json.member("memory_MB", memory).member("buoyant_weight_Pa", derived.weight);
     json.key("notes").begin_array();
@@ -99,8 +95,7 @@ void run_check(const CaseOptions& options) {
     return;
   }
   fmt::print("{}\n", text);
-  fmt::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density,
-             derived.fluid.viscosity);
+  fmt::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     fmt::print("# {}: terminal velocity {:.4g} m/s, Re of the inlet {:.4g}\n", scene.species[j].name,
                derived.terminal[j], derived.reynolds[j]);

@@ -52,10 +52,7 @@ void print_point(const DragOptions& options, const DragLaw& law) {
   const double f = at_point(law, *options.voidage, *options.reynolds, count);
   if (options.json) {
     core::Json json;
-    json.begin_object()
-        .member("law", options.law)
-        .member("voidage", *options.voidage)
-        .member("re", *options.reynolds);
+    json.begin_object().member("law", options.law).member("voidage", *options.voidage).member("re", *options.reynolds);
     json.member("f", f).member("n", f / *options.voidage).member("guarded", count.guarded > 0).end_object();
     fmt::print("{}\n", json.text());
     return;
@@ -139,8 +136,7 @@ void print_csv(const DragOptions& options, const DragLaw& law) {
       share.push_back(values[c]);
       diameter.push_back(values[c + 1]);
       sum += values[c];
-      if (!(values[c] >= 0 && values[c + 1] > 0))
-        throw core::CaseError(where + "shares must be >= 0, diameters > 0");
+      if (!(values[c] >= 0 && values[c + 1] > 0)) throw core::CaseError(where + "shares must be >= 0, diameters > 0");
     }
     if (!share.empty() && std::abs(sum - 1) > 1e-6)
       throw core::CaseError(fmt::format("{}shares sum to {}, not to 1", where, sum));

@@ -77,11 +77,7 @@ void print_json(const std::string& law, const std::string& method, const std::ve
     json.begin_object().member("velocity_m_s", p.velocity).member("voidage", p.voidage).end_object();
   json.end_array().member("method", method).key("bands").begin_array();
   for (const Band& b : band)
-    json.begin_object()
-        .member("input", b.input)
-        .member("low_m_s", b.low)
-        .member("high_m_s", b.high)
-        .end_object();
+    json.begin_object().member("input", b.input).member("low_m_s", b.low).member("high_m_s", b.high).end_object();
   json.end_array().end_object();
   fmt::print("{}\n", json.text());
 }
@@ -94,8 +90,7 @@ void run_inversion(const InversionOptions& options) {
   if (!options.law.empty()) overrides.push_back("effects.drag=\"" + options.law + "\"");
   const core::Scene scene = core::read_case(options.case_path, overrides, all_roles());
   const auto named = scene.effects.find("drag");
-  if (named == scene.effects.end())
-    throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
+  if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
   const closures::DragLaw law = closures::drag_law(named->second, closures::Guard::on);
   const auto points = inversion_points(binary_bed(scene), law, options.method);
   const std::vector<Band> band =
@@ -104,8 +99,8 @@ void run_inversion(const InversionOptions& options) {
   if (points.empty())
     fmt::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, named->second);
   for (const InversionPoint& p : points)
-    fmt::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage,
-               options.method, named->second);
+    fmt::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
+               named->second);
   for (const Band& b : band) fmt::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
 }
 

@@ -50,11 +50,10 @@ void print_markdown() {
       table = key.table;
       const bool array = core::is_array_of_tables(table);
       fmt::print("\n## {}\n\n| key | kind | range | default | meaning |\n| --- | --- | --- | --- | --- |\n",
-                 table.empty() ? "At the top"
-                               : fmt::format("`{}{}{}`", array ? "[[" : "[", table, array ? "]]" : "]"));
+                 table.empty() ? "At the top" : fmt::format("`{}{}{}`", array ? "[[" : "[", table, array ? "]]" : "]"));
     }
-    fmt::print("| `{}` | {} | {} | {} | {}{} |\n", key.name, core::kind_name(key),
-               cell(core::range_text(key)), key.required ? "required" : cell(key.standard), cell(key.help),
+    fmt::print("| `{}` | {} | {} | {} | {}{} |\n", key.name, core::kind_name(key), cell(core::range_text(key)),
+               key.required ? "required" : cell(key.standard), cell(key.help),
                key.equation.empty() ? "" : fmt::format("; `{}`", key.equation));
   }
   fmt::print(
@@ -88,8 +87,7 @@ void run_schema(bool json, bool markdown) {
 
 void run_explain(const std::string& path, bool json) {
   const auto keys = core::keys();
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return key.path() == path; });
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return key.path() == path; });
   if (found == keys.end()) {
     std::vector<std::string> names;
     for (const Key& key : keys) names.push_back(key.path());

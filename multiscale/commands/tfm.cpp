@@ -23,8 +23,7 @@ namespace fs = std::filesystem;
 fs::path run_directory(const RunOptions& options) {
   if (!options.output.empty()) return options.output;
   const fs::path path = fs::absolute(options.case_path);
-  const std::string name =
-      path.stem() == "case" ? path.parent_path().filename().string() : path.stem().string();
+  const std::string name = path.stem() == "case" ? path.parent_path().filename().string() : path.stem().string();
   return fs::path("runs") / (name + "-tfm");
 }
 
@@ -42,9 +41,9 @@ void check_directory(const fs::path& directory, const RunOptions& options) {
   if (options.resume && !fs::exists(directory / "checkpoint.h5"))
     throw core::FileError(fmt::format("{}: no checkpoint to resume from", directory.string()));
   if (used && !options.resume && !options.force)
-    throw core::CaseError(fmt::format(
-        "{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
-        directory.string()));
+    throw core::CaseError(
+        fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
+                    directory.string()));
   core::make_directories(directory);
 }
 
@@ -59,10 +58,7 @@ std::string physics_hash(core::Scene scene) {
 class TfmRun {
  public:
   TfmRun(const RunOptions& options, core::Scene scene, fs::path directory)
-      : options_(options),
-        scene_(std::move(scene)),
-        directory_(std::move(directory)),
-        model_(scene_, timers_) {
+      : options_(options), scene_(std::move(scene)), directory_(std::move(directory)), model_(scene_, timers_) {
     prepare();
   }
 
@@ -88,9 +84,8 @@ class TfmRun {
       const core::Checkpoint checkpoint = core::read_checkpoint(directory_ / "checkpoint.h5");
       const auto hash = checkpoint.texts.find("physics_hash");
       if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene_))
-        throw core::CaseError(
-            fmt::format("{}: the checkpoint is of another case; only run and output times may change",
-                        directory_.string()));
+        throw core::CaseError(fmt::format("{}: the checkpoint is of another case; only run and output times may change",
+                                          directory_.string()));
       model_.resume(checkpoint);
       initial_mass = checkpoint.arrays.at("initial_mass");
       resume_time = model_.time();
@@ -108,8 +103,7 @@ class TfmRun {
     const core::Interrupt interrupt;
     core::Progress progress(options_.quiet, model_.time(), scene_.run.until);
     std::vector<core::Observer> observers;
-    observers.push_back(
-        {"history", *scene_.output.history_every, [&](double t) { observers_->write_history(t); }});
+    observers.push_back({"history", *scene_.output.history_every, [&](double t) { observers_->write_history(t); }});
     observers.push_back({"fields", *scene_.output.every, [&](double t) {
                            const auto scope = timers_.scope("output");
                            observers_->write_fields(t);
@@ -154,8 +148,7 @@ class TfmRun {
     throw core::NumericsError(fmt::format(
         "{}\nlast step: {:.3g} s, limited by {}; a checkpoint of t = {:.6g} s and steps.csv are in {}\n"
         "try a smaller tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)",
-        error.what(), model_.last_step().step, model_.last_step().limited_by, model_.time(),
-        directory_.string()));
+        error.what(), model_.last_step().step, model_.last_step().limited_by, model_.time(), directory_.string()));
   }
 
   void record(const std::string& state) {
@@ -166,12 +159,11 @@ class TfmRun {
   void finish(const std::string& state) {
     record(state);
     std::string message;
-    if (!draw_picture(directory_, message) && !options_.quiet)
-      fmt::print(stderr, "no picture: {}\n", message);
+    if (!draw_picture(directory_, message) && !options_.quiet) fmt::print(stderr, "no picture: {}\n", message);
     if (!options_.quiet) print_summary();
     if (options_.json)
-      fmt::print("{}\n", run_record_text({scene_, model_, *observers_, timers_, state, begin_,
-                                          core::cpu_seconds() - cpu_begin_}));
+      fmt::print("{}\n", run_record_text(
+                             {scene_, model_, *observers_, timers_, state, begin_, core::cpu_seconds() - cpu_begin_}));
   }
 
   void print_summary() const {
@@ -180,15 +172,11 @@ class TfmRun {
     fmt::print(stderr, "\n{:26} {:>9} {:>10}\n", "term", "s", "calls");
     for (const core::Timers::Term& term : timers_.terms())
       fmt::print(stderr, "{:26} {:9.3f} {:10}\n", term.name, term.seconds, term.calls);
-    fmt::print(
-        stderr,
-        "\n{} steps ({} rejected), {} right-hand sides, {} pressure iterations, {} Newton, {} Krylov\n",
-        work.steps, work.rejected_steps, work.right_hand_sides, work.pressure_iterations,
-        work.newton_iterations, work.krylov_iterations);
-    fmt::print(stderr,
-               "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
-               simulated, simulated > 0 ? cpu / simulated : 0.0, model_.integrator_name(),
-               model_.integrator_reason());
+    fmt::print(stderr, "\n{} steps ({} rejected), {} right-hand sides, {} pressure iterations, {} Newton, {} Krylov\n",
+               work.steps, work.rejected_steps, work.right_hand_sides, work.pressure_iterations, work.newton_iterations,
+               work.krylov_iterations);
+    fmt::print(stderr, "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
+               simulated, simulated > 0 ? cpu / simulated : 0.0, model_.integrator_name(), model_.integrator_reason());
     for (const fluid::WorstInvariant& w : observers_->invariants().worst())
       fmt::print(stderr, "{}: worst {:.2e}, limit {:.0e}{}\n", w.name, w.value, w.limit,
                  w.value > w.limit ? "  <-- exceeded" : "");

@@ -69,9 +69,9 @@ TEST(Integrators, AgreeAtTightTolerance) {
   advance(by_steps, 0.1);
   advance(by_newton, 0.1);
   // Each keeps its error near 1e-6 per step; what they share is the operator. 1e-4 is a hundred times that.
-  EXPECT_LT(distance(by_steps.constants().grid, by_steps.fields().solids.fraction[0],
-                     by_newton.fields().solids.fraction[0]),
-            1e-4);
+  EXPECT_LT(
+      distance(by_steps.constants().grid, by_steps.fields().solids.fraction[0], by_newton.fields().solids.fraction[0]),
+      1e-4);
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 // Homogeneous expansion: the voidage at which a liquid carries a bed, and which way the bed goes elsewhere.
 //
 // The homogeneous bed of this material is unstable: waves of voidage grow in it (in a run of 20 s to +-0.05).
-// The test therefore asks for the equilibrium itself, in the middle of an even column, before anything has
-// grown.
+// The test therefore asks for the equilibrium itself, in the middle of an even column, before anything has grown.
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"
@@ -31,8 +30,7 @@ struct Point {
 class Expansion : public testing::TestWithParam<std::tuple<Point, const char*>> {};
 
 // References from f U/eps = D^2 (rho_s - rho_f) g/(18 mu) with `cello`, solved apart from this code, to five
-// digits. The drift is a smooth function of the voidage; the secant over +-0.001 finds its zero to better
-// than 1e-5.
+// digits. The drift is a smooth function of the voidage; the secant over +-0.001 finds its zero to better than 1e-5.
 TEST_P(Expansion, DragCarriesTheBedAtTheForceBalance) {
   const auto& [point, integrator] = GetParam();
   const double denser = drift(point.velocity, point.voidage - 1e-3, integrator);

@@ -20,8 +20,7 @@ double pressure_gradient(core::Scene scene, double superficial_velocity, double 
   const core::Grid& grid = model.constants().grid;
   const core::Field& p = model.fields().fluid.pressure;
   const int low = grid.cells[1] / 4, high = 3 * grid.cells[1] / 4;
-  return (p[std::size_t(grid.index(0, low))] - p[std::size_t(grid.index(0, high))]) /
-         (grid.spacing[1] * (high - low));
+  return (p[std::size_t(grid.index(0, low))] - p[std::size_t(grid.index(0, high))]) / (grid.spacing[1] * (high - low));
 }
 
 core::Scene immovable(const std::string& law, double solids_fraction) {
@@ -39,8 +38,7 @@ TEST(FixedBed, ErgunGivesTheTextbookGradient) {
 class FixedBedLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(FixedBedLaw, GradientIsDragOverVoidage) {
-  // T(1.49): -dp/dy = sum_j 18 mu U phi_j f_j / (eps D_j^2), two sizes, f_j from the closure called by
-  // itself.
+  // T(1.49): -dp/dy = sum_j 18 mu U phi_j f_j / (eps D_j^2), two sizes, f_j from the closure called by itself.
   core::Scene scene = immovable(GetParam(), 0.55);
   scene.species.push_back(scene.species[0]);
   scene.species[1].name = "large";
@@ -50,8 +48,8 @@ TEST_P(FixedBedLaw, GradientIsDragOverVoidage) {
   const std::vector<double> share = scene.bed.volume_share, diameter{1e-3, 1.6e-3};
   // Shares as the model's closures see them: phi_j + 1e-4 X_j over phi + 1e-4, which leaves x_j as they are.
   std::vector<double> f(2), derivative(2), slip(2, superficial);
-  closures::drag_of_mixture(closures::drag_law(GetParam(), closures::Guard::on), eps, share, diameter, slip,
-                            1.2, 1.8e-5, f, derivative);
+  closures::drag_of_mixture(closures::drag_law(GetParam(), closures::Guard::on), eps, share, diameter, slip, 1.2,
+                            1.8e-5, f, derivative);
   double expected = 0;
   for (std::size_t j = 0; j < 2; ++j)
     expected += 18 * 1.8e-5 * superficial * 0.55 * share[j] * f[j] / (eps * diameter[j] * diameter[j]);

@@ -1,5 +1,4 @@
-// What must not change a result: an empty species, a species cut in two, the order of species, left and
-// right.
+// What must not change a result: an empty species, a species cut in two, the order of species, left and right.
 #include <gtest/gtest.h>
 
 #include <algorithm>

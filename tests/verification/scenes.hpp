@@ -13,8 +13,7 @@ namespace polybed::verification {
 
 constexpr double kelvin = 273.15;
 
-/// System B of the thesis at 15 degC on a coarse grid, mixed start at 0.55: the smallest scene with all terms
-/// on.
+/// System B of the thesis at 15 degC on a coarse grid, mixed start at 0.55: the smallest scene with all terms on.
 inline core::Scene binary_bed(int nx, int ny, double width, double height) {
   core::Scene scene;
   scene.title = "binary bed";

@@ -5,10 +5,7 @@ namespace polybed::tfm {
 using core::Index;
 
 Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law)
-    : constants_(constants),
-      boundaries_(boundaries),
-      name_(law),
-      law_(closures::drag_law(law, closures::Guard::on)) {
+    : constants_(constants), boundaries_(boundaries), name_(law), law_(closures::drag_law(law, closures::Guard::on)) {
   workspace_.resize(std::size_t(constants.grid.cells[0]), constants.species());
   share_.resize(constants.species());
   slip_.resize(constants.species());

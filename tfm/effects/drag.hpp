@@ -1,5 +1,4 @@
-// Slot Exchange, fluid with solids: the drag on every species, by any law of the menu, one closure pass per
-// cell.
+// Slot Exchange, fluid with solids: the drag on every species, by any law of the menu, one closure pass per cell.
 #pragma once
 
 #include "closures/drag.hpp"

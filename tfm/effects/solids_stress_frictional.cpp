@@ -35,8 +35,7 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
   law_.onset = scene.tfm.frictional_onset;
   if (scene.tfm.max_packing == "auto") {
     if (scene.bed.solids_fraction <= law_.onset)
-      throw core::CaseError(
-          "bed.solids_fraction must lie above tfm.frictional_onset, or give tfm.max_packing");
+      throw core::CaseError("bed.solids_fraction must lie above tfm.frictional_onset, or give tfm.max_packing");
     law_.max_packing = packing_of_bed(scene, constants);
     if (!(law_.max_packing < 1))
       throw core::CaseError(
@@ -55,9 +54,7 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
 
 double FrictionalStress::pressure_at(double solids_fraction) const { return law_(solids_fraction).pressure; }
 
-double FrictionalStress::solids_fraction_at(double pressure) const {
-  return law_.solids_fraction_at(pressure);
-}
+double FrictionalStress::solids_fraction_at(double pressure) const { return law_.solids_fraction_at(pressure); }
 
 void FrictionalStress::evaluate(Fields& fields) {
   const double* phi = fields.solids_fraction.data();

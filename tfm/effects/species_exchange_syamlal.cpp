@@ -15,11 +15,10 @@ SyamlalExchange::SyamlalExchange(const core::Scene& scene, const Constants& cons
   for (std::size_t j = 0; j < constants.species(); ++j)
     for (std::size_t k = j + 1; k < constants.species(); ++k) {
       const auto mean = [&](auto member, double otherwise) {
-        return 0.5 * ((scene.species[j].*member).value_or(otherwise) +
-                      (scene.species[k].*member).value_or(otherwise));
+        return 0.5 * ((scene.species[j].*member).value_or(otherwise) + (scene.species[k].*member).value_or(otherwise));
       };
-      pairs_.push_back({constants.diameter[j], constants.diameter[k], constants.density[j],
-                        constants.density[k], mean(&core::Species::restitution, scene.dem.restitution),
+      pairs_.push_back({constants.diameter[j], constants.diameter[k], constants.density[j], constants.density[k],
+                        mean(&core::Species::restitution, scene.dem.restitution),
                         mean(&core::Species::friction, scene.dem.friction)});
       fields.species_exchange.push_back(core::make_field(constants.grid));
     }
@@ -49,8 +48,7 @@ void SyamlalExchange::evaluate(Fields& fields) {
             speed2 += w * w;
           }
           fields.species_exchange[pair][at] = closures::species_exchange(
-              pairs_[pair], closures::radial_distribution(pairs_[pair], eps, surface), std::sqrt(speed2),
-              contact);
+              pairs_[pair], closures::radial_distribution(pairs_[pair], eps, surface), std::sqrt(speed2), contact);
         }
     }
   });

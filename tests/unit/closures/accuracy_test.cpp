@@ -1,5 +1,4 @@
-// Accuracy of the drag laws against the lattice-Boltzmann data, and the page of the documentation that shows
-// it.
+// Accuracy of the drag laws against the lattice-Boltzmann data, and the page of the documentation that shows it.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -92,8 +91,7 @@ Error of_system(const std::string& system) {
 }
 
 /// The digits are those of an independent evaluation of the same tables; half of their last one is allowed.
-void expect_percent(const Error& error, double mean, double most, double digit_of_mean,
-                    double digit_of_most) {
+void expect_percent(const Error& error, double mean, double most, double digit_of_mean, double digit_of_most) {
   EXPECT_NEAR(error.mean(), mean, 0.5 * digit_of_mean + 1e-9);
   EXPECT_NEAR(error.most, most, 0.5 * digit_of_most + 1e-9);
 }
@@ -116,14 +114,13 @@ TEST(Accuracy, TwoSizes) {
 
 TEST(Accuracy, TenSizes) {
   const std::pair<const char*, double> expected[] = {{"I", 3.31}, {"II", 5.46}, {"III", 2.54}, {"IV", 3.54}};
-  for (const auto& [system, mean] : expected)
-    EXPECT_NEAR(of_system(system).mean(), mean, 0.005 + 1e-9) << system;
+  for (const auto& [system, mean] : expected) EXPECT_NEAR(of_system(system).mean(), mean, 0.005 + 1e-9) << system;
 }
 
 std::string row(const std::string& what, const std::string& law, const Error& e) {
   char text[200];
-  std::snprintf(text, sizeof text, "| %s | `%s` | %.2f %% | %.1f %% | %d |\n", what.c_str(), law.c_str(),
-                e.mean(), e.most, e.points);
+  std::snprintf(text, sizeof text, "| %s | `%s` | %.2f %% | %.1f %% | %d |\n", what.c_str(), law.c_str(), e.mean(),
+                e.most, e.points);
   return text;
 }
 
@@ -139,8 +136,7 @@ std::string page() {
     text += row("f, one size", law, of_one_size(law));
   for (const char* law : {"cello", "vbk_theory", "vbk_corrected"})
     text += row("alpha_j, two sizes", law, of_two_sizes(law).alpha);
-  for (const char* law :
-       {"cello", "vbk_theory", "vbk_corrected", "yin_sundaresan", "patwardhan_tien", "syamlal"})
+  for (const char* law : {"cello", "vbk_theory", "vbk_corrected", "yin_sundaresan", "patwardhan_tien", "syamlal"})
     text += row("n_j, two sizes", law, of_two_sizes(law).net);
   for (const char* system : {"I", "II", "III", "IV"})
     text += row(std::string("n_j, ten sizes, system ") + system, "cello", of_system(system));

@@ -1,5 +1,4 @@
-// The guard of the drag laws: hand values, positive, monotone, smooth; and that the bare law of the thesis is
-// not.
+// The guard of the drag laws: hand values, positive, monotone, smooth; and that the bare law of the thesis is not.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -86,8 +85,7 @@ TEST_P(EveryLaw, IsFiniteAtTheEdges) {
   for (double eps : {0.30, 0.5, 1.0, 1.0 + 1e-9})
     for (double re : {0.0, 5e-324, 1e-300, 1e-8, 1e6}) {
       const DragValue value = at(law, eps, re);
-      EXPECT_TRUE(std::isfinite(value.f) && std::isfinite(value.re_dfdre))
-          << GetParam() << " " << eps << " " << re;
+      EXPECT_TRUE(std::isfinite(value.f) && std::isfinite(value.re_dfdre)) << GetParam() << " " << eps << " " << re;
       EXPECT_GE(value.f, 0);
     }
 }

@@ -27,10 +27,8 @@ TEST(DragTables, BareLawsAtReferencePoints) {
   // Twelve digits, computed apart from this code; 1e-10 leaves two for their rounding and ours.
   const Table table("lbm/ref_mono_points.csv");
   const std::map<std::string, std::string> column{
-      {"cello", "f_NM"},        {"vbk", "f_VBK"},
-      {"hkl", "f_HKL"},         {"turton_levenspiel", "f_TL"},
-      {"ergun", "f_Ergun"},     {"carman_kozeny", "f_CK5"},
-      {"wen_yu", "f_WenYu_SN"}, {"di_felice", "f_DiFelice_Dalla"}};
+      {"cello", "f_NM"},    {"vbk", "f_VBK"},           {"hkl", "f_HKL"},         {"turton_levenspiel", "f_TL"},
+      {"ergun", "f_Ergun"}, {"carman_kozeny", "f_CK5"}, {"wen_yu", "f_WenYu_SN"}, {"di_felice", "f_DiFelice_Dalla"}};
   ASSERT_GT(table.rows(), 50u);
   for (std::size_t n = 0; n < table.rows(); ++n) {
     const double eps = table.number(n, "eps"), re = table.number(n, "Re");
@@ -44,8 +42,7 @@ TEST(DragTables, BareLawsAtReferencePoints) {
 }
 
 TEST(DragTables, PrintedAndRecomputedColumnsOfOneSize) {
-  // Printed digits: 0.15 % (A-i), 0.5 % (A-ii, A-iii; VBK 0.8 %), the rounding of f and of the printed
-  // voidage.
+  // Printed digits: 0.15 % (A-i), 0.5 % (A-ii, A-iii; VBK 0.8 %), the rounding of f and of the printed voidage.
   const std::map<std::string, std::string> laws{
       {"cello", "NM"}, {"vbk", "VBK"}, {"hkl", "HKL"}, {"turton_levenspiel", "TL"}};
   for (const std::string name : {"A_i", "A_ii", "A_iii"}) {
@@ -74,8 +71,7 @@ std::vector<Mixture> mixtures(const Table& table) {
   std::vector<Mixture> list;
   std::string last;
   for (std::size_t n = 0; n < table.rows(); ++n) {
-    if (table.text(n, "case") != last)
-      list.push_back({table.number(n, "eps"), table.number(n, "Rebar"), {}, {}, {}});
+    if (table.text(n, "case") != last) list.push_back({table.number(n, "eps"), table.number(n, "Rebar"), {}, {}, {}});
     last = table.text(n, "case");
     list.back().share.push_back(table.number(n, "x"));
     list.back().diameter.push_back(table.number(n, "D"));
@@ -106,8 +102,7 @@ TEST(DragTables, MixturesAtReferencePoints) {
       const std::size_t n = m.rows[j];
       const std::string where = "row " + std::to_string(n);
       const double y = m.diameter[j] / mean;
-      // The shares of the table have four digits and sum to 1 within 1e-4 for some mixtures: y is checked,
-      // not assumed.
+      // The shares of the table have four digits and sum to 1 within 1e-4 for some mixtures: y is checked, not assumed.
       expect_relative(y, table.number(n, "y"), 1e-10, where + " y");
       expect_relative(poly_index_mean(m.share, m.diameter), table.number(n, "ym"), 1e-10, where + " ym");
       expect_relative(f_mean, table.number(n, "f_mono_NM"), 1e-10, where + " f");
@@ -117,10 +112,9 @@ TEST(DragTables, MixturesAtReferencePoints) {
                       where + " alpha");
       expect_relative(alpha_of_omega(m.eps, theory[j] / f_vbk, y), table.number(n, "alpha_VBK_theo"), 1e-10,
                       where + " theory");
-      expect_relative(alpha_of_omega(m.eps, corrected[j] / f_vbk, y), table.number(n, "alpha_VBK_corr"),
-                      1e-10, where + " corrected");
-      expect_relative(net_of_pure(m.eps, cello[j], y, f_mean), table.number(n, "n_j_NM"), 1e-10,
-                      where + " n_j");
+      expect_relative(alpha_of_omega(m.eps, corrected[j] / f_vbk, y), table.number(n, "alpha_VBK_corr"), 1e-10,
+                      where + " corrected");
+      expect_relative(net_of_pure(m.eps, cello[j], y, f_mean), table.number(n, "n_j_NM"), 1e-10, where + " n_j");
       expect_relative(MixturePatwardhanTien::own_voidage(m.eps, m.diameter[j], average),
                       table.number(n, "eps_j_PatwardhanTien"), 1e-10, where + " eps_j");
       expect_relative(yin[j], table.number(n, "f_j_YinSund_NMbar"), 1e-10, where + " yin");
@@ -145,8 +139,7 @@ TEST(DragTables, PrintedMixturesOfTwoSizes) {
       expect_relative(f_mean / eps, table.number(n, "nbar_NM_calc"), 1e-5, where);
       expect_relative(n1, table.number(n, "n1_NM_calc"), 1e-5, where);
       expect_relative(n2, table.number(n, "n2_NM_calc"), 1e-5, where);
-      // Printed with one decimal: half a unit and the rounding of the diameter ratio; n2 at Re > 0 is a known
-      // slip.
+      // Printed with one decimal: half a unit and the rounding of the diameter ratio; n2 at Re > 0 is a known slip.
       const auto printed = [&](double value, const std::string& column) {
         const double expected = table.number(n, column);
         if (std::isnan(expected)) return;

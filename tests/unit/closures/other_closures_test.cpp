@@ -33,8 +33,7 @@ TEST(FrictionalStress, ValueSlopeAndTangent) {
   EXPECT_EQ(law(0.3).slope, 0);
   for (double phi : {0.52, 0.58, 0.63, 0.66, 0.9}) {
     const double h = 1e-7;
-    EXPECT_NEAR((law(phi + h).pressure - law(phi - h).pressure) / (2 * h), law(phi).slope,
-                1e-5 * law(phi).slope)
+    EXPECT_NEAR((law(phi + h).pressure - law(phi - h).pressure) / (2 * h), law(phi).slope, 1e-5 * law(phi).slope)
         << phi;
   }
   const double joint = law.max_packing - law.margin;
@@ -43,8 +42,7 @@ TEST(FrictionalStress, ValueSlopeAndTangent) {
 
 TEST(FrictionalStress, InverseAndPackingOfABed) {
   const FrictionalLaw law;
-  for (double p : {1e-3, 1.0, 60.0, 1e5, 1e9})
-    EXPECT_NEAR(law(law.solids_fraction_at(p)).pressure, p, 1e-9 * p);
+  for (double p : {1e-3, 1.0, 60.0, 1e5, 1e9}) EXPECT_NEAR(law(law.solids_fraction_at(p)).pressure, p, 1e-9 * p);
   FrictionalLaw bed;
   bed.max_packing = max_packing_for(0.62, 60, bed.strength, bed.onset);
   EXPECT_NEAR(bed(0.62).pressure, 60, 1e-9);
@@ -56,10 +54,9 @@ TEST(SpeciesExchange, HandValueSymmetryAndEqualSizes) {
   // g0 = 1/0.7 + 3 2e-6 250 / (0.49 3e-3) = 1.4285714 + 1.0204082
   const double g0 = radial_distribution(pair, 0.7, surface);
   EXPECT_NEAR(g0, 2.448979592, 1e-9);
-  // 3 1.9 (1.5707963 + 0.3701102) 9e-6 3e6 2.4489796 0.1 / (2 pi (2e-6 + 1.2e-5)) = 831608.7; twelve digits
-  // by hand
-  const double expected = 3 * 1.9 * (1.5707963267949 + 0.3 * 9.86960440108936 / 8) * 9e-6 * 3e6 *
-                          2.44897959183673 * 0.1 / (6.28318530717959 * 1.4e-5);
+  // 3 1.9 (1.5707963 + 0.3701102) 9e-6 3e6 2.4489796 0.1 / (2 pi (2e-6 + 1.2e-5)) = 831608.7; twelve digits by hand
+  const double expected = 3 * 1.9 * (1.5707963267949 + 0.3 * 9.86960440108936 / 8) * 9e-6 * 3e6 * 2.44897959183673 *
+                          0.1 / (6.28318530717959 * 1.4e-5);
   EXPECT_NEAR(species_exchange(pair, g0, 0.1, 0), expected, 1e-9 * expected);
   const SpeciesPair swapped{2e-3, 1e-3, 1500, 2000, 0.9, 0.3};
   EXPECT_DOUBLE_EQ(species_exchange(pair, g0, 0.1, 5), species_exchange(swapped, g0, 0.1, 5));

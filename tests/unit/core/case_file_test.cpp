@@ -107,17 +107,14 @@ INSTANTIATE_TEST_SUITE_P(
               "case.toml:10:12: species.diameter = '0.8 s': expected a value in m, this one is in s"},
         Wrong{"diameter = \"0.8 mm\"", "diameter = \"0.8 millimetre\"",
               "expected a number with a unit such as \"1 m\""},
-        Wrong{"diameter = \"0.8 mm\"", "diameter = nan",
-              "case.toml:10:12: species.diameter = nan is out of range"},
+        Wrong{"diameter = \"0.8 mm\"", "diameter = nan", "case.toml:10:12: species.diameter = nan is out of range"},
         Wrong{"diameter = \"0.8 mm\"", "diameter = inf", "out of range"},
         Wrong{"cells = [12, 120]", "cells = [12, 120.5]",
               "case.toml:4:14: column.cells = 120.5: expected a whole number"},
         Wrong{"cells = [12, 120]", "cells = [12]", "column.cells has 1 numbers, column.size 2"},
-        Wrong{"cells = [12, 120]", "cells = [0, 120]",
-              "case.toml:4:10: column.cells = 0 is out of range: at least 1"},
-        Wrong{
-            "drag = \"cello\"", "drag = \"celo\"",
-            "case.toml:19:8: effects.drag = 'celo': allowed are none | cello | vbk; did you mean \"cello\"?"},
+        Wrong{"cells = [12, 120]", "cells = [0, 120]", "case.toml:4:10: column.cells = 0 is out of range: at least 1"},
+        Wrong{"drag = \"cello\"", "drag = \"celo\"",
+              "case.toml:19:8: effects.drag = 'celo': allowed are none | cello | vbk; did you mean \"cello\"?"},
         Wrong{"drag = \"cello\"", "darg = \"cello\"",
               "case.toml:19:1: unknown key 'darg' in [effects]; did you mean 'drag'?"},
         Wrong{"volume_share = [1.0]", "volume_share = [0.9]", "bed.volume_share sums to 0.9, not to 1"},
@@ -131,8 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[column]", "[colum]", "unknown key 'colum'; did you mean 'column'?"},
         Wrong{"[run]\nuntil = \"2 s\"", "", "[run] is missing"},
         Wrong{"until = \"2 s\"", "until = \"2 s", "case.toml:22:"},
-        Wrong{"superficial_velocity = \"30 mm/s\"", "superficial_velocity = [[0, 0.03], [-1, 0.04]]",
-              "out of range"},
+        Wrong{"superficial_velocity = \"30 mm/s\"", "superficial_velocity = [[0, 0.03], [-1, 0.04]]", "out of range"},
         Wrong{"superficial_velocity = \"30 mm/s\"", "superficial_velocity = [[2, 0.03], [1, 0.04]]",
               "times must not fall"},
         Wrong{"superficial_velocity = \"30 mm/s\"", "",
@@ -189,9 +185,7 @@ TEST(CaseFile, AFileThatCannotBeReadSaysWhy) {
 
 /// One random change of a text: a byte, a line, a number, a cut.
 std::string mutated(std::string text, std::mt19937& random) {
-  const auto at = [&](std::size_t size) {
-    return std::uniform_int_distribution<std::size_t>(0, size - 1)(random);
-  };
+  const auto at = [&](std::size_t size) { return std::uniform_int_distribution<std::size_t>(0, size - 1)(random); };
   const auto any = [&] { return char(std::uniform_int_distribution<int>(0, 255)(random)); };
   static const std::vector<std::string> odd{
       "nan",  "-inf", "1e308",      "[]", "{}",   "''",  "-1",           "9223372036854775808",

@@ -141,14 +141,12 @@ TEST(Explicit, WhatFollowsARestartDependsOnItsArgumentsAlone) {
 class StiffDae : public DaeProblem {
  public:
   double k = 1e6;
-  Rate residual(double t, std::span<const double> y, std::span<const double> dydt,
-                std::span<double> r) override {
+  Rate residual(double t, std::span<const double> y, std::span<const double> dydt, std::span<double> r) override {
     r[0] = dydt[0] + k * (y[0] - std::cos(t));
     r[1] = y[1] - y[0] * y[0];
     return Rate::ok;
   }
-  Rate setup(double, std::span<const double> y, std::span<const double>, std::span<const double>,
-             double) override {
+  Rate setup(double, std::span<const double> y, std::span<const double>, std::span<const double>, double) override {
     x_ = y[0];
     return Rate::ok;
   }

@@ -46,8 +46,7 @@ Field cells_of(const Grid& grid, Value&& value) {
 double largest_difference(const Grid& grid, const Field& a, const Field& b) {
   double most = 0;
   for_each_row(grid, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c)
-      most = std::max(most, std::abs(a[std::size_t(c)] - b[std::size_t(c)]));
+    for (Index c = begin; c < end; ++c) most = std::max(most, std::abs(a[std::size_t(c)] - b[std::size_t(c)]));
   });
   return most;
 }
@@ -93,8 +92,7 @@ TEST_F(LinearSolver, AgreesWithTheDirectSolverOnOddSizesAndPeriodicSides) {
     ASSERT_TRUE(solve_directly(grid, spans(b), {}, source, direct));
     double scale = 0;
     for (double p : direct) scale = std::max(scale, std::abs(p));
-    EXPECT_LT(largest_difference(grid, iterated, direct), 1e-5 * scale)
-        << nx << " x " << ny << " " << result.solver;
+    EXPECT_LT(largest_difference(grid, iterated, direct), 1e-5 * scale) << nx << " x " << ny << " " << result.solver;
   }
 }
 
@@ -107,9 +105,7 @@ TEST_F(LinearSolver, ConvergesToASmoothSolutionInSecondOrder) {
     close(grid, 0, true, true, b);
     close(grid, 1, true, false, b);
     const double top = 2 + 0.5 * grid.spacing[1], k = std::numbers::pi / 2 / top, w = std::numbers::pi;
-    const auto exact = [&](int i, int j) {
-      return std::cos(w * grid.centre(0, i)) * std::cos(k * grid.centre(1, j));
-    };
+    const auto exact = [&](int i, int j) { return std::cos(w * grid.centre(0, i)) * std::cos(k * grid.centre(1, j)); };
     const Field source = cells_of(grid, [&](int i, int j) { return (w * w + k * k) * exact(i, j); });
     Field p = make_field(grid);
     PoissonSolver solver(grid);
@@ -122,8 +118,7 @@ TEST_F(LinearSolver, ConvergesToASmoothSolutionInSecondOrder) {
   }
 }
 
-// Without an outlet p is known up to a constant: the mean is 0, and what the source lacks in balance is left
-// out.
+// Without an outlet p is known up to a constant: the mean is 0, and what the source lacks in balance is left out.
 TEST_F(LinearSolver, AClosedBoxIsSolvedWithMeanZero) {
   const Grid grid = box(12, 20);
   FaceField b = rough(grid);
@@ -199,8 +194,7 @@ TEST_F(LinearSolver, TheBlockSystemIsRightOnNarrowPeriodicGrids) {
     const Field source = cells_of(grid, [](int i, int j) { return std::sin(i + 2.3 * j); });
     Field p = make_field(grid), s = make_field(grid), direct = make_field(grid);
     BlockSolver solver(grid);
-    ASSERT_TRUE(
-        solver.setup(spans(b), spans(none), spans(none), spans(c22), make_field(grid, 1.0), 0.0, 2.0));
+    ASSERT_TRUE(solver.setup(spans(b), spans(none), spans(none), spans(c22), make_field(grid, 1.0), 0.0, 2.0));
     solver.apply(source, source, p, s, 40);
     ASSERT_TRUE(solve_directly(grid, spans(b), {}, source, direct));
     double scale = 0;
@@ -221,8 +215,7 @@ TEST_F(LinearSolver, TheShiftActs) {
   Field p = make_field(grid);
   PoissonSolver solver(grid);
   ASSERT_TRUE(solver.solve(spans(b), shift, source, p, 1e-12).converged);
-  EXPECT_LT(largest_difference(grid, p, cells_of(grid, [](int i, int j) { return (i - 2.0 * j) / 4; })),
-            1e-11);
+  EXPECT_LT(largest_difference(grid, p, cells_of(grid, [](int i, int j) { return (i - 2.0 * j) / 4; })), 1e-11);
 }
 
 }  // namespace

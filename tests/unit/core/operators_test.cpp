@@ -72,8 +72,7 @@ double error_of_convection(int n) {
     for (int i = 0; i < n; ++i) {
       const double x = k * i * h, y = k * (j + 0.5) * h;
       // u du/dx + v du/dy = k sin x cos x cos^2 y - k cos x sin x sin^2 y
-      const double exact =
-          k * std::sin(x) * std::cos(x) * (std::cos(y) * std::cos(y) - std::sin(y) * std::sin(y));
+      const double exact = k * std::sin(x) * std::cos(x) * (std::cos(y) * std::cos(y) - std::sin(y) * std::sin(y));
       sum += std::abs(rate[std::size_t(grid.index(i, j))] + exact);
     }
   return sum / (double(n) * n);
@@ -81,12 +80,10 @@ double error_of_convection(int n) {
 
 // The same orders for the convection of momentum; the limiter sees the extrema along lines, one cell in n.
 TEST(Convection, OrdersOfMomentumOnASmoothVortex) {
-  EXPECT_NEAR(
-      std::log2(error_of_convection<UpwindDifference>(64) / error_of_convection<UpwindDifference>(128)), 1.0,
-      0.05);
-  EXPECT_NEAR(
-      std::log2(error_of_convection<LimitedDifference>(64) / error_of_convection<LimitedDifference>(128)),
-      2.0, 0.25);
+  EXPECT_NEAR(std::log2(error_of_convection<UpwindDifference>(64) / error_of_convection<UpwindDifference>(128)), 1.0,
+              0.05);
+  EXPECT_NEAR(std::log2(error_of_convection<LimitedDifference>(64) / error_of_convection<LimitedDifference>(128)), 2.0,
+              0.25);
 }
 
 TEST(Convection, FaceValuesStayBetweenTheirNeighbours) {
@@ -99,15 +96,13 @@ TEST(Convection, FaceValuesStayBetweenTheirNeighbours) {
     }
 }
 
-// The limiter scales with its arguments, so that a species may be cut in two; and it is exact on straight
-// lines.
+// The limiter scales with its arguments, so that a species may be cut in two; and it is exact on straight lines.
 TEST(Limiter, ScalesAndKeepsStraightLines) {
   EXPECT_EQ(limited_slope(2.0, 2.0), 2.0);
   EXPECT_EQ(limited_slope(1.0, -1.0), 0.0);
   EXPECT_EQ(limited_slope(0.0, 0.0), 0.0);
   EXPECT_EQ(limited_slope(0.25 * 3, 0.25 * 5), 0.25 * limited_slope(3, 5));
-  EXPECT_EQ(limited_slope(1e-200, 1e-200), 0.0)
-      << "below the square root of the least number nothing is left";
+  EXPECT_EQ(limited_slope(1e-200, 1e-200), 0.0) << "below the square root of the least number nothing is left";
 }
 
 }  // namespace

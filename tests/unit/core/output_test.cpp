@@ -30,8 +30,7 @@ Field telling(const Grid& grid, double offset = 0) {
   Field field = make_field(grid, nan);
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
-      for (int i = 0; i < grid.cells[0]; ++i)
-        field[std::size_t(grid.index(i, j, k))] = offset + i + 10 * j + 100 * k;
+      for (int i = 0; i < grid.cells[0]; ++i) field[std::size_t(grid.index(i, j, k))] = offset + i + 10 * j + 100 * k;
   return field;
 }
 

@@ -25,20 +25,18 @@ TEST_P(UnitReads, GivesSi) {
 
 INSTANTIATE_TEST_SUITE_P(
     Units, UnitReads,
-    testing::Values(
-        Reading{"0.807 mm", 0.000807, dimension::length}, Reading{"1395 kg/m3", 1395, dimension::density},
-        Reading{"1.17 g/cm3", 1170, dimension::density}, Reading{"15 degC", 288.15, dimension::temperature},
-        Reading{"1.14e-3 Pa s", 1.14e-3, dimension::viscosity},
-        Reading{"1.14 mPa s", 1.14e-3, dimension::viscosity}, Reading{"37 mm/s", 0.037, dimension::velocity},
-        Reading{"9.81 m/s2", 9.81, dimension::acceleration},
-        Reading{"9.81 m s-2", 9.81, dimension::acceleration}, Reading{"2 min", 120, dimension::time},
-        Reading{"1.5 bar", 150000, dimension::pressure}, Reading{"0.05 Pa", 0.05, dimension::pressure},
-        Reading{"62 %", 0.62, dimension::none}, Reading{"1e3", 1000, dimension::none},
-        Reading{"-3 mm", -0.003, dimension::length}));
+    testing::Values(Reading{"0.807 mm", 0.000807, dimension::length}, Reading{"1395 kg/m3", 1395, dimension::density},
+                    Reading{"1.17 g/cm3", 1170, dimension::density}, Reading{"15 degC", 288.15, dimension::temperature},
+                    Reading{"1.14e-3 Pa s", 1.14e-3, dimension::viscosity},
+                    Reading{"1.14 mPa s", 1.14e-3, dimension::viscosity},
+                    Reading{"37 mm/s", 0.037, dimension::velocity}, Reading{"9.81 m/s2", 9.81, dimension::acceleration},
+                    Reading{"9.81 m s-2", 9.81, dimension::acceleration}, Reading{"2 min", 120, dimension::time},
+                    Reading{"1.5 bar", 150000, dimension::pressure}, Reading{"0.05 Pa", 0.05, dimension::pressure},
+                    Reading{"62 %", 0.62, dimension::none}, Reading{"1e3", 1000, dimension::none},
+                    Reading{"-3 mm", -0.003, dimension::length}));
 
 TEST(Units, WhatIsNoQuantityIsRefused) {
-  for (const char* text :
-       {"", "mm", "3 parsec", "3 mm mmm", "abc", "1 m/", "1,5 mm", "3 m^", "--3 m", "3 m99"})
+  for (const char* text : {"", "mm", "3 parsec", "3 mm mmm", "abc", "1 m/", "1,5 mm", "3 m^", "--3 m", "3 m99"})
     EXPECT_FALSE(parse_quantity(text)) << text;
 }
 

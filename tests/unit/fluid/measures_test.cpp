@@ -37,16 +37,16 @@ TEST(Measures, OfAUniformBed) {
 
 // A dense lower layer must not decide: half of the mean of both, 0.45, is more than the upper layer's 0.3.
 TEST(Measures, TheHeightIsThatOfTheTopNotOfTheInterface) {
-  const Profile p = profile_of([](double z) { return step(z, 0, 0.06, 0.6); },
-                               [](double z) { return step(z, 0.06, 0.16, 0.3); });
+  const Profile p =
+      profile_of([](double z) { return step(z, 0, 0.06, 0.6); }, [](double z) { return step(z, 0.06, 0.16, 0.3); });
   EXPECT_NEAR(*bed_height(p), 0.16, slab / 2);
 }
 
 // Volumes 0.6 * 0.06 = 0.036 below and 0.3 * 0.1 = 0.030 above; the interface at 0.06 lies within slice 28 of
 // 50, whose thickness there is 0.066 / 50 / 0.6 = 2.2 mm below and 4.4 mm above.
 TEST(Measures, TheInterfaceLiesBetweenTwoLayers) {
-  const Profile p = profile_of([](double z) { return step(z, 0, 0.06, 0.6); },
-                               [](double z) { return step(z, 0.06, 0.16, 0.3); });
+  const Profile p =
+      profile_of([](double z) { return step(z, 0, 0.06, 0.6); }, [](double z) { return step(z, 0.06, 0.16, 0.3); });
   EXPECT_NEAR(*interface_height(p), 0.06, 4.4e-3);
   // One of the 50 slices holds the interface, 3/11 : 8/11 of both; all others are pure.
   EXPECT_NEAR(*mixing(p), 0.0, 1.0 / 50 + 1e-12);
@@ -55,8 +55,8 @@ TEST(Measures, TheInterfaceLiesBetweenTwoLayers) {
 }
 
 TEST(Measures, AMixedBedIsMixed) {
-  const Profile p = profile_of([](double z) { return step(z, 0, 0.1, 0.3); },
-                               [](double z) { return step(z, 0, 0.1, 0.2); });
+  const Profile p =
+      profile_of([](double z) { return step(z, 0, 0.1, 0.3); }, [](double z) { return step(z, 0, 0.1, 0.2); });
   EXPECT_NEAR(*mixing(p), 1.0, 1e-12);
   EXPECT_NEAR(*interface_height(p), 0.1, 1e-12);  // one layer: its top is the bed's
 }

@@ -35,8 +35,7 @@ InversionPoint point(const BinaryBed& bed, const std::string& law, const std::st
 TEST(Inversion, RecomputedTable) {
   // The recomputed columns have five digits: u within 0.1 %, eps within 1e-4.
   const Table table("lbm/tab_5_ii.csv");
-  const std::pair<const char*, const char*> laws[] = {
-      {"cello", "NM"}, {"vbk_theory", "NC"}, {"di_felice", "DF"}};
+  const std::pair<const char*, const char*> laws[] = {{"cello", "NM"}, {"vbk_theory", "NC"}, {"di_felice", "DF"}};
   for (std::size_t n = 0; n < table.rows(); ++n)
     for (const auto& [law, name] : laws) {
       const double u = table.number(n, std::string("u_") + name + "_calc"),
@@ -54,8 +53,7 @@ TEST(Inversion, PrintedTable) {
   const std::pair<const char*, const char*> laws[] = {{"cello", "NM"}, {"vbk_theory", "NC"}};
   for (std::size_t n = 0; n < table.rows(); ++n)
     for (const auto& [law, name] : laws) {
-      const double u = table.number(n, std::string("u_") + name),
-                   eps = table.number(n, std::string("eps_") + name);
+      const double u = table.number(n, std::string("u_") + name), eps = table.number(n, std::string("eps_") + name);
       if (std::isnan(u)) continue;
       const InversionPoint p = point(bed_of(table, n, "_used", water20), law, "force_balance", eps);
       EXPECT_NEAR(1e3 * p.velocity, u, 0.0501) << law << " row " << n;
@@ -70,24 +68,22 @@ TEST(Inversion, FromTheTemperature) {
   for (std::size_t n = 0; n < table.rows(); ++n) {
     const double u = table.number(n, "u_NM_calc");
     if (std::isnan(u)) continue;
-    EXPECT_NEAR(1e3 * point(bed_of(table, n, "_used", water), "cello", "force_balance",
-                            table.number(n, "eps_NM_calc"))
-                          .velocity,
-                u, 2e-3 * u);
+    EXPECT_NEAR(
+        1e3 *
+            point(bed_of(table, n, "_used", water), "cello", "force_balance", table.number(n, "eps_NM_calc")).velocity,
+        u, 2e-3 * u);
   }
 }
 
 TEST(Inversion, SystemsOfTheThesis) {
   const Table table("lbm/systems_ABC_macro.csv");
-  const std::pair<const char*, const char*> laws[] = {
-      {"cello", "NM"}, {"vbk_theory", "NC"}, {"di_felice", "DF"}};
+  const std::pair<const char*, const char*> laws[] = {{"cello", "NM"}, {"vbk_theory", "NC"}, {"di_felice", "DF"}};
   for (std::size_t n = 0; n < table.rows(); ++n)
     for (const auto& [law, name] : laws) {
-      const double u = table.number(n, std::string("u_") + name),
-                   eps = table.number(n, std::string("eps_") + name);
+      const double u = table.number(n, std::string("u_") + name), eps = table.number(n, std::string("eps_") + name);
       if (std::isnan(u)) continue;
-      const InversionPoint p = point(bed_of(table, n, "", {table.number(n, "rho_f"), table.number(n, "mu")}),
-                                     law, "force_balance", eps);
+      const InversionPoint p =
+          point(bed_of(table, n, "", {table.number(n, "rho_f"), table.number(n, "mu")}), law, "force_balance", eps);
       EXPECT_NEAR(1e3 * p.velocity, u, 1e-3 * u) << law << " " << table.text(n, "system");
       EXPECT_NEAR(p.voidage, eps, 1e-4) << law << " " << table.text(n, "system");
     }

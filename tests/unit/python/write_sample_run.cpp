@@ -60,8 +60,7 @@ void write_run(const std::filesystem::path& directory, const Grid& grid) {
   std::vector<double> heights;
   for (int j = 0; j < grid.cells[1]; ++j) heights.push_back(grid.centre(1, j));
   ProfileWriter profiles(directory, heights, {"phi_fine", "phi_coarse", "voidage"});
-  HistoryWriter history(directory,
-                        {"time_s", "bed_height_m", "centre_fine_m", "centre_coarse_m", "interface_m"});
+  HistoryWriter history(directory, {"time_s", "bed_height_m", "centre_fine_m", "centre_coarse_m", "interface_m"});
   for (int n = 0; n <= 4; ++n) {
     const double time = 0.25 * n;
     const SampleStep s = sample_step(grid, time);
@@ -71,8 +70,8 @@ void write_run(const std::filesystem::path& directory, const Grid& grid) {
     const std::vector<std::vector<double>> rows{lateral_mean(grid, s.fine), lateral_mean(grid, s.coarse),
                                                 lateral_mean(grid, s.voidage)};
     profiles.write_row(time, rows);
-    const std::vector<std::optional<double>> row{time, 0.08 + 0.02 * time, 0.05 + 0.02 * time,
-                                                 0.05 - 0.01 * time, std::nullopt};
+    const std::vector<std::optional<double>> row{time, 0.08 + 0.02 * time, 0.05 + 0.02 * time, 0.05 - 0.01 * time,
+                                                 std::nullopt};
     history.write_row(row);
     history.flush();
   }
