@@ -38,13 +38,34 @@ core::Scene read_scene(const RunOptions& options) {
 
 void check_directory(const fs::path& directory, const RunOptions& options) {
   const bool used = fs::exists(directory / "run.json");
-  if (options.resume && !fs::exists(directory / "checkpoint.h5"))
+  const fs::path checkpoint = directory / "checkpoint.h5";
+  if (options.resume && !fs::exists(checkpoint) && !fs::exists(core::previous_checkpoint(checkpoint)))
     throw core::FileError(fmt::format("{}: no checkpoint to resume from", directory.string()));
   if (used && !options.resume && !options.force)
     throw core::CaseError(
         fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
                     directory.string()));
   core::make_directories(directory);
+}
+
+/// The checkpoint to go on from: the last one or, where that is damaged, the one before it. The damaged file is put
+/// aside, so that it does not take the place of the whole one.
+core::Checkpoint newest_checkpoint(const fs::path& directory) {
+  const fs::path path = directory / "checkpoint.h5";
+  try {
+    return core::read_checkpoint(path);
+  } catch (const core::FileError& error) {
+    core::Checkpoint previous;
+    try {
+      previous = core::read_checkpoint(core::previous_checkpoint(path));
+    } catch (const core::FileError&) {
+      throw error;
+    }
+    std::error_code ignored;
+    fs::rename(path, directory / "checkpoint.damaged.h5", ignored);
+    fmt::print(stderr, "{}: going on from it\n", error.what());
+    return previous;
+  }
 }
 
 /// What must be the same for a checkpoint to fit: the case without its end and its output times.
@@ -81,7 +102,7 @@ class TfmRun {
     model_.show(model_.time());
     std::vector<double> initial_mass = tfm::masses(model_);
     if (options_.resume) {
-      const core::Checkpoint checkpoint = core::read_checkpoint(directory_ / "checkpoint.h5");
+      const core::Checkpoint checkpoint = newest_checkpoint(directory_);
       const auto hash = checkpoint.texts.find("physics_hash");
       if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene_))
         throw core::CaseError(fmt::format("{}: the checkpoint is of another case; only run and output times may change",

@@ -25,6 +25,7 @@ double drift(double superficial_velocity, double voidage, const std::string& int
 
 struct Point {
   double velocity, voidage;
+  friend void PrintTo(const Point& point, std::ostream* out) { *out << point.velocity << " m/s"; }
 };
 
 class Expansion : public testing::TestWithParam<std::tuple<Point, const char*>> {};

@@ -83,6 +83,7 @@ TEST(CaseFile, ReadsTheExample) {
 
 struct Wrong {
   std::string line, changed, message;
+  friend void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.message.substr(0, 40); }
 };
 
 class WrongCase : public testing::TestWithParam<Wrong> {};

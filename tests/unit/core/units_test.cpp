@@ -11,6 +11,7 @@ struct Reading {
   const char* text;
   double value;
   Dimension dimension;
+  friend void PrintTo(const Reading& reading, std::ostream* out) { *out << reading.text; }
 };
 
 class UnitReads : public testing::TestWithParam<Reading> {};
