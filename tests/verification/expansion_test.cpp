@@ -38,7 +38,9 @@ TEST_P(Expansion, DragCarriesTheBedAtTheForceBalance) {
   const double looser = drift(point.velocity, point.voidage + 1e-3, integrator);
   EXPECT_GT(denser, 0) << "too dense a bed must rise";
   EXPECT_LT(looser, 0) << "too loose a bed must sink";
-  EXPECT_NEAR(point.voidage + 1e-3 * (denser + looser) / (denser - looser), point.voidage, 2e-5);
+  const double found = point.voidage + 1e-3 * (denser + looser) / (denser - looser);
+  record("difference in voidage", found - point.voidage);
+  EXPECT_NEAR(found, point.voidage, 2e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(ForceBalance, Expansion,

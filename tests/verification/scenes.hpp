@@ -1,6 +1,9 @@
 // Scenes that several verification tests start from, and what they ask of a finished run.
 #pragma once
 
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <string>
 #include <vector>
@@ -66,6 +69,11 @@ inline core::Scene uniform_bed(double diameter, double density, double fluid_den
 inline void advance(tfm::Model& model, double until) {
   while (model.time() < until) model.step(until);
   model.show(until);
+}
+
+/// Keeps a figure in the test's report (--gtest_output=json:FILE), for the page on verification.
+inline void record(const std::string& name, double value) {
+  testing::Test::RecordProperty(name, fmt::format("{:.4g}", value));
 }
 
 /// Mean |a - b| over the owned cells.
