@@ -41,20 +41,26 @@ void Checker::column() {
   if (n != 2 && n != 3)
     return add("column.size has {} numbers: two (width, height) or three (width, depth, height)", n);
   if (c.given_cells.size() != n) return add("column.cells has {} numbers, column.size {}", c.given_cells.size(), n);
-  if (n == 3)
-    return add("column.size has three numbers: three dimensions are not in this version; give width and height");
   double smallest = 1, largest = 0;
   for (const Species& s : scene_.species) {
     smallest = std::min(smallest, s.diameter);
     largest = std::max(largest, s.diameter);
   }
   c.dimensions = int(n);
-  c.size = {c.given_size[0], c.given_size[1], c.depth.value_or(2 * largest + 0.2 * smallest)};
-  c.cells = {int(c.given_cells[0]), int(c.given_cells[1]), 1};
+  // Axes are x (width), y (height), z (depth): the height comes last in the case and second in the grid.
+  const auto cells = [&](std::size_t k) { return int(c.given_cells[k]); };
+  if (n == 3) {
+    if (c.depth) add("column.depth is the depth of a two-dimensional column; column.size has three numbers");
+    c.size = {c.given_size[0], c.given_size[2], c.given_size[1]};
+    c.cells = {cells(0), cells(2), cells(1)};
+  } else {
+    c.size = {c.given_size[0], c.given_size[1], c.depth.value_or(2 * largest + 0.2 * smallest)};
+    c.cells = {cells(0), cells(1), 1};
+  }
   constexpr double most_cells = 2e7;
-  const double cells = double(c.given_cells[0]) * double(c.given_cells[1]);
-  if (cells > most_cells)
-    add("column.cells: {:.3g} cells would need about {:.3g} GB of memory; at most {:.0e} here", cells, cells * 1e-6,
+  const double all = double(c.cells[0]) * c.cells[1] * c.cells[2];
+  if (all > most_cells)
+    add("column.cells: {:.3g} cells would need about {:.3g} GB of memory; at most {:.0e} here", all, all * 1e-6,
         most_cells);
 }
 

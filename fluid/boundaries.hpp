@@ -44,6 +44,14 @@ class Boundaries {
   /// (no_slip) or copied (free_slip); at the outlet everything is copied; normal components mirror at walls.
   void fill_velocity(core::FaceField& velocity, WallSlip slip) const;
 
+  /// Across periodic sides the last face of an axis is the first one: makes what stands on faces say so.
+  void join(core::Field& on_faces, int axis) const {
+    if (grid_.periodic[std::size_t(axis)]) copy_periodic(on_faces, axis);
+  }
+  void join(core::FaceField& faces) const {
+    for (int axis = 0; axis < grid_.dimensions; ++axis) join(faces[std::size_t(axis)], axis);
+  }
+
   /// The faces of an axis whose velocity moves: all but those on walls and on the distributor. The outlet's
   /// faces move for the fluid alone.
   [[nodiscard]] core::Box moving_faces(int axis, bool of_fluid) const {

@@ -83,6 +83,8 @@ void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Inter
       }
     });
   }
+  boundaries.join(out.free);
+  boundaries.join(out.mobility);
 }
 
 }  // namespace polybed::fluid

@@ -64,6 +64,7 @@ bool Preconditioner::setup(const Fields& fields, double c) {
     held_solids.lo[std::size_t(axis)] = moving.hi[std::size_t(axis)];
     build(fields, axis, held_solids, false);
   }
+  for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
   if (fields.stress.present())
     for (std::size_t cell = 0; cell < slope_.size(); ++cell)
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
@@ -217,7 +218,7 @@ void Preconditioner::divergence_of_solids(std::size_t first, std::size_t last, F
         for (auto f = std::size_t(begin); f < std::size_t(end); ++f)
           flux[f] += fraction_[a][j][f] * face_value_[a][j][f];
       });
-    if (grid.periodic[a]) boundaries_.fill_cells(flux);
+    boundaries_.join(flux, axis);
   }
   core::divergence(grid, flux_, out);
 }
@@ -227,7 +228,7 @@ void Preconditioner::elliptic_sources() {
   const core::Grid& grid = constants_.grid;
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     flux_[std::size_t(axis)] = face_value_[std::size_t(axis)][rows_ - 1];
-    if (grid.periodic[std::size_t(axis)]) boundaries_.fill_cells(flux_[std::size_t(axis)]);
+    boundaries_.join(flux_[std::size_t(axis)], axis);
   }
   core::divergence(grid, flux_, source_p_);
   divergence_of_solids(0, constants_.species(), source_s_);

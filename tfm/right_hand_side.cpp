@@ -76,6 +76,7 @@ void RightHandSide::fill_ghosts() {
   composition(constants_, fields_);
   for (core::FaceField& velocity : fields_.solids.velocity)
     boundaries_.fill_velocity(velocity, discretisation_.solids_wall);
+  boundaries_.join(fields_.fluid.flux);
   fluid::fluid_velocity(constants_.grid, fields_.solids, fields_.fluid);
   boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);
 }

@@ -56,8 +56,7 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
       solids_flux<core::LimitedFace>(grid, boundaries, phi, velocity, flux);
     else
       solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
-    for (int axis = 0; axis < grid.dimensions; ++axis)
-      if (grid.periodic[std::size_t(axis)]) boundaries.fill_cells(flux[std::size_t(axis)]);
+    boundaries.join(flux);
     Field& rate = fields.solids.fraction_rate[j];
     core::divergence(grid, flux, rate);
     for (double& r : rate) r = -r;

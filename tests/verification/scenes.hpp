@@ -71,6 +71,18 @@ inline void advance(tfm::Model& model, double until) {
   model.show(until);
 }
 
+/// Multiplies the fractions of the first species at the start by factor(i, j, k): an uneven bed, same for any test.
+template <class Factor>
+void make_uneven(tfm::Model& model, Factor&& factor) {
+  core::Checkpoint start = model.checkpoint();
+  double* phi = start.arrays.at("state").data();  // the first field of the state, cell by cell
+  const auto& cells = model.constants().grid.cells;
+  for (int k = 0; k < cells[2]; ++k)
+    for (int j = 0; j < cells[1]; ++j)
+      for (int i = 0; i < cells[0]; ++i) *phi++ *= factor(i, j, k);
+  model.start_from(start);
+}
+
 /// Keeps a figure in the test's report (--gtest_output=json:FILE), for the page on verification.
 inline void record(const std::string& name, double value) {
   testing::Test::RecordProperty(name, fmt::format("{:.4g}", value));

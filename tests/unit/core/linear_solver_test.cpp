@@ -96,6 +96,48 @@ TEST_F(LinearSolver, AgreesWithTheDirectSolverOnOddSizesAndPeriodicSides) {
   }
 }
 
+// The same in three dimensions, walls or joined sides.
+TEST_F(LinearSolver, AgreesWithTheDirectSolverInThreeDimensions) {
+  for (const bool periodic : {false, true}) {
+    Grid grid = box(6, 9, periodic);
+    grid.dimensions = 3;
+    grid.cells[2] = 5;
+    grid.spacing[2] = 0.15;
+    grid.periodic[2] = periodic;
+    FaceField b = make_face_field(grid);
+    std::uniform_real_distribution<double> value(0.1, 1.0);
+    for (Field& faces : b)
+      for (double& v : faces) v = value(random_);
+    close(grid, 1, true, false, b);
+    for (const int axis : {0, 2}) {
+      const auto a = std::size_t(axis);
+      const Index across = grid.cells[a] * grid.stride(axis);
+      Box last = owned_cells(grid);
+      last.lo[a] = grid.cells[a];
+      last.hi[a] = grid.cells[a] + 1;
+      for_each_row(grid, last, [&](Index begin, Index end) {
+        for (Index f = begin; f < end; ++f) b[a][std::size_t(f)] = b[a][std::size_t(f - across)];
+      });
+      if (!periodic) close(grid, axis, true, true, b);
+    }
+    Field source = make_field(grid), iterated = source, direct = source;
+    for (double& v : source) v = value(random_);
+    PoissonSolver solver(grid);
+    ASSERT_TRUE(solver.solve(spans(b), {}, source, iterated, 1e-11).converged);
+    ASSERT_TRUE(solve_directly(grid, spans(b), {}, source, direct));
+    EXPECT_LT(relative_residual(grid, spans(b), {}, source, direct), 1e-12);
+    EXPECT_LT(relative_residual(grid, spans(b), {}, source, iterated), 1e-10);
+    double most = 0, scale = 0;
+    for_each_row(grid, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+        most = std::max(most, std::abs(iterated[c] - direct[c]));
+        scale = std::max(scale, std::abs(direct[c]));
+      }
+    });
+    EXPECT_LT(most, 1e-8 * scale) << periodic;
+  }
+}
+
 // p = cos(pi x) sin(pi y / 2 ...) with p = 0 half a cell above the top: second order in the cell size.
 TEST_F(LinearSolver, ConvergesToASmoothSolutionInSecondOrder) {
   double before = 0;
