@@ -47,7 +47,7 @@ void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, con
         const double *phi = solids.fraction[j].data(), *b = solids.exchange[j].data(),
                      *v = solids.velocity[j][a].data();
         for (Index c = begin; c < end; ++c)
-          rate[c] -= face_mean(phi, c, s) * face_mean(b, c, s) * (u[c] - v[c]) /
+          rate[c] -= face_mean(phi, c, s) * exchange_on_face(b, c, s, u[c] - v[c]) * (u[c] - v[c]) /
                      (std::max(face_mean(eps, c, s), voidage_floor) * density);
       }
     });

@@ -1,12 +1,13 @@
 // Momentum of the averaged fluid and the rate of the volumetric flux, T(1.16) with T(1.17), on faces.
 //
-//   (3) a_f = -(U_f.grad)U_f - sum_j phi_j b_j (U_f - U_j) / (eps rho_f)      (gravity is in the net
-//   pressure) (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p,
+//   (3) a_f = -(U_f.grad)U_f - sum_j phi_j b_j (U_f - U_j) / (eps rho_f)      (gravity is in the net pressure)
+//   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p,
 //       B = eps/rho_f + sum_j phi_j/rho_j
 //
 // J = eps U_f + sum phi_j U_j is the unknown, because its constraint div J = 0 is linear with constant coefficients.
 #pragma once
 
+#include "core/operators.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
@@ -22,6 +23,14 @@ struct FluxRate {
   explicit FluxRate(const core::Grid& grid)
       : free(core::make_face_field(grid)), mobility(core::make_face_field(grid)) {}
 };
+
+/// b_j on the face between the cells c - s and c: from the cell that the fluid comes from relative to the particles,
+/// with half a limited slope. A mean of both cells would not see a ripple from cell to cell, and nothing else resists
+/// one below packing. Drag grows with the solids fraction, so waves of voidage run with the slip: this is upwinding.
+/// \param b  on cells, ghosts filled  \param slip  U_f - U_j on the face, m/s
+[[nodiscard]] inline double exchange_on_face(const double* b, core::Index c, core::Index s, double slip) {
+  return core::LimitedFace::at(b, c, s, slip);
+}
 
 /// Voidage from the solids fractions; the ghosts of the fractions must be filled.
 void voidage(const Interphase& solids, core::Field& out);

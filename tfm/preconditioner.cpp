@@ -98,7 +98,9 @@ void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
   for (std::size_t j = 0; j < n; ++j) fluid_velocity[row(j)] = -fraction_[a][j][at] / eps;
   fluid_velocity[row(n)] = 1 / eps;
   for (std::size_t j = 0; j < n; ++j) {
-    const double b = face_mean(fields.solids.exchange[j].data(), face, stride), phi = fraction_[a][j][at];
+    const double slip = fields.fluid.velocity[a][at] - fields.solids.velocity[j][a][at];
+    const double b = fluid::exchange_on_face(fields.solids.exchange[j].data(), face, stride, slip);
+    const double phi = fraction_[a][j][at];
     const double on_solid = b / constants_.density[j];
     const double on_flux = phi * b * (1 / constants_.fluid.density - 1 / constants_.density[j]);
     system.row(row(j)) -= on_solid * fluid_velocity.transpose();

@@ -94,7 +94,8 @@ void add_exchange(const Constants& constants, const fluid::Boundaries& boundarie
                  *v = fields.solids.velocity[j][d].data();
     double* a = fields.solids.acceleration[j][d].data();
     const double per_density = 1 / constants.density[j];
-    for (Index c = begin; c < end; ++c) a[c] += face_mean(b, c, s) * per_density * (u[c] - v[c]);
+    for (Index c = begin; c < end; ++c)
+      a[c] += fluid::exchange_on_face(b, c, s, u[c] - v[c]) * per_density * (u[c] - v[c]);
   });
 }
 
