@@ -15,11 +15,11 @@ MAY_USE = {
 # header -> the only files that may include it
 LIBRARIES = {
     r"(arkode|ida|nvector|sundials|sunlinsol|sunmatrix)/": r"core/integrator\.cpp",
-    r"_?HYPRE": r"core/linear_solver(_block)?\.cpp",
+    r"_?HYPRE": r"core/(linear_solver\w*\.cpp|hypre_rows\.[ch]pp)",
     r"hdf5": r"core/output_(file\.cpp|hdf5\.hpp)",
     r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
     r"CLI/": r"multiscale/main\.cpp",
-    r"mpi\.h": r"(core/linear_solver(_block)?\.cpp|multiscale/main\.cpp)",
+    r"mpi\.h": r"(core/(linear_solver|hypre_rows)\.cpp|multiscale/main\.cpp)",
 }
 CLOSURES_SEE = re.compile(r"^(closures/|Eigen/|[a-z_]+$)")  # ours, Eigen, the standard library
 

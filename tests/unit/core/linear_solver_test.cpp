@@ -138,6 +138,27 @@ TEST_F(LinearSolver, AgreesWithTheDirectSolverInThreeDimensions) {
   }
 }
 
+// Cells of 8 to 1: the algebraic multigrid takes over, and needs a few iterations.
+TEST_F(LinearSolver, LongCellsAreForTheAlgebraicMultigrid) {
+  for (const bool periodic : {false, true}) {
+    Grid grid = box(24, 24, periodic);
+    grid.spacing = {1.0, 8.0, 1.0};
+    FaceField b = rough(grid);
+    close(grid, 1, true, false, b);
+    const Field source = cells_of(grid, [](int i, int j) { return std::sin(i + 2.3 * j); });
+    Field iterated = make_field(grid), direct = make_field(grid);
+    PoissonSolver solver(grid);
+    const PoissonResult result = solver.solve(spans(b), {}, source, iterated, 1e-10);
+    EXPECT_TRUE(result.converged);
+    EXPECT_STREQ(result.solver, "PCG + BoomerAMG");
+    EXPECT_LT(result.iterations, 40);
+    ASSERT_TRUE(solve_directly(grid, spans(b), {}, source, direct));
+    double scale = 0;
+    for (double p : direct) scale = std::max(scale, std::abs(p));
+    EXPECT_LT(largest_difference(grid, iterated, direct), 1e-5 * scale);
+  }
+}
+
 // p = cos(pi x) sin(pi y / 2 ...) with p = 0 half a cell above the top: second order in the cell size.
 TEST_F(LinearSolver, ConvergesToASmoothSolutionInSecondOrder) {
   double before = 0;
