@@ -113,7 +113,6 @@ class TfmRun {
     observers.push_back({"fields", *scene_.output.every, [&](double t) {
                            const auto scope = timers_.scope("output");
                            observers_->write_fields(t);
-                           observers_->flush();
                          }});
     core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, model_.inlet().kinks()};
     core::run(
@@ -138,7 +137,6 @@ class TfmRun {
 
   void write_checkpoint() {
     const auto scope = timers_.scope("output");
-    observers_->flush();
     core::Checkpoint checkpoint = model_.checkpoint();
     checkpoint.arrays["initial_mass"] = initial_mass_;
     checkpoint.texts["case"] = core::resolved_case(scene_);
