@@ -39,13 +39,35 @@ core::Scene read_scene(const RunOptions& options) {
 
 void check_directory(const fs::path& directory, const RunOptions& options) {
   const bool used = fs::exists(directory / "run.json");
-  if (options.resume && !fs::exists(directory / "checkpoint.h5"))
-    throw core::FileError(fmt::format("{}: no checkpoint to resume from", directory.string()));
+  const fs::path checkpoint = directory / "checkpoint.h5";
+  if (options.resume && !fs::exists(checkpoint) && !fs::exists(core::previous_checkpoint(checkpoint)))
+    throw core::FileError(fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew",
+                                      directory.string()));
   if (used && !options.resume && !options.force)
     throw core::CaseError(fmt::format(
         "{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
         directory.string()));
   core::make_directories(directory);
+}
+
+/// The checkpoint to go on from. One that is damaged gives way to the one before it, under its name, so that
+/// the next one written does not push that out.
+core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
+  const fs::path path = directory / "checkpoint.h5", previous = core::previous_checkpoint(path);
+  try {
+    return core::read_checkpoint(path);
+  } catch (const core::FileError& error) {
+    core::Checkpoint checkpoint;
+    try {
+      checkpoint = core::read_checkpoint(previous);
+    } catch (const core::FileError&) {
+      throw core::FileError(
+          fmt::format("{}; there is no whole one before it: --force begins anew", error.what()));
+    }
+    fs::rename(previous, path);
+    fmt::print(stderr, "{}\ngoing on from it\n", error.what());
+    return checkpoint;
+  }
 }
 
 /// What must be the same for a checkpoint to fit: the case without its end and its output times.
@@ -85,7 +107,7 @@ class TfmRun {
     model_.show(model_.time());
     std::vector<double> initial_mass = tfm::masses(model_);
     if (options_.resume) {
-      const core::Checkpoint checkpoint = core::read_checkpoint(directory_ / "checkpoint.h5");
+      const core::Checkpoint checkpoint = read_newest_checkpoint(directory_);
       const auto hash = checkpoint.texts.find("physics_hash");
       if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene_))
         throw core::CaseError(
@@ -101,7 +123,15 @@ class TfmRun {
     }
     initial_mass_ = initial_mass;
     begin_ = model_.time();
+    if (!options_.resume) remove_checkpoints();
     observers_.emplace(model_, directory_, scene_.tfm.rtol, initial_mass, resume_time);
+  }
+
+  /// A run that begins anew and is killed at once must not be resumed from the run it replaces.
+  void remove_checkpoints() const {
+    const fs::path path = directory_ / "checkpoint.h5";
+    fs::remove(path);
+    fs::remove(core::previous_checkpoint(path));
   }
 
   void go() {
