@@ -13,10 +13,11 @@ namespace {
 /// A value of the command line: TOML if it reads as such, else a text.
 toml::table parse_override(const std::string& value, const std::string& source) {
   try {
-    return toml::parse("value = " + value, source);
+    toml::table parsed = toml::parse("value = " + value, source);
+    if (parsed.size() == 1) return parsed;  // a line end and a second key would go unread
   } catch (const toml::parse_error&) {
-    return toml::parse("value = " + Json().value(value).text(), source);
   }
+  return toml::parse("value = " + Json().value(value).text(), source);
 }
 
 }  // namespace

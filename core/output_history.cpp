@@ -82,7 +82,7 @@ HistoryWriter::HistoryWriter(const fs::path& run_directory, std::vector<std::str
 }
 
 void HistoryWriter::append(const std::string& line) {
-  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size())
+  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0)
     throw FileError(fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
 }
 
@@ -98,11 +98,6 @@ void HistoryWriter::write_row(std::span<const std::optional<double>> row) {
     if (row[n]) line += fmt::format("{}", *row[n]);
   }
   append(line + "\n");
-}
-
-void HistoryWriter::flush() {
-  if (std::fflush(file_.get()) != 0)
-    throw FileError(fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
 }
 
 const std::vector<double>& History::of(const std::string& column) const {

@@ -20,10 +20,9 @@ class HistoryWriter {
                 std::optional<double> resume_time = std::nullopt);
 
   /// Adds a row; the shortest digits that read back to the same bits. An entry without value (no interface in
-  /// sight) stays empty. Throws NumericsError, and writes nothing, if a value is not finite.
+  /// sight) stays empty. The row goes to the operating system at once and whole: a killed program loses none.
+  /// Throws NumericsError, and writes nothing, if a value is not finite.
   void write_row(std::span<const std::optional<double>> row);
-  /// Hands the rows written so far to the operating system: a killed program loses none of them.
-  void flush();
 
  private:
   struct Close {

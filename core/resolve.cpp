@@ -1,10 +1,12 @@
 // What the keys of a case say of each other, and the case written out whole.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <string_view>
 
 #include "core/case_file.hpp"
 #include "core/keys.hpp"
@@ -14,6 +16,13 @@ namespace polybed::core {
 namespace {
 
 using Problems = std::vector<CaseProblem>;
+
+/// True if a name may stand in the header of a CSV file, in the path of a dataset and in XML.
+bool can_name_files(const std::string& name) {
+  return !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 0x20 || c == 0x7f || std::string_view(",/<>&\"\\").find(char(c)) != std::string_view::npos;
+  });
+}
 
 /// Collects problems that have no line of their own.
 class Checker {
@@ -65,11 +74,16 @@ void Checker::column() {
 }
 
 void Checker::species() {
-  std::set<std::string> names{"wall"};
+  std::set<std::string> names{"wall", "fluid"};  // of contact pairs and of the dataset u_fluid
   if (scene_.species.empty()) add("[[species]] is missing: at least one");
   if (scene_.species.size() > 15) add("[[species]]: {} species, at most 15", scene_.species.size());
-  for (const Species& s : scene_.species)
-    if (!names.insert(s.name).second) add("species.name = \"{}\" stands twice, or is \"wall\"", s.name);
+  for (const Species& s : scene_.species) {
+    if (!names.insert(s.name).second) add("species.name = \"{}\" stands twice, or is \"wall\" or \"fluid\"", s.name);
+    if (!can_name_files(s.name))
+      add("species.name = \"{}\" names columns and datasets: not empty, without , / < > & \" \\ and line "
+          "ends",
+          s.name);
+  }
   for (const ContactPair& pair : scene_.contact_pairs) {
     if (pair.between.size() != 2) add("contact_pair.between takes two names");
     for (const std::string& name : pair.between)
@@ -134,7 +148,7 @@ struct AsToml {
     std::string out = "\"";
     for (char c : text) {
       if (c == '"' || c == '\\') out += '\\';
-      if (static_cast<unsigned char>(c) < 0x20)
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
         out += fmt::format("\\u{:04X}", int(c));
       else
         out += c;

@@ -3,10 +3,15 @@
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <functional>
+#include <new>
 #include <optional>
+#include <system_error>
 
 #include "core/error.hpp"
 #include "core/version.hpp"
@@ -62,9 +67,20 @@ int guarded(const std::function<int()>& work) {
     return fail(core::ExitCode::mpi, error);
   } catch (const core::Stopped& error) {
     return fail(core::ExitCode::stopped, error);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "not enough memory: choose fewer column.cells\n");
+    return exit_code(core::ExitCode::wrong_case);
+  } catch (const std::system_error& error) {  // a file system or standard output
+    return fail(core::ExitCode::file, error);
   } catch (const std::exception& error) {
     return fail(core::ExitCode::numerics, error);
   }
+}
+
+/// What was printed has to have arrived: a full disk shows only when the buffer is emptied.
+void flush_standard_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw core::FileError(fmt::format("standard output: cannot be written ({})", std::strerror(errno)));
 }
 
 int run(int argc, char** argv) {
@@ -137,11 +153,13 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);
   if (app.got_subcommand("explain")) run_explain(key, explain_json);
   if (app.got_subcommand("list")) run_list(list_json);
+  flush_standard_output();
   return exit_code(core::ExitCode::done);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is told like a full disk
   return guarded([&] { return run(argc, argv); });
 }

@@ -47,20 +47,23 @@ std::vector<core::FieldName> field_names(const Constants& constants) {
   return names;
 }
 
-/// Opens steps.csv; when a run goes on, rows later than its time are dropped.
+[[noreturn]] void fail(const std::filesystem::path& path) {
+  throw core::FileError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+}
+
+/// Opens steps.csv; when a run goes on, rows later than its time and a row cut short are dropped.
 std::FILE* open_steps(const std::filesystem::path& path, std::optional<double> resume_time) {
   std::string kept = "time_s,dt_s,error_norm,limited_by\n";
   if (resume_time) {
     std::ifstream old(path);
     std::string line;
     std::getline(old, line);
-    while (std::getline(old, line))
+    while (std::getline(old, line) && !old.eof())
       if (std::strtod(line.c_str(), nullptr) <= *resume_time) kept += line + "\n";
   }
   core::write_atomically(path, kept);
   std::FILE* file = std::fopen(path.c_str(), "a");
-  if (file == nullptr)
-    throw core::FileError(fmt::format("{}: cannot be written ({})", path.string(), std::strerror(errno)));
+  if (file == nullptr) fail(path);
   return file;
 }
 
@@ -88,7 +91,8 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
       history_(directory, history_columns(model.constants()), resume_time),
       profiles_(directory, slab_centres(model.constants().grid), profile_names(model.constants()), resume_time),
       fields_(directory, model.constants().grid, field_names(model.constants()), resume_time),
-      steps_(open_steps(directory / "steps.csv", resume_time), std::fclose) {}
+      steps_path_(directory / "steps.csv"),
+      steps_(open_steps(steps_path_, resume_time), std::fclose) {}
 
 void Observers::write_history(double time) {
   const Constants& constants = model_.constants();
@@ -141,13 +145,9 @@ void Observers::write_fields(double time) {
 
 void Observers::log_step() {
   const StepLine& step = model_.last_step();
-  fmt::print(steps_.get(), "{},{},{:.4g},\"{}\"\n", step.time, step.step, step.error_norm, step.limited_by);
-}
-
-void Observers::flush() {
-  history_.flush();
-  if (std::fflush(steps_.get()) != 0)
-    throw core::FileError(fmt::format("steps.csv: cannot be written ({})", std::strerror(errno)));
+  const std::string row = fmt::format("{},{},{:.4g},\"{}\"\n", step.time, step.step, step.error_norm, step.limited_by);
+  if (std::fwrite(row.data(), 1, row.size(), steps_.get()) != row.size() || std::fflush(steps_.get()) != 0)
+    fail(steps_path_);
 }
 
 }  // namespace polybed::tfm

@@ -25,9 +25,8 @@ class Observers {
   void write_history(double time);
   /// One row of profiles.h5 and one step of fields.h5.
   void write_fields(double time);
-  /// One row of steps.csv.
+  /// One row of steps.csv, handed to the operating system at once and whole.
   void log_step();
-  void flush();
 
   [[nodiscard]] const fluid::Invariants& invariants() const { return invariants_; }
   /// Bed height of the last row of the history, m.
@@ -41,6 +40,7 @@ class Observers {
   core::HistoryWriter history_;
   core::ProfileWriter profiles_;
   core::FieldWriter fields_;
+  std::filesystem::path steps_path_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> steps_;
   double bed_height_ = 0, force_balance_ = 0;
 };

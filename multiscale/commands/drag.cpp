@@ -35,21 +35,31 @@ void check_point(double voidage, double reynolds, const std::string& where) {
     throw core::CaseError(fmt::format("{}Reynolds number {} is outside [0, inf)", where, reynolds));
 }
 
+/// A number of the answer; one that overflows is the user's error: the point is too far out.
+double finite(double value, double voidage, double reynolds, const std::string& where) {
+  if (!std::isfinite(value))
+    throw core::CaseError(fmt::format("{}the drag at voidage {} and Reynolds number {} is too large for a number",
+                                      where, voidage, reynolds));
+  return value;
+}
+
 /// The base law at one point; a refusal of a bare formula is the user's error.
-double at_point(const DragLaw& law, double voidage, double reynolds, closures::GuardCount& count) {
+double at_point(const DragLaw& law, double voidage, double reynolds, closures::GuardCount& count,
+                const std::string& where) {
   double f = 0, slope = 0;
   try {
     closures::drag_of_points(law, {&voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
   } catch (const std::domain_error& error) {
-    throw core::CaseError(error.what());
+    throw core::CaseError(where + error.what());
   }
+  finite(f / voidage, voidage, reynolds, where);
   return f;
 }
 
 void print_point(const DragOptions& options, const DragLaw& law) {
   check_point(*options.voidage, *options.reynolds, "");
   closures::GuardCount count;
-  const double f = at_point(law, *options.voidage, *options.reynolds, count);
+  const double f = at_point(law, *options.voidage, *options.reynolds, count, "");
   if (options.json) {
     core::Json json;
     json.begin_object().member("law", options.law).member("voidage", *options.voidage).member("re", *options.reynolds);
@@ -73,16 +83,23 @@ std::vector<std::string> split(const std::string& line) {
 
 /// A mixture row: means and, per species, f_j, n_j, alpha_j, Omega_j.
 std::string mixture_columns(const DragLaw& law, double eps, double re, const std::vector<double>& share,
-                            const std::vector<double>& diameter) {
+                            const std::vector<double>& diameter, const std::string& where) {
   const std::size_t n = share.size();
   const double mean = closures::sauter_diameter(share, diameter);
   std::vector<double> f(n), slope(n), slip(n, re / mean);  // density and viscosity 1: Re = slip D
-  closures::drag_of_mixture(law, eps, share, diameter, slip, 1, 1, f, slope);
-  const double f_mean = closures::drag_of_mean(law, eps, re, share, diameter, f);
+  double f_mean = 0;
+  try {
+    closures::drag_of_mixture(law, eps, share, diameter, slip, 1, 1, f, slope);
+    f_mean = closures::drag_of_mean(law, eps, re, share, diameter, f);
+  } catch (const std::domain_error& error) {
+    throw core::CaseError(where + error.what());
+  }
+  finite(f_mean / eps, eps, re, where);
   std::string text = fmt::format(",{},{}", f_mean, f_mean / eps);
   for (std::size_t j = 0; j < n; ++j) {
     const double y = diameter[j] / mean, omega = f[j] / f_mean, net = f[j] + (1 - eps) * y * y * f_mean / eps;
-    text += fmt::format(",{},{},{},{}", f[j], net, closures::alpha_of_omega(eps, omega, y), omega);
+    const double alpha = closures::alpha_of_omega(eps, omega, y);
+    for (const double value : {f[j], net, alpha, omega}) text += fmt::format(",{}", finite(value, eps, re, where));
   }
   return text;
 }
@@ -142,12 +159,13 @@ void print_csv(const DragOptions& options, const DragLaw& law) {
       throw core::CaseError(fmt::format("{}shares sum to {}, not to 1", where, sum));
     closures::GuardCount count;
     if (share.empty()) {
-      const double f = at_point(law, values[0], values[1], count);
+      const double f = at_point(law, values[0], values[1], count, where);
       fmt::print("{},{},{}\n", line, f, f / values[0]);
     } else {
-      fmt::print("{}{}\n", line, mixture_columns(law, values[0], values[1], share, diameter));
+      fmt::print("{}{}\n", line, mixture_columns(law, values[0], values[1], share, diameter, where));
     }
   }
+  if (file.bad()) throw core::FileError(options.csv + ": cannot be read");
   if (header.empty()) throw core::CaseError(options.csv + ": no header and no rows");
 }
 

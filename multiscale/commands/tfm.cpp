@@ -40,7 +40,8 @@ void check_directory(const fs::path& directory, const RunOptions& options) {
   const bool used = fs::exists(directory / "run.json");
   const fs::path checkpoint = directory / "checkpoint.h5";
   if (options.resume && !fs::exists(checkpoint) && !fs::exists(core::previous_checkpoint(checkpoint)))
-    throw core::FileError(fmt::format("{}: no checkpoint to resume from", directory.string()));
+    throw core::FileError(
+        fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
   if (used && !options.resume && !options.force)
     throw core::CaseError(
         fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
@@ -48,23 +49,22 @@ void check_directory(const fs::path& directory, const RunOptions& options) {
   core::make_directories(directory);
 }
 
-/// The checkpoint to go on from: the last one or, where that is damaged, the one before it. The damaged file is put
-/// aside, so that it does not take the place of the whole one.
-core::Checkpoint newest_checkpoint(const fs::path& directory) {
-  const fs::path path = directory / "checkpoint.h5";
+/// The checkpoint to go on from. One that is damaged gives way to the one before it, under its name, so that
+/// the next one written does not push that out.
+core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
+  const fs::path path = directory / "checkpoint.h5", previous = core::previous_checkpoint(path);
   try {
     return core::read_checkpoint(path);
   } catch (const core::FileError& error) {
-    core::Checkpoint previous;
+    core::Checkpoint checkpoint;
     try {
-      previous = core::read_checkpoint(core::previous_checkpoint(path));
+      checkpoint = core::read_checkpoint(previous);
     } catch (const core::FileError&) {
-      throw error;
+      throw core::FileError(fmt::format("{}; there is no whole one before it: --force begins anew", error.what()));
     }
-    std::error_code ignored;
-    fs::rename(path, directory / "checkpoint.damaged.h5", ignored);
-    fmt::print(stderr, "{}: going on from it\n", error.what());
-    return previous;
+    fs::rename(previous, path);
+    fmt::print(stderr, "{}\ngoing on from it\n", error.what());
+    return checkpoint;
   }
 }
 
@@ -102,7 +102,7 @@ class TfmRun {
     model_.show(model_.time());
     std::vector<double> initial_mass = tfm::masses(model_);
     if (options_.resume) {
-      const core::Checkpoint checkpoint = newest_checkpoint(directory_);
+      const core::Checkpoint checkpoint = read_newest_checkpoint(directory_);
       const auto hash = checkpoint.texts.find("physics_hash");
       if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene_))
         throw core::CaseError(fmt::format("{}: the checkpoint is of another case; only run and output times may change",
@@ -117,7 +117,15 @@ class TfmRun {
     }
     initial_mass_ = initial_mass;
     begin_ = model_.time();
+    if (!options_.resume) remove_checkpoints();
     observers_.emplace(model_, directory_, scene_.tfm.rtol, initial_mass, resume_time);
+  }
+
+  /// A run that begins anew and is killed at once must not be resumed from the run it replaces.
+  void remove_checkpoints() const {
+    const fs::path path = directory_ / "checkpoint.h5";
+    fs::remove(path);
+    fs::remove(core::previous_checkpoint(path));
   }
 
   void go() {
@@ -128,7 +136,6 @@ class TfmRun {
     observers.push_back({"fields", *scene_.output.every, [&](double t) {
                            const auto scope = timers_.scope("output");
                            observers_->write_fields(t);
-                           observers_->flush();
                          }});
     core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, model_.inlet().kinks()};
     core::run(
@@ -153,7 +160,6 @@ class TfmRun {
 
   void write_checkpoint() {
     const auto scope = timers_.scope("output");
-    observers_->flush();
     core::Checkpoint checkpoint = model_.checkpoint();
     checkpoint.arrays["initial_mass"] = initial_mass_;
     checkpoint.texts["case"] = core::resolved_case(scene_);

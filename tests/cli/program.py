@@ -1,63 +1,135 @@
-"""What the tests of the command line share: the program, a small case, and how a test file is run."""
+"""The program under test as its user meets it: a command line, a code at the end, and files."""
 import json
+import os
+import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
-from pathlib import Path
+from concurrent.futures import ThreadPoolExecutor
 
-ROOT = Path(__file__).resolve().parents[2]
-SHIPPED = ROOT / "cases/matsuura-akehata/case.toml"
-PROGRAM = ""
-# A fifth of the shipped bed on 6 x 30 cells: all terms on, some ten steps in a tenth of a second.
-SMALL = {"column.size": '["20 mm", "120 mm"]', "column.cells": "[6, 30]", "bed.static_height": "40 mm",
-         "bed.start_solids_fraction": "0.5", "output.every": "0.05", "output.history_every": "0.02"}
+import h5py
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CASE = ROOT / "cases/matsuura-akehata/case.toml"
+PROGRAM = None  # set by main
+LONGEST = 60  # s; far beyond any of these commands, so that a program that hangs is told
+
+DONE, WRONG_CASE, FILE, STOPPED = 0, 2, 4, 130
+
+# A coarse grid: a step takes about 1 ms. Checkpoints and outputs have intervals of their own, so that they do not
+# move with the end of the run.
+SMALL = ["--set", "column.cells=[6,60]", "--set", "output.every=0.1", "--set", "output.history_every=0.01",
+         "--set", "output.checkpoint_every=0.1"]
 
 
-def settings(**changes):
-    """--set options of the small case, with changes: tfm_rtol="1e-4" sets tfm.rtol."""
-    keys = SMALL | {name.replace("_", ".", 1): value for name, value in changes.items()}
-    return [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+def environment(scratch, picture=False):
+    """One rank needs neither network nor daemon: without them MPI starts in a sixth of the time, if each process has a
+    folder of its own. A Python that does not start saves drawing, which takes longer than the runs here."""
+    settings = dict(os.environ, OMPI_MCA_btl="self", OMPI_MCA_pml="ob1", OMPI_MCA_ess_singleton_isolated="1",
+                    OMPI_MCA_orte_tmpdir_base=scratch, PYTHONHOME="/nowhere")
+    if picture:
+        del settings["PYTHONHOME"]
+    return settings
 
 
-def polybed(*words):
-    """Runs the program to its end."""
-    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120, errors="backslashreplace")
+def run(*words, picture=False, **options):
+    """The finished command; its texts are decoded strictly, since the program speaks UTF-8."""
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "encoding": "utf-8", "timeout": LONGEST, **options}
+    with tempfile.TemporaryDirectory() as scratch:
+        return subprocess.run([PROGRAM, *map(str, words)], env=environment(scratch, picture), **options)
+
+
+def run_all(commands, **options):
+    """Several commands side by side; their answers in the order given."""
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(lambda words: run(*words, **options), commands))
+
+
+def wait_until(process, condition):
+    """Waits for a state of a running program; fails if the program ends first."""
+    for _ in range(LONGEST * 500):
+        if condition():
+            return
+        if process.poll() is not None:
+            raise AssertionError(f"ended early with {process.returncode}: {process.communicate()}")
+        time.sleep(0.002)
+    process.kill()
+    raise AssertionError("the program did not get there")
 
 
 def strict_json(text):
-    """The JSON of a text; NaN and infinities, which JSON does not know, are refused."""
-    def refuse(constant):
-        raise AssertionError(f"{constant} in JSON")
-
+    def refuse(name):
+        raise AssertionError(f"{name} in JSON")
     return json.loads(text, parse_constant=refuse)
 
 
-class CliTest(unittest.TestCase):
-    """A scratch directory for each test, and what most tests ask."""
+def datasets(path):
+    """Every dataset of an HDF5 file by its path, through external links too."""
+    found = {}
+
+    def walk(group, prefix):
+        for name in group:
+            item = group[name]
+            walk(item, f"{prefix}/{name}") if isinstance(item, h5py.Group) else found.update({f"{prefix}/{name}": item[()]})
+    with h5py.File(path) as file:
+        walk(file, "")
+    return found
+
+
+def same_bits(one, other):
+    """Names of the datasets in which two HDF5 files differ, or that only one has."""
+    a, b = datasets(one), datasets(other)
+    return [n for n in sorted(set(a) | set(b))
+            if n not in a or n not in b or np.asarray(a[n]).tobytes() != np.asarray(b[n]).tobytes()]
+
+
+def history(directory):
+    """Columns of history.csv by name; an empty cell (nothing to measure) is None."""
+    text = (directory / "history.csv").read_text()
+    rows = [line.split(",") for line in text.splitlines()]
+    assert all(len(row) == len(rows[0]) for row in rows) and text.endswith("\n"), "a row is not whole"
+    return {name: [float(row[n]) if row[n] else None for row in rows[1:]] for n, name in enumerate(rows[0])}
+
+
+class Scratch(unittest.TestCase):
+    """A test with a folder of its own, in which it works."""
 
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
-
-    def ends(self, code, done, *texts):
-        """The program ended with a code and its messages hold the texts."""
-        self.assertEqual(done.returncode, code, f"{done.args}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-        for text in texts:
-            self.assertIn(text, done.stdout + done.stderr)
-        return done
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
 
     def write(self, name, content):
-        path = self.scratch / name
+        path = self.folder / name
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
         return path
 
+    def start(self, *words):
+        return subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                encoding="utf-8", env=environment(tempfile.mkdtemp(dir=self.folder)))
+
+    def ends(self, code, *words, **options):
+        done = run(*words, **options)
+        self.assertEqual(done.returncode, code, f"{words}\n{(done.stdout or '')[-500:]}\n{done.stderr[-500:]}")
+        return done
+
+    def has_no_nan(self, directory):
+        """All numbers of all files of a run directory are finite."""
+        for name in ("fields.h5", "profiles.h5", "checkpoint.h5"):
+            for path, values in datasets(directory / name).items():
+                if np.asarray(values).dtype.kind == "f":
+                    self.assertTrue(np.isfinite(values).all(), f"{name}{path}")
+        for column, values in history(directory).items():
+            self.assertTrue(all(v is None or np.isfinite(v) for v in values), column)
+
 
 def main():
-    """Runs the tests of the file that calls: FILE PROGRAM [TEST]."""
     global PROGRAM
-    PROGRAM = sys.argv.pop(1)
-    # The test file has imported this module by its name, so the path must be set there, too.
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # what is ignored here would be ignored by the program
     sys.modules["program"].PROGRAM = PROGRAM
     unittest.main(module="__main__")

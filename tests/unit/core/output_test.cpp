@@ -225,7 +225,6 @@ TEST(History, ReadsBackToTheBitAndResumes) {
       const std::vector<std::optional<double>> row{t, t > 0.15 ? std::optional(third) : std::nullopt};
       writer.write_row(row);
     }
-    writer.flush();
     EXPECT_EQ(read_history(scratch.path()).of("time_s").size(), 3u);
     const std::vector<std::optional<double>> bad{0.4, nan};
     EXPECT_THROW(writer.write_row(bad), NumericsError);

@@ -73,7 +73,6 @@ void write_run(const std::filesystem::path& directory, const Grid& grid) {
     const std::vector<std::optional<double>> row{time, 0.08 + 0.02 * time, 0.05 + 0.02 * time, 0.05 - 0.01 * time,
                                                  std::nullopt};
     history.write_row(row);
-    history.flush();
   }
   write_atomically(directory / "run.json",
                    R"({"filetype": "polybed run", "version": 1, "model": "tfm", "state": "done"})");

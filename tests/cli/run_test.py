@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""Runs of the continuum model: what they write, how they stop and go on. Usage: run_test.py PROGRAM"""
+import os
+import shutil
+import signal
+
+import h5py
+import numpy as np
+
+import program
+from program import CASE, DONE, FILE, SMALL, STOPPED, WRONG_CASE, Scratch, history, same_bits, strict_json
+
+SPECIES = ("fine", "coarse")
+
+
+class Run(Scratch):
+    def test_a_run_writes_every_file_of_the_contract(self):
+        directory = self.folder / "run"
+        done = self.ends(DONE, "tfm", CASE, *SMALL, "--until", "0.3 s", "-o", directory, "--json", picture=True)
+        for name in ("history.csv", "profiles.h5", "fields.h5", "fields.xdmf", "checkpoint.h5", "run.json", "steps.csv", "picture.png"):
+            self.assertGreater((directory / name).stat().st_size, 0, name)
+        self.assertEqual([p.name for p in directory.rglob("*.temporary")], [])
+        self.check_record(strict_json((directory / "run.json").read_text()))
+        self.assertEqual(strict_json(done.stdout)["work"], strict_json((directory / "run.json").read_text())["work"])
+        self.check_history(directory)
+        self.check_hdf5(directory)
+        self.has_no_nan(directory)
+
+    def check_record(self, record):
+        for key in ("program", "git_commit", "case", "case_hash", "ranks", "machine", "timers", "guards", "warnings"):
+            self.assertIn(key, record)
+        self.assertEqual((record["filetype"], record["version"], record["state"]), ("polybed run", 1, "done"))
+        self.assertEqual(record["time_s"], 0.3)
+        self.assertIn("column.cells=[6,60]", record["overrides"])
+        self.assertIn("cells = [6, 60]", record["case"])
+        for counter in ("steps", "rhs_evaluations", "linear_iterations"):
+            self.assertGreater(record["work"][counter], 10, counter)
+        self.assertTrue(all(i["held"] for i in record["invariants"]), record["invariants"])
+        self.assertEqual(record["warnings"], [])
+
+    def check_history(self, directory):
+        columns = history(directory)
+        expected = ["time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"]
+        expected += [f"{q}_{s}_{unit}" for s in SPECIES for q, unit in (("centre", "m"), ("mass", "kg"))] + ["interface_m"]
+        self.assertEqual(list(columns)[:len(expected)], expected)
+        # every 0.01 s from 0 to 0.3 s, both ends
+        np.testing.assert_allclose(columns["time_s"], np.arange(31) * 0.01, atol=1e-12)
+        self.assertTrue(np.all(np.diff(columns["time_s"]) > 0))
+        for s in SPECIES:
+            mass = np.array(columns[f"mass_{s}_kg"])
+            # the limit of the program's own invariant: 1e-12 of the mass
+            self.assertLess(np.ptp(mass), 1e-12 * mass[0])
+
+    def check_hdf5(self, directory):
+        with h5py.File(directory / "fields.h5") as fields, h5py.File(directory / "profiles.h5") as profiles:
+            for file in (fields, profiles):
+                for name in ("filetype", "version", "git_commit"):
+                    self.assertIn(name, file.attrs)
+            self.assertEqual(sorted(fields["step"]), ["000001", "000002", "000003", "000004"])
+            times = [fields["step"][n].attrs["time_s"] for n in sorted(fields["step"])]
+            np.testing.assert_allclose(times, [0, 0.1, 0.2, 0.3], atol=1e-12)
+            self.assertEqual((len(fields["grid/x"]), len(fields["grid/y"])), (7, 61))
+            last = fields["step/000004"]
+            solids = sum(last[f"phi_{s}"][()] for s in SPECIES)
+            np.testing.assert_allclose(last["voidage"][()] + solids, 1, atol=1e-12)  # rounding of a sum of three
+            self.assertEqual(last["pressure"].shape, (60, 6))
+            for name in ["u_fluid"] + [f"u_{s}" for s in SPECIES]:
+                self.assertEqual(last[name].shape, (60, 6, 2))
+            for name in ["voidage", "p"] + [f"{q}_{s}" for q in ("phi", "u") for s in SPECIES]:
+                self.assertEqual(profiles[name].shape, (4, 60), name)
+            np.testing.assert_allclose(profiles["voidage"][3], last["voidage"][()].mean(axis=1), atol=1e-12)  # a mean
+
+    def test_directories(self):
+        short = [CASE, *SMALL, "--until", "0.01 s", "--quiet"]
+        first = self.folder / "deep/down"
+        self.assertEqual(self.ends(DONE, "tfm", *short, "-o", first).stderr, "")
+        again = self.ends(WRONG_CASE, "tfm", *short, "-o", first)
+        self.assertIn("--resume", again.stderr)
+        self.assertIn("--force", again.stderr)
+        self.ends(DONE, "tfm", *short, "-o", first, "--force")
+        self.assertIn("no checkpoint", self.ends(FILE, "tfm", *short, "-o", self.folder / "new", "--resume").stderr)
+        other = self.ends(WRONG_CASE, "tfm", *short, "-o", first, "--resume", "--set", "tfm.rtol=1e-4")
+        self.assertIn("another case", other.stderr)
+        self.ends(DONE, "tfm", *short, cwd=self.folder)
+        self.assertTrue((self.folder / "runs/matsuura-akehata-tfm/run.json").exists())
+
+    def test_a_directory_that_cannot_be_written(self):
+        taken = self.write("taken", "a file")
+        places = [taken, taken / "below", "/proc/nowhere"]
+        if os.geteuid() != 0:  # root may write everywhere
+            locked = self.folder / "locked"
+            locked.mkdir(mode=0o500)
+            places.append(locked)
+        for place in places:
+            done = self.ends(FILE, "tfm", CASE, *SMALL, "--until", "0.01 s", "--quiet", "-o", place)
+            self.assertIn(str(place), done.stderr)
+
+
+class Stop(Scratch):
+    def test_ctrl_c_leaves_a_run_that_goes_on(self):
+        """An interruption puts a checkpoint where none was, and a checkpoint is part of the result: what went before is
+        that of a run that was not stopped, and what comes after is the same each time."""
+        whole, stopped, twin = (self.folder / n for n in ("whole", "stopped", "twin"))
+        words = ["tfm", CASE, *SMALL, "--until", "1 s", "--quiet"]
+        running = self.start(*words, "-o", stopped)
+        program.wait_until(running, lambda: (stopped / "checkpoint.h5").exists())
+        running.send_signal(signal.SIGINT)
+        text = running.communicate(timeout=program.LONGEST)
+        self.assertEqual(running.returncode, STOPPED, text)
+        self.assertIn("checkpoint", text[1])
+        record = strict_json((stopped / "run.json").read_text())
+        self.assertEqual(record["state"], "stopped by the user")
+        reached = record["time_s"]
+        self.assertTrue(0.1 <= reached < 1, reached)
+        with h5py.File(stopped / "checkpoint.h5") as checkpoint:
+            self.assertEqual(checkpoint["numbers/time_s"][()], reached)
+        shutil.copytree(stopped, twin)
+        for directory in (stopped, twin):
+            self.ends(DONE, *words, "-o", directory, "--resume")
+        self.ends(DONE, *words, "-o", whole)
+        for name in ("checkpoint.h5", "fields.h5", "profiles.h5"):
+            self.assertEqual(same_bits(stopped / name, twin / name), [], name)
+        one, other = history(stopped), history(whole)
+        self.assertEqual(one, history(twin))
+        self.assertEqual(one["time_s"], other["time_s"])
+        before = sum(t <= reached for t in one["time_s"])
+        for column in one:
+            self.assertEqual(one[column][:before], other[column][:before], column)
+        self.assertEqual(strict_json((stopped / "run.json").read_text())["state"], "done")
+        self.has_no_nan(stopped)
+
+    def test_a_run_in_two_parts_is_the_run_in_one(self):
+        whole, parts = self.folder / "whole", self.folder / "parts"
+        words = ["tfm", CASE, *SMALL, "--quiet"]
+        self.ends(DONE, *words, "--until", "0.3 s", "-o", whole)
+        self.ends(DONE, *words, "--until", "0.1 s", "-o", parts)
+        self.ends(DONE, *words, "--until", "0.3 s", "-o", parts, "--resume")
+        for name in ("fields.h5", "profiles.h5"):
+            self.assertEqual(same_bits(whole / name, parts / name), [], name)
+        self.assertEqual(history(whole), history(parts))
+        self.assertEqual((whole / "steps.csv").read_text(), (parts / "steps.csv").read_text())
+
+
+if __name__ == "__main__":
+    program.main()
