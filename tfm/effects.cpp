@@ -3,6 +3,7 @@
 #include "closures/drag.hpp"
 #include "core/error.hpp"
 #include "tfm/effects/drag.hpp"
+#include "tfm/effects/fluid_stress_newtonian.hpp"
 #include "tfm/effects/solids_stress_frictional.hpp"
 #include "tfm/effects/species_exchange_syamlal.hpp"
 
@@ -13,6 +14,12 @@ std::vector<core::Role> roles() {
   for (const closures::DragLawInfo& law : closures::drag_laws())
     drag.laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [of a mixture: breaks the sum rule]")});
   return {drag,
+          {"fluid_stress",
+           "tfm",
+           "Stress",
+           "viscous stress of the averaged fluid",
+           "not in this version",
+           {{"newtonian", "mu (grad U + grad U^T - 2/3 div U I); T(1.16)"}}},
           {"solids_stress",
            "tfm",
            "Stress",
@@ -40,6 +47,10 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
   };
   if (const std::string name = law("drag"); name != "none")
     effects.drag = std::make_unique<Drag>(constants, boundaries, name);
+  if (const std::string name = law("fluid_stress"); name == "newtonian")
+    effects.fluid_stress = std::make_unique<NewtonianStress>(constants, boundaries);
+  else if (name != "none")
+    refuse("fluid_stress", name);
   if (const std::string name = law("solids_stress"); name == "frictional")
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else if (name != "none")

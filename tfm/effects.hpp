@@ -1,5 +1,5 @@
-// The effects of the continuum model, by the slot they fill in the equations, and the registry that makes
-// them. What a scene does not call for is not made: it has no fields, no timer and no branch in a loop.
+// The effects of the continuum model, by the slot they fill in the equations, and the registry that makes them. What a
+// scene does not call for is not made: it has no fields, no timer and no branch in a loop.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,16 @@ class SolidsExchange {
   virtual void evaluate(Fields& fields) = 0;
 };
 
-/// Slot Stress: owns and fills fields.stress.
+/// Slot Stress, of the fluid: adds to the fluid's acceleration.
+class FluidStress {
+ public:
+  virtual ~FluidStress() = default;
+  virtual void add(Fields& fields) = 0;
+  /// mu/rho_f, m2/s: what limits an explicit step.
+  [[nodiscard]] virtual double kinematic_viscosity() const = 0;
+};
+
+/// Slot Stress, of the solids: owns and fills fields.stress.
 class StressEffect {
  public:
   virtual ~StressEffect() = default;
@@ -52,6 +61,7 @@ class StressEffect {
 struct Effects {
   std::unique_ptr<FluidExchange> drag;
   std::unique_ptr<SolidsExchange> species_exchange;
+  std::unique_ptr<FluidStress> fluid_stress;
   std::unique_ptr<StressEffect> solids_stress;
 };
 

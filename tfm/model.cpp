@@ -168,7 +168,8 @@ void Model::step(double stop) {
   if (report.time >= stop && report.step < 0.99 * report.next_step) {
     last_step_.limited_by = "event";
   } else {
-    last_step_.limited_by = limited_by(time_scales(constants(), fields()), report.step, constants());
+    const double viscosity = effects().fluid_stress ? effects().fluid_stress->kinematic_viscosity() : 0;
+    last_step_.limited_by = limited_by(time_scales(constants(), fields(), viscosity), report.step, constants());
     if (last_step_.limited_by == "error test")
       last_step_.limited_by += ": " + layout_.describe(report.worst_entry, constants().name);
   }

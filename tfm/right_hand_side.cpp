@@ -27,7 +27,7 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //   (2) dU_j/dt   = a_j - grad p / rho_j
 //       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
 //             + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
-//   (3) a_f = -(U_f.grad)U_f - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
+//   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
   const auto timed = [&](const char* term, auto&& work) {
@@ -44,6 +44,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     continuity(constants_, boundaries_, discretisation_.flux, fields_, flux_);
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
+  if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
   if (effects_.solids_stress)
     timed("solids stress", [&] {
       effects_.solids_stress->evaluate(fields_);

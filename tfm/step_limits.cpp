@@ -38,7 +38,7 @@ double courant_rate(const core::Grid& grid, const core::FaceField& velocity, Ind
 
 }  // namespace
 
-std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields) {
+std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity) {
   const core::Grid& grid = constants.grid;
   const double h = *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
   FastestRate convection, acoustics, damping, drag;
@@ -64,6 +64,8 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
     scales.push_back(acoustics.scale("acoustics"));
     scales.push_back(damping.scale("bulk viscosity"));
   }
+  if (kinematic_viscosity > 0)
+    scales.push_back({"viscosity", h * h / (4 * grid.dimensions * kinematic_viscosity), grid.index(0, 0)});
   return scales;
 }
 
@@ -73,8 +75,9 @@ std::string limited_by(const std::vector<TimeScale>& scales, double step, const 
   if (nearest == scales.end() || step < limiting_share * nearest->seconds) return "error test";
   const core::Grid& grid = constants.grid;
   const Index row = grid.extent(0), layer = grid.extent(0) * grid.extent(1);
-  return fmt::format("{} at ({}, {})", nearest->process, nearest->cell % row - grid.ghosts(0),
-                     nearest->cell % layer / row - grid.ghosts(1));
+  const std::string place = fmt::format("{} at ({}, {}", nearest->process, nearest->cell % row - grid.ghosts(0),
+                                        nearest->cell % layer / row - grid.ghosts(1));
+  return grid.dimensions == 2 ? place + ")" : fmt::format("{}, {})", place, nearest->cell / layer - grid.ghosts(2));
 }
 
 }  // namespace polybed::tfm

@@ -16,9 +16,10 @@ struct TimeScale {
   core::Index cell;
 };
 
-/// Convection (h/|U| of any phase), acoustics of the packed bed (h/c_s), its bulk viscosity (h2 rho_s/lambda)
-/// and drag (phi rho_j relaxing with the fluid), from fields of a finished evaluation.
-std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields);
+/// Convection (h/|U| of any phase), acoustics of the packed bed (h/c_s), its bulk viscosity (h2 rho_s/lambda), drag
+/// (phi rho_j relaxing with the fluid) and viscosity (h2/nu), from fields of a finished evaluation.
+/// \param kinematic_viscosity  nu, m2/s, of the fluid's stress; 0: absent
+std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity);
 
 /// Share of its time scale beyond which a process, not the error test, is taken to limit an explicit step:
 /// third order Runge-Kutta is stable up to 1.7 on the imaginary axis and 2.5 on the real one, and steps settle below.

@@ -1,0 +1,16 @@
+// The viscous stress of the averaged fluid on faces: div(eps tau)/(eps rho_f), the last term of (3).
+#pragma once
+
+#include "fluid/boundaries.hpp"
+#include "fluid/fluid_state.hpp"
+
+namespace polybed::fluid {
+
+/// Adds div(eps tau)/(eps rho_f), tau = mu (grad U + grad U^T - 2/3 div U I), to the fluid's acceleration, m/s2.
+/// Second order on the staggered grid: normal stresses in cells, shear stresses on edges with the mean eps of the four
+/// cells around. Walls act through the ghosts of the velocity.
+/// \param fluid  velocity and voidage, ghosts filled
+void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
+                        const FluidConstants& constants, core::FaceField& acceleration);
+
+}  // namespace polybed::fluid
