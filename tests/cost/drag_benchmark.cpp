@@ -72,11 +72,9 @@ void mixture(benchmark::State& state, const std::string& name, std::size_t speci
     slip_at.push_back(slip[j].data());
     f_at.push_back(f[j].data());
   }
-  DragWorkspace work;
-  work.resize(points, species);
   GuardCount count;
   for (auto _ : state) {
-    drag_of_cells(law, in.voidage, share_at, slip_at, diameter, 1000.0, 1e-3, f_at, work, count);
+    drag_of_cells(law, in.voidage, share_at, slip_at, diameter, 1000.0, 1e-3, f_at, count);
     benchmark::DoNotOptimize(f_at.data());
     benchmark::ClobberMemory();
   }
