@@ -35,16 +35,15 @@ POLYBED_WIDE void evaluate(const Law& law, std::size_t rows, const double* voida
                            double* re_dfdre, GuardCount& count) {
   std::size_t outside = 0;
   if constexpr (std::is_same_v<Law, DragCello>) {
+    std::size_t inside = 0;
     for (std::size_t n = 0; n < rows; ++n) {
       const DragValue value = DragCello::bare(voidage[n], reynolds[n]);
       f[n] = value.f;
       re_dfdre[n] = value.re_dfdre;
     }
-    for (std::size_t n = 0; n < rows; ++n) {
-      // Re_c is at least 687 within the data, so most rows need no square root.
-      constexpr double always_inside = 600;
-      if (voidage[n] >= DragCello::least_voidage && voidage[n] <= 1 && reynolds[n] <= always_inside) continue;
-      if (!law.outside(voidage[n], reynolds[n])) continue;
+    for (std::size_t n = 0; n < rows; ++n) inside += DragCello::surely_inside(voidage[n], reynolds[n]) ? 1 : 0;
+    for (std::size_t n = 0; n < rows && inside < rows; ++n) {
+      if (DragCello::surely_inside(voidage[n], reynolds[n]) || !law.outside(voidage[n], reynolds[n])) continue;
       ++outside;
       const DragValue value = law(voidage[n], reynolds[n]);
       f[n] = value.f;
