@@ -1,5 +1,7 @@
 #include "closures/drag.hpp"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -18,32 +20,30 @@ void for_each_law(Body&& body) {
   for_each_law(body, std::make_index_sequence<std::variant_size_v<DragLaw>>{});
 }
 
-/// The bare law of the thesis over rows. Compiled for wider vectors as well, the widest that the processor has being
+/// Before a function with loops over rows: compiled for wider vectors as well, the widest that the processor has being
 /// chosen when the program starts; without fused multiply-adds (-ffp-contract=off) all give the same bits.
 #if defined(__x86_64__) && defined(__gnu_linux__)
-__attribute__((target_clones("avx512f", "avx2", "default")))
+#define POLYBED_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define POLYBED_WIDE
 #endif
-void cello_rows(std::size_t rows, const double* voidage, const double* reynolds, double* f, double* re_dfdre) {
-  for (std::size_t n = 0; n < rows; ++n) {
-    const DragValue value = DragCello::bare(voidage[n], reynolds[n]);
-    f[n] = value.f;
-    re_dfdre[n] = value.re_dfdre;
-  }
-}
 
 /// Law over rows. A law without costly guard is called as it is; cello runs branch-free over all rows and a
 /// second pass redoes those outside its data.
 template <class Law>
-void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds, double* f,
-              double* re_dfdre, GuardCount& count) {
+POLYBED_WIDE void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds, double* f,
+                           double* re_dfdre, GuardCount& count) {
   std::size_t outside = 0;
   if constexpr (std::is_same_v<Law, DragCello>) {
-    cello_rows(rows, voidage, reynolds, f, re_dfdre);
+    std::size_t inside = 0;
     for (std::size_t n = 0; n < rows; ++n) {
-      // Re_c is at least 687 within the data, so most rows need no square root.
-      constexpr double always_inside = 600;
-      if (voidage[n] >= DragCello::least_voidage && voidage[n] <= 1 && reynolds[n] <= always_inside) continue;
-      if (!law.outside(voidage[n], reynolds[n])) continue;
+      const DragValue value = DragCello::bare(voidage[n], reynolds[n]);
+      f[n] = value.f;
+      re_dfdre[n] = value.re_dfdre;
+    }
+    for (std::size_t n = 0; n < rows; ++n) inside += DragCello::surely_inside(voidage[n], reynolds[n]) ? 1 : 0;
+    for (std::size_t n = 0; n < rows && inside < rows; ++n) {
+      if (DragCello::surely_inside(voidage[n], reynolds[n]) || !law.outside(voidage[n], reynolds[n])) continue;
       ++outside;
       const DragValue value = law(voidage[n], reynolds[n]);
       f[n] = value.f;
@@ -59,6 +59,55 @@ void evaluate(const Law& law, std::size_t rows, const double* voidage, const dou
   }
   count.evaluations += rows;
   count.guarded += outside;
+}
+
+/// Cells that are worked on together: few enough that their rows stay in the processor's first cache.
+struct Block {
+  static constexpr std::size_t most = 128;
+  using Row = std::array<double, most>;
+  std::size_t cells;
+  Row cell_voidage, mean, per_mean, coefficient;       // of each cell
+  Row voidage, reynolds, offset, factor, f, re_dfdre;  // of one species in each cell
+};
+
+/// The block's cells from `begin` on as the law sees them.
+template <class Law>
+POLYBED_WIDE void compose(const Law& law, Block& block, std::size_t begin, std::span<const double> voidage,
+                          std::span<const double* const> share, std::span<const double> diameter) {
+  Block::Row average;
+  double largest = 0;
+  std::fill_n(average.begin(), block.cells, 0);
+  std::fill_n(block.per_mean.begin(), block.cells, 0);
+  for (std::size_t j = 0; j < diameter.size(); ++j) {
+    const double size = diameter[j], per_size = 1 / size, *x = share[j] + begin;
+    largest = std::max(largest, size);
+    for (std::size_t c = 0; c < block.cells; ++c) {
+      block.per_mean[c] += x[c] * per_size;
+      average[c] += x[c] * size;
+    }
+  }
+  for (std::size_t c = 0; c < block.cells; ++c) {
+    const MixtureCell cell = mixture_cell(law, voidage[begin + c], {block.per_mean[c], average[c], largest});
+    block.cell_voidage[c] = cell.voidage;
+    block.mean[c] = cell.mean;
+    block.coefficient[c] = cell.coefficient;
+  }
+}
+
+/// f of one species in all cells of a block.
+template <class Law>
+POLYBED_WIDE void evaluate_species(const Law& law, Block& b, const double* share, const double* slip, double diameter,
+                                   double per_viscosity, double* f, GuardCount& count) {
+  for (std::size_t c = 0; c < b.cells; ++c) {
+    const MixtureTerms term =
+        law.term({b.cell_voidage[c], b.mean[c], b.per_mean[c], b.coefficient[c]}, diameter, share[c]);
+    b.voidage[c] = term.voidage;
+    b.reynolds[c] = per_viscosity * slip[c] * term.length;
+    b.offset[c] = term.offset;
+    b.factor[c] = term.factor;
+  }
+  evaluate(law.base, b.cells, b.voidage.data(), b.reynolds.data(), b.f.data(), b.re_dfdre.data(), count);
+  for (std::size_t c = 0; c < b.cells; ++c) f[c] = b.offset[c] + b.factor[c] * b.f[c];
 }
 
 }  // namespace
@@ -105,14 +154,14 @@ void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::sp
 void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double> share,
                      std::span<const double> diameter, std::span<const double> slip, double fluid_density,
                      double viscosity, std::span<double> f, std::span<double> re_dfdre) {
-  std::vector<MixtureTerms> terms(diameter.size());
   std::visit(
       [&](const auto& l) {
-        l.terms(voidage, share, diameter, terms);
+        const MixtureCell cell = mixture_cell(l, voidage, composition_of(share, diameter));
         for (std::size_t j = 0; j < diameter.size(); ++j) {
-          const DragValue base = l.base(terms[j].voidage, fluid_density * slip[j] * terms[j].length / viscosity);
-          f[j] = terms[j].offset + terms[j].factor * base.f;
-          re_dfdre[j] = terms[j].factor * base.re_dfdre;
+          const MixtureTerms term = l.term(cell, diameter[j], share[j]);
+          const DragValue base = l.base(term.voidage, fluid_density * slip[j] * term.length / viscosity);
+          f[j] = term.offset + term.factor * base.f;
+          re_dfdre[j] = term.factor * base.re_dfdre;
         }
       },
       law);
@@ -135,40 +184,21 @@ double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::sp
       law);
 }
 
-void DragWorkspace::resize(std::size_t cells, std::size_t species) {
-  for (auto* v : {&voidage, &reynolds, &offset, &factor, &f, &re_dfdre}) v->resize(cells * species);
-  share.resize(species);
-  diameter.resize(species);
-  terms.resize(species);
-}
-
 void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
-                   double viscosity, std::span<double* const> f, DragWorkspace& work, GuardCount& count) {
-  const std::size_t cells = voidage.size(), species = diameter.size();
-  const double per_viscosity = fluid_density / viscosity;
+                   double viscosity, std::span<double* const> f, GuardCount& count) {
   std::visit(
       [&](const auto& l) {
-        for (std::size_t c = 0; c < cells; ++c) {
-          for (std::size_t j = 0; j < species; ++j) work.share[j] = share[j][c];
-          l.terms(voidage[c], work.share, diameter, work.terms);
-          for (std::size_t j = 0; j < species; ++j) {
-            const std::size_t row = j * cells + c;
-            work.voidage[row] = work.terms[j].voidage;
-            work.reynolds[row] = per_viscosity * slip[j][c] * work.terms[j].length;
-            work.offset[row] = work.terms[j].offset;
-            work.factor[row] = work.terms[j].factor;
-          }
+        Block block;
+        for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
+          block.cells = std::min(voidage.size() - begin, Block::most);
+          compose(l, block, begin, voidage, share, diameter);
+          for (std::size_t j = 0; j < diameter.size(); ++j)
+            evaluate_species(l, block, share[j] + begin, slip[j] + begin, diameter[j], fluid_density / viscosity,
+                             f[j] + begin, count);
         }
-        evaluate(l.base, cells * species, work.voidage.data(), work.reynolds.data(), work.f.data(),
-                 work.re_dfdre.data(), count);
       },
       law);
-  for (std::size_t j = 0; j < species; ++j)
-    for (std::size_t c = 0; c < cells; ++c) {
-      const std::size_t row = j * cells + c;
-      f[j][c] = work.offset[row] + work.factor[row] * work.f[row];
-    }
 }
 
 }  // namespace polybed::closures

@@ -53,18 +53,10 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
 [[nodiscard]] double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
                                   std::span<const double> diameter, std::span<const double> f);
 
-/// Work space of drag_of_cells: allocated once, for a number of cells at most.
-struct DragWorkspace {
-  std::vector<double> voidage, reynolds, offset, factor, f, re_dfdre;
-  std::vector<double> share, diameter;
-  std::vector<MixtureTerms> terms;
-  void resize(std::size_t cells, std::size_t species);
-};
-
 /// Many cells: f_j[cell] for every species, no allocation.
 /// \param voidage  [cell]  \param share, slip, f  [species], pointers to [cell]  \param diameter  [species], m
 void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
-                   double viscosity, std::span<double* const> f, DragWorkspace& work, GuardCount& count);
+                   double viscosity, std::span<double* const> f, GuardCount& count);
 
 }  // namespace polybed::closures

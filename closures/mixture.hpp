@@ -26,6 +26,28 @@ namespace polybed::closures {
   return voidage * omega + (1 - voidage) * poly_index * poly_index;
 }
 
+/// What all species of a cell have in common.
+struct Composition {
+  double per_mean;  ///< sum x_j / D_j, the inverse of the Sauter diameter, 1/m
+  double average;   ///< sum x_j D_j, m
+  double largest;   ///< the greatest D_j, that of an absent species too, m
+};
+[[nodiscard]] inline Composition composition_of(std::span<const double> share, std::span<const double> diameter) {
+  Composition sum{0, 0, 0};
+  for (std::size_t j = 0; j < share.size(); ++j) {
+    sum.per_mean += share[j] / diameter[j];
+    sum.average += share[j] * diameter[j];
+    sum.largest = std::max(sum.largest, diameter[j]);
+  }
+  return sum;
+}
+
+/// A cell as a law of mixtures sees it. per_mean: 1/mean, so that a loop over cells divides once.
+struct MixtureCell {
+  double voidage, mean, per_mean;
+  double coefficient;  ///< the law's own number, the same for all species
+};
+
 /// One species' drag in a mixture, as every law of the menu can be written:
 /// f_j = offset + factor f_base(voidage, rho_f |u_j| length / mu).
 struct MixtureTerms {
@@ -36,10 +58,9 @@ struct MixtureTerms {
 [[nodiscard]] inline double cello_h(double voidage) { return (1 - voidage) * (0.73 - voidage) / (0.73 * voidage); }
 
 /// h with its guard G4: taken at eps >= 0.35, and not below -0.95 y_m/(y_max - 1), which keeps Omega_j > 0
-/// for every mixture and the sum rule exact.
+/// for every mixture and the sum rule exact. Without a branch: of equal sizes the bound is huge, not infinite.
 [[nodiscard]] inline double cello_h_guarded(double voidage, double y_max, double y_m) {
-  const double h = cello_h(std::max(voidage, 0.35));
-  return h < 0 && y_max > 1 ? std::max(h, -0.95 * y_m / (y_max - 1)) : h;
+  return std::max(cello_h(std::max(voidage, 0.35)), -0.95 * y_m / std::max(y_max - 1, 1e-300));
 }
 
 }  // namespace polybed::closures

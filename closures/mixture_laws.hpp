@@ -1,12 +1,13 @@
 // The drag laws of mixtures, each as f_j = offset_j + factor_j f_base(eps_j, Re_j): see MixtureTerms.
 //
-// Each struct has the base law, and terms(eps, share, diameter, out) for all species of a cell. The sum rule
-// sum x_j f_j / y_j^2 = f_mean, T(3.45), is what gives the right pressure drop; obeys_sum_rule says who keeps it.
+// Each struct has the base law, coefficient(eps, composition), what the law needs once per cell, and term(cell,
+// diameter, share) of one species; both are pure, and better without branches, so that loops over cells run at vector
+// speed. The sum rule sum x_j f_j / y_j^2 = f_mean, T(3.45), is what gives the right pressure drop; obeys_sum_rule says
+// who keeps it.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <string_view>
 
 #include "closures/drag_cello.hpp"
@@ -16,8 +17,11 @@
 
 namespace polybed::closures {
 
-using Shares = std::span<const double>;
-using Diameters = std::span<const double>;
+/// The cell as the law sees it: its composition, and the law's coefficient.
+template <class Law>
+[[nodiscard]] MixtureCell mixture_cell(const Law& law, double eps, const Composition& composition) {
+  return {eps, 1 / composition.per_mean, composition.per_mean, law.coefficient(eps, composition)};
+}
 
 /// Omega_j = y_j [1 + h(eps)(y_j - 1)/y_m], T(4.18)-(4.21), (4.28).
 struct MixtureCello {
@@ -26,14 +30,14 @@ struct MixtureCello {
   static constexpr bool mean_is_base = true;
   using Base = DragCello;
   Base base;
-  void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
-    const double mean = sauter_diameter(share, diameter), y_m = poly_index_mean(share, diameter);
-    const double y_max = *std::max_element(diameter.begin(), diameter.end()) / mean;
-    const double h = base.guard == Guard::on ? cello_h_guarded(std::min(eps, 1.0), y_max, y_m) : cello_h(eps);
-    for (std::size_t j = 0; j < diameter.size(); ++j) {
-      const double y = diameter[j] / mean;
-      out[j] = {eps, mean, 0, y * (1 + h * (y - 1) / y_m)};
-    }
+  /// h/y_m.
+  [[nodiscard]] double coefficient(double eps, const Composition& c) const {
+    const double y_m = c.average * c.per_mean, y_max = c.largest * c.per_mean;
+    return (base.guard == Guard::on ? cello_h_guarded(std::min(eps, 1.0), y_max, y_m) : cello_h(eps)) / y_m;
+  }
+  [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
+    const double y = diameter * cell.per_mean;
+    return {cell.voidage, cell.mean, 0, y * (1 + cell.coefficient * (y - 1))};
   }
 };
 
@@ -44,9 +48,9 @@ struct MixtureVbkTheory {
   static constexpr bool mean_is_base = true;
   using Base = DragVbk;
   Base base;
-  void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
-    const double mean = sauter_diameter(share, diameter);
-    for (std::size_t j = 0; j < diameter.size(); ++j) out[j] = {eps, mean, 0, diameter[j] / mean};
+  [[nodiscard]] double coefficient(double, const Composition&) const { return 0; }
+  [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
+    return {cell.voidage, cell.mean, 0, diameter * cell.per_mean};
   }
 };
 
@@ -57,12 +61,10 @@ struct MixtureVbkCorrected {
   static constexpr bool mean_is_base = true;
   using Base = DragVbk;
   Base base;
-  void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
-    const double mean = sauter_diameter(share, diameter);
-    for (std::size_t j = 0; j < diameter.size(); ++j) {
-      const double y = diameter[j] / mean;
-      out[j] = {eps, mean, 0, y + 0.064 * y * y * y};
-    }
+  [[nodiscard]] double coefficient(double, const Composition&) const { return 0; }
+  [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
+    const double y = diameter * cell.per_mean;
+    return {cell.voidage, cell.mean, 0, y + 0.064 * y * y * y};
   }
 };
 
@@ -75,18 +77,19 @@ struct MixtureYinSundaresan {
   static constexpr bool mean_is_base = true;
   using Base = DragCello;
   Base base;
-  void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
-    const double mean = sauter_diameter(share, diameter),
-                 phi = base.guard == Guard::on ? std::clamp(1 - eps, 0.0, 0.4) : 1 - eps;
-    const double a = 1 + phi * (-2.660 + phi * (9.096 - 11.33 * phi));
-    for (std::size_t j = 0; j < diameter.size(); ++j) {
-      const double y = diameter[j] / mean, weight = a * y + (1 - a) * y * y;
-      out[j] = {eps, mean, (1 - weight) / eps, weight};
-    }
+  /// a.
+  [[nodiscard]] double coefficient(double eps, const Composition&) const {
+    const double phi = base.guard == Guard::on ? std::clamp(1 - eps, 0.0, 0.4) : 1 - eps;
+    return 1 + phi * (-2.660 + phi * (9.096 - 11.33 * phi));
+  }
+  [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
+    const double y = diameter * cell.per_mean, a = cell.coefficient, weight = a * y + (1 - a) * y * y;
+    return {cell.voidage, cell.mean, (1 - weight) / cell.voidage, weight};
   }
 };
 
-/// f_j = cello(eps_j, Re_j), eps_j = 1 - (1 + delta/D_j)^-3, T(3.34)-(3.36), Patwardhan and Tien 1985.
+/// f_j = cello(eps_j, Re_j), eps_j = 1 - (1 + delta/D_j)^-3, delta = [(1-eps)^(-1/3) - 1] sum x_k D_k, T(3.34)-(3.36),
+/// Patwardhan and Tien 1985.
 struct MixturePatwardhanTien {
   static constexpr std::string_view name = "patwardhan_tien",
                                     help = "a voidage for each species, Patwardhan and Tien 1985; T(3.34)-(3.36)";
@@ -94,17 +97,22 @@ struct MixturePatwardhanTien {
   static constexpr bool mean_is_base = false;
   using Base = DragCello;
   Base base;
-  /// eps_j of one species; 1 at eps >= 1. mean_diameter: sum x_k D_k, m.
-  [[nodiscard]] static double own_voidage(double eps, double diameter, double mean_diameter) {
-    if (eps >= 1) return 1;
-    const double ratio = 1 + mean_diameter * (1 / std::cbrt(1 - eps) - 1) / diameter;
+  /// delta, m; infinite at eps >= 1, which makes eps_j 1. mean_diameter: sum x_k D_k, m.
+  [[nodiscard]] static double half_gap(double eps, double mean_diameter) {
+    return mean_diameter * (1 / std::cbrt(std::max(1 - eps, 0.0)) - 1);
+  }
+  /// eps_j of one species in a shell as thick as delta.
+  [[nodiscard]] static double voidage_around(double diameter, double gap) {
+    const double ratio = 1 + gap / diameter;
     return 1 - 1 / (ratio * ratio * ratio);
   }
-  void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
-    double average = 0;
-    for (std::size_t k = 0; k < diameter.size(); ++k) average += share[k] * diameter[k];
-    for (std::size_t j = 0; j < diameter.size(); ++j)
-      out[j] = {own_voidage(eps, diameter[j], average), diameter[j], 0, 1};
+  /// eps_j of one species.
+  [[nodiscard]] static double own_voidage(double eps, double diameter, double mean_diameter) {
+    return voidage_around(diameter, half_gap(eps, mean_diameter));
+  }
+  [[nodiscard]] double coefficient(double eps, const Composition& c) const { return half_gap(eps, c.average); }
+  [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
+    return {voidage_around(diameter, cell.coefficient), diameter, 0, 1};
   }
 };
 
@@ -116,9 +124,9 @@ struct MixtureSyamlal {
   static constexpr bool mean_is_base = true;
   using Base = DragGidaspow;
   Base base;
-  void terms(double eps, Shares share, Diameters diameter, std::span<MixtureTerms> out) const {
-    const double mean = sauter_diameter(share, diameter);
-    for (std::size_t j = 0; j < diameter.size(); ++j) out[j] = {eps, mean, 0, share[j]};
+  [[nodiscard]] double coefficient(double, const Composition&) const { return 0; }
+  [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double, double share) const {
+    return {cell.voidage, cell.mean, 0, share};
   }
 };
 
@@ -130,8 +138,9 @@ struct EachSpecies {
   static constexpr bool mean_is_base = false;
   using Base = Law;
   Base base;
-  void terms(double eps, Shares, Diameters diameter, std::span<MixtureTerms> out) const {
-    for (std::size_t j = 0; j < diameter.size(); ++j) out[j] = {eps, diameter[j], 0, 1};
+  [[nodiscard]] double coefficient(double, const Composition&) const { return 0; }
+  [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
+    return {cell.voidage, diameter, 0, 1};
   }
 };
 

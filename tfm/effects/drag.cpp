@@ -6,7 +6,6 @@ using core::Index;
 
 Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law)
     : constants_(constants), boundaries_(boundaries), name_(law), law_(closures::drag_law(law, closures::Guard::on)) {
-  workspace_.resize(std::size_t(constants.grid.cells[0]), constants.species());
   share_.resize(constants.species());
   slip_.resize(constants.species());
   result_.resize(constants.species());
@@ -23,7 +22,7 @@ void Drag::evaluate(Fields& fields) {
     }
     const std::span<const double> eps(fields.fluid.voidage.data() + row, cells);
     closures::drag_of_cells(law_, eps, share_, slip_, constants_.diameter, constants_.fluid.density,
-                            constants_.fluid.viscosity, result_, workspace_, count_);
+                            constants_.fluid.viscosity, result_, count_);
     for (std::size_t j = 0; j < constants_.species(); ++j) {
       const double factor = scale / (constants_.diameter[j] * constants_.diameter[j]);
       for (std::size_t c = 0; c < cells; ++c) result_[j][c] *= factor * eps[c];

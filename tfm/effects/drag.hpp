@@ -19,7 +19,6 @@ class Drag : public FluidExchange {
   const fluid::Boundaries& boundaries_;
   std::string name_;
   closures::DragLaw law_;
-  closures::DragWorkspace workspace_;
   closures::GuardCount count_;
   std::vector<const double*> share_, slip_;
   std::vector<double*> result_;
