@@ -3,7 +3,6 @@
 #include <arkode/arkode_arkstep.h>
 #include <fmt/format.h>
 #include <ida/ida.h>
-#include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/integrator_vector.hpp"
 
 namespace polybed::core {
 
@@ -35,28 +35,6 @@ class Context {
  private:
   SUNContext context_ = nullptr;
 };
-
-/// A serial vector that owns its entries.
-class Vector {
- public:
-  Vector(std::size_t size, SUNContext context) : vector_(N_VNew_Serial(sunindextype(size), context)) {
-    if (vector_ == nullptr) throw NumericsError("no memory for the state");
-    N_VConst(0, vector_);
-  }
-  ~Vector() { N_VDestroy(vector_); }
-  Vector(const Vector&) = delete;
-  Vector& operator=(const Vector&) = delete;
-  operator N_Vector() const { return vector_; }
-  [[nodiscard]] std::span<double> span() const {
-    return {N_VGetArrayPointer(vector_), std::size_t(N_VGetLength(vector_))};
-  }
-  void assign(std::span<const double> values) const { std::copy(values.begin(), values.end(), span().begin()); }
-
- private:
-  N_Vector vector_;
-};
-
-std::span<double> entries(N_Vector v) { return {N_VGetArrayPointer(v), std::size_t(N_VGetLength(v))}; }
 
 /// Runs a callback's work; an exception is kept for the caller, as none may cross the C library.
 template <class Work>
