@@ -81,6 +81,9 @@ std::vector<Key> make_keys() {
   k.push_back({"dem", "restitution", at<double>([](S& s, N) -> auto& { return s.dem.restitution; }), "likewise; the TFM's species exchange reads it too", {}, 0, 1, true, "0.9"});
   k.push_back({"dem", "fluid_every", at<int>([](S& s, N) -> auto& { return s.dem.fluid_every; }), "solid steps per fluid step", {}, 1, 1e6, false, "16"});
 
+  k.push_back({"jet", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].from; }), "low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, depth) in three dimensions", dimension::length, 0, 1e3, false, {}, {}, true});
+  k.push_back({"jet", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].to; }), "high corner", dimension::length, 0, 1e3, false, {}, {}, true});
+  k.push_back({"jet", "superficial_velocity", at<Points>([](S& s, N n) -> auto& { return s.jets[n].superficial_velocity; }), "over the jet's own area, in place of inlet.superficial_velocity; a velocity or a table as there", dimension::velocity, -1e3, 1e3, false, {}, {}, true});
   k.push_back({"contact_pair", "between", at<std::vector<std::string>>([](S& s, N n) -> auto& { return s.contact_pairs[n].between; }), "two species, or a species and \"wall\"", {}, -infinity, infinity, false, {}, {}, true});
   k.push_back({"contact_pair", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].youngs_modulus; }), "of this pair", dimension::pressure, 0, 1e13, true});
   k.push_back({"contact_pair", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].poisson_ratio; }), "of this pair", {}, 0, 0.5});
@@ -113,7 +116,9 @@ std::span<const Key> keys() {
   return table;
 }
 
-bool is_array_of_tables(std::string_view table) { return table == "species" || table == "contact_pair"; }
+bool is_array_of_tables(std::string_view table) {
+  return table == "species" || table == "contact_pair" || table == "jet";
+}
 
 std::string kind_name(const Key& key) {
   struct Visitor {

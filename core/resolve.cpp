@@ -31,6 +31,7 @@ class Checker {
   void column();
   void species();
   void bed(bool by_particles);
+  void jets();
   void numerics();
   [[nodiscard]] Problems problems() && { return std::move(problems_); }
 
@@ -89,6 +90,30 @@ void Checker::species() {
     for (const std::string& name : pair.between)
       if (!names.contains(name)) add("contact_pair.between: no species '{}'", name);
   }
+}
+
+void Checker::jets() {
+  const Column& c = scene_.column;
+  const std::size_t n = c.dimensions == 3 ? 2 : 1;
+  const std::array<double, 2> size{c.size[0], c.size[2]};
+  if (!scene_.jets.empty() && c.closed) add("[[jet]] cannot act: column.closed = true");
+  for (const Jet& jet : scene_.jets) {
+    if (jet.from.size() != n || jet.to.size() != n) {
+      add("jet.from and jet.to have {} and {} numbers: {} here", jet.from.size(), jet.to.size(), n);
+      continue;
+    }
+    for (std::size_t d = 0; d < n; ++d)
+      if (!(jet.from[d] < jet.to[d] && jet.to[d] <= size[d] * (1 + 1e-12)))
+        add("a jet from {:.4g} to {:.4g} m does not lie on the bottom, 0 to {:.4g} m", jet.from[d], jet.to[d], size[d]);
+  }
+  const auto apart = [&](const Jet& a, const Jet& b) {
+    for (std::size_t d = 0; d < n; ++d)
+      if (a.to[d] <= b.from[d] || b.to[d] <= a.from[d]) return true;
+    return false;
+  };
+  for (std::size_t a = 0; problems_.empty() && a < scene_.jets.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (!apart(scene_.jets[a], scene_.jets[b])) add("two jets overlap: [[jet]] number {} and {}", b + 1, a + 1);
 }
 
 void Checker::bed(bool by_particles) {
@@ -202,6 +227,7 @@ void write_table(Scene& scene, std::string_view table, std::size_t index, std::s
 std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool by_particles) {
   Checker checker(scene, name);
   checker.column();
+  checker.jets();
   checker.species();
   checker.bed(by_particles);
   checker.numerics();
@@ -223,6 +249,10 @@ std::string resolved_case(const Scene& given) {
   for (const char* table : {"bed", "inlet"}) {
     out += fmt::format("\n[{}]\n", table);
     write_table(scene, table, 0, out);
+  }
+  for (std::size_t n = 0; n < scene.jets.size(); ++n) {
+    out += "\n[[jet]]\n";
+    write_table(scene, "jet", n, out);
   }
   out += "\n[effects]\n";
   for (const auto& [role, law] : scene.effects) out += fmt::format("{} = \"{}\"\n", role, law);

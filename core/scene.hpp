@@ -54,6 +54,12 @@ struct Inlet {
   std::vector<std::pair<double, double>> superficial_velocity;
 };
 
+/// A part of the bottom with a velocity of its own.
+struct Jet {
+  std::vector<double> from, to;                                 ///< its corners on the bottom, m: x, or x and z
+  std::vector<std::pair<double, double>> superficial_velocity;  ///< as of the inlet, over the jet's own area
+};
+
 struct RunPlan {
   double until = 0;  ///< s
 };
@@ -97,6 +103,7 @@ struct Scene {
   std::vector<Species> species;
   Bed bed;
   Inlet inlet;
+  std::vector<Jet> jets;
   std::map<std::string, std::string> effects;  ///< role -> law; a role left out is off
   RunPlan run;
   OutputPlan output;

@@ -8,32 +8,6 @@ using core::Box;
 using core::Field;
 using core::Index;
 
-double Inlet::velocity(double t) const {
-  if (table_.empty()) return 0;
-  if (t <= table_.front().first) return table_.front().second;
-  for (std::size_t n = 1; n < table_.size(); ++n)
-    if (t < table_[n].first) {
-      const auto& [t0, v0] = table_[n - 1];
-      const auto& [t1, v1] = table_[n];
-      return v0 + (v1 - v0) * (t - t0) / (t1 - t0);
-    }
-  return table_.back().second;
-}
-
-double Inlet::rate(double t) const {
-  if (table_.empty() || t < table_.front().first) return 0;
-  for (std::size_t n = 1; n < table_.size(); ++n)
-    if (t < table_[n].first) return (table_[n].second - table_[n - 1].second) / (table_[n].first - table_[n - 1].first);
-  return 0;
-}
-
-std::vector<double> Inlet::kinks() const {
-  std::vector<double> times;
-  if (table_.size() > 1)
-    for (const auto& point : table_) times.push_back(point.first);
-  return times;
-}
-
 namespace {
 
 /// Rows of one layer of the padded box across an axis, the ghosts of the other axes included, so that corners

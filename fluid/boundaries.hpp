@@ -1,32 +1,12 @@
 // Values of fields in the ghost entries around the column: walls, distributor, outlet, periodic sides.
 #pragma once
 
-#include <utility>
-#include <vector>
-
 #include "core/field.hpp"
-#include "core/scene.hpp"
 
 namespace polybed::fluid {
 
 /// What a velocity does along a wall.
 enum class WallSlip { no_slip, free_slip };
-
-/// Superficial velocity at the distributor: linear between the points of a table, constant beyond.
-class Inlet {
- public:
-  Inlet() = default;
-  explicit Inlet(std::vector<std::pair<double, double>> table) : table_(std::move(table)) {}
-  /// Superficial velocity, m/s, at time t, s.
-  [[nodiscard]] double velocity(double t) const;
-  /// Its rate, m/s2; from the right at a kink.
-  [[nodiscard]] double rate(double t) const;
-  /// Times at which the rate jumps: the integrator must stop there.
-  [[nodiscard]] std::vector<double> kinks() const;
-
- private:
-  std::vector<std::pair<double, double>> table_;
-};
 
 /// The column's sides: which faces are held, and how ghosts follow from the inside.
 class Boundaries {

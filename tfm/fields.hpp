@@ -1,6 +1,7 @@
 // Everything that one evaluation of the right-hand side computes: the working fields of the continuum model.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/field.hpp"

@@ -65,22 +65,24 @@ Model::Model(const core::Scene& scene, core::Timers& timers)
     : timers_(timers),
       options_(scene.tfm),
       equations_(scene, make_constants(scene), fluid::Boundaries(make_grid(scene.column), scene.column.closed),
-                 fluid::Inlet(scene.inlet.superficial_velocity), make_discretisation(scene.tfm), timers) {
+                 fluid::Inlet(make_grid(scene.column), scene), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
   layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit");
-  velocity_scale_ = 0.1 * greatest_terminal_velocity(constants);
-  for (const auto& point : scene.inlet.superficial_velocity)
-    velocity_scale_ = std::max(velocity_scale_, std::abs(point.second));
+  velocity_scale_ = std::max(0.1 * greatest_terminal_velocity(constants), inlet().greatest());
   Fields& fields = equations_.fields();
   fill_bed(scene.bed, constants, effects().solids_stress.get(), fields.solids);
-  const double inlet = scene.column.closed ? 0.0 : equations_.inlet().velocity(0);
   core::for_each_row(constants.grid, core::owned_faces(constants.grid, 1), [&](Index begin, Index end) {
-    std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inlet);
+    std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inlet().mean_velocity(0));
+  });
+  core::Field even = core::make_field(constants.grid);  // what flows in before the jets have their own velocities
+  fluid::for_each_boundary_row(constants.grid, 1, 0, [&](Index begin, Index end) {
+    std::fill(even.begin() + begin, even.begin() + end, inlet().mean_velocity(0));
   });
   y_.resize(layout_.size());
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);
+  project_jump(even);
   make_integrator();
   begin_integration();
 }
@@ -93,10 +95,8 @@ void Model::choose_integrator(const core::Scene& scene) {
   integrator_name_ = options_.integrator;
   integrator_reason_ = "as the case says";
   if (integrator_name_ == "auto") {
-    double fastest = 0;
-    for (const auto& point : scene.inlet.superficial_velocity) fastest = std::max(fastest, std::abs(point.second));
     const bool gas = equations_.constants().fluid.density < 100;
-    const bool still = scene.column.closed || fastest == 0;
+    const bool still = scene.column.closed || inlet().greatest() == 0;
     integrator_name_ = gas || still ? "implicit" : "explicit";
     integrator_reason_ = gas     ? "gas: drag relaxes faster than anything moves"
                          : still ? "nothing flows in: the bed settles"
@@ -191,26 +191,32 @@ void Model::show(double t) {
 void Model::restart() {
   const auto state = integrator_->state();
   std::copy(state.begin(), state.end(), y_.begin());
-  project_jump();
+  project_jump(inlet_velocity(std::nextafter(time_, -INFINITY)));
   begin_integration();
 }
 
-/// Where the inlet jumps, an impulse brings the fluxes and velocities to the new value at once, with the
+/// The inlet's velocity on the bottom faces of a field that is 0 elsewhere.
+core::Field Model::inlet_velocity(double t) const {
+  core::Field bottom = core::make_field(constants().grid);
+  inlet().set_velocity(t, bottom);
+  return bottom;
+}
+
+/// Where the inlet jumps from `before`, an impulse brings the fluxes and velocities to the new value at once, with the
 /// operator that the pressure uses.
-void Model::project_jump() {
+void Model::project_jump(const core::Field& before) {
   if (boundaries().closed() || constants().grid.periodic[1]) return;
-  const double after = inlet().velocity(std::nextafter(time_, INFINITY));
-  const double jump = after - inlet().velocity(time_);
-  if (std::abs(jump) <= 1e-9 * velocity_scale_) return;
+  core::Field jump = inlet_velocity(std::nextafter(time_, INFINITY));
+  double most = 0;
+  for (std::size_t f = 0; f < jump.size(); ++f) most = std::max(most, std::abs(jump[f] -= before[f]));
+  if (most <= 1e-9 * velocity_scale_) return;
   if (!equations_.evaluate(time_, layout_, y_)) return;
   Fields& fields = equations_.fields();
   const core::Field pressure = fields.fluid.pressure;
   for (core::Field& rate : fields.flux_rate.free) std::fill(rate.begin(), rate.end(), 0.0);
   for (core::FaceField& a : fields.solids.acceleration)
     for (core::Field& rate : a) std::fill(rate.begin(), rate.end(), 0.0);
-  fluid::for_each_boundary_row(constants().grid, 1, 0, [&](Index begin, Index end) {
-    std::fill(fields.flux_rate.free[1].begin() + begin, fields.flux_rate.free[1].begin() + end, jump);
-  });
+  fields.flux_rate.free[1] = jump;
   fluid::Pressure impulse(constants().grid, 1e-10);
   std::fill(fields.fluid.pressure.begin(), fields.fluid.pressure.end(), 0.0);
   impulse.solve(fields.flux_rate, fields.fluid.flux, 0.0, fields.fluid.pressure);

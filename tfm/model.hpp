@@ -65,7 +65,8 @@ class Model : public core::Simulation {
  private:
   void choose_integrator(const core::Scene& scene);
   void make_integrator();
-  void project_jump();
+  [[nodiscard]] core::Field inlet_velocity(double t) const;
+  void project_jump(const core::Field& before);
   [[nodiscard]] std::vector<double> absolute_tolerances() const;
   void begin_integration();
 

@@ -85,10 +85,7 @@ void RightHandSide::fill_ghosts() {
 /// The flux through the distributor follows the inlet exactly.
 void RightHandSide::set_inlet_rate(double t) {
   if (boundaries_.closed() || constants_.grid.periodic[1]) return;
-  core::Field& rate = fields_.flux_rate.free[1];
-  fluid::for_each_boundary_row(constants_.grid, 1, 0, [&](Index begin, Index end) {
-    std::fill(rate.begin() + begin, rate.begin() + end, inlet_.rate(t));
-  });
+  inlet_.set_rate(t, fields_.flux_rate.free[1]);
 }
 
 bool RightHandSide::admissible() const {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/timers.hpp"
+#include "fluid/inlet.hpp"
 #include "tfm/effects.hpp"
 #include "tfm/solids.hpp"
 #include "tfm/state_layout.hpp"

@@ -132,6 +132,14 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"superficial_velocity = \"30 mm/s\"", "superficial_velocity = [[0, 0.03], [-1, 0.04]]", "out of range"},
         Wrong{"superficial_velocity = \"30 mm/s\"", "superficial_velocity = [[2, 0.03], [1, 0.04]]",
               "times must not fall"},
+        Wrong{"[effects]", "[[jet]]\nfrom = [0.01]\nto = [0.07]\nsuperficial_velocity = 0.1\n[effects]",
+              "a jet from 0.01 to 0.07 m does not lie on the bottom, 0 to 0.06 m"},
+        Wrong{"[effects]", "[[jet]]\nfrom = [0.01, 0]\nto = [0.02]\nsuperficial_velocity = 0.1\n[effects]",
+              "jet.from and jet.to have 2 and 1 numbers: 1 here"},
+        Wrong{"[effects]",
+              "[[jet]]\nfrom = [0.01]\nto = [0.03]\nsuperficial_velocity = 0.1\n"
+              "[[jet]]\nfrom = [0.02]\nto = [0.04]\nsuperficial_velocity = 0.1\n[effects]",
+              "two jets overlap: [[jet]] number 1 and 2"},
         Wrong{"superficial_velocity = \"30 mm/s\"", "",
               "superficial_velocity is missing (or set column.closed = true)"}));
 

@@ -1,0 +1,105 @@
+#include "fluid/inlet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fluid/boundaries.hpp"
+
+namespace polybed::fluid {
+
+using core::Index;
+
+double Ramp::velocity(double t) const {
+  if (table_.empty()) return 0;
+  if (t <= table_.front().first) return table_.front().second;
+  for (std::size_t n = 1; n < table_.size(); ++n)
+    if (t < table_[n].first) {
+      const auto& [t0, v0] = table_[n - 1];
+      const auto& [t1, v1] = table_[n];
+      return v0 + (v1 - v0) * (t - t0) / (t1 - t0);
+    }
+  return table_.back().second;
+}
+
+double Ramp::rate(double t) const {
+  if (table_.empty() || t < table_.front().first) return 0;
+  for (std::size_t n = 1; n < table_.size(); ++n)
+    if (t < table_[n].first) return (table_[n].second - table_[n - 1].second) / (table_[n].first - table_[n - 1].first);
+  return 0;
+}
+
+double Ramp::greatest() const {
+  double most = 0;
+  for (const auto& [t, v] : table_) most = std::max(most, std::abs(v));
+  return most;
+}
+
+namespace {
+
+/// Share of cell n of an axis that lies in [from, to].
+double overlap(const core::Grid& grid, int axis, int n, double from, double to) {
+  const double h = grid.spacing[std::size_t(axis)];
+  return std::max(0.0, std::min(to, (n + 1) * h) - std::max(from, n * h)) / h;
+}
+
+}  // namespace
+
+Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
+  if (scene.column.closed) return;
+  const std::size_t faces = std::size_t(grid.cells[0]) * std::size_t(grid.cells[2]);
+  parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0)});
+  for (const core::Jet& jet : scene.jets) {
+    Part part{Ramp(jet.superficial_velocity), {}};
+    for (int k = 0; k < grid.cells[2]; ++k)
+      for (int i = 0; i < grid.cells[0]; ++i) {
+        const double along_z = grid.dimensions == 3 ? overlap(grid, 2, k, jet.from[1], jet.to[1]) : 1.0;
+        part.share.push_back(overlap(grid, 0, i, jet.from[0], jet.to[0]) * along_z);
+      }
+    for (std::size_t f = 0; f < faces; ++f) parts_.front().share[f] -= part.share[f];
+    parts_.push_back(std::move(part));
+  }
+}
+
+template <class Value>
+void Inlet::set(core::Field& faces, Value&& value) const {
+  std::size_t face = 0;
+  for_each_boundary_row(grid_, 1, 0, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c, ++face) {
+      faces[std::size_t(c)] = 0;
+      for (const Part& part : parts_) faces[std::size_t(c)] += part.share[face] * value(part.ramp);
+    }
+  });
+}
+
+void Inlet::set_velocity(double t, core::Field& flux) const {
+  set(flux, [t](const Ramp& ramp) { return ramp.velocity(t); });
+}
+
+void Inlet::set_rate(double t, core::Field& rate) const {
+  set(rate, [t](const Ramp& ramp) { return ramp.rate(t); });
+}
+
+double Inlet::mean_velocity(double t) const {
+  double sum = 0;
+  for (const Part& part : parts_)
+    for (double share : part.share) sum += share * part.ramp.velocity(t) / double(part.share.size());
+  return sum;
+}
+
+double Inlet::greatest() const {
+  double most = 0;
+  for (const Part& part : parts_) most = std::max(most, part.ramp.greatest());
+  return most;
+}
+
+std::vector<double> Inlet::kinks() const {
+  std::vector<double> times;
+  for (const Part& part : parts_)
+    if (part.ramp.table().size() > 1)
+      for (const auto& point : part.ramp.table()) times.push_back(point.first);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace polybed::fluid

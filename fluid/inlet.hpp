@@ -1,0 +1,60 @@
+// What flows in through the distributor: a superficial velocity in time, and jets over parts of the bottom.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/field.hpp"
+#include "core/scene.hpp"
+
+namespace polybed::fluid {
+
+/// A velocity in time: linear between the points of a table, constant beyond.
+class Ramp {
+ public:
+  Ramp() = default;
+  explicit Ramp(std::vector<std::pair<double, double>> table) : table_(std::move(table)) {}
+  /// Velocity, m/s, at time t, s; after the jump where the table has two points at t.
+  [[nodiscard]] double velocity(double t) const;
+  /// Its rate, m/s2; from the right at a kink.
+  [[nodiscard]] double rate(double t) const;
+  /// The greatest speed at any time, m/s.
+  [[nodiscard]] double greatest() const;
+  [[nodiscard]] const std::vector<std::pair<double, double>>& table() const { return table_; }
+
+ private:
+  std::vector<std::pair<double, double>> table_;
+};
+
+/// The bottom of a column. A jet takes its part of a face's area by overlap, so that what flows in does not depend on
+/// the grid; the rest of the face has the velocity of the distributor.
+class Inlet {
+ public:
+  Inlet() = default;
+  Inlet(const core::Grid& grid, const core::Scene& scene);
+
+  /// Sets the bottom faces of the vertical flux at time t, m/s.
+  void set_velocity(double t, core::Field& flux) const;
+  /// Sets the bottom faces of its rate, m/s2.
+  void set_rate(double t, core::Field& rate) const;
+  /// Mean over the bottom, m/s.
+  [[nodiscard]] double mean_velocity(double t) const;
+  /// The greatest speed of any part at any time, m/s.
+  [[nodiscard]] double greatest() const;
+  /// Times at which a rate jumps: the integrator must stop there.
+  [[nodiscard]] std::vector<double> kinks() const;
+
+ private:
+  /// One velocity and the share of each bottom face, row by row, that has it.
+  struct Part {
+    Ramp ramp;
+    std::vector<double> share;
+  };
+  template <class Value>
+  void set(core::Field& faces, Value&& value) const;
+
+  core::Grid grid_;
+  std::vector<Part> parts_;  ///< the distributor first
+};
+
+}  // namespace polybed::fluid
