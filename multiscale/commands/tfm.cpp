@@ -129,7 +129,6 @@ class TfmRun {
   }
 
   void go() {
-    const core::Interrupt interrupt;
     core::Progress progress(options_.quiet, model_.time(), scene_.run.until);
     std::vector<core::Observer> observers;
     observers.push_back({"history", *scene_.output.history_every, [&](double t) { observers_->write_history(t); }});
@@ -143,7 +142,7 @@ class TfmRun {
         [&] {
           observers_->log_step();
           if (progress.due(model_.time())) progress.show(line());
-          return !interrupt.wanted();
+          return !interrupt_.wanted();
         });
   }
 
@@ -216,6 +215,7 @@ class TfmRun {
     fmt::print(stderr, "{}\n", (directory_ / "picture.png").string());
   }
 
+  core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
   RunOptions options_;
   core::Scene scene_;
   fs::path directory_;
