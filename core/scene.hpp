@@ -35,6 +35,7 @@ struct Species {
   std::string name;
   double diameter = 0;                                                         ///< m
   double density = 0;                                                          ///< kg/m3
+  double max_packing = 0.64;                                                   ///< of this species alone
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;  ///< else those of [dem]
 };
 

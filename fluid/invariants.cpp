@@ -49,7 +49,7 @@ std::vector<double> species_volumes(const core::Grid& grid, const Interphase& so
 }
 
 InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid,
-                                double max_packing, double velocity_scale, double force_balance, double time) {
+                                double packing_above, double velocity_scale, double force_balance, double time) {
   InvariantValues now;
   const std::vector<double> volume_now = species_volumes(grid, solids);
   for (std::size_t j = 0; j < solids.species(); ++j)
@@ -64,7 +64,7 @@ InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids
   });
   now.fraction_below = -least;
   now.most_solids = most;
-  now.packing_above = std::max(0.0, most - max_packing);
+  now.packing_above = packing_above;
   now.divergence = divergence_error(grid, fluid.flux, velocity_scale);
   now.force_balance = force_balance;
   keep(mass, now.mass_error, time);

@@ -35,7 +35,7 @@ class Invariants {
   Invariants(std::vector<double> initial_mass, double rtol);
 
   /// Measures and keeps what is worst; collective over the owned cells.
-  InvariantValues see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid, double max_packing,
+  InvariantValues see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid, double packing_above,
                       double velocity_scale, double force_balance, double time);
 
   [[nodiscard]] const std::vector<WorstInvariant>& worst() const { return worst_; }

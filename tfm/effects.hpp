@@ -51,6 +51,8 @@ class StressEffect {
   virtual void evaluate(Fields& fields) = 0;
   /// Greatest solids fraction that the stress allows for the whole bed's composition.
   [[nodiscard]] virtual double max_packing() const = 0;
+  /// How far phi lies above the maximum packing of its cell, where that is furthest; 0 if nowhere.
+  [[nodiscard]] virtual double packing_above(const Fields& fields) const = 0;
   /// Pressure, Pa, of solids at rest at a solids fraction, for the whole bed's composition.
   [[nodiscard]] virtual double pressure_at(double solids_fraction) const = 0;
   /// Solids fraction at which the stress carries a pressure, Pa, for the whole bed's composition.

@@ -105,9 +105,10 @@ void Observers::write_history(double time) {
     weight += mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity / area;
   const double drop = fluid::pressure_drop(profile);
   force_balance_ = weight != 0 ? drop / weight : 0;
-  const double packing = model_.effects().solids_stress ? model_.effects().solids_stress->max_packing() : 1.0;
-  const fluid::InvariantValues now = invariants_.see(constants.grid, model_.fields().solids, model_.fields().fluid,
-                                                     packing, model_.velocity_scale(), force_balance_ - 1, time);
+  const Fields& fields = model_.fields();
+  const double above = model_.effects().solids_stress ? model_.effects().solids_stress->packing_above(fields) : 0.0;
+  const fluid::InvariantValues now = invariants_.see(constants.grid, fields.solids, fields.fluid, above,
+                                                     model_.velocity_scale(), force_balance_ - 1, time);
   const auto height = fluid::bed_height(profile);
   bed_height_ = height.value_or(0);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};

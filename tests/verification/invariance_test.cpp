@@ -26,7 +26,11 @@ struct Finished {
 TEST(Invariance, AnEmptySpeciesChangesNothing) {
   const core::Scene without = short_bed();
   core::Scene with = without;
-  with.species.push_back({"none", 1.5e-3, 2000, {}, {}, {}, {}});
+  core::Species none = without.species[0];
+  none.name = "none";
+  none.diameter = 1.5e-3;
+  none.density = 2000;
+  with.species.push_back(none);
   with.bed.volume_share.push_back(0.0);
   const Finished a(without, 0.1), b(with, 0.1);
   // Round-off: 100 steps of sums in another order; the pressure solver's tolerance is 1e-13.

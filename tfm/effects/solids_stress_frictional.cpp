@@ -1,6 +1,7 @@
 #include "tfm/effects/solids_stress_frictional.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -11,6 +12,8 @@ namespace polybed::tfm {
 using core::Index;
 
 namespace {
+
+constexpr std::size_t most_species = 15;  ///< as the case file allows
 
 /// The packing at which the settled bed has the case's solids fraction where it carries half its own weight.
 double packing_of_bed(const core::Scene& scene, const Constants& constants) {
@@ -33,23 +36,61 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
                                     constants.grid.spacing.begin() + constants.grid.dimensions)) {
   law_.strength = scene.tfm.frictional_pressure;
   law_.onset = scene.tfm.frictional_onset;
-  if (scene.tfm.max_packing == "auto") {
-    if (scene.bed.solids_fraction <= law_.onset)
-      throw core::CaseError("bed.solids_fraction must lie above tfm.frictional_onset, or give tfm.max_packing");
-    law_.max_packing = packing_of_bed(scene, constants);
-    if (!(law_.max_packing < 1))
-      throw core::CaseError(
-          "tfm.max_packing = \"auto\": the bed is too light to be held at bed.solids_fraction by any phi_max "
-          "below "
-          "1; give tfm.max_packing, e.g. 0.64");
-  } else {
-    law_.max_packing = std::stod(scene.tfm.max_packing);
-  }
+  choose_packing(scene);
   if (law_.max_packing <= law_.onset + closures::FrictionalLaw::margin)
     throw core::CaseError("tfm.max_packing must lie above tfm.frictional_onset");
   fields.stress.pressure = core::make_field(constants.grid);
   fields.stress.slope = core::make_field(constants.grid);
   fields.stress.damping = core::make_field(constants.grid);
+}
+
+void FrictionalStress::choose_packing(const core::Scene& scene) {
+  const std::string& given = scene.tfm.max_packing;
+  if (given == "auto") {
+    if (scene.bed.solids_fraction <= law_.onset)
+      throw core::CaseError("bed.solids_fraction must lie above tfm.frictional_onset, or give tfm.max_packing");
+    law_.max_packing = packing_of_bed(scene, constants_);
+    if (!(law_.max_packing < 1))
+      throw core::CaseError(
+          "tfm.max_packing = \"auto\": the bed is too light to be held at bed.solids_fraction; give a number, e.g. "
+          "0.64");
+    return;
+  }
+  if (given != "fedors_landel" && given != "yu_standish") {
+    law_.max_packing = std::stod(given);
+    return;
+  }
+  if (given == "fedors_landel" && constants_.species() != 2)
+    throw core::CaseError("tfm.max_packing = \"fedors_landel\" is for two species; yu_standish is for any number");
+  mixture_packing_ = given == "fedors_landel" ? closures::packing_fedors_landel : closures::packing_yu_standish;
+  for (const core::Species& species : scene.species) species_packing_.push_back(species.max_packing);
+  law_.max_packing = mixture_packing_(constants_.bed_share, constants_.diameter, species_packing_);
+}
+
+/// Calls body(cell, phi_max) for all owned cells.
+template <class Body>
+void FrictionalStress::for_each_cell_with_packing(const Fields& fields, Body&& body) const {
+  if (mixture_packing_ == nullptr) {
+    core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) body(c, law_.max_packing);
+    });
+    return;
+  }
+  std::array<double, most_species> share{};
+  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) {
+      for (std::size_t j = 0; j < constants_.species(); ++j) share[j] = fields.share[j][std::size_t(c)];
+      body(c, mixture_packing_({share.data(), constants_.species()}, constants_.diameter, species_packing_));
+    }
+  });
+}
+
+double FrictionalStress::packing_above(const Fields& fields) const {
+  double most = 0;
+  for_each_cell_with_packing(fields, [&](Index c, double packing) {
+    most = std::max(most, fields.solids_fraction[std::size_t(c)] - packing);
+  });
+  return most;
 }
 
 double FrictionalStress::pressure_at(double solids_fraction) const { return law_(solids_fraction).pressure; }
@@ -59,12 +100,10 @@ double FrictionalStress::solids_fraction_at(double pressure) const { return law_
 void FrictionalStress::evaluate(Fields& fields) {
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
-  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) {
-      const closures::StressValue value = law_(phi[c]);
-      pressure[c] = value.pressure;
-      slope[c] = value.slope;
-    }
+  for_each_cell_with_packing(fields, [&](Index c, double packing) {
+    const closures::StressValue value = law_.at(phi[c], packing);
+    pressure[c] = value.pressure;
+    slope[c] = value.slope;
   });
   if (bulk_viscosity_ > 0) add_bulk_viscosity(fields);
   boundaries_.fill_cells(fields.stress.pressure);

@@ -1,6 +1,7 @@
 // Slot Stress: the frictional pressure of packed solids with a bulk viscosity that damps its elastic waves.
 #pragma once
 
+#include "closures/max_packing.hpp"
 #include "closures/stress_frictional.hpp"
 #include "core/operators.hpp"
 #include "tfm/effects.hpp"
@@ -15,15 +16,21 @@ class FrictionalStress : public StressEffect {
                    Fields& fields);
   void evaluate(Fields& fields) override;
   [[nodiscard]] double max_packing() const override { return law_.max_packing; }
+  [[nodiscard]] double packing_above(const Fields& fields) const override;
   [[nodiscard]] double pressure_at(double solids_fraction) const override;
   [[nodiscard]] double solids_fraction_at(double pressure) const override;
 
  private:
+  void choose_packing(const core::Scene& scene);
   void add_bulk_viscosity(Fields& fields) const;
+  template <class Body>
+  void for_each_cell_with_packing(const Fields& fields, Body&& body) const;
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
-  closures::FrictionalLaw law_;
+  closures::FrictionalLaw law_;                         ///< its maximum packing is that of the whole bed's composition
+  closures::MixturePacking mixture_packing_ = nullptr;  ///< of a cell's composition; null: one for all cells
+  std::vector<double> species_packing_;
   double bulk_viscosity_, cell_width_;
 };
 
