@@ -38,8 +38,8 @@ std::vector<Key> make_keys() {
   k.push_back({"fluid", "equation_of_state", at<std::string>([](S& s, N) -> auto& { return s.fluid.equation_of_state; }), "how density depends on pressure", {}, -infinity, infinity, false, "incompressible", {"incompressible"}});
 
   k.push_back({"species", "name", at<std::string>([](S& s, N n) -> auto& { return s.species[n].name; }), "of the species; names columns and datasets", {}, -infinity, infinity, false, {}, {}, true});
-  k.push_back({"species", "diameter", at<double>([](S& s, N n) -> auto& { return s.species[n].diameter; }), "D_j of its spheres", dimension::length, 0, 1, true, {}, {}, true});
-  k.push_back({"species", "density", at<double>([](S& s, N n) -> auto& { return s.species[n].density; }), "rho_j", dimension::density, 0, 1e16, true, {}, {}, true});
+  k.push_back({"species", "diameter", at<double>([](S& s, N n) -> auto& { return s.species[n].diameter; }), "D_j of its spheres", dimension::length, 1e-8, 1, false, {}, {}, true});
+  k.push_back({"species", "density", at<double>([](S& s, N n) -> auto& { return s.species[n].density; }), "rho_j", dimension::density, 1e-3, 1e16, false, {}, {}, true});
   k.push_back({"species", "max_packing", at<double>([](S& s, N n) -> auto& { return s.species[n].max_packing; }), "P_j: random packing of this species alone, for tfm.max_packing = fedors_landel | yu_standish", {}, 0.3, 0.9, false, "0.64"});
   k.push_back({"species", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].youngs_modulus; }), "else that of [dem]", dimension::pressure, 0, 1e13, true});
   k.push_back({"species", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].poisson_ratio; }), "else that of [dem]", {}, 0, 0.5});

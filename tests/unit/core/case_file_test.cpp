@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
               "case.toml:10:1: unknown key 'diametre' in [[species]]; did you mean 'diameter'?"},
         Wrong{"diameter = \"0.8 mm\"", "diametre = \"0.8 mm\"", "case.toml:8:1: species.diameter is missing"},
         Wrong{"diameter = \"0.8 mm\"", "diameter = \"-1 mm\"",
-              "case.toml:10:12: species.diameter = '-1 mm' is out of range: above 0"},
+              "case.toml:10:12: species.diameter = '-1 mm' is out of range: at least 1e-08, at most 1 m"},
         Wrong{"diameter = \"0.8 mm\"", "diameter = 0.8",
               "case.toml:10:12: species.diameter = 0.8 m is larger than any particle here: did you mean "
               "\"0.8 mm\"?"},

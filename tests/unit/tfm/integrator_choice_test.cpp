@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/verification/scenes.hpp"
+#include "tfm/model.hpp"
+
+namespace polybed::tfm {
+namespace {
+
+std::string chosen(const core::Scene& scene) {
+  core::Timers timers;
+  return Model(scene, timers).integrator_name();
+}
+
+/// 4 x 20 cells of 2 mm of glass in water at 10 mm/s.
+core::Scene glass(double diameter) {
+  core::Scene scene = verification::uniform_bed(diameter, 2500, 998.207, 1.00157e-3, 0.5, 20, 0.04);
+  scene.inlet.superficial_velocity = {{0.0, 0.01}};
+  scene.tfm.integrator = "auto";
+  scene.tfm.rtol = 1e-3;
+  return scene;
+}
+
+// D^2 rho U/(18 mu h): 0.8 mm gives 0.444, 0.6 mm 0.250, by hand; the rule changes over at 0.3.
+TEST(IntegratorChoice, FineParticlesAreForImplicitSteps) {
+  EXPECT_EQ(chosen(glass(0.8e-3)), "explicit");
+  EXPECT_EQ(chosen(glass(0.6e-3)), "implicit");
+}
+
+TEST(IntegratorChoice, GasAndSettlingBedsAreForImplicitSteps) {
+  core::Scene gas = glass(0.8e-3);
+  gas.fluid.density = 1.2;
+  gas.fluid.viscosity = 1.8e-5;
+  EXPECT_EQ(chosen(gas), "implicit");
+  core::Scene settling = glass(0.8e-3);
+  settling.column.closed = true;
+  settling.inlet.superficial_velocity = {{0.0, 0.0}};
+  EXPECT_EQ(chosen(settling), "implicit");
+}
+
+TEST(IntegratorChoice, TheCaseHasTheLastWord) {
+  core::Scene scene = glass(0.2e-3);
+  scene.tfm.integrator = "explicit";
+  EXPECT_EQ(chosen(scene), "explicit");
+}
+
+TEST(IntegratorChoice, ACoarseToleranceIsRefusedToImplicitSteps) {
+  core::Scene scene = glass(0.2e-3);
+  scene.tfm.rtol = 1e-2;
+  EXPECT_THROW(chosen(scene), core::CaseError);
+}
+
+}  // namespace
+}  // namespace polybed::tfm
