@@ -123,7 +123,7 @@ class Keys(Scratch):
             self.assertIn(f"| `{key.split('.')[-1]}` |", markdown)
         for role, laws in roles.items():
             self.assertTrue(all(name in effects and f"`{name}`" in markdown for name in [role, *laws]))
-        self.assertIn("range: above 0, at most 1 m", words)
+        self.assertIn("range: at least 1e-08, at most 1 m", words)
 
     def test_every_law_of_the_contract_is_there(self):
         laws = """stokes turton_levenspiel schiller_naumann dallavalle carman_kozeny ergun fand wen_yu di_felice batchelor
