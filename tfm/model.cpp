@@ -70,7 +70,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers)
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
   layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit");
-  velocity_scale_ = std::max(0.1 * greatest_terminal_velocity(constants), inlet().greatest());
+  constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
+  velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants), inlet().greatest(), least_scale});
   Fields& fields = equations_.fields();
   fill_bed(scene.bed, constants, effects().solids_stress.get(), fields.solids);
   core::for_each_row(constants.grid, core::owned_faces(constants.grid, 1), [&](Index begin, Index end) {
