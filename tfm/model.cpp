@@ -161,6 +161,7 @@ void Model::make_integrator() {
 /// Starts the integrator at (time_, y_). The implicit one needs consistent rates and pressure: one projected
 /// right-hand side gives both.
 void Model::begin_integration() {
+  equations_.begin(time_);
   if (explicit_) explicit_->begin_step(step_);
   if (implicit_) {
     // The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed

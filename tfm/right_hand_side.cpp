@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "tfm/mixture.hpp"
@@ -36,6 +37,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
   };
   timed("boundaries", [&] {
     layout.unpack(y, fields_.solids, fields_.fluid);
+    set_inlet_velocity(t);
     fill_ghosts();
   });
   if (!admissible()) return false;
@@ -82,10 +84,20 @@ void RightHandSide::fill_ghosts() {
   boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);
 }
 
-/// The flux through the distributor follows the inlet exactly.
+/// The side of a kink or jump of the inlet that a time stands for: the end of a step lies before it.
+double RightHandSide::side_of(double t) const {
+  return t > begin_ ? std::nextafter(t, -std::numeric_limits<double>::infinity()) : t;
+}
+
+/// The flux through the distributor is what the inlet says, not what the integrator has made of its rate.
+void RightHandSide::set_inlet_velocity(double t) {
+  if (boundaries_.closed() || constants_.grid.periodic[1]) return;
+  inlet_.set_velocity(side_of(t), fields_.fluid.flux[1]);
+}
+
 void RightHandSide::set_inlet_rate(double t) {
   if (boundaries_.closed() || constants_.grid.periodic[1]) return;
-  inlet_.set_rate(t, fields_.flux_rate.free[1]);
+  inlet_.set_rate(side_of(t), fields_.flux_rate.free[1]);
 }
 
 bool RightHandSide::admissible() const {

@@ -30,18 +30,23 @@ class RightHandSide {
   [[nodiscard]] const Constants& constants() const { return constants_; }
   [[nodiscard]] const fluid::Boundaries& boundaries() const { return boundaries_; }
   [[nodiscard]] const fluid::Inlet& inlet() const { return inlet_; }
+  /// An integration begins at a time, s: where the inlet jumps there, it has jumped; at later times it has not yet.
+  void begin(double t) { begin_ = t; }
   [[nodiscard]] const Effects& effects() const { return effects_; }
   [[nodiscard]] Fields& fields() { return fields_; }
   [[nodiscard]] const Fields& fields() const { return fields_; }
 
  private:
   void fill_ghosts();
+  [[nodiscard]] double side_of(double t) const;
+  void set_inlet_velocity(double t);
   void set_inlet_rate(double t);
   [[nodiscard]] bool admissible() const;
 
   Constants constants_;
   fluid::Boundaries boundaries_;
   fluid::Inlet inlet_;
+  double begin_ = 0;
   Discretisation discretisation_;
   core::Timers& timers_;
   Fields fields_;
