@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/ranks.hpp"
 #include "fluid/pressure.hpp"
 
 namespace polybed::fluid {
@@ -45,6 +46,7 @@ std::vector<double> species_volumes(const core::Grid& grid, const Interphase& so
     });
     result.push_back(sum * grid.cell_volume());
   }
+  core::add_over_ranks(grid, result);
   return result;
 }
 
@@ -62,8 +64,8 @@ InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids
       most = std::max(most, 1 - fluid.voidage[c]);
     }
   });
-  now.fraction_below = -least;
-  now.most_solids = most;
+  now.fraction_below = -core::least_of_ranks(grid, least);
+  now.most_solids = core::greatest_of_ranks(grid, most);
   now.packing_above = packing_above;
   now.divergence = divergence_error(grid, fluid.flux, velocity_scale);
   now.force_balance = force_balance;

@@ -34,7 +34,7 @@ class Invariants {
   /// \param rtol          relative tolerance of the time integration: sets the bounds of the fractions
   Invariants(std::vector<double> initial_mass, double rtol);
 
-  /// Measures and keeps what is worst; collective over the owned cells.
+  /// Measures and keeps what is worst in the column. Collective.
   InvariantValues see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid, double packing_above,
                       double velocity_scale, double force_balance, double time);
 
@@ -49,7 +49,7 @@ class Invariants {
   std::vector<WorstInvariant> worst_;
 };
 
-/// Volume of each species in the owned cells, m3, summed with compensation.
+/// Volume of each species in the column, m3, summed with compensation. Collective.
 [[nodiscard]] std::vector<double> species_volumes(const core::Grid& grid, const Interphase& solids);
 
 }  // namespace polybed::fluid

@@ -83,8 +83,7 @@ void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Inter
       }
     });
   }
-  boundaries.join(out.free);
-  boundaries.join(out.mobility);
+  boundaries.join(out.free, out.mobility);
 }
 
 }  // namespace polybed::fluid

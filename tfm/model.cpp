@@ -8,7 +8,9 @@
 
 #include "closures/drag_schiller_naumann.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "core/blocks.hpp"
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 #include "fluid/properties.hpp"
 #include "tfm/initial.hpp"
 
@@ -19,19 +21,19 @@ using Kind = StateLayout::Entry::Kind;
 
 namespace {
 
-core::Grid make_grid(const core::Column& column) {
+core::Grid make_grid(const core::Column& column, const std::shared_ptr<const core::Ranks>& ranks) {
   core::Grid grid;
   grid.dimensions = column.dimensions;
   grid.cells = column.cells;
   for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.size[d] / column.cells[d];
   grid.periodic[0] = column.sides == "periodic";
   grid.periodic[2] = column.sides == "periodic" && column.dimensions == 3;
-  return grid;
+  return core::block_of(grid, ranks);
 }
 
-Constants make_constants(const core::Scene& scene) {
+Constants make_constants(const core::Scene& scene, const std::shared_ptr<const core::Ranks>& ranks) {
   Constants constants;
-  constants.grid = make_grid(scene.column);
+  constants.grid = make_grid(scene.column, ranks);
   constants.gravity = scene.column.gravity;
   constants.fluid = fluid::fluid_constants(scene.fluid);
   constants.bed_share = scene.bed.volume_share;
@@ -62,14 +64,16 @@ Discretisation make_discretisation(const core::Tfm& options) {
 
 }  // namespace
 
-Model::Model(const core::Scene& scene, core::Timers& timers)
+Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks)
     : timers_(timers),
       options_(scene.tfm),
-      equations_(scene, make_constants(scene), fluid::Boundaries(make_grid(scene.column), scene.column.closed),
-                 fluid::Inlet(make_grid(scene.column), scene), make_discretisation(scene.tfm), timers) {
+      equations_(scene, make_constants(scene, ranks),
+                 fluid::Boundaries(make_grid(scene.column, ranks), scene.column.closed),
+                 fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
   layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit");
+  column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
   velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants), inlet().greatest(), least_scale});
   Fields& fields = equations_.fields();
@@ -143,6 +147,7 @@ void Model::make_integrator() {
     core::ImplicitOptions options;
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
+    options.ranks = constants().grid.ranks;
     options.id.assign(layout_.size(), 1.0);
     for (const StateLayout::Entry& entry : layout_.entries())
       if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
@@ -154,6 +159,7 @@ void Model::make_integrator() {
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
     options.fixed_step = options_.fixed_step.value_or(0);
+    options.ranks = constants().grid.ranks;
     integrator_ = core::make_explicit(*explicit_, std::move(options));
   }
 }
@@ -183,14 +189,20 @@ void Model::step(double stop) {
   time_ = report.time;
   step_ = report.next_step;
   last_step_ = {report.time, report.step, report.error_norm, ""};
-  if (report.time >= stop && report.step < 0.99 * report.next_step) {
-    last_step_.limited_by = "event";
-  } else {
-    const double viscosity = effects().fluid_stress ? effects().fluid_stress->kinematic_viscosity() : 0;
-    last_step_.limited_by = limited_by(time_scales(constants(), fields(), viscosity), report.step, constants());
-    if (last_step_.limited_by == "error test")
-      last_step_.limited_by += ": " + layout_.describe(report.worst_entry, constants().name);
-  }
+  last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
+}
+
+/// In the words of the rank where the limit is.
+std::string Model::what_limited(const core::StepReport& report) const {
+  const core::Grid& grid = constants().grid;
+  const double viscosity = effects().fluid_stress ? effects().fluid_stress->kinematic_viscosity() : 0;
+  const std::vector<TimeScale> scales = time_scales(constants(), fields(), viscosity);
+  const TimeScale nearest = nearest_of(scales);
+  const int rank = core::rank_of_greatest(grid, -nearest.seconds);
+  if (report.step >= limiting_share * core::least_of_ranks(grid, nearest.seconds))
+    return core::said_by(grid, rank, place_of(nearest, grid));
+  const int worst = core::rank_of_greatest(grid, report.worst_error);
+  return core::said_by(grid, worst, "error test: " + layout_.describe(report.worst_entry, constants().name));
 }
 
 void Model::show(double t) {
@@ -223,11 +235,11 @@ core::Field Model::inlet_velocity(double t) const {
 /// Where the inlet jumps from `before`, an impulse brings the fluxes and velocities to the new value at once, with the
 /// operator that the pressure uses.
 void Model::project_jump(const core::Field& before) {
-  if (boundaries().closed() || constants().grid.periodic[1]) return;
+  if (boundaries().closed()) return;
   core::Field jump = inlet_velocity(std::nextafter(time_, INFINITY));
   double most = 0;
   for (std::size_t f = 0; f < jump.size(); ++f) most = std::max(most, std::abs(jump[f] -= before[f]));
-  if (most <= 1e-9 * velocity_scale_) return;
+  if (core::greatest_of_ranks(constants().grid, most) <= 1e-9 * velocity_scale_) return;
   if (!equations_.evaluate(time_, layout_, y_)) return;
   Fields& fields = equations_.fields();
   const core::Field pressure = fields.fluid.pressure;
@@ -250,10 +262,25 @@ void Model::project_jump(const core::Field& before) {
   layout_.pack(fields.solids, fields.fluid, y_);
 }
 
+StateLayout Model::layout_of_column() const {
+  return {core::whole_column(constants().grid), int(constants().species()), layout_.with_pressure()};
+}
+
+std::size_t Model::unknowns() const { return column_size_; }
+
 core::Checkpoint Model::checkpoint() const {
   core::Checkpoint c;
-  c.arrays["state"] = y_;
-  c.arrays["pressure"] = fields().fluid.pressure;
+  const core::Grid& grid = constants().grid;
+  const StateLayout column = layout_of_column();
+  std::vector<double>& state = c.arrays["state"];
+  state.resize(core::is_first(grid.ranks.get()) ? column.size() : 0);
+  for (std::size_t n = 0; n < layout_.entries().size(); ++n) {
+    core::Field field = core::make_field(grid);
+    layout_.unpack(layout_.entries()[n], y_, field);
+    const core::Field whole = core::gather(grid, field, layout_.entries()[n].axis);
+    if (!state.empty()) column.pack(column.entries()[n], whole, state);
+  }
+  c.arrays["pressure"] = core::gather(grid, fields().fluid.pressure, -1);
   c.numbers["time_s"] = time_;
   c.numbers["step_s"] = step_;
   c.texts["integrator"] = integrator_name_;
@@ -277,26 +304,55 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
   begin_integration();
 }
 
-void Model::resume(const core::Checkpoint& checkpoint) {
+void Model::check_fits(const core::Checkpoint& checkpoint) const {
   const auto state = checkpoint.arrays.find("state"), pressure = checkpoint.arrays.find("pressure");
   const auto kind = checkpoint.texts.find("integrator");
-  if (state == checkpoint.arrays.end() || state->second.size() != layout_.size() ||
-      pressure == checkpoint.arrays.end() || pressure->second.size() != fields().fluid.pressure.size() ||
-      kind == checkpoint.texts.end() || kind->second != integrator_name_)
+  if (state == checkpoint.arrays.end() || state->second.size() != column_size_ || pressure == checkpoint.arrays.end() ||
+      pressure->second.size() != core::whole_column(constants().grid).padded_size() || kind == checkpoint.texts.end() ||
+      kind->second != integrator_name_)
     throw core::FileError("the checkpoint belongs to another case: its unknowns or its integrator differ");
-  y_ = state->second;
-  equations_.fields().fluid.pressure = pressure->second;
-  time_ = checkpoint.numbers.at("time_s");
-  step_ = checkpoint.numbers.at("step_s");
-  const auto count = [&](const char* name) { return std::uint64_t(checkpoint.integers.at(name)); };
-  before_ = {count("steps"),
-             count("rejected_steps"),
-             count("right_hand_sides"),
-             count("pressure_solves"),
-             count("pressure_iterations"),
-             count("newton_iterations"),
-             count("krylov_iterations")};
+}
+
+void Model::resume(const core::Checkpoint& checkpoint) {
+  const core::Grid& grid = constants().grid;
+  const core::Ranks* ranks = grid.ranks.get();
+  const bool first = core::is_first(ranks);
+  core::on_first(ranks, [&] { check_fits(checkpoint); });
+  const StateLayout column = layout_of_column();
+  core::Field whole = first ? core::make_field(core::whole_column(grid)) : core::Field(),
+              block = core::make_field(grid);
+  for (std::size_t n = 0; n < column.entries().size(); ++n) {
+    const StateLayout::Entry& entry = column.entries()[n];
+    if (first) column.unpack(entry, checkpoint.arrays.at("state"), whole);
+    core::scatter(grid, whole, entry.axis, block);
+    layout_.pack(layout_.entries()[n], block, y_);
+  }
+  if (first) whole = checkpoint.arrays.at("pressure");
+  core::scatter(grid, whole, -1, equations_.fields().fluid.pressure);
+  std::array<double, 2> clock{};
+  if (first) clock = {checkpoint.numbers.at("time_s"), checkpoint.numbers.at("step_s")};
+  core::take_from_first(ranks, clock);
+  time_ = clock[0];
+  step_ = clock[1];
+  take_up_counts(checkpoint);
   begin_integration();
+}
+
+/// Counts go on where they were; they are exact in a double up to 9e15.
+void Model::take_up_counts(const core::Checkpoint& checkpoint) {
+  const core::Ranks* ranks = constants().grid.ranks.get();
+  const auto take = [&](std::uint64_t& count, const char* name) {
+    double value = core::is_first(ranks) ? double(checkpoint.integers.at(name)) : 0;
+    core::take_from_first(ranks, std::span(&value, 1));
+    count = std::uint64_t(value);
+  };
+  take(before_.steps, "steps");
+  take(before_.rejected_steps, "rejected_steps");
+  take(before_.right_hand_sides, "right_hand_sides");
+  take(before_.pressure_solves, "pressure_solves");
+  take(before_.pressure_iterations, "pressure_iterations");
+  take(before_.newton_iterations, "newton_iterations");
+  take(before_.krylov_iterations, "krylov_iterations");
 }
 
 Work Model::work() const {

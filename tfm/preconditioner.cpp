@@ -68,6 +68,7 @@ bool Preconditioner::setup(const Fields& fields, double c) {
   if (fields.stress.present())
     for (std::size_t cell = 0; cell < slope_.size(); ++cell)
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
+  boundaries_.fill_cells(slope_);
   const auto faces = [](const core::FaceField& f) { return std::array<std::span<const double>, 3>{f[0], f[1], f[2]}; };
   return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]), slope_, 0.0,
                        c);
@@ -185,13 +186,13 @@ void Preconditioner::solve_faces() {
   const core::Grid& grid = constants_.grid;
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
-    for (int side = 0; side < 2 && !grid.periodic[a]; ++side)
+    for (int side = 0; side < 2; ++side)
       fluid::for_each_boundary_row(grid, axis, side, [&](Index begin, Index end) {
         for (Field& value : face_value_[a])
           for (Index face = begin; face < end; ++face) value[std::size_t(face)] /= c_;
       });
     core::for_each_row(grid, boundaries_.moving_faces(axis, true), [&](Index begin, Index end) {
-      const bool held_above = !grid.periodic[a] && axis == 1 && begin >= grid.index(0, grid.cells[1], 0);
+      const bool held_above = axis == 1 && grid.ends(1, 1) && begin >= grid.index(0, grid.cells[1], 0);
       std::array<double, most_rows> value{};
       for (Index face = begin; face < end; ++face) {
         const auto at = std::size_t(face);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/ranks.hpp"
 #include "tfm/mixture.hpp"
 
 namespace polybed::tfm {
@@ -20,7 +21,15 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
       timers_(timers),
       fields_(constants_),
       effects_(make_effects(scene, constants_, boundaries_, fields_)),
-      flux_(core::make_face_field(constants_.grid)) {}
+      flux_(core::make_face_field(constants_.grid)) {
+  using Kind = fluid::Ghosts::Kind;
+  for (core::Field& phi : fields_.solids.fraction) state_ghosts_.push_back({Kind::cells, &phi});
+  for (core::FaceField& velocity : fields_.solids.velocity)
+    for (int axis = 0; axis < constants_.grid.dimensions; ++axis)
+      state_ghosts_.push_back({Kind::velocity, &velocity[std::size_t(axis)], axis, discretisation_.solids_wall});
+  for (int axis = 0; axis < constants_.grid.dimensions; ++axis)
+    state_ghosts_.push_back({Kind::joined, &fields_.fluid.flux[std::size_t(axis)]});
+}
 
 // Per unit mass of each phase, from T(1.27), T(1.28) and T(1.16) with the pressure gradient of T(1.17):
 //
@@ -75,11 +84,8 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
 
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.
 void RightHandSide::fill_ghosts() {
-  for (core::Field& phi : fields_.solids.fraction) boundaries_.fill_cells(phi);
+  boundaries_.fill(state_ghosts_);
   composition(constants_, fields_);
-  for (core::FaceField& velocity : fields_.solids.velocity)
-    boundaries_.fill_velocity(velocity, discretisation_.solids_wall);
-  boundaries_.join(fields_.fluid.flux);
   fluid::fluid_velocity(constants_.grid, fields_.solids, fields_.fluid);
   boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);
 }
@@ -91,12 +97,12 @@ double RightHandSide::side_of(double t) const {
 
 /// The flux through the distributor is what the inlet says, not what the integrator has made of its rate.
 void RightHandSide::set_inlet_velocity(double t) {
-  if (boundaries_.closed() || constants_.grid.periodic[1]) return;
+  if (boundaries_.closed()) return;
   inlet_.set_velocity(side_of(t), fields_.fluid.flux[1]);
 }
 
 void RightHandSide::set_inlet_rate(double t) {
-  if (boundaries_.closed() || constants_.grid.periodic[1]) return;
+  if (boundaries_.closed()) return;
   inlet_.set_rate(side_of(t), fields_.flux_rate.free[1]);
 }
 
@@ -109,7 +115,7 @@ bool RightHandSide::admissible() const {
         speed += fields_.fluid.velocity[std::size_t(axis)][c];
     }
   });
-  return most < 1 && std::isfinite(speed);
+  return core::on_all_ranks(constants_.grid, most < 1 && std::isfinite(speed));
 }
 
 }  // namespace polybed::tfm

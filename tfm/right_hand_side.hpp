@@ -22,6 +22,8 @@ class RightHandSide {
  public:
   RightHandSide(const core::Scene& scene, Constants constants, fluid::Boundaries boundaries, fluid::Inlet inlet,
                 Discretisation discretisation, core::Timers& timers);
+  RightHandSide(const RightHandSide&) = delete;
+  RightHandSide& operator=(const RightHandSide&) = delete;
 
   /// Evaluates every term at (t, y); the result stands in fields(). False if the state is none that closures
   /// can be asked about (not finite, or a cell with more than its volume of solids): the step must shrink.
@@ -52,6 +54,7 @@ class RightHandSide {
   Fields fields_;
   Effects effects_;
   core::FaceField flux_;
+  std::vector<fluid::Ghosts> state_ghosts_;  ///< the unknowns, whose ghosts travel together
 };
 
 }  // namespace polybed::tfm

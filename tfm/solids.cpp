@@ -28,7 +28,7 @@ void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, co
     const Index s = grid.stride(axis);
     const double *phi = fraction.data(), *u = velocity[std::size_t(axis)].data();
     double* out = flux[std::size_t(axis)].data();
-    core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
+    core::for_each_row(grid, boundaries.moving_faces_of_cells(axis, false), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) out[c] = u[c] * Face::at(phi, c, s, u[c]);
     });
   }
@@ -56,12 +56,11 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
       solids_flux<core::LimitedFace>(grid, boundaries, phi, velocity, flux);
     else
       solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
-    boundaries.join(flux);
     Field& rate = fields.solids.fraction_rate[j];
     core::divergence(grid, flux, rate);
     for (double& r : rate) r = -r;
-    boundaries.fill_cells(rate);
   }
+  boundaries.fill_cells(fields.solids.fraction_rate);
 }
 
 void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields) {

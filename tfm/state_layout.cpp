@@ -71,7 +71,8 @@ std::string StateLayout::describe(std::size_t index, const std::vector<std::stri
         name = "pressure";
         break;
     }
-    const std::size_t i = local % nx, j = local / nx % ny, k = local / nx / ny;
+    const auto before = [&](std::size_t axis) { return std::size_t(grid_.before[axis]); };
+    const std::size_t i = before(0) + local % nx, j = before(1) + local / nx % ny, k = before(2) + local / nx / ny;
     return grid_.dimensions == 2 ? fmt::format("{} ({}, {})", name, i, j)
                                  : fmt::format("{} ({}, {}, {})", name, i, j, k);
   }

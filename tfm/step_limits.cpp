@@ -69,15 +69,22 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
   return scales;
 }
 
-std::string limited_by(const std::vector<TimeScale>& scales, double step, const Constants& constants) {
-  const auto nearest = std::min_element(scales.begin(), scales.end(),
-                                        [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
-  if (nearest == scales.end() || step < limiting_share * nearest->seconds) return "error test";
-  const core::Grid& grid = constants.grid;
+TimeScale nearest_of(const std::vector<TimeScale>& scales) {
+  TimeScale nearest{"nothing", std::numeric_limits<double>::infinity(), 0};
+  for (const TimeScale& scale : scales)
+    if (scale.seconds < nearest.seconds) nearest = scale;
+  return nearest;
+}
+
+std::string place_of(const TimeScale& scale, const core::Grid& grid) {
   const Index row = grid.extent(0), layer = grid.extent(0) * grid.extent(1);
-  const std::string place = fmt::format("{} at ({}, {}", nearest->process, nearest->cell % row - grid.ghosts(0),
-                                        nearest->cell % layer / row - grid.ghosts(1));
-  return grid.dimensions == 2 ? place + ")" : fmt::format("{}, {})", place, nearest->cell / layer - grid.ghosts(2));
+  const std::array<Index, 3> padded{scale.cell % row, scale.cell % layer / row, scale.cell / layer};
+  std::string place = scale.process + " at (";
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    place += fmt::format("{}{}", axis == 0 ? "" : ", ", padded[a] - grid.ghosts(axis) + grid.before[a]);
+  }
+  return place + ")";
 }
 
 }  // namespace polybed::tfm

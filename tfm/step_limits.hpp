@@ -9,7 +9,8 @@
 
 namespace polybed::tfm {
 
-/// The shortest time scale of one process, s, and where it is; infinite where the process is absent.
+/// The shortest time scale of one process in this rank's block, s, and where it is; infinite where the process is
+/// absent.
 struct TimeScale {
   std::string process;
   double seconds;
@@ -25,7 +26,10 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
 /// third order Runge-Kutta is stable up to 1.7 on the imaginary axis and 2.5 on the real one, and steps settle below.
 constexpr double limiting_share = 0.5;
 
-/// One phrase for the step log: the process nearest to its limit if it is near, else "error test".
-std::string limited_by(const std::vector<TimeScale>& scales, double step, const Constants& constants);
+/// The process with the shortest time scale; one that takes for ever for none.
+[[nodiscard]] TimeScale nearest_of(const std::vector<TimeScale>& scales);
+
+/// One phrase for the step log: the process, and the cell of the column where it is shortest.
+[[nodiscard]] std::string place_of(const TimeScale& scale, const core::Grid& grid);
 
 }  // namespace polybed::tfm

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 #include "tfm/initial.hpp"
 
 namespace polybed::tfm {
@@ -90,7 +91,7 @@ double FrictionalStress::packing_above(const Fields& fields) const {
   for_each_cell_with_packing(fields, [&](Index c, double packing) {
     most = std::max(most, fields.solids_fraction[std::size_t(c)] - packing);
   });
-  return most;
+  return core::greatest_of_ranks(constants_.grid, most);
 }
 
 double FrictionalStress::pressure_at(double solids_fraction) const { return law_(solids_fraction).pressure; }
