@@ -18,7 +18,7 @@ BlockSolver::BlockSolver(BlockSolver&&) noexcept = default;
 BlockSolver& BlockSolver::operator=(BlockSolver&&) noexcept = default;
 
 bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
-                        const Field& slope, double diagonal_p, double c) {
+                        const Field& slope, const Field& diagonal_p, double c) {
   HypreRows& rows = hypre_->rows;
   rows.begin();
   const auto cells = grid_.cells;
@@ -47,7 +47,7 @@ bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSp
           const FaceSpans& of_p = unknown == 0 ? c11 : c21;
           const FaceSpans& of_s = unknown == 0 ? c12 : c22;
           rows.begin_row();
-          rows.add(2 * cell, unknown == 0 ? diagonal_p : 0.0);
+          rows.add(2 * cell, unknown == 0 && !diagonal_p.empty() ? diagonal_p[std::size_t(grid_.index(i, j, k))] : 0.0);
           rows.add(2 * cell + 1, unknown == 0 ? 0.0 : c);
           for (int d = 0; d < grid_.dimensions; ++d) {
             const auto a = std::size_t(d);

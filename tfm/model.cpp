@@ -69,7 +69,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers)
                  fluid::Inlet(make_grid(scene.column), scene), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
-  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit");
+  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible());
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
   velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants), inlet().greatest(), least_scale});
   Fields& fields = equations_.fields();
@@ -85,6 +85,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers)
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);
   project_jump(even);
+  if (compressible()) start_compressible();
   make_integrator();
   begin_integration();
 }
@@ -113,11 +114,12 @@ void Model::choose_integrator(const core::Scene& scene) {
     const bool still = scene.column.closed || inlet().greatest() == 0;
     constexpr double fine_below = 0.3;
     const bool fine = drag_over_crossing_time(equations_.constants(), inlet().greatest()) < fine_below;
-    integrator_name_ = gas || still || fine ? "implicit" : "explicit";
-    integrator_reason_ = gas     ? "gas: drag relaxes faster than anything moves"
-                         : still ? "nothing flows in: the bed settles"
-                         : fine  ? "fine particles: drag relaxes faster than anything moves"
-                                 : "fluidised by a liquid";
+    integrator_name_ = compressible() || gas || still || fine ? "implicit" : "explicit";
+    integrator_reason_ = compressible() ? "compressible: sound is faster than anything that matters"
+                         : gas          ? "gas: drag relaxes faster than anything moves"
+                         : still        ? "nothing flows in: the bed settles"
+                         : fine         ? "fine particles: drag relaxes faster than anything moves"
+                                        : "fluidised by a liquid";
   }
   constexpr double coarsest_implicit = 2e-3;
   if (integrator_name_ == "implicit" && options_.rtol > coarsest_implicit)
@@ -144,17 +146,26 @@ void Model::make_integrator() {
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
     options.id.assign(layout_.size(), 1.0);
+    // Of a compressible fluid p is differential, but left out of the error test all the same: sound that carries
+    // nothing must not set the step.
     for (const StateLayout::Entry& entry : layout_.entries())
       if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
     integrator_ = core::make_implicit(*implicit_, std::move(options));
   } else {
-    const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
-    explicit_ = std::make_unique<ExplicitProblem>(equations_, layout_, tolerance, timers_);
+    core::OdeProblem* problem = nullptr;
+    if (compressible()) {
+      acoustic_ = std::make_unique<CompressibleProblem>(equations_, layout_);
+      problem = acoustic_.get();
+    } else {
+      const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
+      explicit_ = std::make_unique<ExplicitProblem>(equations_, layout_, tolerance, timers_);
+      problem = explicit_.get();
+    }
     core::ExplicitOptions options;
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
     options.fixed_step = options_.fixed_step.value_or(0);
-    integrator_ = core::make_explicit(*explicit_, std::move(options));
+    integrator_ = core::make_explicit(*problem, std::move(options));
   }
 }
 
@@ -163,7 +174,9 @@ void Model::make_integrator() {
 void Model::begin_integration() {
   equations_.begin(time_);
   if (explicit_) explicit_->begin_step(step_);
-  if (implicit_) {
+  if (compressible()) {
+    begin_compressible();
+  } else if (implicit_) {
     // The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed
     // run gives the same bits.
     for (const StateLayout::Entry& entry : layout_.entries())
@@ -182,12 +195,18 @@ void Model::step(double stop) {
   const core::StepReport report = integrator_->step(stop);
   time_ = report.time;
   step_ = report.next_step;
+  if (compressible()) count_fluid(integrator_->state());
   last_step_ = {report.time, report.step, report.error_norm, ""};
   if (report.time >= stop && report.step < 0.99 * report.next_step) {
     last_step_.limited_by = "event";
   } else {
     const double viscosity = effects().fluid_stress ? effects().fluid_stress->kinematic_viscosity() : 0;
-    last_step_.limited_by = limited_by(time_scales(constants(), fields(), viscosity), report.step, constants());
+    std::vector<TimeScale> scales = time_scales(constants(), fields(), viscosity);
+    if (acoustic_) {
+      const auto [seconds, cell] = effects().compressible->sound_time(fields().fluid);
+      scales.push_back({"sound", seconds, cell});
+    }
+    last_step_.limited_by = limited_by(scales, report.step, constants());
     if (last_step_.limited_by == "error test")
       last_step_.limited_by += ": " + layout_.describe(report.worst_entry, constants().name);
   }
@@ -209,7 +228,8 @@ void Model::show(double t) {
 void Model::restart() {
   const auto state = integrator_->state();
   std::copy(state.begin(), state.end(), y_.begin());
-  project_jump(inlet_velocity(std::nextafter(time_, -INFINITY)));
+  // A compressible fluid hears of a jump by sound.
+  if (!compressible()) project_jump(inlet_velocity(std::nextafter(time_, -INFINITY)));
   begin_integration();
 }
 
@@ -257,6 +277,11 @@ core::Checkpoint Model::checkpoint() const {
   c.numbers["time_s"] = time_;
   c.numbers["step_s"] = step_;
   c.texts["integrator"] = integrator_name_;
+  if (const auto account = fluid_account(time_)) {
+    c.numbers["fluid_start_kg"] = account->start;
+    c.numbers["fluid_in_kg"] = account->in;
+    c.numbers["fluid_out_kg"] = account->out;
+  }
   const Work done = work();
   c.integers["steps"] = std::int64_t(done.steps);
   c.integers["rejected_steps"] = std::int64_t(done.rejected_steps);
@@ -274,6 +299,7 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
   time_ = step_ = 0;
   before_ = {};
+  if (compressible()) open_account();
   begin_integration();
 }
 
@@ -296,6 +322,11 @@ void Model::resume(const core::Checkpoint& checkpoint) {
              count("pressure_iterations"),
              count("newton_iterations"),
              count("krylov_iterations")};
+  if (compressible())
+    ledger_.begin(time_,
+                  {checkpoint.numbers.at("fluid_start_kg"), checkpoint.numbers.at("fluid_in_kg"),
+                   checkpoint.numbers.at("fluid_out_kg")},
+                  {});
   begin_integration();
 }
 
@@ -307,6 +338,7 @@ Work Model::work() const {
   done.newton_iterations += s.newton_iterations;
   done.krylov_iterations += s.linear_iterations;
   if (implicit_) done.right_hand_sides += implicit_->residuals();
+  if (acoustic_) done.right_hand_sides += acoustic_->evaluations();
   if (explicit_) {
     done.right_hand_sides += explicit_->solves();
     done.pressure_solves += explicit_->solves();
