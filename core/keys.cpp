@@ -35,7 +35,10 @@ std::vector<Key> make_keys() {
   k.push_back({"fluid", "temperature", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.temperature; }), "water 0 to 40 degC, air 200 to 1000 K", dimension::temperature, 0, 5000, true});
   k.push_back({"fluid", "density", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.density; }), "rho_f", dimension::density, 0, 1e5, true});
   k.push_back({"fluid", "viscosity", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.viscosity; }), "mu", dimension::viscosity, 0, 1e6, true});
-  k.push_back({"fluid", "equation_of_state", at<std::string>([](S& s, N) -> auto& { return s.fluid.equation_of_state; }), "how density depends on pressure", {}, -infinity, infinity, false, "incompressible", {"incompressible"}});
+  k.push_back({"fluid", "equation_of_state", at<std::string>([](S& s, N) -> auto& { return s.fluid.equation_of_state; }), "how density depends on pressure; a compressible fluid carries sound", {}, -infinity, infinity, false, "incompressible", {"incompressible", "tait", "ideal_gas"}, false, "tait: P + B = (P_out + B)(rho/rho_0)^n; ideal_gas: P = rho R T, T fixed"});
+  k.push_back({"fluid", "outlet_pressure", at<double>([](S& s, N) -> auto& { return s.fluid.outlet_pressure; }), "P_out, absolute, at the top of the column; a density given is that at this pressure, and air's follows from it", dimension::pressure, 1, 1e9, false, "101325 Pa"});
+  k.push_back({"fluid", "tait_stiffness", at<double>([](S& s, N) -> auto& { return s.fluid.tait_stiffness; }), "B of equation_of_state = tait", dimension::pressure, 1, 1e13, false, "3e8 Pa", {}, false, "c^2 = n (P + B)/rho"});
+  k.push_back({"fluid", "tait_exponent", at<double>([](S& s, N) -> auto& { return s.fluid.tait_exponent; }), "n of equation_of_state = tait", {}, 1, 20, false, "7", {}, false, "c^2 = n (P + B)/rho"});
 
   k.push_back({"species", "name", at<std::string>([](S& s, N n) -> auto& { return s.species[n].name; }), "of the species; names columns and datasets", {}, -infinity, infinity, false, {}, {}, true});
   k.push_back({"species", "diameter", at<double>([](S& s, N n) -> auto& { return s.species[n].diameter; }), "D_j of its spheres", dimension::length, 1e-8, 1, false, {}, {}, true});
@@ -47,7 +50,7 @@ std::vector<Key> make_keys() {
   k.push_back({"species", "restitution", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].restitution; }), "else that of [dem]", {}, 0, 1, true});
 
   k.push_back({"bed", "volume_share", at<std::vector<double>>([](S& s, N) -> auto& { return s.bed.volume_share; }), "x_j, share of each species in the volume of the solids; sums to 1", {}, 0, 1});
-  k.push_back({"bed", "static_height", at<double>([](S& s, N) -> auto& { return s.bed.static_height; }), "of the settled bed", dimension::length, 0, 1e3, true});
+  k.push_back({"bed", "static_height", at<double>([](S& s, N) -> auto& { return s.bed.static_height; }), "of the settled bed; 0: the fluid alone", dimension::length, 0, 1e3});
   k.push_back({"bed", "solids_fraction", at<double>([](S& s, N) -> auto& { return s.bed.solids_fraction; }), "of the settled bed", {}, 0, 0.9, true});
   k.push_back({"bed", "start_solids_fraction", at<std::optional<double>>([](S& s, N) -> auto& { return s.bed.start_fraction; }), "of the bed at the start, with the mass of the settled bed; default: solids_fraction", {}, 0, 0.9, true});
   k.push_back({"bed", "particles", at<std::vector<std::int64_t>>([](S& s, N) -> auto& { return s.bed.particles; }), "numbers of particles of each species, instead of volume_share and static_height", {}, 0, 1e12});
@@ -62,7 +65,7 @@ std::vector<Key> make_keys() {
   k.push_back({"output", "history_every", at<std::optional<double>>([](S& s, N) -> auto& { return s.output.history_every; }), "between rows of history.csv; default: a 400th of the run", dimension::time, 0, 1e9, true});
   k.push_back({"output", "checkpoint_every", at<std::optional<double>>([](S& s, N) -> auto& { return s.output.checkpoint_every; }), "between checkpoints; default: a tenth of the run", dimension::time, 0, 1e9, true});
 
-  k.push_back({"tfm", "integrator", at<std::string>([](S& s, N) -> auto& { return s.tfm.integrator; }), "explicit for a bed fluidised by a liquid, implicit for gas and settling; auto chooses so", {}, -infinity, infinity, false, "auto", {"auto", "explicit", "implicit"}});
+  k.push_back({"tfm", "integrator", at<std::string>([](S& s, N) -> auto& { return s.tfm.integrator; }), "explicit for a bed fluidised by a liquid, implicit for gas, compressible fluids and settling; auto chooses so", {}, -infinity, infinity, false, "auto", {"auto", "explicit", "implicit"}});
   k.push_back({"tfm", "rtol", at<double>([](S& s, N) -> auto& { return s.tfm.rtol; }), "relative tolerance of the time integration", {}, 1e-12, 0.1, false, "1e-4"});
   k.push_back({"tfm", "flux", at<std::string>([](S& s, N) -> auto& { return s.tfm.flux; }), "solids fractions at faces: second order with a limiter, or first order", {}, -infinity, infinity, false, "limited", {"limited", "upwind"}});
   k.push_back({"tfm", "momentum", at<std::string>([](S& s, N) -> auto& { return s.tfm.momentum; }), "convection of velocities: first order, or second with a limiter", {}, -infinity, infinity, false, "upwind", {"upwind", "limited"}});

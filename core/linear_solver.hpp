@@ -57,8 +57,9 @@ class BlockSolver {
   BlockSolver& operator=(BlockSolver&&) noexcept;
 
   /// Builds the matrix and its multigrid hierarchy; false if the library refuses. Ghosts of the slope must be filled.
+  /// \param diagonal_p  on cells, >= 0; empty: 0
   [[nodiscard]] bool setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
-                           const Field& slope, double diagonal_p, double c);
+                           const Field& slope, const Field& diagonal_p, double c);
   /// p, s start from zero; owned cells.
   void apply(const Field& r1, const Field& r2, Field& p, Field& s, int cycles);
 

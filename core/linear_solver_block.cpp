@@ -20,7 +20,7 @@ BlockSolver::BlockSolver(BlockSolver&&) noexcept = default;
 BlockSolver& BlockSolver::operator=(BlockSolver&&) noexcept = default;
 
 bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
-                        const Field& slope, double diagonal_p, double c) {
+                        const Field& slope, const Field& diagonal_p, double c) {
   HypreRows& rows = hypre_->rows;
   rows.begin();
   /// Flux of one unknown's equation through one face of a cell: there, and to the cell beyond.
@@ -31,10 +31,10 @@ bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSp
     rows.add(rows.row_of(beyond), -of_p);
     rows.add(rows.row_of(beyond) + 1, -of_s * slope[std::size_t(beyond)]);
   };
-  const double pin = diagonal_p == 0 ? pin_of_first_cell(grid_, c11, {}) : 0;
+  const double pin = diagonal_p.empty() ? pin_of_first_cell(grid_, c11, {}) : 0;
   const auto add_row = [&](Index cell, int unknown, const FaceSpans& of_p, const FaceSpans& of_s) {
     rows.begin_row();
-    rows.add(rows.row_of(cell), unknown == 0 ? diagonal_p : 0.0);
+    rows.add(rows.row_of(cell), unknown == 0 && !diagonal_p.empty() ? diagonal_p[std::size_t(cell)] : 0.0);
     if (unknown == 0 && cell == grid_.index(0, 0)) rows.add(rows.row_of(cell), pin);
     rows.add(rows.row_of(cell) + 1, unknown == 0 ? 0.0 : c);
     for (int d = 0; d < grid_.dimensions; ++d) {

@@ -29,6 +29,9 @@ struct Fluid {
   std::optional<double> density;      ///< kg/m3
   std::optional<double> viscosity;    ///< Pa s
   std::string equation_of_state = "incompressible";
+  double outlet_pressure = 101325;  ///< absolute, at the top of the column, Pa
+  double tait_stiffness = 3.0e8;    ///< B of the Tait liquid, Pa
+  double tait_exponent = 7;         ///< its n
 };
 
 struct Species {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/operators.hpp"
+#include "fluid/density.hpp"
 
 namespace polybed::fluid {
 
@@ -62,11 +63,9 @@ class FaceStress {
   std::array<double, 3> per_length_{};
 };
 
-}  // namespace
-
-void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
-                        const FluidConstants& constants, core::FaceField& acceleration) {
-  const double kinematic = constants.viscosity / constants.density;
+template <class Density>
+void add_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
+              double viscosity, core::FaceField& acceleration) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const FaceStress stress(grid, fluid, axis);
@@ -74,9 +73,18 @@ void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, co
     double* rate = acceleration[std::size_t(axis)].data();
     core::for_each_row(grid, boundaries.moving_faces(axis, true), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c)
-        rate[c] += kinematic * stress.divergence(c) / std::max(face_mean(eps, c, s), voidage_floor);
+        rate[c] +=
+            viscosity / density.on_face(c, s) * stress.divergence(c) / std::max(face_mean(eps, c, s), voidage_floor);
     });
   }
+}
+
+}  // namespace
+
+void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
+                        const FluidConstants& constants, core::FaceField& acceleration) {
+  with_density(fluid, constants.density,
+               [&](const auto& local) { add_with(local, grid, boundaries, fluid, constants.viscosity, acceleration); });
 }
 
 }  // namespace polybed::fluid

@@ -61,6 +61,13 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
   } else if (name != "none") {
     refuse("species_exchange", name);
   }
+  if (scene.fluid.equation_of_state != "incompressible") {
+    const double density = constants.fluid.density;
+    effects.compressible = std::make_unique<fluid::Compressible>(
+        constants.grid, boundaries, fluid::equation_of_state(scene.fluid, density), scene.fluid.outlet_pressure,
+        density, constants.gravity);
+    effects.compressible->make_fields(fields.fluid);
+  }
   return effects;
 }
 

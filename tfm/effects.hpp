@@ -10,6 +10,7 @@
 #include "core/registry.hpp"
 #include "core/scene.hpp"
 #include "fluid/boundaries.hpp"
+#include "fluid/compressible.hpp"
 #include "tfm/fields.hpp"
 
 namespace polybed::tfm {
@@ -65,6 +66,7 @@ struct Effects {
   std::unique_ptr<SolidsExchange> species_exchange;
   std::unique_ptr<FluidStress> fluid_stress;
   std::unique_ptr<StressEffect> solids_stress;
+  std::unique_ptr<fluid::Compressible> compressible;  ///< of an incompressible fluid: null
 };
 
 /// Makes the effects that a scene names and the fields they own; throws core::CaseError for a law that the

@@ -37,7 +37,8 @@ struct Fields {
   fluid::FluidState fluid;
   core::Field solids_fraction;                ///< phi = sum phi_j
   std::vector<core::Field> share;             ///< x_j as closures see it: [species][cell]
-  std::vector<core::Field> slip_superficial;  ///< eps |U_f - U_j| at cell centres, m/s: [species][cell]
+  std::vector<core::Field> slip_superficial;  ///< eps |U_f - U_j| at cell centres, m/s: [species][cell];
+                                              ///< times rho_f/rho_0 if the fluid is compressible
   core::FaceField fluid_acceleration;         ///< a_f, m/s2
   fluid::FluxRate flux_rate;
   SolidsStress stress;

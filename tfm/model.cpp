@@ -72,7 +72,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
                  fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
-  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit");
+  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible());
   column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
   velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants), inlet().greatest(), least_scale});
@@ -89,6 +89,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);
   project_jump(even);
+  if (compressible()) start_compressible();
   make_integrator();
   begin_integration();
 }
@@ -117,11 +118,12 @@ void Model::choose_integrator(const core::Scene& scene) {
     const bool still = scene.column.closed || inlet().greatest() == 0;
     constexpr double fine_below = 0.3;
     const bool fine = drag_over_crossing_time(equations_.constants(), inlet().greatest()) < fine_below;
-    integrator_name_ = gas || still || fine ? "implicit" : "explicit";
-    integrator_reason_ = gas     ? "gas: drag relaxes faster than anything moves"
-                         : still ? "nothing flows in: the bed settles"
-                         : fine  ? "fine particles: drag relaxes faster than anything moves"
-                                 : "fluidised by a liquid";
+    integrator_name_ = compressible() || gas || still || fine ? "implicit" : "explicit";
+    integrator_reason_ = compressible() ? "compressible: sound is faster than anything that matters"
+                         : gas          ? "gas: drag relaxes faster than anything moves"
+                         : still        ? "nothing flows in: the bed settles"
+                         : fine         ? "fine particles: drag relaxes faster than anything moves"
+                                        : "fluidised by a liquid";
   }
   constexpr double coarsest_implicit = 2e-3;
   if (integrator_name_ == "implicit" && options_.rtol > coarsest_implicit)
@@ -149,18 +151,27 @@ void Model::make_integrator() {
     options.atol = absolute_tolerances();
     options.ranks = constants().grid.ranks;
     options.id.assign(layout_.size(), 1.0);
+    // Of a compressible fluid p is differential, but left out of the error test all the same: sound that carries
+    // nothing must not set the step.
     for (const StateLayout::Entry& entry : layout_.entries())
       if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
     integrator_ = core::make_implicit(*implicit_, std::move(options));
   } else {
-    const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
-    explicit_ = std::make_unique<ExplicitProblem>(equations_, layout_, tolerance, timers_);
+    core::OdeProblem* problem = nullptr;
+    if (compressible()) {
+      acoustic_ = std::make_unique<CompressibleProblem>(equations_, layout_);
+      problem = acoustic_.get();
+    } else {
+      const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
+      explicit_ = std::make_unique<ExplicitProblem>(equations_, layout_, tolerance, timers_);
+      problem = explicit_.get();
+    }
     core::ExplicitOptions options;
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
     options.fixed_step = options_.fixed_step.value_or(0);
     options.ranks = constants().grid.ranks;
-    integrator_ = core::make_explicit(*explicit_, std::move(options));
+    integrator_ = core::make_explicit(*problem, std::move(options));
   }
 }
 
@@ -169,7 +180,9 @@ void Model::make_integrator() {
 void Model::begin_integration() {
   equations_.begin(time_);
   if (explicit_) explicit_->begin_step(step_);
-  if (implicit_) {
+  if (compressible()) {
+    begin_compressible();
+  } else if (implicit_) {
     // The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed
     // run gives the same bits.
     for (const StateLayout::Entry& entry : layout_.entries())
@@ -188,6 +201,7 @@ void Model::step(double stop) {
   const core::StepReport report = integrator_->step(stop);
   time_ = report.time;
   step_ = report.next_step;
+  if (compressible()) count_fluid(integrator_->state());
   last_step_ = {report.time, report.step, report.error_norm, ""};
   last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
 }
@@ -196,7 +210,11 @@ void Model::step(double stop) {
 std::string Model::what_limited(const core::StepReport& report) const {
   const core::Grid& grid = constants().grid;
   const double viscosity = effects().fluid_stress ? effects().fluid_stress->kinematic_viscosity() : 0;
-  const std::vector<TimeScale> scales = time_scales(constants(), fields(), viscosity);
+  std::vector<TimeScale> scales = time_scales(constants(), fields(), viscosity);
+  if (acoustic_) {
+    const auto [seconds, cell] = effects().compressible->sound_time(fields().fluid);
+    scales.push_back({"sound", seconds, cell});
+  }
   const TimeScale nearest = nearest_of(scales);
   const int rank = core::rank_of_greatest(grid, -nearest.seconds);
   if (report.step >= limiting_share * core::least_of_ranks(grid, nearest.seconds))
@@ -221,7 +239,8 @@ void Model::show(double t) {
 void Model::restart() {
   const auto state = integrator_->state();
   std::copy(state.begin(), state.end(), y_.begin());
-  project_jump(inlet_velocity(std::nextafter(time_, -INFINITY)));
+  // A compressible fluid hears of a jump by sound.
+  if (!compressible()) project_jump(inlet_velocity(std::nextafter(time_, -INFINITY)));
   begin_integration();
 }
 
@@ -262,99 +281,6 @@ void Model::project_jump(const core::Field& before) {
   layout_.pack(fields.solids, fields.fluid, y_);
 }
 
-StateLayout Model::layout_of_column() const {
-  return {core::whole_column(constants().grid), int(constants().species()), layout_.with_pressure()};
-}
-
-std::size_t Model::unknowns() const { return column_size_; }
-
-core::Checkpoint Model::checkpoint() const {
-  core::Checkpoint c;
-  const core::Grid& grid = constants().grid;
-  const StateLayout column = layout_of_column();
-  std::vector<double>& state = c.arrays["state"];
-  state.resize(core::is_first(grid.ranks.get()) ? column.size() : 0);
-  for (std::size_t n = 0; n < layout_.entries().size(); ++n) {
-    core::Field field = core::make_field(grid);
-    layout_.unpack(layout_.entries()[n], y_, field);
-    const core::Field whole = core::gather(grid, field, layout_.entries()[n].axis);
-    if (!state.empty()) column.pack(column.entries()[n], whole, state);
-  }
-  c.arrays["pressure"] = core::gather(grid, fields().fluid.pressure, -1);
-  c.numbers["time_s"] = time_;
-  c.numbers["step_s"] = step_;
-  c.texts["integrator"] = integrator_name_;
-  const Work done = work();
-  c.integers["steps"] = std::int64_t(done.steps);
-  c.integers["rejected_steps"] = std::int64_t(done.rejected_steps);
-  c.integers["right_hand_sides"] = std::int64_t(done.right_hand_sides);
-  c.integers["pressure_solves"] = std::int64_t(done.pressure_solves);
-  c.integers["pressure_iterations"] = std::int64_t(done.pressure_iterations);
-  c.integers["newton_iterations"] = std::int64_t(done.newton_iterations);
-  c.integers["krylov_iterations"] = std::int64_t(done.krylov_iterations);
-  return c;
-}
-
-void Model::keep_last_state() { y_.assign(integrator_->state().begin(), integrator_->state().end()); }
-
-void Model::start_from(const core::Checkpoint& checkpoint) {
-  resume(checkpoint);
-  time_ = step_ = 0;
-  before_ = {};
-  begin_integration();
-}
-
-void Model::check_fits(const core::Checkpoint& checkpoint) const {
-  const auto state = checkpoint.arrays.find("state"), pressure = checkpoint.arrays.find("pressure");
-  const auto kind = checkpoint.texts.find("integrator");
-  if (state == checkpoint.arrays.end() || state->second.size() != column_size_ || pressure == checkpoint.arrays.end() ||
-      pressure->second.size() != core::whole_column(constants().grid).padded_size() || kind == checkpoint.texts.end() ||
-      kind->second != integrator_name_)
-    throw core::FileError("the checkpoint belongs to another case: its unknowns or its integrator differ");
-}
-
-void Model::resume(const core::Checkpoint& checkpoint) {
-  const core::Grid& grid = constants().grid;
-  const core::Ranks* ranks = grid.ranks.get();
-  const bool first = core::is_first(ranks);
-  core::on_first(ranks, [&] { check_fits(checkpoint); });
-  const StateLayout column = layout_of_column();
-  core::Field whole = first ? core::make_field(core::whole_column(grid)) : core::Field(),
-              block = core::make_field(grid);
-  for (std::size_t n = 0; n < column.entries().size(); ++n) {
-    const StateLayout::Entry& entry = column.entries()[n];
-    if (first) column.unpack(entry, checkpoint.arrays.at("state"), whole);
-    core::scatter(grid, whole, entry.axis, block);
-    layout_.pack(layout_.entries()[n], block, y_);
-  }
-  if (first) whole = checkpoint.arrays.at("pressure");
-  core::scatter(grid, whole, -1, equations_.fields().fluid.pressure);
-  std::array<double, 2> clock{};
-  if (first) clock = {checkpoint.numbers.at("time_s"), checkpoint.numbers.at("step_s")};
-  core::take_from_first(ranks, clock);
-  time_ = clock[0];
-  step_ = clock[1];
-  take_up_counts(checkpoint);
-  begin_integration();
-}
-
-/// Counts go on where they were; they are exact in a double up to 9e15.
-void Model::take_up_counts(const core::Checkpoint& checkpoint) {
-  const core::Ranks* ranks = constants().grid.ranks.get();
-  const auto take = [&](std::uint64_t& count, const char* name) {
-    double value = core::is_first(ranks) ? double(checkpoint.integers.at(name)) : 0;
-    core::take_from_first(ranks, std::span(&value, 1));
-    count = std::uint64_t(value);
-  };
-  take(before_.steps, "steps");
-  take(before_.rejected_steps, "rejected_steps");
-  take(before_.right_hand_sides, "right_hand_sides");
-  take(before_.pressure_solves, "pressure_solves");
-  take(before_.pressure_iterations, "pressure_iterations");
-  take(before_.newton_iterations, "newton_iterations");
-  take(before_.krylov_iterations, "krylov_iterations");
-}
-
 Work Model::work() const {
   const core::IntegratorStatistics s = integrator_->statistics();
   Work done = before_;
@@ -363,6 +289,7 @@ Work Model::work() const {
   done.newton_iterations += s.newton_iterations;
   done.krylov_iterations += s.linear_iterations;
   if (implicit_) done.right_hand_sides += implicit_->residuals();
+  if (acoustic_) done.right_hand_sides += acoustic_->evaluations();
   if (explicit_) {
     done.right_hand_sides += explicit_->solves();
     done.pressure_solves += explicit_->solves();

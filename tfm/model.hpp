@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/run.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
+#include "tfm/compressible_problem.hpp"
 #include "tfm/explicit_problem.hpp"
 #include "tfm/implicit_problem.hpp"
 #include "tfm/step_limits.hpp"
@@ -64,6 +66,8 @@ class Model : public core::Simulation {
   [[nodiscard]] Work work() const;
   /// Of the whole column.
   [[nodiscard]] std::size_t unknowns() const;
+  /// Of a compressible fluid: what has flowed in and out by a time within the last step; nothing else.
+  [[nodiscard]] std::optional<fluid::MassAccount> fluid_account(double t) const;
   /// Velocity that errors and divergences are measured against, m/s.
   [[nodiscard]] double velocity_scale() const { return velocity_scale_; }
 
@@ -78,6 +82,12 @@ class Model : public core::Simulation {
   [[nodiscard]] StateLayout layout_of_column() const;
   [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void begin_integration();
+  [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }
+  void start_compressible();
+  void open_account();
+  void take_up_account(const core::Checkpoint& checkpoint);
+  void begin_compressible();
+  void count_fluid(std::span<const double> y);
 
   core::Timers& timers_;
   core::Tfm options_;
@@ -86,6 +96,8 @@ class Model : public core::Simulation {
   StateLayout layout_;
   std::unique_ptr<ExplicitProblem> explicit_;
   std::unique_ptr<ImplicitProblem> implicit_;
+  std::unique_ptr<CompressibleProblem> acoustic_;  ///< explicit steps of a compressible fluid
+  fluid::FluidLedger ledger_;                      ///< of a compressible fluid
   std::unique_ptr<core::Integrator> integrator_;
   double time_ = 0, step_ = 0, velocity_scale_ = 1;
   std::vector<double> y_, dydt_;

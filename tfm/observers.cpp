@@ -15,13 +15,14 @@ namespace polybed::tfm {
 
 namespace {
 
-std::vector<std::string> history_columns(const Constants& constants) {
+std::vector<std::string> history_columns(const Constants& constants, bool compressible) {
   std::vector<std::string> columns{"time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"};
   for (const std::string& name : constants.name) {
     columns.push_back("centre_" + name + "_m");
     columns.push_back("mass_" + name + "_kg");
   }
   columns.insert(columns.end(), {"interface_m", "mixing", "max_solids_fraction", "min_fraction", "divergence"});
+  if (compressible) columns.insert(columns.end(), {"mass_fluid_kg", "fluid_in_kg", "fluid_out_kg"});
   return columns;
 }
 
@@ -40,12 +41,13 @@ std::vector<std::string> profile_names(const Constants& constants) {
   return names;
 }
 
-std::vector<core::FieldName> field_names(const Constants& constants) {
+std::vector<core::FieldName> field_names(const Constants& constants, bool compressible) {
   std::vector<core::FieldName> names{{"voidage"}, {"pressure"}, {"u_fluid", true}};
   for (const std::string& name : constants.name) {
     names.push_back({"phi_" + name});
     names.push_back({"u_" + name, true});
   }
+  if (compressible) names.insert(names.end(), {{"total_pressure"}, {"density_fluid"}});
   return names;
 }
 
@@ -105,15 +107,19 @@ fluid::Profile profile_of(const Model& model) {
 
 Observers::Observers(const Model& model, const std::filesystem::path& directory, double rtol,
                      std::vector<double> initial_mass, std::optional<double> resume_time)
-    : model_(model), ranks_(model.constants().grid.ranks.get()), invariants_(std::move(initial_mass), rtol) {
+    : model_(model),
+      ranks_(model.constants().grid.ranks.get()),
+      invariants_(std::move(initial_mass), rtol, model.effects().compressible != nullptr) {
   const Constants& constants = model.constants();
+  const bool compressible = model.effects().compressible != nullptr;
   core::on_first(ranks_, [&] {
     const std::filesystem::path steps = directory / "steps.csv";
-    files_.reset(new Files{{directory, history_columns(constants), resume_time},
-                           {directory, slab_centres(constants.grid), profile_names(constants), resume_time},
-                           {directory, core::whole_column(constants.grid), field_names(constants), resume_time},
-                           steps,
-                           {open_steps(steps, resume_time), std::fclose}});
+    files_.reset(
+        new Files{{directory, history_columns(constants, compressible), resume_time},
+                  {directory, slab_centres(constants.grid), profile_names(constants), resume_time},
+                  {directory, core::whole_column(constants.grid), field_names(constants, compressible), resume_time},
+                  steps,
+                  {open_steps(steps, resume_time), std::fclose}});
   });
 }
 
@@ -130,8 +136,11 @@ void Observers::write_history(double time) {
   force_balance_ = weight != 0 ? drop / weight : 0;
   const Fields& fields = model_.fields();
   const double above = model_.effects().solids_stress ? model_.effects().solids_stress->packing_above(fields) : 0.0;
-  const fluid::InvariantValues now = invariants_.see(constants.grid, fields.solids, fields.fluid, above,
-                                                     model_.velocity_scale(), force_balance_ - 1, time);
+  const auto account = model_.fluid_account(time);
+  const double fluid_mass = account ? fluid::fluid_mass(constants.grid, fields.fluid) : 0;
+  const fluid::InvariantValues now =
+      invariants_.see(constants.grid, fields.solids, fields.fluid, above, model_.velocity_scale(), force_balance_ - 1,
+                      time, account ? account->error(fluid_mass) : 0);
   const auto height = fluid::bed_height(profile);
   bed_height_ = height.value_or(0);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
@@ -141,6 +150,7 @@ void Observers::write_history(double time) {
   }
   row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), now.most_solids, -now.fraction_below,
                          now.divergence});
+  if (account) row.insert(row.end(), {fluid_mass, account->in, account->out});
   core::on_first(ranks_, [&] { files_->history.write_row(row); });
 }
 
@@ -159,6 +169,11 @@ void Observers::write_fields(double time) {
     rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));
     whole.push_back(gathered(grid, {&fields.solids.fraction[j]}));
     whole.push_back(gathered(grid, components(grid, velocities[j + 1])));
+  }
+  if (model_.effects().compressible) {
+    const core::Field total = model_.effects().compressible->total_pressure(fields.fluid);
+    whole.push_back(gathered(grid, {&total}));
+    whole.push_back(gathered(grid, {&fields.fluid.compression.density}));
   }
   std::vector<core::FieldValues> values;
   for (const auto& field : whole) values.emplace_back(field.begin(), field.end());

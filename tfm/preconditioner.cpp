@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/operators.hpp"
+#include "fluid/density.hpp"
 #include "fluid/pressure.hpp"
 #include "tfm/solids.hpp"
 
@@ -60,35 +61,43 @@ bool Preconditioner::setup(const Fields& fields, double c) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     core::Box held_solids = boundaries_.moving_faces(axis, true);
     const core::Box moving = boundaries_.moving_faces(axis, false);
-    build(fields, axis, moving, true);
     held_solids.lo[std::size_t(axis)] = moving.hi[std::size_t(axis)];
-    build(fields, axis, held_solids, false);
+    fluid::with_density(fields.fluid, constants_.fluid.density, [&](const auto& density) {
+      build(fields, density, axis, moving, true);
+      build(fields, density, axis, held_solids, false);
+    });
   }
   for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
   if (fields.stress.present())
     for (std::size_t cell = 0; cell < slope_.size(); ++cell)
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
   boundaries_.fill_cells(slope_);
+  if (fields.fluid.compression.present()) {
+    diagonal_ = fields.fluid.compression.kappa;
+    for (double& d : diagonal_) d *= c;
+  }
   const auto faces = [](const core::FaceField& f) { return std::array<std::span<const double>, 3>{f[0], f[1], f[2]}; };
-  return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]), slope_, 0.0,
-                       c);
+  return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]), slope_,
+                       diagonal_, c);
 }
 
-void Preconditioner::build(const Fields& fields, int axis, const core::Box& box, bool solids_move) {
+template <class Density>
+void Preconditioner::build(const Fields& fields, const Density& density, int axis, const core::Box& box,
+                           bool solids_move) {
   const Index s = constants_.grid.stride(axis);
   core::for_each_row(constants_.grid, box, [&](Index begin, Index end) {
     for (Index face = begin; face < end; ++face) {
       for (std::size_t j = 0; j < constants_.species(); ++j)
         fraction_[std::size_t(axis)][j][std::size_t(face)] =
             solids_move ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
-      invert_face(fields, axis, face);
+      invert_face(fields, density.on_face(face, s), axis, face);
       respond(fields, axis, face, solids_move);
     }
   });
 }
 
 /// S of one face, inverted into its place.
-void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
+void Preconditioner::invert_face(const Fields& fields, double fluid_density, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
   const Index stride = constants_.grid.stride(axis);
   const std::size_t n = constants_.species();
@@ -103,7 +112,7 @@ void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
     const double b = fluid::exchange_on_face(fields.solids.exchange[j].data(), face, stride, slip);
     const double phi = fraction_[a][j][at];
     const double on_solid = b / constants_.density[j];
-    const double on_flux = phi * b * (1 / constants_.fluid.density - 1 / constants_.density[j]);
+    const double on_flux = phi * b * (1 / fluid_density - 1 / constants_.density[j]);
     system.row(row(j)) -= on_solid * fluid_velocity.transpose();
     system(row(j), row(j)) += on_solid;
     system.row(row(n)) += on_flux * fluid_velocity.transpose();

@@ -42,6 +42,7 @@ void pack_rates(const StateLayout& layout, const Fields& fields, std::span<doubl
         layout.pack(entry, fields.flux_rate.free[a], dydt);
         break;
       case Kind::pressure:
+        if (fields.fluid.compression.present()) layout.pack(entry, fields.fluid.compression.pressure_rate, dydt);
         break;
     }
   }

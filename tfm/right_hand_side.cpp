@@ -39,6 +39,9 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //             + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
 //   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
+//
+// and, of a compressible fluid, (5) of fluid/compressible.hpp. rho_f in (2) stands for rho_0 there, and (3) has its
+// -(1 - rho_0/rho_f) g besides.
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
   const auto timed = [&](const char* term, auto&& work) {
     const auto scope = timers_.scope(term);
@@ -50,7 +53,11 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     fill_ghosts();
   });
   if (!admissible()) return false;
-  timed("mixture", [&] { superficial_slip(constants_, fields_); });
+  if (!equation_of_state()) return false;
+  timed("mixture", [&] {
+    superficial_slip(constants_, fields_);
+    if (effects_.compressible) weigh_slip_by_density(constants_, fields_);
+  });
   timed("convection", [&] {
     continuity(constants_, boundaries_, discretisation_.flux, fields_, flux_);
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
@@ -61,7 +68,10 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       effects_.solids_stress->evaluate(fields_);
       subtract_stress(constants_, boundaries_, fields_);
     });
-  timed("gravity", [&] { add_gravity(constants_, boundaries_, fields_); });
+  timed("gravity", [&] {
+    add_gravity(constants_, boundaries_, fields_);
+    if (effects_.compressible) effects_.compressible->add_gravity(fields_.fluid, fields_.fluid_acceleration);
+  });
   if (effects_.drag)
     timed("drag", [&] {
       effects_.drag->evaluate(fields_);
@@ -79,7 +89,24 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
                      fields_.fluid_acceleration, fields_.flux_rate);
     set_inlet_rate(t);
   });
+  if (effects_.compressible)
+    timed("fluid continuity", [&] { effects_.compressible->set_pressure_rate(fields_.solids, fields_.fluid); });
   return true;
+}
+
+/// Density of a compressible fluid; false at a pressure that has none.
+bool RightHandSide::equation_of_state() {
+  if (!effects_.compressible) return true;
+  const auto scope = timers_.scope("equation of state");
+  return effects_.compressible->set_density(fields_.fluid);
+}
+
+std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLayout& layout,
+                                                        std::span<const double> y) {
+  layout.unpack(y, fields_.solids, fields_.fluid);
+  set_inlet_velocity(t);
+  if (!effects_.compressible->set_density(fields_.fluid)) return std::nullopt;
+  return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid);
 }
 
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.

@@ -2,9 +2,11 @@
 // pressure acts. Both integrators use this one operator.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/timers.hpp"
+#include "fluid/fluid_mass.hpp"
 #include "fluid/inlet.hpp"
 #include "tfm/effects.hpp"
 #include "tfm/solids.hpp"
@@ -29,6 +31,11 @@ class RightHandSide {
   /// can be asked about (not finite, or a cell with more than its volume of solids): the step must shrink.
   [[nodiscard]] bool evaluate(double t, const StateLayout& layout, std::span<const double> y);
 
+  /// Of a compressible fluid: what flows in and out in a state; nothing if its pressure has no density. The unknowns
+  /// of that state stand in fields().
+  [[nodiscard]] std::optional<fluid::MassFlow> mass_flow(double t, const StateLayout& layout,
+                                                         std::span<const double> y);
+
   [[nodiscard]] const Constants& constants() const { return constants_; }
   [[nodiscard]] const fluid::Boundaries& boundaries() const { return boundaries_; }
   [[nodiscard]] const fluid::Inlet& inlet() const { return inlet_; }
@@ -40,6 +47,7 @@ class RightHandSide {
 
  private:
   void fill_ghosts();
+  [[nodiscard]] bool equation_of_state();
   [[nodiscard]] double side_of(double t) const;
   void set_inlet_velocity(double t);
   void set_inlet_rate(double t);

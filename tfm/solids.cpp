@@ -34,6 +34,12 @@ void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, co
   }
 }
 
+/// Takes the flux of a species from that of the mixture.
+void subtract(const core::FaceField& flux, core::FaceField& from) {
+  for (std::size_t a = 0; a < flux.size(); ++a)
+    for (std::size_t f = 0; f < flux[a].size(); ++f) from[a][f] -= flux[a][f];
+}
+
 template <class Difference>
 void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const core::FaceField& velocity,
              bool of_fluid, core::FaceField& acceleration) {
@@ -49,6 +55,8 @@ void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const 
 void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields,
                 core::FaceField& flux) {
   const core::Grid& grid = constants.grid;
+  const bool compressible = fields.fluid.compression.present();
+  if (compressible) fields.fluid.compression.flux = fields.fluid.flux;
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const Field& phi = fields.solids.fraction[j];
     const core::FaceField& velocity = fields.solids.velocity[j];
@@ -56,6 +64,7 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
       solids_flux<core::LimitedFace>(grid, boundaries, phi, velocity, flux);
     else
       solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
+    if (compressible) subtract(flux, fields.fluid.compression.flux);
     Field& rate = fields.solids.fraction_rate[j];
     core::divergence(grid, flux, rate);
     for (double& r : rate) r = -r;

@@ -257,7 +257,7 @@ TEST_F(LinearSolver, TheBlockSystemIsRightOnNarrowPeriodicGrids) {
     const Field source = cells_of(grid, [](int i, int j) { return std::sin(i + 2.3 * j); });
     Field p = make_field(grid), s = make_field(grid), direct = make_field(grid);
     BlockSolver solver(grid);
-    ASSERT_TRUE(solver.setup(spans(b), spans(none), spans(none), spans(c22), make_field(grid, 1.0), 0.0, 2.0));
+    ASSERT_TRUE(solver.setup(spans(b), spans(none), spans(none), spans(c22), make_field(grid, 1.0), {}, 2.0));
     solver.apply(source, source, p, s, 40);
     ASSERT_TRUE(solve_directly(grid, spans(b), {}, source, direct));
     double scale = 0;
