@@ -322,11 +322,11 @@ void Model::resume(const core::Checkpoint& checkpoint) {
              count("pressure_iterations"),
              count("newton_iterations"),
              count("krylov_iterations")};
-  if (compressible())
-    ledger_.begin(time_,
-                  {checkpoint.numbers.at("fluid_start_kg"), checkpoint.numbers.at("fluid_in_kg"),
-                   checkpoint.numbers.at("fluid_out_kg")},
-                  {});
+  const auto kept = [&](const char* name) {  // 0 from an incompressible fluid, from which a run may begin
+    const auto number = checkpoint.numbers.find(name);
+    return number == checkpoint.numbers.end() ? 0.0 : number->second;
+  };
+  ledger_.begin(time_, {kept("fluid_start_kg"), kept("fluid_in_kg"), kept("fluid_out_kg")}, {});
   begin_integration();
 }
 
