@@ -73,9 +73,12 @@ void Model::count_fluid(std::span<const double> y) {
 
 void Model::take_up_account(const core::Checkpoint& checkpoint) {
   std::array<double, 3> kg{};
+  const auto kept = [&](const char* name) {  // 0 from an incompressible fluid, from which a run may begin
+    const auto number = checkpoint.numbers.find(name);
+    return number == checkpoint.numbers.end() ? 0.0 : number->second;
+  };
   if (core::is_first(constants().grid.ranks.get()))
-    kg = {checkpoint.numbers.at("fluid_start_kg"), checkpoint.numbers.at("fluid_in_kg"),
-          checkpoint.numbers.at("fluid_out_kg")};
+    kg = {kept("fluid_start_kg"), kept("fluid_in_kg"), kept("fluid_out_kg")};
   core::take_from_first(constants().grid.ranks.get(), kg);
   ledger_.begin(time_, {kg[0], kg[1], kg[2]}, {});
 }
