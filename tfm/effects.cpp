@@ -5,6 +5,8 @@
 #include "tfm/effects/drag.hpp"
 #include "tfm/effects/fluid_stress_newtonian.hpp"
 #include "tfm/effects/solids_stress_frictional.hpp"
+#include "tfm/effects/solids_viscosity_frictional.hpp"
+#include "tfm/effects/solids_wall_johnson_jackson.hpp"
 #include "tfm/effects/species_exchange_syamlal.hpp"
 
 namespace polybed::tfm {
@@ -26,6 +28,13 @@ std::vector<core::Role> roles() {
            "pressure of the solids where they are packed",
            "particles have contacts instead",
            {{"frictional", "Johnson and Jackson 1987, with bulk viscosity"}}},
+          {"solids_viscosity",
+           "tfm",
+           "Stress",
+           "resistance of packed solids to shear",
+           "particles have contacts instead",
+           {{"schaeffer", "p_f sin(delta)/|gamma|, capped; Schaeffer 1987"},
+            {"mu_i", "mu(I) p_f/|gamma|, capped; Jop, Forterre and Pouliquen 2006, dry grains"}}},
           {"species_exchange",
            "tfm",
            "Exchange",
@@ -55,6 +64,15 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else if (name != "none")
     refuse("solids_stress", name);
+  if (const std::string name = law("solids_viscosity"); name == "schaeffer" || name == "mu_i") {
+    if (!effects.solids_stress)
+      throw core::CaseError("effects.solids_viscosity = \"" + name + "\" needs a solids_stress: its pressure");
+    effects.solids_viscosity = std::make_unique<FrictionalViscosity>(scene, constants, name, fields);
+  } else if (name != "none") {
+    refuse("solids_viscosity", name);
+  }
+  if (scene.tfm.solids_wall == "johnson_jackson")
+    effects.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);
   if (const std::string name = law("species_exchange"); name == "syamlal") {
     if (constants.species() > 1)
       effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);

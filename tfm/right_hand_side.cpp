@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tfm/mixture.hpp"
+#include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
 
@@ -20,14 +21,15 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
       timers_(timers),
       fields_(constants_),
       effects_(make_effects(scene, constants_, boundaries_, fields_)),
-      flux_(core::make_face_field(constants_.grid)) {}
+      flux_(core::make_face_field(constants_.grid)),
+      viscous_weight_(fields_.stress.viscosity) {}
 
 // Per unit mass of each phase, from T(1.27), T(1.28) and T(1.16) with the pressure gradient of T(1.17):
 //
 //   (1) dphi_j/dt = -div(phi_j U_j)
 //   (2) dU_j/dt   = a_j - grad p / rho_j
 //       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
-//             + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
+//             + div(phi_j T_j)/((phi_j + 1e-4) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
 //   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
@@ -47,11 +49,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
-  if (effects_.solids_stress)
-    timed("solids stress", [&] {
-      effects_.solids_stress->evaluate(fields_);
-      subtract_stress(constants_, boundaries_, fields_);
-    });
+  if (effects_.solids_stress) timed("solids stress", [&] { add_solids_stress(); });
   timed("gravity", [&] { add_gravity(constants_, boundaries_, fields_); });
   if (effects_.drag)
     timed("drag", [&] {
@@ -71,6 +69,21 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     set_inlet_rate(t);
   });
   return true;
+}
+
+/// Pressure of the solids and, where an effect gives them one, their viscosity.
+void RightHandSide::add_solids_stress() {
+  SolidsStress& stress = fields_.stress;
+  effects_.solids_stress->evaluate(fields_);
+  if (stress.viscous()) {
+    strain_rates(constants_, fields_);
+    std::fill(stress.viscosity.begin(), stress.viscosity.end(), 0.0);
+    if (effects_.solids_viscosity) effects_.solids_viscosity->add(fields_);
+    boundaries_.fill_cells(stress.viscosity);
+    if (effects_.solids_wall) effects_.solids_wall->fill_ghosts(fields_);
+    add_solids_viscosity(constants_, boundaries_, fields_, viscous_weight_);
+  }
+  subtract_stress(constants_, boundaries_, fields_);
 }
 
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.

@@ -38,6 +38,7 @@ class RightHandSide {
 
  private:
   void fill_ghosts();
+  void add_solids_stress();
   [[nodiscard]] double side_of(double t) const;
   void set_inlet_velocity(double t);
   void set_inlet_rate(double t);
@@ -52,6 +53,7 @@ class RightHandSide {
   Fields fields_;
   Effects effects_;
   core::FaceField flux_;
+  core::Field viscous_weight_;  ///< work space of the solids' viscosity; empty without
 };
 
 }  // namespace polybed::tfm
