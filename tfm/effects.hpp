@@ -66,6 +66,14 @@ class SolidsViscosity {
   virtual void add(Fields& fields) = 0;
 };
 
+/// Slot Stress, collisions of the solids: adds to stress.pressure, slope and viscosity; where the granular temperature
+/// is an unknown (slot Scalar) also finds the local part of its rate.
+class CollisionalStress {
+ public:
+  virtual ~CollisionalStress() = default;
+  virtual void add(Fields& fields) = 0;
+};
+
 /// What walls do to solids that slip along them, where that is neither nothing nor all.
 class SolidsWall {
  public:
@@ -81,6 +89,7 @@ struct Effects {
   std::unique_ptr<FluidStress> fluid_stress;
   std::unique_ptr<StressEffect> solids_stress;
   std::unique_ptr<SolidsViscosity> solids_viscosity;
+  std::unique_ptr<CollisionalStress> collisions;
   std::unique_ptr<SolidsWall> solids_wall;
 };
 

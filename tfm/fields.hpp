@@ -41,6 +41,12 @@ struct SolidsStress {
   }
 };
 
+/// What the equation of the granular temperature needs, species by species; empty unless theta_j is an unknown.
+struct Granular {
+  std::vector<core::Field> conductivity;  ///< k_j/phi_j, W s2/(m3)
+  std::vector<core::Field> decay;         ///< rate at which a disturbance of theta_j in one cell decays, 1/s
+};
+
 struct Fields {
   fluid::Interphase solids;
   fluid::FluidState fluid;
@@ -50,6 +56,7 @@ struct Fields {
   core::FaceField fluid_acceleration;         ///< a_f, m/s2
   fluid::FluxRate flux_rate;
   SolidsStress stress;
+  Granular granular;
   /// K_jk / (phi_j phi_k), kg/(m3 s), pairs j < k; empty if absent.
   std::vector<core::Field> species_exchange;
 

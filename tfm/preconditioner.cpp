@@ -6,6 +6,7 @@
 #include "core/operators.hpp"
 #include "fluid/pressure.hpp"
 #include "tfm/solids.hpp"
+#include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
 
@@ -65,6 +66,9 @@ bool Preconditioner::setup(const Fields& fields, double c) {
     build(fields, axis, held_solids, false);
   }
   for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
+  temperature_row_ = temperature_residual_ = fields.granular.decay;
+  for (Field& row : temperature_row_)
+    for (double& rate : row) rate += c;
   if (fields.stress.present())
     for (std::size_t cell = 0; cell < slope_.size(); ++cell)
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
@@ -84,6 +88,17 @@ void Preconditioner::build(const Fields& fields, int axis, const core::Box& box,
       respond(fields, axis, face, solids_move);
     }
   });
+}
+
+/// Diagonal of -div(grad U + grad U^T - 2/3 div U I) for the velocity along an axis, 1/m2. The viscosity of the solids
+/// enters S by its diagonal, as if the neighbours stood still.
+double Preconditioner::viscous_diagonal(int axis) const {
+  double sum = 0;
+  for (int d = 0; d < constants_.grid.dimensions; ++d) {
+    const double h = constants_.grid.spacing[std::size_t(d)];
+    sum += (d == axis ? 8.0 / 3 : 2.0) / (h * h);
+  }
+  return sum;
 }
 
 /// S of one face, inverted into its place.
@@ -107,6 +122,12 @@ void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
     system(row(j), row(j)) += on_solid;
     system.row(row(n)) += on_flux * fluid_velocity.transpose();
     system(row(n), row(j)) -= on_flux;
+    if (fields.stress.viscous()) {
+      const double rate = face_mean(fields.stress.viscosity.data(), face, stride) * viscous_diagonal(axis) * phi /
+                          (phi + viscous_fraction_floor) / constants_.density[j];
+      system(row(j), row(j)) += rate;
+      system(row(n), row(j)) += phi * rate;
+    }
     for (std::size_t k = 0; k < n && !fields.species_exchange.empty(); ++k) {
       if (k == j) continue;
       const Field& pair = fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)];
@@ -172,6 +193,9 @@ void Preconditioner::unpack(const StateLayout& layout, std::span<const double> r
         break;
       case Kind::flux:
         layout.unpack(entry, r, face_value_[a][rows_ - 1]);
+        break;
+      case Kind::temperature:
+        layout.unpack(entry, r, temperature_residual_[j]);
         break;
       case Kind::pressure:
         layout.unpack(entry, r, pressure_residual_);
@@ -281,6 +305,10 @@ void Preconditioner::pack(const StateLayout& layout, std::span<double> z) {
         break;
       case Kind::flux:
         layout.pack(entry, face_value_[a][rows_ - 1], z);
+        break;
+      case Kind::temperature:
+        for (std::size_t c = 0; c < work_.size(); ++c) work_[c] = temperature_residual_[j][c] / temperature_row_[j][c];
+        layout.pack(entry, work_, z);
         break;
       case Kind::pressure:
         layout.pack(entry, dp_, z);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "tfm/granular_temperature.hpp"
 #include "tfm/mixture.hpp"
 #include "tfm/solids_viscosity.hpp"
 
@@ -49,7 +50,6 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
-  if (effects_.solids_stress) timed("solids stress", [&] { add_solids_stress(); });
   timed("gravity", [&] { add_gravity(constants_, boundaries_, fields_); });
   if (effects_.drag)
     timed("drag", [&] {
@@ -58,6 +58,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       fluid::subtract_exchange(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
                                fields_.fluid_acceleration);
     });
+  if (effects_.solids_stress) timed("solids stress", [&] { add_solids_stress(); });
   if (effects_.species_exchange)
     timed("species exchange", [&] {
       effects_.species_exchange->evaluate(fields_);
@@ -71,7 +72,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
   return true;
 }
 
-/// Pressure of the solids and, where an effect gives them one, their viscosity.
+/// Pressure of the solids and, where effects give them any, viscosity and granular temperature.
 void RightHandSide::add_solids_stress() {
   SolidsStress& stress = fields_.stress;
   effects_.solids_stress->evaluate(fields_);
@@ -79,6 +80,9 @@ void RightHandSide::add_solids_stress() {
     strain_rates(constants_, fields_);
     std::fill(stress.viscosity.begin(), stress.viscosity.end(), 0.0);
     if (effects_.solids_viscosity) effects_.solids_viscosity->add(fields_);
+    if (effects_.collisions) effects_.collisions->add(fields_);
+    if (!fields_.solids.temperature_rate.empty())
+      add_temperature_transport(constants_, boundaries_, discretisation_.flux, fields_, flux_);
     boundaries_.fill_cells(stress.viscosity);
     if (effects_.solids_wall) effects_.solids_wall->fill_ghosts(fields_);
     add_solids_viscosity(constants_, boundaries_, fields_, viscous_weight_);
