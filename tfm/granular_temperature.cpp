@@ -43,6 +43,7 @@ void add_temperature_transport(const Constants& constants, const fluid::Boundari
     else
       convect<core::UpwindFace>(grid, theta, fields.solids.velocity[j], rate);
     const double* phi = fields.solids.fraction[j].data();
+    const double floor = diffusion_floor(constants, j);
     for (int axis = 0; axis < grid.dimensions; ++axis) {
       core::Field& out = flux[std::size_t(axis)];
       std::fill(out.begin(), out.end(), 0.0);
@@ -58,8 +59,8 @@ void add_temperature_transport(const Constants& constants, const fluid::Boundari
       const double per_length = 2 / (3 * constants.density[j] * grid.spacing[std::size_t(axis)]);
       core::for_each_row(grid, [&](Index begin, Index end) {
         for (Index c = begin; c < end; ++c)
-          rate[std::size_t(c)] += per_length * (out[std::size_t(c + s)] - out[std::size_t(c)]) /
-                                  (std::max(phi[c], 0.0) + viscous_fraction_floor);
+          rate[std::size_t(c)] +=
+              per_length * (out[std::size_t(c + s)] - out[std::size_t(c)]) / (std::max(phi[c], 0.0) + floor);
       });
     }
   }

@@ -124,7 +124,7 @@ void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
     system(row(n), row(j)) -= on_flux;
     if (fields.stress.viscous()) {
       const double rate = face_mean(fields.stress.viscosity.data(), face, stride) * viscous_diagonal(axis) * phi /
-                          (phi + viscous_fraction_floor) / constants_.density[j];
+                          (phi + diffusion_floor(constants_, j)) / constants_.density[j];
       system(row(j), row(j)) += rate;
       system(row(n), row(j)) += phi * rate;
     }

@@ -30,7 +30,7 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //   (1) dphi_j/dt = -div(phi_j U_j)
 //   (2) dU_j/dt   = a_j - grad p / rho_j
 //       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
-//             + div(phi_j T_j)/((phi_j + 1e-4) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
+//             + div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
 //   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {

@@ -73,12 +73,11 @@ void add_solids_viscosity(const Constants& constants, const fluid::Boundaries& b
       const fluid::FaceStress stress(grid, weight, fields.solids.velocity[j], axis);
       const Index s = grid.stride(axis);
       double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
-      const double per_density = 1 / constants.density[j];
+      const double per_density = 1 / constants.density[j], floor = diffusion_floor(constants, j);
       core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
         for (Index c = begin; c < end; ++c)
           a[c] += per_density * stress.divergence(c) /
-                  (0.5 * (std::max(phi[std::size_t(c - s)], 0.0) + std::max(phi[std::size_t(c)], 0.0)) +
-                   viscous_fraction_floor);
+                  (0.5 * (std::max(phi[std::size_t(c - s)], 0.0) + std::max(phi[std::size_t(c)], 0.0)) + floor);
       });
     }
   }

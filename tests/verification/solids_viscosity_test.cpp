@@ -12,7 +12,7 @@ namespace {
 using Kind = tfm::StateLayout::Entry::Kind;
 constexpr double pi = std::numbers::pi;
 constexpr double side = 0.01, solids = 0.6, density = 2500, viscosity = 10;
-/// mu_s/(phi rho), with the 1e-4 that the equation adds to the solids fraction.
+/// mu_s/(phi rho), with the 1e-4 that the equation adds to the fraction of the only species.
 constexpr double kinematic = viscosity / ((solids + 1e-4) * density);
 
 /// Solids at 0.6 in a fluid of 1 kg/m3 without drag and weight, in a closed box. Their frictional pressure is

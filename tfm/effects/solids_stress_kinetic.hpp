@@ -14,7 +14,7 @@ namespace polybed::tfm {
 /// solids fraction of all and g0_j = sum_k x_k g_jk: neutral to cutting a species in two. Per volume of species j, in
 /// W/m3:
 ///   (3/2) rho_j (dtheta_j/dt + U_j.grad theta_j) = mu_j/phi 2 D'_j:D'_j - p_j/phi_j div U_j - Gamma_j/phi_j
-///     - 3 b_j theta_j + slip production + div(k_j grad theta_j)/(phi_j + 1e-4).
+///     - 3 b_j theta_j + slip production + div(k_j grad theta_j)/(phi_j + 1e-4 X_j).
 /// Algebraic: the left side and the last term are left out.
 class KineticStress : public CollisionalStress {
  public:
