@@ -29,20 +29,25 @@ std::vector<double> slab_centres(const core::Grid& grid) {
   return y;
 }
 
-std::vector<std::string> profile_names(const Constants& constants) {
+/// Whether the solids have granular temperatures to write.
+bool has_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
+
+std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
   std::vector<std::string> names{"voidage", "p"};
   for (const std::string& name : constants.name) {
     names.push_back("phi_" + name);
     names.push_back("u_" + name);
+    if (temperature) names.push_back("theta_" + name);
   }
   return names;
 }
 
-std::vector<core::FieldName> field_names(const Constants& constants) {
+std::vector<core::FieldName> field_names(const Constants& constants, bool temperature) {
   std::vector<core::FieldName> names{{"voidage"}, {"pressure"}, {"u_fluid", true}};
   for (const std::string& name : constants.name) {
     names.push_back({"phi_" + name});
     names.push_back({"u_" + name, true});
+    if (temperature) names.push_back({"theta_" + name});
   }
   return names;
 }
@@ -89,8 +94,9 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
     : model_(model),
       invariants_(std::move(initial_mass), rtol),
       history_(directory, history_columns(model.constants()), resume_time),
-      profiles_(directory, slab_centres(model.constants().grid), profile_names(model.constants()), resume_time),
-      fields_(directory, model.constants().grid, field_names(model.constants()), resume_time),
+      profiles_(directory, slab_centres(model.constants().grid),
+                profile_names(model.constants(), has_temperature(model)), resume_time),
+      fields_(directory, model.constants().grid, field_names(model.constants(), has_temperature(model)), resume_time),
       steps_path_(directory / "steps.csv"),
       steps_(open_steps(steps_path_, resume_time), std::fclose) {}
 
@@ -139,6 +145,9 @@ void Observers::write_fields(double time) {
     rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));
     values.push_back({fields.solids.fraction[j]});
     values.push_back(components(velocities[j + 1]));
+    if (!has_temperature(model_)) continue;
+    rows.push_back(fluid::lateral_mean(grid, fields.solids.temperature[j]));
+    values.push_back({fields.solids.temperature[j]});
   }
   profiles_.write_row(time, rows);
   fields_.write_step(time, values);

@@ -14,12 +14,16 @@ using core::Index;
 
 namespace {
 
-/// Least solids fraction at which collisions are evaluated: below, mean free path and viscosity over phi stay those of
-/// here, 12 diameters, instead of growing beyond the column; pressure still vanishes with phi.
+/// Least solids fraction at which collisions are evaluated: the mean free path is 12 diameters there, and what it makes
+/// of shear and compression would grow as 1/phi^2. Below, what collisions do to a grain fades with phi, so that a cell
+/// without solids has the temperature that slip and drag give a lone grain.
 constexpr double collision_fraction_floor = 0.01;
 
 /// theta, m2/s2, that rounds off 1/sqrt(theta) of the slip production at 0: (0.1 mm/s)^2.
 constexpr double least_temperature = 1e-8;
+
+/// 1 down to the least solids fraction of above, then falling to 0 with phi.
+double collision_share(double phi) { return std::clamp(phi / collision_fraction_floor, 0.0, 1.0); }
 
 }  // namespace
 
@@ -95,9 +99,10 @@ void KineticStress::balance_terms(const Fields& fields, Index cell, double phi, 
     divergence += (u[cell + constants_.grid.stride(axis)] - u[cell]) / constants_.grid.spacing[std::size_t(axis)];
   }
   const double slip = fields.slip_superficial[species][c] / std::max(fields.fluid.voidage[c], fluid::voidage_floor);
-  local.compression = rho * (1 + local.collisions) * divergence;
-  local.shear =
-      closures::kinetic_viscosity(model_, phi, local.g0, e) * rho * d / phi * fields.stress.strain[species][c];
+  const double fade = collision_share(fields.solids_fraction[c]);
+  local.compression = fade * rho * (1 + local.collisions) * divergence;
+  local.viscosity = fade * closures::kinetic_viscosity(model_, phi, local.g0, e) * rho * d / phi;
+  local.shear = local.viscosity * fields.stress.strain[species][c];
   local.loss = closures::kinetic_dissipation(model_, phi, local.g0, e) * rho / (d * phi);
   local.drag = closures::fluctuation_drag_sink(fields.solids.exchange[species][c], 1);
   local.slip = closures::slip_production(phi, local.g0, constants_.fluid.viscosity, slip, d, rho);
@@ -125,8 +130,7 @@ void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialV
     const double energy = share * rho * s * s;
     fields.stress.pressure[c] += solids * energy * (1 + here.collisions);
     fields.stress.slope[c] += energy * (1 + here.collisions * (2 + phi * radial.slope / radial.value));
-    fields.stress.viscosity[c] += share * rho * constants_.diameter[j] * s / phi *
-                                  closures::kinetic_viscosity(model_, phi, here.g0, restitution_[j]);
+    fields.stress.viscosity[c] += share * here.viscosity * s;
     wall += share * closures::wall_collisions(s * s, specularity_, rho, 1, here.g0, max_packing_);
   }
   if (!fields.stress.wall.empty()) fields.stress.wall[c] = wall;
@@ -140,7 +144,8 @@ void KineticStress::find_rate(Fields& fields, std::size_t cell, double phi, std:
   const double slip = local.slip / std::sqrt(std::max(theta, 0.0) + least_temperature);
   fields.solids.temperature_rate[species][cell] =
       per_energy * (local.shear * s - (local.compression + local.drag + local.loss * s) * theta + slip);
-  const double conductivity = closures::kinetic_conductivity(phi, local.g0, restitution_[species]) * rho *
+  const double conductivity = collision_share(fields.solids_fraction[cell]) *
+                              closures::kinetic_conductivity(phi, local.g0, restitution_[species]) * rho *
                               constants_.diameter[species] * s / phi;
   fields.granular.conductivity[species][cell] = conductivity;
   fields.granular.decay[species][cell] =

@@ -27,6 +27,7 @@ class KineticStress : public CollisionalStress {
   /// One species in one cell, per volume of the species; s = sqrt theta.
   struct Local {
     double g0, collisions;                        ///< sum_k x_k g_jk; sum_k h_jk
+    double viscosity;                             ///< mu_j/(phi s), kg/m2
     double compression, shear, loss, drag, slip;  ///< of theta, s, s^3, theta, 1/s in the balance above, W/m3
   };
   void radial_distributions(const Fields& fields, std::size_t cell, double phi, std::span<Local> local) const;
