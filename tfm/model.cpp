@@ -72,7 +72,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
                  fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
-  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible());
+  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible(),
+                        has_temperature());
   column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
   velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants), inlet().greatest(), least_scale});
@@ -135,9 +136,10 @@ void Model::choose_integrator(const core::Scene& scene) {
 std::vector<double> Model::absolute_tolerances() const {
   std::vector<double> atol(layout_.size());
   for (const StateLayout::Entry& entry : layout_.entries()) {
-    const double value = entry.kind == Kind::fraction   ? 0.1 * options_.rtol
-                         : entry.kind == Kind::pressure ? 100.0 * options_.rtol
-                                                        : options_.rtol * velocity_scale_;
+    const double value = entry.kind == Kind::fraction      ? 0.1 * options_.rtol
+                         : entry.kind == Kind::pressure    ? 100.0 * options_.rtol
+                         : entry.kind == Kind::temperature ? options_.rtol * velocity_scale_ * velocity_scale_
+                                                           : options_.rtol * velocity_scale_;
     std::fill_n(atol.begin() + std::ptrdiff_t(entry.begin), entry.size, value);
   }
   return atol;

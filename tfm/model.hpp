@@ -83,6 +83,7 @@ class Model : public core::Simulation {
   [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void begin_integration();
   [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }
+  [[nodiscard]] bool has_temperature() const { return !fields().solids.temperature_rate.empty(); }
   void start_compressible();
   void open_account();
   void take_up_account(const core::Checkpoint& checkpoint);

@@ -10,7 +10,7 @@
 namespace polybed::tfm {
 
 StateLayout Model::layout_of_column() const {
-  return {core::whole_column(constants().grid), int(constants().species()), layout_.with_pressure()};
+  return {core::whole_column(constants().grid), int(constants().species()), layout_.with_pressure(), has_temperature()};
 }
 
 std::size_t Model::unknowns() const { return column_size_; }

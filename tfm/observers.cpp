@@ -32,20 +32,25 @@ std::vector<double> slab_centres(const core::Grid& grid) {
   return y;
 }
 
-std::vector<std::string> profile_names(const Constants& constants) {
+/// Whether the solids have granular temperatures to write.
+bool has_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
+
+std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
   std::vector<std::string> names{"voidage", "p"};
   for (const std::string& name : constants.name) {
     names.push_back("phi_" + name);
     names.push_back("u_" + name);
+    if (temperature) names.push_back("theta_" + name);
   }
   return names;
 }
 
-std::vector<core::FieldName> field_names(const Constants& constants, bool compressible) {
+std::vector<core::FieldName> field_names(const Constants& constants, bool temperature, bool compressible) {
   std::vector<core::FieldName> names{{"voidage"}, {"pressure"}, {"u_fluid", true}};
   for (const std::string& name : constants.name) {
     names.push_back({"phi_" + name});
     names.push_back({"u_" + name, true});
+    if (temperature) names.push_back({"theta_" + name});
   }
   if (compressible) names.insert(names.end(), {{"total_pressure"}, {"density_fluid"}});
   return names;
@@ -114,12 +119,13 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
   const bool compressible = model.effects().compressible != nullptr;
   core::on_first(ranks_, [&] {
     const std::filesystem::path steps = directory / "steps.csv";
-    files_.reset(
-        new Files{{directory, history_columns(constants, compressible), resume_time},
-                  {directory, slab_centres(constants.grid), profile_names(constants), resume_time},
-                  {directory, core::whole_column(constants.grid), field_names(constants, compressible), resume_time},
-                  steps,
-                  {open_steps(steps, resume_time), std::fclose}});
+    files_.reset(new Files{
+        {directory, history_columns(constants, compressible), resume_time},
+        {directory, slab_centres(constants.grid), profile_names(constants, has_temperature(model)), resume_time},
+        {directory, core::whole_column(constants.grid), field_names(constants, has_temperature(model), compressible),
+         resume_time},
+        steps,
+        {open_steps(steps, resume_time), std::fclose}});
   });
 }
 
@@ -169,6 +175,9 @@ void Observers::write_fields(double time) {
     rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));
     whole.push_back(gathered(grid, {&fields.solids.fraction[j]}));
     whole.push_back(gathered(grid, components(grid, velocities[j + 1])));
+    if (!has_temperature(model_)) continue;
+    rows.push_back(fluid::lateral_mean(grid, fields.solids.temperature[j]));
+    whole.push_back(gathered(grid, {&fields.solids.temperature[j]}));
   }
   if (model_.effects().compressible) {
     const core::Field total = model_.effects().compressible->total_pressure(fields.fluid);

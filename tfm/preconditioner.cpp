@@ -7,6 +7,7 @@
 #include "fluid/density.hpp"
 #include "fluid/pressure.hpp"
 #include "tfm/solids.hpp"
+#include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
 
@@ -68,6 +69,9 @@ bool Preconditioner::setup(const Fields& fields, double c) {
     });
   }
   for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
+  temperature_row_ = temperature_residual_ = fields.granular.decay;
+  for (Field& row : temperature_row_)
+    for (double& rate : row) rate += c;
   if (fields.stress.present())
     for (std::size_t cell = 0; cell < slope_.size(); ++cell)
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
@@ -96,6 +100,17 @@ void Preconditioner::build(const Fields& fields, const Density& density, int axi
   });
 }
 
+/// Diagonal of -div(grad U + grad U^T - 2/3 div U I) for the velocity along an axis, 1/m2. The viscosity of the solids
+/// enters S by its diagonal, as if the neighbours stood still.
+double Preconditioner::viscous_diagonal(int axis) const {
+  double sum = 0;
+  for (int d = 0; d < constants_.grid.dimensions; ++d) {
+    const double h = constants_.grid.spacing[std::size_t(d)];
+    sum += (d == axis ? 8.0 / 3 : 2.0) / (h * h);
+  }
+  return sum;
+}
+
 /// S of one face, inverted into its place.
 void Preconditioner::invert_face(const Fields& fields, double fluid_density, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
@@ -117,6 +132,12 @@ void Preconditioner::invert_face(const Fields& fields, double fluid_density, int
     system(row(j), row(j)) += on_solid;
     system.row(row(n)) += on_flux * fluid_velocity.transpose();
     system(row(n), row(j)) -= on_flux;
+    if (fields.stress.viscous()) {
+      const double rate = face_mean(fields.stress.viscosity.data(), face, stride) * viscous_diagonal(axis) * phi /
+                          (phi + diffusion_floor(constants_, j)) / constants_.density[j];
+      system(row(j), row(j)) += rate;
+      system(row(n), row(j)) += phi * rate;
+    }
     for (std::size_t k = 0; k < n && !fields.species_exchange.empty(); ++k) {
       if (k == j) continue;
       const Field& pair = fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)];
@@ -182,6 +203,9 @@ void Preconditioner::unpack(const StateLayout& layout, std::span<const double> r
         break;
       case Kind::flux:
         layout.unpack(entry, r, face_value_[a][rows_ - 1]);
+        break;
+      case Kind::temperature:
+        layout.unpack(entry, r, temperature_residual_[j]);
         break;
       case Kind::pressure:
         layout.unpack(entry, r, pressure_residual_);
@@ -291,6 +315,10 @@ void Preconditioner::pack(const StateLayout& layout, std::span<double> z) {
         break;
       case Kind::flux:
         layout.pack(entry, face_value_[a][rows_ - 1], z);
+        break;
+      case Kind::temperature:
+        for (std::size_t c = 0; c < work_.size(); ++c) work_[c] = temperature_residual_[j][c] / temperature_row_[j][c];
+        layout.pack(entry, work_, z);
         break;
       case Kind::pressure:
         layout.pack(entry, dp_, z);

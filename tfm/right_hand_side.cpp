@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "core/ranks.hpp"
+#include "tfm/granular_temperature.hpp"
 #include "tfm/mixture.hpp"
+#include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
 
@@ -21,7 +23,8 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
       timers_(timers),
       fields_(constants_),
       effects_(make_effects(scene, constants_, boundaries_, fields_)),
-      flux_(core::make_face_field(constants_.grid)) {
+      flux_(core::make_face_field(constants_.grid)),
+      viscous_weight_(fields_.stress.viscosity) {
   using Kind = fluid::Ghosts::Kind;
   for (core::Field& phi : fields_.solids.fraction) state_ghosts_.push_back({Kind::cells, &phi});
   for (core::FaceField& velocity : fields_.solids.velocity)
@@ -36,7 +39,7 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //   (1) dphi_j/dt = -div(phi_j U_j)
 //   (2) dU_j/dt   = a_j - grad p / rho_j
 //       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
-//             + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
+//             + div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
 //   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
 //
@@ -63,11 +66,6 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
-  if (effects_.solids_stress)
-    timed("solids stress", [&] {
-      effects_.solids_stress->evaluate(fields_);
-      subtract_stress(constants_, boundaries_, fields_);
-    });
   timed("gravity", [&] {
     add_gravity(constants_, boundaries_, fields_);
     if (effects_.compressible) effects_.compressible->add_gravity(fields_.fluid, fields_.fluid_acceleration);
@@ -79,6 +77,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       fluid::subtract_exchange(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
                                fields_.fluid_acceleration);
     });
+  if (effects_.solids_stress) timed("solids stress", [&] { add_solids_stress(); });
   if (effects_.species_exchange)
     timed("species exchange", [&] {
       effects_.species_exchange->evaluate(fields_);
@@ -107,6 +106,24 @@ std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLay
   set_inlet_velocity(t);
   if (!effects_.compressible->set_density(fields_.fluid)) return std::nullopt;
   return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid);
+}
+
+/// Pressure of the solids and, where effects give them any, viscosity and granular temperature.
+void RightHandSide::add_solids_stress() {
+  SolidsStress& stress = fields_.stress;
+  effects_.solids_stress->evaluate(fields_);
+  if (stress.viscous()) {
+    strain_rates(constants_, fields_);
+    std::fill(stress.viscosity.begin(), stress.viscosity.end(), 0.0);
+    if (effects_.solids_viscosity) effects_.solids_viscosity->add(fields_);
+    if (effects_.collisions) effects_.collisions->add(fields_);
+    if (!fields_.solids.temperature_rate.empty())
+      add_temperature_transport(constants_, boundaries_, discretisation_.flux, fields_, flux_);
+    boundaries_.fill_cells(stress.viscosity);
+    if (effects_.solids_wall) effects_.solids_wall->fill_ghosts(fields_);
+    add_solids_viscosity(constants_, boundaries_, fields_, viscous_weight_);
+  }
+  subtract_stress(constants_, boundaries_, fields_);
 }
 
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.

@@ -48,6 +48,7 @@ class RightHandSide {
  private:
   void fill_ghosts();
   [[nodiscard]] bool equation_of_state();
+  void add_solids_stress();
   [[nodiscard]] double side_of(double t) const;
   void set_inlet_velocity(double t);
   void set_inlet_rate(double t);
@@ -63,6 +64,7 @@ class RightHandSide {
   Effects effects_;
   core::FaceField flux_;
   std::vector<fluid::Ghosts> state_ghosts_;  ///< the unknowns, whose ghosts travel together
+  core::Field viscous_weight_;               ///< work space of the solids' viscosity; empty without
 };
 
 }  // namespace polybed::tfm

@@ -106,6 +106,10 @@ void FrictionalStress::evaluate(Fields& fields) {
     pressure[c] = value.pressure;
     slope[c] = value.slope;
   });
+  if (!fields.stress.contact.empty()) {
+    std::copy(fields.stress.pressure.begin(), fields.stress.pressure.end(), fields.stress.contact.begin());
+    boundaries_.fill_cells(fields.stress.contact);
+  }
   if (bulk_viscosity_ > 0) add_bulk_viscosity(fields);
   boundaries_.fill_cells(fields.stress.pressure);
 }
