@@ -59,6 +59,10 @@ class Model : public core::Simulation {
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
   [[nodiscard]] Work work() const;
   [[nodiscard]] std::size_t unknowns() const { return layout_.size(); }
+  /// Memory of the state and of the integrator's vectors, bytes.
+  [[nodiscard]] std::size_t state_bytes() const {
+    return integrator_->workspace() + (y_.size() + dydt_.size()) * sizeof(double);
+  }
   /// Velocity that errors and divergences are measured against, m/s.
   [[nodiscard]] double velocity_scale() const { return velocity_scale_; }
 
