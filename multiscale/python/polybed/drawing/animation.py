@@ -50,7 +50,8 @@ def film(run, path, rate=None, progress=None):
     void = voidages(run, int(np.argmin([run.field("voidage")[n].min() for n in steps])))
     void.maps = [("fluid", in_plane(run.field("voidage")[0]))]
     groups = [Group("volume fraction", "viridis", (0, most), maps), void]
-    figure, meshes = draw_maps(run, groups, title_of(run, run.time[0], maps=True, digits=digits), shown_height(run, steps))
+    first_title = title_of(run, run.time[0], maps=True, digits=digits)
+    figure, meshes = draw_maps(run, groups, first_title, shown_height(run, steps))
     names = [f"phi_{name}" for name in run.species] + ["voidage"]
     flat = [mesh for group in meshes for mesh in group]
     title = figure._suptitle

@@ -1,7 +1,7 @@
 """What all pictures share: colours, units, names, and the plane and the height that are shown.
 
-Colours of the species are those of Okabe and Ito (2008), which people with any kind of colour vision tell apart; maps of
-one sign are viridis and cividis, maps of two signs red and blue, of equal lightness on both sides.
+Colours of the species are those of Okabe and Ito (2008), which people with any kind of colour vision tell apart; maps
+of one sign are viridis and cividis, maps of two signs red and blue, of equal lightness on both sides.
 """
 
 import matplotlib
