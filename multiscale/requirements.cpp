@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t sample_cells = 12000;  ///< enough that their memory stands out, few enough for a second
 constexpr int sample_steps = 100;
-constexpr double sample_seconds = 0.4;  ///< of stepping, CPU
+constexpr double sample_seconds = 0.25;  ///< of stepping, CPU
 
 std::size_t cell_count(const core::Scene& scene) {
   const auto& cells = scene.column.cells;
