@@ -65,6 +65,8 @@ class Needs(Scratch):
     def test_a_large_case_is_answered_from_a_narrow_part_of_it(self):
         large = answer(*setting(column__cells="[180,1980]"))  # a hundred times the shipped one
         self.assertEqual(large["cells"], 100 * answer()["cells"])
+        if "sanitizers" in run("--version").stdout:
+            return  # the address sanitizer keeps memory that was given back
         # 356400 cells of some 2 kB; between 1 and 4 kB
         self.assertGreater(large["memory_MB"], 356)
         self.assertLess(large["memory_MB"], 1426)

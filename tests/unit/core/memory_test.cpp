@@ -22,8 +22,8 @@ TEST(Memory, TheProcessSeesWhatItTakes) {
   EXPECT_GE(before.most, before.now);
   constexpr double size = 64e6;
   const std::vector<double> taken(std::size_t(size / sizeof(double)), 1.0);
-  // 64 MB written to are held; the allowance is what else comes and goes in a test program
-  EXPECT_NEAR(process_memory().now - before.now, size, 8e6) << taken.back();
+  // 64 MB written to are held; the allowance is the eighth that the address sanitizer adds, and as much again
+  EXPECT_NEAR(process_memory().now - before.now, size, 16e6) << taken.back();
 }
 
 TEST(Memory, SomethingLimitsIt) {
