@@ -123,6 +123,12 @@ class ExplicitIntegrator : public Integrator {
     return s;
   }
 
+  [[nodiscard]] std::size_t workspace() const override {
+    long reals = 0, integers = 0;
+    if (memory_ != nullptr) check(ARKStepGetWorkSpace(memory_, &reals, &integers), "ARKStepGetWorkSpace");
+    return (std::size_t(reals) + own_vectors * atol_.span().size()) * sizeof(double);
+  }
+
  private:
   static int callback(double t, N_Vector y, N_Vector dydt, void* self) {
     auto& me = *static_cast<ExplicitIntegrator*>(self);
@@ -181,6 +187,7 @@ class ExplicitIntegrator : public Integrator {
   ExplicitOptions options_;
   Context context_;
   Vector y_, atol_, error_, weight_;
+  static constexpr std::size_t own_vectors = 5;  // these and the tolerances of the options
   void* memory_ = nullptr;
   double time_ = 0, last_step_ = 0;
   IntegratorStatistics closed_;  ///< of memories closed by restarts, and all steps
@@ -260,6 +267,12 @@ class ImplicitIntegrator : public Integrator {
     return s;
   }
 
+  [[nodiscard]] std::size_t workspace() const override {
+    long reals = 0, integers = 0;
+    if (memory_ != nullptr) check(IDAGetWorkSpace(memory_, &reals, &integers), "IDAGetWorkSpace");
+    return (std::size_t(reals) + own_vectors * atol_.span().size()) * sizeof(double);
+  }
+
  private:
   static ImplicitIntegrator& me(void* self) { return *static_cast<ImplicitIntegrator*>(self); }
   static int residual(double t, N_Vector y, N_Vector dydt, N_Vector r, void* self) {
@@ -300,6 +313,7 @@ class ImplicitIntegrator : public Integrator {
   ImplicitOptions options_;
   Context context_;
   Vector y_, dydt_, atol_, id_, error_, weight_;
+  static constexpr std::size_t own_vectors = 8;  // these, and two of the options
   void* memory_ = nullptr;
   SUNLinearSolver solver_ = nullptr;
   double time_ = 0, last_step_ = 0;

@@ -60,6 +60,8 @@ class Integrator {
   /// \param dydt  consistent rates (implicit only)  \param h0  first step, s; 0: the integrator chooses
   virtual void restart(double t, std::span<const double> y, std::span<const double> dydt, double h0) = 0;
   [[nodiscard]] virtual IntegratorStatistics statistics() const = 0;
+  /// Memory of its vectors, bytes, without those of the linear solver.
+  [[nodiscard]] virtual std::size_t workspace() const = 0;
 };
 
 struct ExplicitOptions {

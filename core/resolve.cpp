@@ -68,11 +68,10 @@ void Checker::column() {
     c.size = {c.given_size[0], c.given_size[1], c.depth.value_or(2 * largest + 0.2 * smallest)};
     c.cells = {cells(0), cells(1), 1};
   }
-  constexpr double most_cells = 2e7;
+  constexpr double most_cells = 2147483647;  // hypre numbers them with 32 bits
   const double all = double(c.cells[0]) * c.cells[1] * c.cells[2];
   if (all > most_cells)
-    add("column.cells: {:.3g} cells would need about {:.3g} GB of memory; at most {:.0e} here", all, all * 1e-6,
-        most_cells);
+    add("column.cells: {:.3g} cells; at most {:.0f} can be numbered, however large the memory", all, most_cells);
 }
 
 void Checker::species() {

@@ -12,4 +12,7 @@ namespace polybed::core {
 /// "unknown" if they were not under git.
 [[nodiscard]] std::string git_commit();
 
+/// How the program was built, where that matters to who runs it: "sanitizers", else empty.
+[[nodiscard]] std::string build_kind();
+
 }  // namespace polybed::core

@@ -109,7 +109,8 @@ void flush_standard_output() {
 int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   using namespace multiscale;
   CLI::App app{"polybed: beds of particles of several sizes and densities in a liquid or a gas"};
-  app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")");
+  const std::string kind = core::build_kind().empty() ? "" : ", built with " + core::build_kind();
+  app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")" + kind);
   app.require_subcommand(1);
 
   RunOptions tfm;
@@ -144,10 +145,18 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   inversion_command->add_option("--method", inversion.method,
                                 "force_balance | bulk_density | expansion | density_maximum");
 
-  std::filesystem::path plotted;
-  app.add_subcommand("plot", "pictures of a finished or a running run")
-      ->add_option("RUN", plotted, "run directory")
-      ->required();
+  PlotOptions plot;
+  CLI::App* plot_command = app.add_subcommand("plot", "pictures of a finished or a running run");
+  plot_command->add_option("RUN", plot.run, "run directory, or the case of a run in runs/")->required();
+  plot_command->add_option("--what", plot.what,
+                           "overview | fields | profiles | history | animation, several by commas; default all");
+  plot_command->add_option("--time", plot.time, "the stored time nearest to it, e.g. \"5 s\"; default the last");
+  plot_command->add_option("-o,--out,--output", plot.output, "folder of the pictures; default RUN/pictures");
+  plot_command->add_option("--format", plot.format, "png | svg")->check(CLI::IsMember({"png", "svg"}));
+  plot_command->add_option("--rate", plot.rate, "frames per second of the animation; default: it lasts about 12 s")
+      ->check(CLI::Range(0.1, 120.0));
+  plot_command->add_flag("--quiet", plot.quiet, "no progress");
+  plot_command->add_flag("--json", plot.json, "one JSON object: the files written");
   bool schema_json = false, schema_markdown = false, list_json = false, explain_json = false;
   CLI::App* schema = app.add_subcommand("schema", "all keys of the case file");
   schema->add_flag("--json", schema_json, "as JSON");
@@ -166,13 +175,13 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
     return asked ? 0 : exit_code(core::ExitCode::wrong_case);
   }
   drag.guard = guard == "on";
+  if (app.got_subcommand("plot")) return exit_code(run_plot(plot));
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
   if (app.got_subcommand("tfm") || app.got_subcommand("check")) mpi.emplace(argc, argv);
   if (app.got_subcommand("tfm")) run_tfm(tfm);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);
-  if (app.got_subcommand("plot")) run_plot(plotted);
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);
   if (app.got_subcommand("explain")) run_explain(key, explain_json);
   if (app.got_subcommand("list")) run_list(list_json);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/blocks.hpp"
 #include "core/checkpoint.hpp"
 #include "core/run.hpp"
 #include "core/scene.hpp"
@@ -65,9 +66,15 @@ class Model : public core::Simulation {
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
   [[nodiscard]] Work work() const;
   /// Of the whole column.
-  [[nodiscard]] std::size_t unknowns() const;
+  [[nodiscard]] std::size_t unknowns() const { return column_size_; }
+  /// The same unknowns on another grid.
+  [[nodiscard]] StateLayout layout_on(const core::Grid& grid) const;
   /// Of a compressible fluid: what has flowed in and out by a time within the last step; nothing else.
   [[nodiscard]] std::optional<fluid::MassAccount> fluid_account(double t) const;
+  /// Memory of the state and of the integrator's vectors, bytes.
+  [[nodiscard]] std::size_t state_bytes() const {
+    return integrator_->workspace() + (y_.size() + dydt_.size()) * sizeof(double);
+  }
   /// Velocity that errors and divergences are measured against, m/s.
   [[nodiscard]] double velocity_scale() const { return velocity_scale_; }
 
@@ -79,7 +86,7 @@ class Model : public core::Simulation {
   [[nodiscard]] core::Field inlet_velocity(double t) const;
   void project_jump(const core::Field& before);
   [[nodiscard]] std::vector<double> absolute_tolerances() const;
-  [[nodiscard]] StateLayout layout_of_column() const;
+  [[nodiscard]] StateLayout layout_of_column() const { return layout_on(core::whole_column(constants().grid)); }
   [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void begin_integration();
   [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }

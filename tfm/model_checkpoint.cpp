@@ -9,11 +9,9 @@
 
 namespace polybed::tfm {
 
-StateLayout Model::layout_of_column() const {
-  return {core::whole_column(constants().grid), int(constants().species()), layout_.with_pressure(), has_temperature()};
+StateLayout Model::layout_on(const core::Grid& grid) const {
+  return {grid, int(constants().species()), layout_.with_pressure(), has_temperature()};
 }
-
-std::size_t Model::unknowns() const { return column_size_; }
 
 core::Checkpoint Model::checkpoint() const {
   core::Checkpoint c;

@@ -17,7 +17,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "multiscale/python"))
 import polybed
-from polybed.plot import COLOURS, STYLE
+from polybed.drawing.style import COLOURS, STYLE
 
 
 def last_quarter(time):

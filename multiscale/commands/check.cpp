@@ -2,14 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
+#include <cmath>
 
 #include "closures/drag.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case_file.hpp"
 #include "core/json.hpp"
+#include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "multiscale/commands/options.hpp"
+#include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "tfm/model.hpp"
 
@@ -20,8 +22,6 @@ namespace {
 /// Numbers that follow from a case.
 struct Derived {
   fluid::FluidConstants fluid;
-  std::string integrator, reason;
-  std::size_t unknowns = 0;
   double weight = 0;  ///< buoyant weight of the solids per area, Pa
   double max_packing = 0;
   double sound = 0;  ///< speed in a compressible fluid, m/s
@@ -42,18 +42,13 @@ void note_drag(const core::Scene& scene, Derived& derived) {
                               "T(3.45): the pressure drop is not exact");
 }
 
-Derived derive(const core::Scene& scene) {
-  core::Timers timers;
-  const tfm::Model model(scene, timers);
+Derived derive(const core::Scene& scene, const tfm::Model& model) {
   const tfm::Constants& constants = model.constants();
   Derived derived;
   derived.fluid = constants.fluid;
   if (scene.fluid.equation_of_state != "incompressible")
     derived.sound = fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, constants.fluid.density),
                                           scene.fluid.outlet_pressure);
-  derived.integrator = model.integrator_name();
-  derived.reason = model.integrator_reason();
-  derived.unknowns = model.unknowns();
   if (model.effects().solids_stress) derived.max_packing = model.effects().solids_stress->max_packing();
   double fastest = 0;
   for (const auto& point : scene.inlet.superficial_velocity) fastest = std::max(fastest, std::abs(point.second));
@@ -78,21 +73,86 @@ Derived derive(const core::Scene& scene) {
   return derived;
 }
 
+void write_state(core::Json& json, const char* name, const BedState& bed) {
+  json.key(name).begin_object().member("solids_fraction", bed.solids_fraction);
+  for (const tfm::TimeScale& scale : bed.scales)
+    if (std::isfinite(scale.seconds)) json.member(scale.process + "_s", scale.seconds);
+  json.member("expected_step_s", bed.step).end_object();
+}
+
+void write_requirements(core::Json& json, const Requirements& need) {
+  constexpr double mega = 1e-6;
+  json.member("integrator", need.integrator).member("unknowns", std::uint64_t(need.unknowns));
+  json.member("cells", std::uint64_t(need.cells)).member("memory_MB", mega * need.memory.total());
+  json.key("memory").begin_object().member("state_MB", mega * need.memory.state);
+  json.member("fields_MB", mega * need.memory.fields).member("solver_MB", mega * need.memory.solver);
+  json.member("program_MB", mega * need.memory.program).end_object();
+  json.key("dt_limits").begin_object();
+  write_state(json, "at_rest", need.rest);
+  write_state(json, "lifted", need.lifted);
+  write_state(json, "expanded", need.expanded);
+  json.end_object();
+  if (!need.time) {
+    json.key("time").null();
+    return;
+  }
+  json.key("time").begin_object().member("steps", need.time->steps).member("s_per_step", need.time->seconds_per_step);
+  json.member("expected_s", need.time->expected).member("least_s", need.time->least);
+  json.member("most_s", need.time->most).end_object();
+}
+
+void print_state(const char* name, const BedState& bed) {
+  std::string text;
+  for (const tfm::TimeScale& scale : bed.scales)
+    if (std::isfinite(scale.seconds)) text += fmt::format("{} {:.2g} s, ", scale.process, scale.seconds);
+  fmt::print("#   {:8} (solids fraction {:.2f}): {}expected step {:.2g} s\n", name, bed.solids_fraction, text,
+             bed.step);
+}
+
+/// A time of computing as people say it.
+std::string time_text(double seconds) {
+  constexpr double short_time = 9.5;  // what rounds to one digit
+  return seconds < short_time ? fmt::format("{:.1g} s", seconds) : core::duration_text(seconds);
+}
+
+void print_requirements(const core::Scene& scene, const Requirements& need) {
+  constexpr double mega = 1e-6;
+  const MemoryNeed& m = need.memory;
+  fmt::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, need.integrator, need.reason);
+  fmt::print("# memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
+             mega * m.total(), mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
+  fmt::print("# time scales of the bed, from the case alone:\n");
+  print_state("at rest", need.rest);
+  if (need.expanded.solids_fraction != need.rest.solids_fraction) {
+    print_state("lifted", need.lifted);
+    print_state("expanded", need.expanded);
+  }
+  if (!need.time) {
+    fmt::print("# time: not known, the numbers failed in the sample that is measured\n");
+    return;
+  }
+  const TimeNeed& time = *need.time;
+  fmt::print("# computing {:.4g} s takes about {} here, between {} and {}: {:.2g} steps of {:.2g} s\n", scene.run.until,
+             time_text(time.expected), time_text(time.least), time_text(time.most), time.steps, time.seconds_per_step);
+}
+
 }  // namespace
 
 void run_check(const CaseOptions& options) {
   const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles());
-  const Derived derived = derive(scene);
+  core::Timers timers;
+  std::unique_ptr<tfm::Model> part;
+  const Requirements need = requirements_of(scene, timers, part);
+  refuse_beyond_memory(scene, need.memory, core::available_memory());
+  const Derived derived = derive(scene, *part);
   const std::string text = core::resolved_case(scene);
-  constexpr double bytes_per_unknown = 400;  // state, work fields and the integrator's vectors, measured
-  const double memory = 1e-6 * bytes_per_unknown * double(derived.unknowns);
   if (options.json) {
     core::Json json;
     json.begin_object().member("case", text).member("hash", core::text_hash(text));
     json.member("fluid_density_kg_m3", derived.fluid.density).member("fluid_viscosity_Pa_s", derived.fluid.viscosity);
     if (derived.sound > 0) json.member("speed_of_sound_m_s", derived.sound);
-    json.member("integrator", derived.integrator).member("unknowns", std::uint64_t(derived.unknowns));
-    json.member("memory_MB", memory).member("buoyant_weight_Pa", derived.weight);
+    json.member("buoyant_weight_Pa", derived.weight);
+    write_requirements(json, need);
     json.key("notes").begin_array();
     for (const std::string& note : derived.notes) json.value(note);
     json.end_array().end_object();
@@ -107,8 +167,7 @@ void run_check(const CaseOptions& options) {
                derived.terminal[j], derived.reynolds[j]);
   fmt::print("# buoyant weight of the bed {:.5g} Pa per area\n", derived.weight);
   if (derived.max_packing > 0) fmt::print("# maximum packing {:.4f}\n", derived.max_packing);
-  fmt::print("# {} unknowns, about {:.0f} MB; integrator {} ({})\n", derived.unknowns, std::max(memory, 1.0),
-             derived.integrator, derived.reason);
+  print_requirements(scene, need);
   for (const std::string& note : derived.notes) fmt::print("# {}\n", note);
 }
 

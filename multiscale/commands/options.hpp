@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace polybed::multiscale {
 
 /// Options of the commands that take a case.
@@ -20,6 +22,17 @@ struct RunOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-<model>
   std::string until;             ///< empty: as the case says
   bool resume = false, force = false, quiet = false;
+};
+
+/// Options of the pictures of a run.
+struct PlotOptions {
+  std::filesystem::path run;     ///< a run directory, or a case that has one in runs/
+  std::string what = "all";      ///< overview | fields | profiles | history | animation, by commas; or all
+  std::string time;              ///< empty: the last one stored
+  std::filesystem::path output;  ///< empty: RUN/pictures
+  std::string format = "png";    ///< png | svg
+  double rate = 0;               ///< frames per second; 0: chosen
+  bool quiet = false, json = false;
 };
 
 struct DragOptions {
@@ -40,6 +53,11 @@ void run_inversion(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);
-void run_plot(const std::filesystem::path& run);
+/// The code to end with: what is wrong has been said by the module that draws.
+core::ExitCode run_plot(const PlotOptions& options);
+
+/// runs/<case name>-<model>, where a case.toml is called by its folder.
+[[nodiscard]] std::filesystem::path default_run_directory(const std::filesystem::path& case_path,
+                                                          const std::string& model);
 
 }  // namespace polybed::multiscale

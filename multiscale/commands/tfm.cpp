@@ -10,6 +10,7 @@
 #include "core/run.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/picture.hpp"
+#include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "tfm/observers.hpp"
@@ -19,14 +20,6 @@ namespace polybed::multiscale {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// runs/<case name>-tfm, where a case.toml is called by its folder.
-fs::path run_directory(const RunOptions& options) {
-  if (!options.output.empty()) return options.output;
-  const fs::path path = fs::absolute(options.case_path);
-  const std::string name = path.stem() == "case" ? path.parent_path().filename().string() : path.stem().string();
-  return fs::path("runs") / (name + "-tfm");
-}
 
 core::Scene read_scene(const RunOptions& options) {
   std::vector<std::string> overrides = options.overrides;
@@ -249,20 +242,22 @@ class TfmRun {
 
 }  // namespace
 
-void run_tfm(const RunOptions& options) {
-  core::Scene scene = read_scene(options);
-  const fs::path directory = run_directory(options);
-  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
-  core::on_first(ranks.get(), [&] { check_directory(directory, options); });
-  TfmRun run(options, std::move(scene), directory, ranks);
-  run.run();
+fs::path default_run_directory(const fs::path& case_path, const std::string& model) {
+  const fs::path path = fs::absolute(case_path);
+  const std::string name = path.stem() == "case" ? path.parent_path().filename().string() : path.stem().string();
+  return fs::path("runs") / (name + "-" + model);
 }
 
-void run_plot(const std::filesystem::path& run) {
-  std::string message;
-  if (!fs::exists(run / "run.json")) throw core::FileError(run.string() + ": no run here");
-  if (!draw_picture(run, message)) throw core::FileError("no picture: " + message);
-  fmt::print("{}\n", (run / "picture.png").string());
+void run_tfm(const RunOptions& options) {
+  core::Scene scene = read_scene(options);
+  const fs::path directory = options.output.empty() ? default_run_directory(options.case_path, "tfm") : options.output;
+  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  core::on_first(ranks.get(), [&] {
+    require_memory(scene);
+    check_directory(directory, options);
+  });
+  TfmRun run(options, std::move(scene), directory, ranks);
+  run.run();
 }
 
 }  // namespace polybed::multiscale

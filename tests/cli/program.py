@@ -43,6 +43,16 @@ def run(*words, picture=False, **options):
         return subprocess.run([PROGRAM, *map(str, words)], env=environment(scratch, picture), **options)
 
 
+def peak_memory(*words):
+    """Bytes that a command held at most; it has to end well."""
+    with tempfile.TemporaryDirectory() as scratch:
+        process = subprocess.Popen([PROGRAM, *map(str, words)], env=environment(scratch), stdout=subprocess.DEVNULL)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == DONE, (words, process.returncode)
+    return used.ru_maxrss * 1024
+
+
 def run_all(commands, **options):
     """Several commands side by side; their answers in the order given."""
     with ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -30,6 +30,14 @@ def check_kind(attributes, filetype, path):
         )
 
 
+def open_hdf5(path):
+    """An HDF5 file to read; one that cannot be read is told by its name."""
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        raise OSError(f"{path} is damaged or cannot be read: {error}") from None
+
+
 class Series:
     """One field over all stored steps: series[-1] is the last array, series[2:5] a list made one array."""
 
@@ -62,7 +70,7 @@ class Run:
         self.faces = {}
         path = self.directory / "fields.h5"
         if path.exists():
-            with h5py.File(path, "r") as file:
+            with open_hdf5(path) as file:
                 check_kind(file.attrs, "polybed fields", path)
                 self.time = file["time_s"][:]
                 self.faces = {axis: file["grid"][axis][:] for axis in "xyz"}
@@ -74,12 +82,12 @@ class Run:
     def _field_names(self):
         if len(self.time) == 0:
             return []
-        with h5py.File(self._step_path(0), "r") as file:
+        with open_hdf5(self._step_path(0)) as file:
             check_kind(file.attrs, "polybed fields step", self._step_path(0))
             return sorted(file["step"])
 
     def _field(self, step, name):
-        with h5py.File(self._step_path(step), "r") as file:
+        with open_hdf5(self._step_path(step)) as file:
             return file["step"][name][...]
 
     def field(self, name):
@@ -136,7 +144,7 @@ class Run:
         path = self.directory / "profiles.h5"
         if not path.exists():
             return {}
-        with h5py.File(path, "r") as file:
+        with open_hdf5(path) as file:
             check_kind(file.attrs, "polybed profiles", path)
             return {name: data[...] for name, data in file.items()}
 

@@ -1,0 +1,72 @@
+// polybed plot: pictures of a finished or a running run, drawn by the Python package.
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "multiscale/commands/options.hpp"
+#include "multiscale/python_module.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_run(const fs::path& directory) {
+  return fs::exists(directory / "run.json") || fs::exists(directory / "fields.h5");
+}
+
+/// The run that a path stands for: a run directory, or the run of a case file or a case's folder in runs/.
+fs::path run_of(const fs::path& given) {
+  if (!fs::exists(given)) throw core::FileError(fmt::format("{}: no such run directory or case", given.string()));
+  if (is_run(given)) return given;
+  const bool folder = fs::is_directory(given), with_case = folder && fs::exists(given / "case.toml");
+  if (folder && !with_case)
+    throw core::FileError(
+        fmt::format("{}: not a run directory (it has neither run.json nor fields.h5)", given.string()));
+  if (!folder && given.extension() != ".toml")
+    throw core::FileError(fmt::format("{}: neither a run directory nor a case file", given.string()));
+  const fs::path file = folder ? given / "case.toml" : given, run = default_run_directory(file, "tfm");
+  if (!is_run(run))
+    throw core::FileError(
+        fmt::format("{}: no run of it in {}; polybed tfm {} makes one", given.string(), run.string(), file.string()));
+  return run;
+}
+
+double seconds_of(const std::string& text) {
+  const auto time = core::parse_quantity(text);
+  if (!time || (time->has_unit && !(time->dimension == core::dimension::time)))
+    throw core::CaseError(fmt::format("--time {}: expected a time, e.g. 5 or \"5 s\"", text));
+  return time->value;
+}
+
+std::vector<std::string> words_of(const PlotOptions& options) {
+  std::vector<std::string> words{"--what", options.what, "--format", options.format};
+  if (!options.time.empty()) words.insert(words.end(), {"--time", fmt::format("{:.17g}", seconds_of(options.time))});
+  if (!options.output.empty()) words.insert(words.end(), {"--out", options.output.string()});
+  if (options.rate > 0) words.insert(words.end(), {"--rate", fmt::format("{}", options.rate)});
+  if (options.quiet) words.emplace_back("--quiet");
+  if (options.json) words.emplace_back("--json");
+  words.insert(words.end(), {"--", run_of(options.run).string()});
+  return words;
+}
+
+}  // namespace
+
+core::ExitCode run_plot(const PlotOptions& options) {
+  const PythonEnd end = run_python("polybed.plot", words_of(options), PythonOutput::show);
+  if (!end.not_started.empty())
+    throw core::FileError(fmt::format("no pictures: {}; {}", end.not_started, python_packages));
+  switch (end.code) {  // the module has said what is wrong
+    case 0:
+      return core::ExitCode::done;
+    case int(core::ExitCode::wrong_case):
+      return core::ExitCode::wrong_case;
+    case int(core::ExitCode::stopped):
+      return core::ExitCode::stopped;
+    default:
+      return core::ExitCode::file;
+  }
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,73 @@
+"""The volume fractions over the stored times, as MP4 where ffmpeg is there, else as GIF by Pillow."""
+
+import os
+import shutil
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib import animation
+
+from polybed.drawing.fields import voidages
+from polybed.drawing.maps import Group, draw_maps
+from polybed.drawing.style import greatest_fraction, in_plane, shown_height, title_of
+
+LENGTH = 12  # s, about what a film lasts
+RATES = (2, 25)  # frames per second, least and most
+
+
+def rate_of(frames):
+    """Frames per second that make a film of the usual length."""
+    return int(np.clip(round(frames / LENGTH), *RATES))
+
+
+def writer(path, rate):
+    """What writes a file of this ending; MP4 with even sizes and the pixel format that every player knows."""
+    if path.suffix == ".gif":
+        return animation.PillowWriter(fps=rate)
+    even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"
+    return animation.FFMpegWriter(fps=rate, codec="libx264", extra_args=["-pix_fmt", "yuv420p", "-vf", even])
+
+
+def digits_of(times):
+    """Format of a time such that titles keep their length from frame to frame."""
+    finest = np.diff(times).min() if len(times) > 1 else 1.0
+    return f".{max(0, int(np.ceil(-np.log10(finest) - 1e-9)))}f"
+
+
+def has_ffmpeg():
+    """Whether MP4 can be made."""
+    return shutil.which("ffmpeg") is not None
+
+
+def film(run, path, rate=None, progress=None):
+    """Writes the film to a path that ends in .mp4 or .gif.
+
+    progress: called with the number of frames done and in all.
+    """
+    steps, digits = range(len(run.time)), digits_of(run.time)
+    most = greatest_fraction(run, steps)
+    maps = [(name, in_plane(run.field(f"phi_{name}")[0])) for name in run.species]
+    void = voidages(run, int(np.argmin([run.field("voidage")[n].min() for n in steps])))
+    void.maps = [("fluid", in_plane(run.field("voidage")[0]))]
+    groups = [Group("volume fraction", "viridis", (0, most), maps), void]
+    first_title = title_of(run, run.time[0], maps=True, digits=digits)
+    figure, meshes = draw_maps(run, groups, first_title, shown_height(run, steps))
+    names = [f"phi_{name}" for name in run.species] + ["voidage"]
+    flat = [mesh for group in meshes for mesh in group]
+    title = figure._suptitle
+    temporary = path.with_name("unfinished-" + path.name)
+    try:
+        film_writer = writer(path, rate or rate_of(len(run.time)))
+        with film_writer.saving(figure, str(temporary), dpi=110):
+            for step in steps:
+                for mesh, name in zip(flat, names):
+                    mesh.set_array(in_plane(run.field(name)[step]).ravel())
+                title.set_text(title_of(run, run.time[step], maps=True, digits=digits))
+                film_writer.grab_frame()
+                if progress:
+                    progress(step + 1, len(run.time))
+        os.replace(temporary, path)
+    finally:
+        plt.close(figure)
+        temporary.unlink(missing_ok=True)
+    return path

@@ -1,0 +1,39 @@
+"""The fields at one time: volume fraction and vertical velocity of every species and of the fluid."""
+
+import numpy as np
+
+from polybed.drawing.maps import Group, draw_maps
+from polybed.drawing.style import FEW_SOLIDS, greatest_fraction, in_plane, shown_height, title_of, vector_in_plane
+
+
+def fractions(run, step):
+    """Volume fractions of the species, on one scale."""
+    maps = [(name, in_plane(run.field(f"phi_{name}")[step])) for name in run.species]
+    return Group("volume fraction", "viridis", (0, greatest_fraction(run, [step])), maps)
+
+
+def voidages(run, step):
+    """The volume fraction of the fluid, on its own scale, since it is never small."""
+    voidage = in_plane(run.field("voidage")[step])
+    return Group("voidage", "cividis", (min(np.floor(float(voidage.min()) * 10) / 10, 0.9), 1), [("fluid", voidage)])
+
+
+def velocities(run, step):
+    """Vertical velocities on one symmetric scale; where a species is absent it has none to show."""
+    maps = []
+    for name in [n for n in run.species if f"u_{n}" in run.fields]:
+        up = vector_in_plane(run.field(f"u_{name}")[step])[..., 1] * 1e3
+        present = in_plane(run.field(f"phi_{name}")[step]) > FEW_SOLIDS
+        maps.append((name, np.ma.masked_where(~present, up)))
+    if "u_fluid" in run.fields:
+        maps.append(("fluid", vector_in_plane(run.field("u_fluid")[step])[..., 1] * 1e3))
+    most = max([1e-3] + [float(np.abs(values).max()) for _, values in maps if np.ma.count(values)])
+    most = float(f"{most:.2g}")  # two digits on the scale; a colour at its end is not to be read closer
+    return Group("vertical velocity (mm/s)", "RdBu_r", (-most, most), maps)
+
+
+def draw(run, step):
+    """The figure of a stored step."""
+    groups = [fractions(run, step), voidages(run, step), velocities(run, step)]
+    groups = [group for group in groups if group.maps]
+    return draw_maps(run, groups, title_of(run, run.time[step], maps=True), shown_height(run, [step]))[0]

@@ -1,0 +1,106 @@
+"""The run in time: heights, force balance, mixing, steps; and the worst of every invariant against its limit."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from polybed.drawing.style import COLOURS, GREY, PALE, length_unit, species_line, title_of
+
+
+def draw_heights(axes, run, factor, unit):
+    history = run.history
+    t = history["time_s"]
+    for n, name in enumerate(run.species):
+        if f"centre_{name}_m" in history:
+            axes.plot(t, history[f"centre_{name}_m"] * factor, label=f"centre of {name}", **species_line(n))
+    for column, name, line in (("bed_height_m", "bed height", "--"), ("interface_m", "interface", ":")):
+        if column in history and not np.isnan(history[column]).all():
+            axes.plot(t, history[column] * factor, color=GREY, linestyle=line, linewidth=1, label=name)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel(f"height ({unit})")
+
+
+def draw_force_balance(axes, run):
+    """Pressure drop over the buoyant weight: 1 where the fluid carries the bed."""
+    history = run.history
+    weight = history["buoyant_weight_Pa"]
+    ratio = np.divide(history["pressure_drop_Pa"], weight, out=np.full_like(weight, np.nan), where=weight != 0)
+    axes.axhline(1, color=PALE, linewidth=0.8, zorder=0)
+    axes.plot(history["time_s"], ratio, color="black", linewidth=0.8)
+    known = ratio[np.isfinite(ratio)]
+    if len(known):
+        low, high = np.quantile(known, [0.02, 0.98])
+        margin = 0.15 * max(high - low, 0.05)
+        axes.set_ylim(min(low, 1) - margin, max(high, 1) + margin)
+    axes.set_ylabel("pressure drop\n/ weight")
+
+
+def draw_mixing(axes, run):
+    axes.plot(run.history["time_s"], run.history["mixing"], color=COLOURS[2])
+    axes.set_ylim(0, 1.05)
+    axes.set_ylabel("mixing index")
+
+
+def draw_steps(axes, run):
+    history = run.history
+    known = history["dt_s"] > 0
+    axes.semilogy(history["time_s"][known], history["dt_s"][known] * 1e3, color=GREY, linewidth=0.8)
+    axes.set_ylabel("time step\n(ms)")
+
+
+def draw_invariants(axes, run):
+    """Worst value over limit on a logarithmic axis; a bar that ends before its mark at 1 has held."""
+    entries = [i for i in run.record.get("invariants", []) if i["limit"] > 0]
+    least, most = 1e-6, 10
+    for n, entry in enumerate(entries):
+        share = max(entry["worst"] / entry["limit"], least)
+        axes.barh(n, share - least, left=least, height=0.4, color=COLOURS[0] if share <= 1 else COLOURS[1])
+        axes.plot([1, 1], [n - 0.28, n + 0.28], color="black", linewidth=1.2)
+        text = f"{entry['name']}: {entry['worst']:.1g} of {entry['limit']:.0e}"
+        axes.text(least, n - 0.3, text, fontsize=8, va="bottom", ha="left")
+    axes.set_xscale("log")
+    axes.set_xlim(least, max([most] + [3 * i["worst"] / i["limit"] for i in entries]))
+    axes.set_ylim(len(entries) - 0.5, -0.8)
+    axes.set_yticks([])
+    axes.spines["left"].set_visible(False)
+    axes.set_xlabel("worst value of each invariant / its limit")
+
+
+def panels(run):
+    """(relative height, function) of what the history holds."""
+    history = run.history
+    chosen = [(2.4, lambda axes: draw_heights(axes, run, *length_unit(run)))]
+    if {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys():
+        chosen.append((1.2, lambda axes: draw_force_balance(axes, run)))
+    if "mixing" in history and len(run.species) > 1:
+        chosen.append((1, lambda axes: draw_mixing(axes, run)))
+    if "dt_s" in history and (history["dt_s"] > 0).any():
+        chosen.append((1, lambda axes: draw_steps(axes, run)))
+    return chosen
+
+
+def draw(run, time=None):
+    """The figure of the whole history; a line marks a time."""
+    history = run.history
+    if not history or len(history["time_s"]) == 0:
+        raise IndexError(f"{run.directory} has no history yet")
+    chosen = panels(run)
+    figure = plt.figure(figsize=(10.5, 1.2 + 1.15 * sum(height for height, _ in chosen)), constrained_layout=True)
+    grid = figure.add_gridspec(len(chosen), 2, width_ratios=[2.2, 1], height_ratios=[height for height, _ in chosen])
+    first = None
+    for n, (_, draw_one) in enumerate(chosen):
+        axes = figure.add_subplot(grid[n, 0], sharex=first)
+        first = first or axes
+        draw_one(axes)
+        if time is not None:
+            axes.axvline(time, color=PALE, linewidth=0.8, zorder=0)
+        axes.tick_params(labelbottom=n == len(chosen) - 1)
+    axes.set_xlabel("time (s)")
+    t = history["time_s"]
+    first.set_xlim(t[0], t[-1] if t[-1] > t[0] else t[0] + 1)
+    side = figure.add_subplot(grid[0, 1])
+    side.set_axis_off()
+    side.legend(*first.get_legend_handles_labels(), loc="center left", fontsize=9)
+    if run.record.get("invariants") and len(chosen) > 1:
+        draw_invariants(figure.add_subplot(grid[1:, 1]), run)
+    figure.suptitle(title_of(run), fontsize=10)
+    return figure

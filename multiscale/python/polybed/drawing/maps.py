@@ -1,0 +1,108 @@
+"""Maps of a column, side by side: equal aspect, one colour scale for each group of maps, sizes in inches."""
+
+from dataclasses import dataclass, field
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from polybed.drawing.style import EMPTY, length_unit
+
+HEIGHT, HEIGHT_IN_ROWS = 5.0, 3.4  # inches, the most, of maps in one row and in several
+WIDEST = 12.0  # inches, a row of maps
+WIDTHS = (0.8, 3.2)  # inches, least and most
+LEFT, RIGHT, HEAD, BARS, GAP, GROUP_GAP = 0.75, 0.3, 0.75, 1.05, 0.32, 0.6
+
+
+@dataclass
+class Group:
+    """Maps that share a colour scale."""
+
+    label: str  # of the scale, with its unit
+    colours: str
+    limits: tuple
+    maps: list = field(default_factory=list)  # (title, values [y][x])
+
+    def mapping(self):
+        colours = plt.get_cmap(self.colours).copy()
+        colours.set_bad(EMPTY)
+        return {"cmap": colours, "vmin": self.limits[0], "vmax": self.limits[1]}
+
+
+def map_size(run, top, most):
+    """Width and height of one map, inches."""
+    aspect = run.faces["x"][-1] / top
+    width = float(np.clip(most * aspect, *WIDTHS))
+    return width, min(most, width / aspect)
+
+
+def draw_map(axes, run, group, title, values, top, first):
+    """One map in the unit of the run, and its mesh."""
+    factor, unit = length_unit(run)
+    mesh = axes.pcolormesh(run.faces["x"] * factor, run.faces["y"] * factor, values, rasterized=True, **group.mapping())
+    axes.set_aspect("equal")
+    axes.set_title(title)
+    width = run.faces["x"][-1] * factor
+    axes.set_xticks([0, width], ["0", f"{width:g}"])
+    axes.set_xlabel(f"x ({unit})")
+    axes.set_ylim(0, top * factor)
+    axes.spines[["top", "right"]].set_visible(True)
+    if first:
+        axes.set_ylabel(f"y ({unit})")
+    else:
+        axes.tick_params(labelleft=False)
+    return mesh
+
+
+def draw_bar(figure, mesh, axes, group):
+    """The colour scale of a group, below its maps, with the ends and the middle told."""
+    bar = figure.colorbar(mesh, cax=axes, orientation="horizontal")
+    low, high = group.limits
+    bar.set_ticks([low, (low + high) / 2, high], labels=[f"{value:.3g}" for value in (low, (low + high) / 2, high)])
+    bar.set_label(group.label)
+    bar.outline.set_linewidth(0.5)
+
+
+def wrapped(groups, width):
+    """Groups one beside the other, in a new row where the widest row is full."""
+    rows, filled = [[]], 0
+    for group in groups:
+        wide = len(group.maps) * (width + GAP) + GROUP_GAP
+        if rows[-1] and filled + wide > WIDEST:
+            rows.append([])
+            filled = 0
+        rows[-1].append(group)
+        filled += wide
+    return rows
+
+
+def draw_maps(run, groups, title, top):
+    """The figure of groups of maps up to a height; and the meshes, group by group, map by map."""
+    size = map_size(run, top, HEIGHT)
+    rows = wrapped(groups, size[0])
+    if len(rows) > 1:
+        size = map_size(run, top, HEIGHT_IN_ROWS)
+        rows = wrapped(groups, size[0])
+    span = [sum(len(g.maps) * (size[0] + GAP) - GAP for g in row) + GROUP_GAP * (len(row) - 1) for row in rows]
+    width = max(LEFT + max(span) + RIGHT, 4.2)
+    height = HEAD + len(rows) * (size[1] + BARS) + (len(rows) - 1) * 0.35
+    figure = plt.figure(figsize=(width, height))
+
+    def place(x, y, w, h):
+        return figure.add_axes((x / width, y / height, w / width, h / height))
+
+    meshes, base = [], height - HEAD
+    for row in rows:
+        base -= size[1]
+        x = max(LEFT, (width - max(span)) / 2)
+        for number, group in enumerate(row):
+            begin = x
+            meshes.append([])
+            for n, (name, values) in enumerate(group.maps):
+                first = number == 0 and n == 0
+                meshes[-1].append(draw_map(place(x, base, *size), run, group, name, values, top, first))
+                x += size[0] + GAP
+            draw_bar(figure, meshes[-1][0], place(begin, base - 0.6, x - GAP - begin, 0.1), group)
+            x += GROUP_GAP - GAP
+        base -= BARS + 0.35
+    figure.suptitle(title, y=1 - 0.22 / height, fontsize=10)
+    return figure, meshes

@@ -1,0 +1,110 @@
+"""picture.png of a run, the one that a run draws at its end: maps, profiles and history in one."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from polybed.drawing.fields import fractions, voidages
+from polybed.drawing.maps import draw_map
+from polybed.drawing.style import GREY, PALE, length_unit, shown_height, species_line, title_of
+
+MAP_HEIGHT = 5.2  # inches
+MAP_WIDTHS = (0.9, 3.4)  # inches, least and most
+
+
+def draw_profiles(axes, run, time, legend):
+    """Lateral averages against height, at the stored time nearest to that of the maps. Without its legend the
+    colours are told by that of the history."""
+    profiles = run.profiles
+    if not profiles or len(profiles["time_s"]) == 0:
+        axes.set_axis_off()
+        return
+    row = int(np.argmin(np.abs(profiles["time_s"] - time)))
+    height = profiles["y_m"] * length_unit(run)[0]
+    for n, name in enumerate(run.species):
+        if f"phi_{name}" in profiles:
+            axes.plot(profiles[f"phi_{name}"][row], height, label=name, **species_line(n))
+    if "voidage" in profiles:
+        axes.plot(profiles["voidage"][row], height, color=GREY, linestyle="--", linewidth=1, label="voidage")
+    axes.set_xlim(0, 1)
+    axes.set_title("lateral mean")
+    axes.set_xlabel("volume fraction")
+    axes.tick_params(labelleft=False)
+    if legend:
+        axes.legend(loc="upper center", fontsize=8, handlelength=1.4)
+
+
+def draw_history(axes, run, time):
+    """Centres of mass and the bed's height in time."""
+    history = run.history
+    if not history or len(history["time_s"]) == 0:
+        axes.set_axis_off()
+        return
+    factor, unit = length_unit(run)
+    t = history["time_s"]
+    for n, name in enumerate(run.species):
+        column = history.get(f"centre_{name}_m")
+        if column is not None:
+            axes.plot(t, column * factor, label=f"centre of {name}", **species_line(n))
+    if "bed_height_m" in history:
+        axes.plot(t, history["bed_height_m"] * factor, color=GREY, linestyle="--", linewidth=1, label="bed height")
+    axes.axvline(time, color=PALE, linewidth=0.8, zorder=0)
+    axes.set_xlim(t[0], t[-1] if t[-1] > t[0] else t[0] + 1)
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel(f"height ({unit})")
+    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
+
+
+class Layout:
+    """Where everything stands, in inches: maps and profiles in a row, colour bars below them, the history last."""
+
+    LEFT, GAP, PROFILE, RIGHT, HEAD, BARS, HISTORY, LEGEND = 0.75, 0.45, 2.0, 0.25, 0.75, 0.95, 1.9, 1.9
+
+    def __init__(self, maps, width_over_height):
+        self.map_width = float(np.clip(MAP_HEIGHT * width_over_height, *MAP_WIDTHS))
+        self.map_height = min(MAP_HEIGHT, self.map_width / width_over_height)
+        self.maps = maps
+        row = self.LEFT + maps * (self.map_width + self.GAP) + self.PROFILE + self.RIGHT
+        self.width = max(row, 7.0)
+        self.height = self.HEAD + self.map_height + self.BARS + self.HISTORY
+        self._start = self.LEFT + (self.width - row) / 2
+        self._base = self.HISTORY + self.BARS
+        self.figure = plt.figure(figsize=(self.width, self.height))
+
+    def _axes(self, x, y, width, height):
+        return self.figure.add_axes((x / self.width, y / self.height, width / self.width, height / self.height))
+
+    def _left(self, n):
+        return self._start + n * (self.map_width + self.GAP)
+
+    def map(self, n):
+        return self._axes(self._left(n), self._base, self.map_width, self.map_height)
+
+    def bar(self, n):
+        return self._axes(self._left(n), self._base - 0.62, self.map_width, 0.1)
+
+    def profile(self):
+        return self._axes(self._left(self.maps), self._base, self.PROFILE, self.map_height)
+
+    def history(self):
+        return self._axes(self.LEFT, 0.5, self.width - self.LEFT - self.LEGEND, self.HISTORY - 0.75)
+
+
+def draw(run, step):
+    """The figure of a run at a stored step."""
+    time = run.time[step]
+    maps = [(group, *entry) for group in (fractions(run, step), voidages(run, step)) for entry in group.maps]
+    top = shown_height(run, [step])
+    layout = Layout(len(maps), run.faces["x"][-1] / top)
+    for n, (group, name, values) in enumerate(maps):
+        title = f"$\\phi$ {name}" if n < len(maps) - 1 else "voidage $\\varepsilon$"
+        mesh = draw_map(layout.map(n), run, group, title, values, top, first=n == 0)
+        bar = layout.figure.colorbar(mesh, cax=layout.bar(n), orientation="horizontal")
+        bar.set_ticks(group.limits, labels=[f"{limit:.2g}" for limit in group.limits])
+        bar.outline.set_linewidth(0.5)
+    profile = layout.profile()
+    draw_profiles(profile, run, time, legend=layout.map_height > 2.5)
+    profile.set_ylim(0, top * length_unit(run)[0])
+    draw_history(layout.history(), run, time)
+    layout.figure.suptitle(title_of(run, time, maps=True), y=1 - 0.22 / layout.height, fontsize=11)
+    return layout.figure

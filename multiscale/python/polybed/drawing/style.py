@@ -1,0 +1,79 @@
+"""What all pictures share: colours, units, names, and the plane and the height that are shown.
+
+Colours of the species are those of Okabe and Ito (2008), which people with any kind of colour vision tell apart; maps
+of one sign are viridis and cividis, maps of two signs red and blue, of equal lightness on both sides.
+"""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import numpy as np
+
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+LINES = ["-", "--", "-."]  # beyond six species the colours come again, in another line
+GREY = "#555555"
+PALE = "#bbbbbb"
+EMPTY = "#eeeeee"  # of a map where there is nothing to show
+STYLE = {
+    "font.size": 9,
+    "axes.titlesize": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "legend.frameon": False,
+    "axes.grid": False,
+    "savefig.dpi": 160,
+    "figure.dpi": 160,
+    "svg.hashsalt": "polybed",  # the same picture gives the same file
+}
+FEW_SOLIDS = 0.01  # a volume fraction below which a place counts as empty
+
+
+def species_line(n):
+    """Colour and line of the species number n."""
+    return {"color": COLOURS[n % len(COLOURS)], "linestyle": LINES[n // len(COLOURS) % len(LINES)]}
+
+
+def length_unit(run):
+    """(factor, name) of the unit in which lengths of a run read well."""
+    return (1e3, "mm") if run.faces["y"][-1] < 2 else (1.0, "m")
+
+
+def in_plane(field):
+    """A field as [y][x]: of a 3-D run the plane at half depth. A vector keeps its components last."""
+    return field[field.shape[0] // 2] if field.ndim == 3 else field
+
+
+def vector_in_plane(field):
+    """A vector field as [y][x][component], as in_plane."""
+    return field[field.shape[0] // 2] if field.ndim == 4 else field
+
+
+def shown_height(run, steps):
+    """Top of the maps, m: a fifth above the highest solids of the steps, so that a bed in a tall column is not a
+    strip at the bottom; never above the column."""
+    faces, top = run.faces["y"], 0
+    for step in steps:
+        solids = sum(in_plane(run.field(f"phi_{name}")[step]) for name in run.species)
+        rows = np.flatnonzero(np.max(solids, axis=1) > FEW_SOLIDS) if run.species else []
+        top = max(top, faces[rows[-1] + 1] if len(rows) else 0)
+    return min(1.2 * top, faces[-1]) if top > 0 else faces[-1]
+
+
+def greatest_fraction(run, steps):
+    """Upper end of the scale that all species share."""
+    return max([0.1] + [float(run.field(f"phi_{name}")[step].max()) for name in run.species for step in steps])
+
+
+def state_of(run):
+    """What the title says of a run that is not done; empty for one that is."""
+    state = run.record.get("state", "")
+    return "" if state in ("", "done") else state.split(":")[0]
+
+
+def title_of(run, time=None, maps=False, digits=".4g"):
+    """What a picture shows, in a line; of maps of a 3-D run, that they are a plane of it."""
+    model = {"tfm": "two-fluid model", "dem": "discrete particles"}.get(run.record.get("model"), "")
+    parts = [run.directory.resolve().name, model, "" if time is None else f"t = {time:{digits}} s", state_of(run)]
+    if maps and run.dimensions == 3:
+        parts.append("plane at half depth")
+    return "   ".join(part for part in parts if part)

@@ -1,0 +1,27 @@
+// Starts a module of the Python package that stands beside the program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace polybed::multiscale {
+
+/// How a module ended.
+struct PythonEnd {
+  int code = 0;             ///< its exit code; 128 and the number of the signal if one ended it
+  std::string output;       ///< what it printed, if that was kept
+  std::string not_started;  ///< why it did not start; empty if it did
+};
+
+enum class PythonOutput { keep, show };
+
+/// Runs `python3 -m module arguments...` with Debian's Python and the package in front of its search path, and waits
+/// for its end. Nothing is thrown.
+/// \param output  keep: standard output and error go into PythonEnd::output; show: they are those of this process
+[[nodiscard]] PythonEnd run_python(const std::string& module, const std::vector<std::string>& arguments,
+                                   PythonOutput output);
+
+/// The line that installs what the package needs.
+constexpr const char* python_packages = "apt-get install python3 python3-numpy python3-h5py python3-matplotlib";
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,222 @@
+#include "multiscale/requirements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tfm/memory_use.hpp"
+#include "tfm/step_estimate.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+constexpr std::size_t sample_cells = 12000;  ///< enough that their memory stands out, few enough for a second
+constexpr int sample_steps = 100;
+constexpr double sample_seconds = 0.25;  ///< of stepping, CPU
+
+std::size_t cell_count(const core::Scene& scene) {
+  const auto& cells = scene.column.cells;
+  return std::size_t(cells[0]) * std::size_t(cells[1]) * std::size_t(cells[2]);
+}
+
+/// Draws one direction in to a number of cells.
+void draw_in(core::Scene& scene, std::size_t axis, int cells) {
+  core::Column& column = scene.column;
+  const double share = double(cells) / column.cells[axis];
+  column.cells[axis] = cells;
+  column.size[axis] *= share;
+  if (axis == 1) {
+    scene.bed.static_height *= share;
+    return;
+  }
+  const std::size_t direction = axis == 0 ? 0 : 1;
+  for (core::Jet& jet : scene.jets) {
+    jet.from[direction] *= share;
+    jet.to[direction] *= share;
+  }
+}
+
+int fewer(int cells, double share, int least) {
+  return std::min(cells, std::max(least, int(std::lround(cells * share))));
+}
+
+/// Takes steps, then what a checkpoint takes; returns the CPU time of a step, s, or nothing if the numbers fail.
+std::optional<double> time_of_step(tfm::Model& model, double until, int most_steps) {
+  const double begin = core::cpu_seconds();
+  double spent = 0;
+  int steps = 0;
+  try {
+    while (model.time() < until && steps < most_steps && spent < sample_seconds) {
+      model.step(until);
+      ++steps;
+      spent = core::cpu_seconds() - begin;
+    }
+    model.restart();
+    (void)model.checkpoint();
+  } catch (const core::NumericsError&) {
+    return std::nullopt;
+  }
+  return spent / std::max(steps, 1);
+}
+
+double superficial_velocity(const tfm::Model& model) { return model.inlet().greatest(); }
+
+/// Solids fraction of a bed that is packed still but carried by the fluid: where the solids stress carries a tenth of
+/// the weight. The tenth is fitted to the steps that runs took while their beds were lifted, docs/cost.md.
+double lifted_fraction(const core::Scene& scene, const tfm::Model& model) {
+  const double rest = scene.bed.solids_fraction;
+  if (!model.effects().solids_stress) return rest;
+  constexpr double carried = 0.1;
+  const tfm::Constants& constants = model.constants();
+  double density = 0;
+  for (std::size_t j = 0; j < constants.species(); ++j) density += constants.bed_share[j] * constants.density[j];
+  const double weight =
+      scene.bed.static_height * rest * std::abs(density - constants.fluid.density) * constants.gravity;
+  return std::min(rest, model.effects().solids_stress->solids_fraction_at(carried * weight));
+}
+
+/// The bed at rest, lifted, and as the inlet's greatest velocity expands it, with their scales and steps.
+void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requirements& need) {
+  const tfm::Constants& constants = model.constants();
+  const double velocity = superficial_velocity(model);
+  const auto state = [&](double solids_fraction) {
+    BedState bed{solids_fraction,
+                 tfm::time_scales_of_bed(scene, constants, model.effects(), {solids_fraction, velocity}), 0};
+    bed.step = need.integrator == "explicit"
+                   ? scene.tfm.fixed_step.value_or(tfm::explicit_step(bed.scales))
+                   : tfm::implicit_step(constants, velocity / (1 - solids_fraction), scene.tfm.rtol);
+    return bed;
+  };
+  const double rest = scene.bed.solids_fraction;
+  need.rest = need.lifted = need.expanded = state(rest);
+  const auto drag = scene.effects.find("drag");
+  if (drag == scene.effects.end() || !(velocity > 0)) return;
+  const double expanded = tfm::expanded_fraction(constants, drag->second, velocity, rest);
+  if (expanded == rest) return;
+  need.expanded = state(expanded);
+  need.lifted = state(std::max(lifted_fraction(scene, model), expanded));
+}
+
+/// Time for which a bed that starts packed stays so, s: while the inlet's fluid fills its height once. Measured.
+double packed_time(const core::Scene& scene, const Requirements& need, double velocity) {
+  if (need.expanded.solids_fraction == need.rest.solids_fraction) return scene.run.until;
+  if (scene.bed.start_solids_fraction < scene.tfm.frictional_onset) return 0;
+  return std::min(scene.run.until, scene.bed.static_height / velocity);
+}
+
+TimeNeed time_need(const core::Scene& scene, const Requirements& need, double velocity, double per_step) {
+  constexpr double band = 4;  // of finished runs, docs/cost.md
+  const double packed = packed_time(scene, need, velocity);
+  TimeNeed time;
+  time.steps = std::max(packed / need.lifted.step + (scene.run.until - packed) / need.expanded.step, 1.0);
+  time.seconds_per_step = per_step;
+  time.expected = time.steps * per_step;
+  time.least = time.expected / band;
+  time.most = time.expected * band;
+  return time;
+}
+
+/// Two samples of different width, built and stepped one after the other: what the process grows by from the first to
+/// the second is what their difference in cells takes, whatever the program itself takes.
+struct Sample {
+  std::size_t cells;
+  double peak;  ///< memory of the process until then, bytes
+};
+
+double padded_cells(core::Grid grid, const std::array<int, 3>& cells) {
+  grid.cells = cells;
+  return double(grid.padded_size());
+}
+
+MemoryNeed memory_need(const core::Scene& scene, const tfm::Model& part, const Sample& small, const Sample& large) {
+  MemoryNeed need;
+  const core::Grid& grid = part.constants().grid;
+  const auto cells = double(cell_count(scene));
+  const double state = double(part.state_bytes()), fields = double(tfm::bytes_of(part.fields()));
+  const auto own = double(large.cells);
+  // What a run takes beyond its sample, measured: gaps between blocks and results on their way; HDF5 and its buffers.
+  constexpr double beyond = 1.1, output = 12e6;
+  const double grown = std::max(0.0, large.peak - small.peak) / std::max(own - double(small.cells), 1.0);
+  need.state = state * cells / own;
+  need.fields = fields * padded_cells(grid, scene.column.cells) / double(grid.padded_size());
+  need.solver = std::max(0.0, beyond * grown - (state + fields) / own) * cells;
+  need.program = std::max(0.0, small.peak - grown * double(small.cells)) + output;
+  return need;
+}
+
+/// The smaller sample: half as wide.
+Sample small_sample(const core::Scene& part) {
+  core::Scene half = part;
+  draw_in(half, 0, std::max(1, part.column.cells[0] / 2));
+  core::Timers timers;
+  tfm::Model model(half, timers);
+  constexpr int steps = 2;  // after which all that is made at need has been made
+  (void)time_of_step(model, half.run.until, steps);
+  return {cell_count(half), core::process_memory().most};
+}
+
+std::size_t unknowns_of(const core::Scene& scene, const tfm::Model& model) {
+  core::Grid grid = model.constants().grid;
+  grid.cells = scene.column.cells;
+  return model.layout_on(grid).size();
+}
+
+}  // namespace
+
+core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
+  core::Scene part = scene;
+  constexpr int least = 8, least_in_depth = 6;
+  const auto& cells = part.column.cells;
+  const auto share = [&] { return double(most_cells) / double(cell_count(part)); };
+  if (part.column.dimensions == 3 && share() < 1) draw_in(part, 2, fewer(cells[2], std::sqrt(share()), least_in_depth));
+  if (share() < 1) draw_in(part, 0, fewer(cells[0], share(), least));
+  if (part.column.dimensions == 3 && share() < 1) draw_in(part, 2, fewer(cells[2], share(), least_in_depth));
+  constexpr double far_too_high = 0.1;
+  if (share() < far_too_high) {
+    draw_in(part, 1, fewer(cells[1], share(), least));
+    // The packing that holds the bed's weight follows from its height, which is no longer that of the case.
+    if (part.tfm.max_packing == "auto") part.tfm.max_packing = fmt::format("{}", part.bed.solids_fraction + 0.05);
+  }
+  return part;
+}
+
+Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std::unique_ptr<tfm::Model>& model) {
+  Requirements need;
+  need.cells = cell_count(scene);
+  const core::Scene part = narrow_part(scene, sample_cells);
+  const Sample small = small_sample(part);
+  model = std::make_unique<tfm::Model>(part, timers);
+  need.integrator = model->integrator_name();
+  need.reason = model->integrator_reason();
+  need.unknowns = unknowns_of(scene, *model);
+  estimate_steps(scene, *model, need);
+  const std::optional<double> per_step = time_of_step(*model, scene.run.until, sample_steps);
+  const Sample large{cell_count(part), core::process_memory().most};
+  need.memory = memory_need(scene, *model, small, large);
+  if (per_step) {
+    const double ratio = double(need.cells) / double(large.cells);
+    need.time = time_need(scene, need, superficial_velocity(*model), *per_step * ratio);
+  }
+  return need;
+}
+
+void refuse_beyond_memory(const core::Scene& scene, const MemoryNeed& need, const core::AvailableMemory& available) {
+  if (need.total() <= available.bytes) return;
+  throw core::CaseError(fmt::format(
+      "column.cells = [{}]: the run would need about {:.3g} GB of memory; {} leaves {:.3g} GB: choose fewer",
+      fmt::join(scene.column.given_cells, ", "), 1e-9 * need.total(), available.limit, 1e-9 * available.bytes));
+}
+
+void require_memory(const core::Scene& scene) {
+  constexpr double much_per_cell = 20e3;  // bytes; more than any case measured takes
+  const core::AvailableMemory available = core::available_memory();
+  if (double(cell_count(scene)) * much_per_cell < 0.5 * available.bytes) return;
+  core::Timers timers;
+  std::unique_ptr<tfm::Model> model;
+  refuse_beyond_memory(scene, requirements_of(scene, timers, model).memory, available);
+}
+
+}  // namespace polybed::multiscale

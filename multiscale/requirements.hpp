@@ -1,0 +1,62 @@
+// What a case will need, before it is run: memory, steps and time. Measured on a narrow part of the same bed, so that
+// what a new effect takes is counted without anybody counting it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/memory.hpp"
+#include "core/scene.hpp"
+#include "tfm/model.hpp"
+
+namespace polybed::multiscale {
+
+/// Memory, bytes. What is measured is the whole; the state and the fields are counted, the rest is what remains: the
+/// linear solvers and the work of the library below them.
+struct MemoryNeed {
+  double state = 0, fields = 0, solver = 0;
+  double program = 0;  ///< the program itself with its libraries: the same for every case
+  [[nodiscard]] double total() const { return state + fields + solver + program; }
+};
+
+/// Computing time of the whole run, s: the middle of a band and its ends.
+struct TimeNeed {
+  double steps = 0, seconds_per_step = 0;
+  double least = 0, expected = 0, most = 0;
+};
+
+/// A uniform bed with its time scales, cell-free, and the step expected there.
+struct BedState {
+  double solids_fraction = 0;
+  std::vector<tfm::TimeScale> scales;
+  double step = 0;  ///< s
+};
+
+struct Requirements {
+  std::size_t unknowns = 0, cells = 0;
+  std::string integrator, reason;
+  MemoryNeed memory;
+  BedState rest;                 ///< settled, as bed.solids_fraction says
+  BedState lifted;               ///< packed but carried by the fluid, as a bed is that starts packed
+  BedState expanded;             ///< as the inlet's greatest velocity expands it; at rest if it does not
+  std::optional<TimeNeed> time;  ///< empty if the numbers failed in the sample
+};
+
+/// The case on fewer cells of the same size: sides drawn in first, to no less than eight cells, then the height, with
+/// the bed. What decides the steps, cell size, velocities and composition, stays.
+[[nodiscard]] core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells);
+
+/// Builds and steps a narrow part of the case for at most about a second of computing.
+/// \param model  receives the model of the part, for what else follows from a case
+[[nodiscard]] Requirements requirements_of(const core::Scene& scene, core::Timers& timers,
+                                           std::unique_ptr<tfm::Model>& model);
+
+/// Throws core::CaseError if a case needs more memory than there is, with both numbers.
+void refuse_beyond_memory(const core::Scene& scene, const MemoryNeed& need, const core::AvailableMemory& available);
+
+/// The same before a run, from a sample of its own. A case that is small beside the memory is let through unmeasured.
+void require_memory(const core::Scene& scene);
+
+}  // namespace polybed::multiscale

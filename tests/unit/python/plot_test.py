@@ -1,0 +1,192 @@
+#!/usr/bin/python3
+"""The pictures, piece by piece, on runs that the C++ writers have written: plot_test.py WRITER PACKAGE_DIRECTORY"""
+
+import contextlib
+import io
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+WRITER, PACKAGE = sys.argv[1], sys.argv[2]
+sys.path.insert(0, PACKAGE)
+
+import matplotlib.pyplot as plt
+import polybed
+from polybed import plot
+from polybed.drawing import animation, fields, history, maps, overview, profiles, style
+
+
+class SampleRun(unittest.TestCase):
+    """Two species in a column of 60 mm by 200 mm, 18 x 60 cells, five times from 0 to 1 s; see write_sample_run.cpp."""
+
+    dimensions = 2
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.addCleanup(plt.close, "all")
+        self.directory = Path(scratch.name) / "bed-tfm"
+        subprocess.run([WRITER, self.directory, str(self.dimensions)], check=True)
+        self.sample = polybed.read(self.directory)
+
+
+class Style(SampleRun):
+    def test_the_top_is_a_fifth_above_the_solids(self):
+        # the fine layer at 1 s: centred at 0.07 +- 0.006 m, exp(-d^4) * 0.3 > 0.01 for |d| < 1.358 * 0.03 m: up to
+        # 0.1166 m, so that the last cell with a centre below is that at 0.115 m, which ends at 35/300 m; a fifth more
+        self.assertAlmostEqual(style.shown_height(self.sample, [4]), 0.14, places=12)
+        self.assertLessEqual(style.shown_height(self.sample, [0]), style.shown_height(self.sample, range(5)))
+
+    def test_one_scale_for_all_species(self):
+        most = max(self.sample.phi_fine[4].max(), self.sample.phi_coarse[4].max())
+        group = fields.fractions(self.sample, 4)
+        self.assertEqual(group.limits, (0, most))
+        self.assertEqual([name for name, _ in group.maps], ["fine", "coarse"])
+
+    def test_each_of_many_species_looks_different(self):
+        looks = {tuple(style.species_line(n).values()) for n in range(15)}  # as many as a case may have
+        self.assertEqual(len(looks), 15)
+
+    def test_the_title_tells_what_is_not_done(self):
+        self.assertNotIn("done", style.title_of(self.sample, 0.5))
+        path = self.directory / "run.json"
+        path.write_text(json.dumps(json.loads(path.read_text()) | {"state": "failed: the step is too small"}))
+        self.assertIn("failed", style.title_of(self.sample, 0.5))
+        self.assertIn("t = 0.5 s", style.title_of(self.sample, 0.5))
+
+
+class Fields(SampleRun):
+    def test_velocities_have_a_symmetric_scale_with_units(self):
+        group = fields.velocities(self.sample, 4)
+        self.assertEqual(group.limits[0], -group.limits[1])
+        # the sample's fluid rises with its height in m/s: 0.1983 m/s in the topmost cell, two digits of it
+        self.assertEqual(group.limits[1], 200)
+        self.assertIn("(mm/s)", group.label)
+
+    def test_maps_keep_the_aspect_of_the_column(self):
+        with plt.rc_context(style.STYLE):
+            figure = fields.draw(self.sample, 4)
+        drawn = [axes for axes in figure.axes if axes.get_xlabel().startswith("x")]
+        self.assertEqual([axes.get_title() for axes in drawn], ["fine", "coarse", "fluid", "fluid"])
+        for axes in drawn:
+            self.assertEqual(axes.get_aspect(), 1)
+            box = axes.get_window_extent()
+            # 60 mm by 140 mm shown; a pixel of rounding
+            self.assertAlmostEqual(box.height / box.width, 140 / 60, delta=0.02)
+        self.assertEqual(drawn[0].get_ylabel(), "y (mm)")
+
+    def test_rows_fill_up_and_go_on(self):
+        groups = [maps.Group("", "viridis", (0, 1), [("", None)] * n) for n in (3, 1, 4)]
+        self.assertEqual(maps.wrapped(groups, 0.8), [groups])
+        self.assertEqual(maps.wrapped(groups, 2.3), [groups[:2], groups[2:]])
+        self.assertEqual(maps.wrapped(groups, 9), [[g] for g in groups])
+
+
+class Profiles(SampleRun):
+    def test_rows_in_time_begin_and_end_with_the_run(self):
+        np.testing.assert_array_equal(profiles.edges(np.array([0, 1, 3.0])), [0, 0.5, 2, 3])
+        self.assertEqual(len(profiles.edges(np.array([2.0]))), 2)
+
+    def test_what_is_drawn_is_what_is_stored(self):
+        figure = profiles.draw(self.sample, 0.6)  # 0.5 s is nearest
+        lines = {line.get_label(): line for line in figure.axes[0].get_lines()}
+        np.testing.assert_array_equal(lines["fine"].get_xdata(), self.sample.profiles["phi_fine"][2])
+        self.assertAlmostEqual(lines["bed height"].get_ydata()[0], 90)  # 0.08 + 0.02 * 0.5 m, in mm
+        self.assertNotIn("interface", lines, "the sample has none")
+
+    def test_no_value_is_none(self):
+        self.assertIsNone(profiles.value_at(self.sample, "interface_m", 0.5))
+        self.assertIsNone(profiles.value_at(self.sample, "no such column", 0.5))
+
+
+class History(SampleRun):
+    def test_the_balance_is_of_forces(self):
+        path = self.directory / "history.csv"
+        rows = path.read_text().strip().split("\n")
+        rows = [rows[0] + ",pressure_drop_Pa,buoyant_weight_Pa"] + [f"{row},{3 * n},{n and 2}" for n, row in enumerate(rows[1:])]
+        path.write_text("\n".join(rows) + "\n")
+        figure = history.draw(self.sample)
+        axes = next(a for a in figure.axes if "weight" in a.get_ylabel())
+        drawn = axes.get_lines()[1].get_ydata()
+        self.assertTrue(np.isnan(drawn[0]), "no weight, no ratio")
+        np.testing.assert_array_equal(drawn[1:], [1.5, 3, 4.5, 6])
+
+    def test_an_invariant_that_did_not_hold_stands_out(self):
+        path = self.directory / "run.json"
+        invariants = [{"name": "mass", "worst": 1e-14, "limit": 1e-12}, {"name": "divergence", "worst": 0.5, "limit": 1e-2}]
+        path.write_text(json.dumps(json.loads(path.read_text()) | {"invariants": invariants}))
+        figure, axes = plt.subplots()
+        history.draw_invariants(axes, self.sample)
+        colours = [bar.get_facecolor() for bar in axes.patches]
+        self.assertEqual(len(colours), 2)
+        self.assertNotEqual(colours[0], colours[1])
+        self.assertGreater(axes.get_xlim()[1], 50, "the bar beyond the limit is shown whole")
+
+
+class Film(SampleRun):
+    def test_rates_and_titles(self):
+        self.assertEqual([animation.rate_of(n) for n in (1, 120, 10000)], [2, 10, 25])
+        self.assertEqual(animation.digits_of(np.array([0, 0.25, 0.5])), ".1f")
+        self.assertEqual(animation.digits_of(np.array([0, 0.01, 1])), ".2f")
+        self.assertEqual(animation.digits_of(np.array([0, 20.0])), ".0f")
+        self.assertEqual(animation.digits_of(np.array([0.0])), ".0f")
+
+    def test_every_stored_time_is_a_frame(self):
+        from PIL import Image
+
+        seen = []
+        path = animation.film(self.sample, self.directory / "film.gif", progress=lambda *n: seen.append(n))
+        self.assertEqual(seen, [(n, 5) for n in range(1, 6)])
+        with Image.open(path) as image:
+            self.assertEqual(image.n_frames, 5)
+        self.assertEqual([p.name for p in self.directory.glob("unfinished-*")], [])
+
+    @unittest.skipUnless(animation.has_ffmpeg(), "ffmpeg is not installed")
+    def test_ffmpeg_makes_an_mp4(self):
+        path = animation.film(self.sample, self.directory / "film.mp4")
+        self.assertEqual(path.read_bytes()[4:8], b"ftyp")
+
+
+class Whole(SampleRun):
+    def test_a_time_that_is_not_stored_is_refused(self):
+        with self.assertRaisesRegex(plot.CommandError, "from 0 to 1 s"):
+            plot.step_of(self.sample, 1.5)
+        self.assertEqual([plot.step_of(self.sample, t) for t in (None, 0, 0.6, 1)], [4, 0, 2, 4])
+
+    def test_all_pictures_and_nothing_else(self):
+        paths = plot.pictures(self.directory, plot.WHAT[:-1], time=0.5)
+        self.assertEqual(sorted(p.name for p in (self.directory / "pictures").iterdir()), sorted(p.name for p in paths))
+        for path in paths:
+            self.assertEqual(path.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+            image = plt.imread(path)
+            self.assertGreater(image[..., :3].std(), 0.05, f"{path.name} is blank")
+
+    def test_words(self):
+        with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
+            self.assertEqual(plot.main([str(self.directory), "--what", "overview", "--json"]), 0)
+            self.assertEqual(plot.main([str(self.directory), "--time", "7"]), 2)
+            with self.assertRaises(SystemExit) as ended:
+                plot.main([str(self.directory), "--what", "films"])
+        self.assertEqual(ended.exception.code, 2)
+        self.assertEqual(json.loads(out.getvalue()), {"pictures": [str(self.directory / "pictures/overview.png")]})
+        self.assertIn("films", err.getvalue())
+
+
+class Whole3D(Whole):
+    dimensions = 3
+
+    def test_the_plane_at_half_depth_is_shown(self):
+        phi = self.sample.phi_fine[4]
+        np.testing.assert_array_equal(style.in_plane(phi), phi[2])  # of four cells in depth
+        self.assertEqual(style.vector_in_plane(self.sample.u_fluid[4]).shape, (60, 18, 3))
+        self.assertIn("half depth", style.title_of(self.sample, 1, maps=True))
+        self.assertTrue(overview.draw(self.sample, 4).axes)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

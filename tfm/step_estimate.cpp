@@ -1,0 +1,119 @@
+#include "tfm/step_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "closures/drag.hpp"
+#include "closures/drag_schiller_naumann.hpp"
+#include "closures/mixture.hpp"
+#include "closures/terminal_velocity.hpp"
+
+namespace polybed::tfm {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double smallest_cell(const core::Grid& grid) {
+  return *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
+}
+
+double mean_density(const Constants& constants) {
+  return std::inner_product(constants.density.begin(), constants.density.end(), constants.bed_share.begin(), 0.0);
+}
+
+double fastest_fall(const Constants& constants) {
+  double fastest = 0;
+  for (std::size_t j = 0; j < constants.species(); ++j)
+    fastest = std::max(fastest, std::abs(closures::terminal_velocity(
+                                    [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; },
+                                    constants.diameter[j], constants.density[j] - constants.fluid.density,
+                                    constants.fluid.density, constants.fluid.viscosity, constants.gravity)));
+  return fastest;
+}
+
+/// 1/s: the slip of the fastest species relaxes while all of them drag the fluid along.
+double drag_rate(const Constants& constants, const std::string& name, const UniformBed& bed) {
+  const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
+  const double eps = 1 - bed.solids_fraction;
+  const std::size_t n = constants.species();
+  std::vector<double> slip(n, bed.velocity), f(n), slope(n);
+  closures::drag_of_mixture(law, eps, constants.bed_share, constants.diameter, slip, constants.fluid.density,
+                            constants.fluid.viscosity, f, slope);
+  double on_fluid = 0, own = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    const double b = 18 * constants.fluid.viscosity * eps * f[j] / (constants.diameter[j] * constants.diameter[j]);
+    on_fluid += constants.bed_share[j] * bed.solids_fraction * b / (eps * constants.fluid.density);
+    own = std::max(own, b / constants.density[j]);
+  }
+  return own + on_fluid;
+}
+
+/// dp_s/dphi by a central difference: the slot Stress offers the pressure alone.
+double stress_slope(const StressEffect& stress, double solids_fraction) {
+  constexpr double delta = 1e-5;
+  return std::max(
+      0.0, (stress.pressure_at(solids_fraction + delta) - stress.pressure_at(solids_fraction - delta)) / (2 * delta));
+}
+
+}  // namespace
+
+double expanded_fraction(const Constants& constants, const std::string& name, double velocity, double packed) {
+  const double excess = (mean_density(constants) - constants.fluid.density) * constants.gravity;
+  if (!(excess > 0)) return 0;
+  const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
+  const double diameter = closures::sauter_diameter(constants.bed_share, constants.diameter);
+  const double reynolds = constants.fluid.density * velocity * diameter / constants.fluid.viscosity;
+  const auto carried = [&](double eps) {
+    double f = 0, slope = 0;
+    closures::GuardCount count;
+    closures::drag_of_points(law, {&eps, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
+    return 18 * constants.fluid.viscosity * velocity * f / (diameter * diameter) > excess * eps;
+  };
+  double low = 1 - packed, high = 1 - 1e-6;
+  if (!carried(low)) return packed;
+  if (carried(high)) return 0;
+  for (int n = 0; n < 50; ++n) {
+    const double middle = 0.5 * (low + high);
+    (carried(middle) ? low : high) = middle;
+  }
+  return 1 - low;
+}
+
+std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Constants& constants, const Effects& effects,
+                                          const UniformBed& bed) {
+  const double h = smallest_cell(constants.grid);
+  const auto scale = [](double rate) { return rate > 0 ? 1 / rate : infinite; };
+  const double speed = std::max(bed.velocity / (1 - bed.solids_fraction), fastest_fall(constants));
+  std::vector<TimeScale> scales{{"convection", scale(speed / h), 0}};
+  if (const auto named = scene.effects.find("drag"); effects.drag && named != scene.effects.end())
+    scales.push_back({"drag", scale(drag_rate(constants, named->second, bed)), 0});
+  if (effects.solids_stress) {
+    const double wave = std::sqrt(stress_slope(*effects.solids_stress, bed.solids_fraction) / mean_density(constants));
+    scales.push_back({"acoustics", scale(wave / h), 0});
+    scales.push_back({"bulk viscosity", scale(2 * constants.grid.dimensions * scene.tfm.bulk_viscosity * wave / h), 0});
+  }
+  if (effects.fluid_stress)
+    scales.push_back(
+        {"viscosity", scale(4 * constants.grid.dimensions * effects.fluid_stress->kinematic_viscosity() / (h * h)), 0});
+  return scales;
+}
+
+double explicit_step(const std::vector<TimeScale>& scales) {
+  constexpr double share = 1.4;
+  double shortest = infinite;
+  for (const TimeScale& scale : scales) shortest = std::min(shortest, scale.seconds);
+  return share * shortest;
+}
+
+double implicit_step(const Constants& constants, double velocity, double rtol) {
+  constexpr double share = 0.5, measured_at = 1e-3;
+  const double h = smallest_cell(constants.grid);
+  const double pull = constants.gravity * std::abs(1 - constants.fluid.density / mean_density(constants));
+  const double rate = std::abs(velocity) / h + std::sqrt(pull / h);
+  return rate > 0 ? share / rate * std::cbrt(rtol / measured_at) : infinite;
+}
+
+}  // namespace polybed::tfm

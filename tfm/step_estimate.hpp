@@ -1,0 +1,44 @@
+// The time scales of a case before it is run: those of a uniform bed, without cells and without a state.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "tfm/effects.hpp"
+#include "tfm/step_limits.hpp"
+
+namespace polybed::tfm {
+
+/// A bed that is the same everywhere and at rest.
+struct UniformBed {
+  double solids_fraction;  ///< phi, of the composition of the whole bed
+  double velocity;         ///< superficial, of the fluid, m/s, >= 0
+};
+
+/// The solids fraction at which the drag carries a bed of its Sauter diameter and mean density:
+/// 18 mu U f(eps, Re)/D^2 = (rho_s - rho_f) g eps, T(1.49) with the balance of T(1.24); `packed` where even that is not
+/// carried, 0 where a lone particle is carried away or nothing pulls it down. By bisection, since drag falls with
+/// voidage.
+/// \param law  name of a drag law
+[[nodiscard]] double expanded_fraction(const Constants& constants, const std::string& law, double velocity,
+                                       double packed);
+
+/// The scales that time_scales() finds in cells, of a uniform bed: convection with the fluid's velocity between the
+/// particles and the terminal velocity of the fastest species; drag of every species, relaxing with the fluid; elastic
+/// waves of the solids and their bulk viscosity with the slope of the solids pressure at phi; the fluid's viscosity.
+/// Off means absent. Of a bed that starts packed they are those of its fields at the start to a tenth; later the flow
+/// within the bed decides.
+[[nodiscard]] std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Constants& constants,
+                                                        const Effects& effects, const UniformBed& bed);
+
+/// The step that the explicit integrator is expected to take: a share of the shortest scale, m. Measured, docs/cost.md.
+[[nodiscard]] double explicit_step(const std::vector<TimeScale>& scales);
+
+/// The step that the implicit integrator is expected to take at a tolerance: its error test follows the slower of
+/// convection, h/U, and free fall through a cell, sqrt(h/g'), g' = g |1 - rho_f/rho_s|; the error of a step of second
+/// order goes with the third power of its length. Measured, docs/cost.md.
+/// \param velocity  of the fluid between the particles, m/s
+[[nodiscard]] double implicit_step(const Constants& constants, double velocity, double rtol);
+
+}  // namespace polybed::tfm
