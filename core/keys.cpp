@@ -38,7 +38,13 @@ std::vector<Key> make_keys() {
   k.push_back({"fluid", "equation_of_state", at<std::string>([](S& s, N) -> auto& { return s.fluid.equation_of_state; }), "how density depends on pressure", {}, -infinity, infinity, false, "incompressible", {"incompressible"}});
 
   k.push_back({"species", "name", at<std::string>([](S& s, N n) -> auto& { return s.species[n].name; }), "of the species; names columns and datasets", {}, -infinity, infinity, false, {}, {}, true});
-  k.push_back({"species", "diameter", at<double>([](S& s, N n) -> auto& { return s.species[n].diameter; }), "D_j of its spheres", dimension::length, 1e-8, 1, false, {}, {}, true});
+  k.push_back({"species", "diameter", at<double>([](S& s, N n) -> auto& { return s.species[n].diameter; }), "D_j of its spheres; or give a distribution", dimension::length, 1e-8, 1});
+  k.push_back({"species", "distribution", at<std::string>([](S& s, N n) -> auto& { return s.species[n].sizes.kind; }), "of sizes by volume, in place of one diameter: it becomes the species name.1, name.2, ... from fine to coarse, which have its moments", {}, -infinity, infinity, false, {}, {"lognormal", "sieves"}, false, "sum x_j D_j^k = integral X D^k dD, k = -N ... N-1", false, false, true});
+  k.push_back({"species", "median", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].sizes.median; }), "lognormal: half of the volume is finer", dimension::length, 1e-8, 1, false, {}, {}, false, {}, false, false, true});
+  k.push_back({"species", "mean", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].sizes.mean; }), "lognormal: mean diameter by volume, in place of the median", dimension::length, 1e-8, 1, false, {}, {}, false, "mean = median exp(deviation^2/2)", false, false, true});
+  k.push_back({"species", "deviation", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].sizes.deviation; }), "lognormal: standard deviation of ln D", {}, 0, 1, true, {}, {}, false, {}, false, false, true});
+  k.push_back({"species", "sieves", at<Points>([](S& s, N n) -> auto& { return s.species[n].sizes.sieves; }), "a table [[opening, share of the volume retained on it], ...]: openings rise, the last retains nothing, shares sum to 1", {}, 0, 1, false, {}, {}, false, {}, false, true, true});
+  k.push_back({"species", "classes", at<int>([](S& s, N n) -> auto& { return s.species[n].sizes.classes; }), "N: number of species that stand for the distribution", {}, 1, 10, false, "3", {}, false, {}, false, false, true});
   k.push_back({"species", "density", at<double>([](S& s, N n) -> auto& { return s.species[n].density; }), "rho_j", dimension::density, 1e-3, 1e16, false, {}, {}, true});
   k.push_back({"species", "max_packing", at<double>([](S& s, N n) -> auto& { return s.species[n].max_packing; }), "P_j: random packing of this species alone, for tfm.max_packing = fedors_landel | yu_standish", {}, 0.3, 0.9, false, "0.64"});
   k.push_back({"species", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].youngs_modulus; }), "else that of [dem]", dimension::pressure, 0, 1e13, true});
@@ -134,7 +140,7 @@ std::string kind_name(const Key& key) {
     std::string operator()(Place<std::vector<std::string>>) const { return "list of texts"; }
     std::string operator()(Place<Points>) const { return "number or table in time"; }
   };
-  const std::string kind = std::visit(Visitor{}, key.place);
+  const std::string kind = key.by_size ? "table of length, m, and number" : std::visit(Visitor{}, key.place);
   return key.dimension == dimension::none ? kind : kind + ", " + unit_name(key.dimension);
 }
 

@@ -213,7 +213,7 @@ struct AsToml {
 
 void write_table(Scene& scene, std::string_view table, std::size_t index, std::string& out) {
   for (const Key& key : keys()) {
-    if (key.table != table) continue;
+    if (key.table != table || key.replaced) continue;
     const bool by_particles = !scene.bed.particles.empty();
     if (by_particles && table == "bed" && (key.name == "volume_share" || key.name == "static_height")) continue;
     std::string value = std::visit(AsToml{scene, index}, key.place);

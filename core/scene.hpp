@@ -31,9 +31,18 @@ struct Fluid {
   std::string equation_of_state = "incompressible";
 };
 
+/// Sizes of a species by volume, as a case gives them; its classes stand in its place once the case is resolved.
+struct SizeDistribution {
+  std::string kind;                               ///< lognormal | sieves; empty: one diameter
+  std::optional<double> median, mean, deviation;  ///< lognormal: m, m, standard deviation of ln D
+  std::vector<std::pair<double, double>> sieves;  ///< (opening m, share retained on it), openings rising
+  int classes = 3;
+};
+
 struct Species {
   std::string name;
-  double diameter = 0;                                                         ///< m
+  double diameter = 0;  ///< m
+  SizeDistribution sizes;
   double density = 0;                                                          ///< kg/m3
   double max_packing = 0.64;                                                   ///< of this species alone
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;  ///< else those of [dem]
@@ -97,6 +106,13 @@ struct ContactPair {
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;
 };
 
+/// What became of a species with a distribution: a record, not read again.
+struct SizeClasses {
+  std::string species;  ///< as the case names it; the classes are called name.1, name.2, ... from fine to coarse
+  SizeDistribution given;
+  std::vector<double> diameter, share;  ///< m; of the volume of this distribution
+};
+
 struct Scene {
   std::string title;
   Column column;
@@ -111,6 +127,7 @@ struct Scene {
   Tfm tfm;
   Dem dem;
   std::vector<ContactPair> contact_pairs;
+  std::vector<SizeClasses> size_classes;
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
 };
 

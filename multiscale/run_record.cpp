@@ -45,6 +45,30 @@ void write_invariants(Json& json, const fluid::Invariants& invariants) {
 
 }  // namespace
 
+void write_size_classes(Json& json, const core::Scene& scene) {
+  if (scene.size_classes.empty()) return;
+  json.key("size_classes").begin_array();
+  for (const core::SizeClasses& record : scene.size_classes) {
+    json.begin_object().member("species", record.species).member("distribution", record.given.kind);
+    if (record.given.median) json.member("median_m", *record.given.median);
+    if (record.given.mean) json.member("mean_m", *record.given.mean);
+    if (record.given.deviation) json.member("deviation", *record.given.deviation);
+    if (!record.given.sieves.empty()) json.key("sieves").begin_array();
+    for (const auto& [opening, share] : record.given.sieves)
+      json.begin_object().member("opening_m", opening).member("share", share).end_object();
+    if (!record.given.sieves.empty()) json.end_array();
+    json.key("classes").begin_array();
+    for (std::size_t k = 0; k < record.diameter.size(); ++k)
+      json.begin_object()
+          .member("name", record.species + "." + std::to_string(k + 1))
+          .member("diameter_m", record.diameter[k])
+          .member("share", record.share[k])
+          .end_object();
+    json.end_array().end_object();
+  }
+  json.end_array();
+}
+
 std::string run_record_text(const RunRecord& record) {
   const tfm::Model& model = record.model;
   const std::string text = core::resolved_case(record.scene);
@@ -55,6 +79,7 @@ std::string run_record_text(const RunRecord& record) {
   json.member("case", text).member("case_hash", core::text_hash(text)).key("overrides").begin_array();
   for (const std::string& override : record.scene.overrides) json.value(override);
   json.end_array().member("ranks", 1);
+  write_size_classes(json, record.scene);
   json.key("machine")
       .begin_object()
       .member("processor", processor())

@@ -5,12 +5,14 @@
 #include <numbers>
 
 #include "closures/drag.hpp"
+#include "closures/mixture.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case_file.hpp"
 #include "core/json.hpp"
 #include "core/timers.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/run_record.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::multiscale {
@@ -74,10 +76,22 @@ Derived derive(const core::Scene& scene) {
   return derived;
 }
 
+/// The classes of the distributions, with y_j = D_j over the Sauter diameter of the distribution.
+void print_size_classes(const core::Scene& scene) {
+  for (const core::SizeClasses& record : scene.size_classes) {
+    const double sauter = closures::sauter_diameter(record.share, record.diameter);
+    fmt::print("# {}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species, record.given.kind,
+               record.diameter.size(), sauter, closures::poly_index_mean(record.share, record.diameter));
+    for (std::size_t k = 0; k < record.diameter.size(); ++k)
+      fmt::print("#   {}.{}: diameter {:.6g} m, share {:.6g}, y {:.4g}\n", record.species, k + 1, record.diameter[k],
+                 record.share[k], record.diameter[k] / sauter);
+  }
+}
+
 }  // namespace
 
 void run_check(const CaseOptions& options) {
-  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles());
+  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
   const Derived derived = derive(scene);
   const std::string text = core::resolved_case(scene);
   constexpr double bytes_per_unknown = 400;  // state, work fields and the integrator's vectors, measured
@@ -88,6 +102,7 @@ void run_check(const CaseOptions& options) {
     json.member("fluid_density_kg_m3", derived.fluid.density).member("fluid_viscosity_Pa_s", derived.fluid.viscosity);
     json.member("integrator", derived.integrator).member("unknowns", std::uint64_t(derived.unknowns));
     json.member("memory_MB", memory).member("buoyant_weight_Pa", derived.weight);
+    write_size_classes(json, scene);
     json.key("notes").begin_array();
     for (const std::string& note : derived.notes) json.value(note);
     json.end_array().end_object();
@@ -95,6 +110,7 @@ void run_check(const CaseOptions& options) {
     return;
   }
   fmt::print("{}\n", text);
+  print_size_classes(scene);
   fmt::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     fmt::print("# {}: terminal velocity {:.4g} m/s, Re of the inlet {:.4g}\n", scene.species[j].name,

@@ -33,7 +33,7 @@ core::Scene read_scene(const RunOptions& options) {
     const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
     overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
   }
-  return core::read_case(options.case_path, overrides, all_roles());
+  return core::read_case(options.case_path, overrides, all_roles(), size_classes);
 }
 
 void check_directory(const fs::path& directory, const RunOptions& options) {
