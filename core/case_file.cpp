@@ -173,6 +173,7 @@ void CaseReader::read_entry(std::string_view table, const toml::key& name, const
     if (table == "species") scene_.species.resize(entries->size());
     if (table == "contact_pair") scene_.contact_pairs.resize(entries->size());
     if (table == "jet") scene_.jets.resize(entries->size());
+    if (table == "feed") scene_.feeds.resize(entries->size());
     for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), table, n);
     return;
   }

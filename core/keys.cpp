@@ -29,6 +29,7 @@ std::vector<Key> make_keys() {
   k.push_back({"column", "depth", at<std::optional<double>>([](S& s, N) -> auto& { return s.column.depth; }), "of a 2-D column; default: twice the largest diameter, and a tenth of the smallest twice", dimension::length, 0, 1e3, true});
   k.push_back({"column", "sides", at<std::string>([](S& s, N) -> auto& { return s.column.sides; }), "walls: no slip for the fluid, free slip for solids unless said; or joined", {}, -infinity, infinity, false, "wall", {"wall", "periodic"}});
   k.push_back({"column", "gravity", at<double>([](S& s, N) -> auto& { return s.column.gravity; }), "acceleration of gravity, downward", dimension::acceleration, 0, 1e3, false, "9.81 m/s2"});
+  k.push_back({"column", "outlet", at<std::string>([](S& s, N) -> auto& { return s.column.outlet; }), "top of the column: a screen that holds solids, or open to them: they leave and are counted", {}, -infinity, infinity, false, "screen", {"screen", "open"}});
   k.push_back({"column", "closed", at<bool>([](S& s, N) -> auto& { return s.column.closed; }), "walls all round: no inlet and no outlet", {}, -infinity, infinity, false, "false"});
 
   k.push_back({"fluid", "name", at<std::string>([](S& s, N) -> auto& { return s.fluid.name; }), "water and air know density and viscosity from the temperature; any other name needs both", {}, -infinity, infinity, false, {}, {}, true});
@@ -91,6 +92,14 @@ std::vector<Key> make_keys() {
   k.push_back({"jet", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].from; }), "low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, depth) in three dimensions", dimension::length, 0, 1e3, false, {}, {}, true});
   k.push_back({"jet", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].to; }), "high corner", dimension::length, 0, 1e3, false, {}, {}, true});
   k.push_back({"jet", "superficial_velocity", at<Points>([](S& s, N n) -> auto& { return s.jets[n].superficial_velocity; }), "over the jet's own area, in place of inlet.superficial_velocity; a velocity or a table as there", dimension::velocity, -1e3, 1e3, false, {}, {}, true});
+
+  k.push_back({"feed", "species", at<std::string>([](S& s, N n) -> auto& { return s.feeds[n].species; }), "name of the species that is fed; of one with a distribution: all classes, by their shares", {}, -infinity, infinity, false, {}, {}, true});
+  k.push_back({"feed", "at", at<std::string>([](S& s, N n) -> auto& { return s.feeds[n].at; }), "end of the column", {}, -infinity, infinity, false, "bottom", {"bottom", "top"}});
+  k.push_back({"feed", "superficial_velocity", at<Points>([](S& s, N n) -> auto& { return s.feeds[n].superficial_velocity; }), "volume of solids per area of the feed and time, into the column, besides the fluid of the inlet; a velocity or a table as there", dimension::velocity, 0, 1e3, false, {}, {}, true});
+  k.push_back({"feed", "velocity", at<double>([](S& s, N n) -> auto& { return s.feeds[n].velocity; }), "of the particles as they enter; superficial_velocity over it is their volume fraction", dimension::velocity, 0, 1e3, true, {}, {}, true});
+  k.push_back({"feed", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.feeds[n].from; }), "low corner of the part of the end, as of a jet; default: the whole end", dimension::length, 0, 1e3});
+  k.push_back({"feed", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.feeds[n].to; }), "high corner", dimension::length, 0, 1e3});
+
   k.push_back({"contact_pair", "between", at<std::vector<std::string>>([](S& s, N n) -> auto& { return s.contact_pairs[n].between; }), "two species, or a species and \"wall\"", {}, -infinity, infinity, false, {}, {}, true});
   k.push_back({"contact_pair", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].youngs_modulus; }), "of this pair", dimension::pressure, 0, 1e13, true});
   k.push_back({"contact_pair", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].poisson_ratio; }), "of this pair", {}, 0, 0.5});
@@ -124,7 +133,7 @@ std::span<const Key> keys() {
 }
 
 bool is_array_of_tables(std::string_view table) {
-  return table == "species" || table == "contact_pair" || table == "jet";
+  return table == "species" || table == "contact_pair" || table == "jet" || table == "feed";
 }
 
 std::string kind_name(const Key& key) {

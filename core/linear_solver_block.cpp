@@ -31,12 +31,12 @@ bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSp
     beyond[a] += side;
     HYPRE_Int other = cell + side * jump[a];
     rows.add(2 * cell, of_p);
+    rows.add(2 * cell + 1, of_s * slope[std::size_t(grid_.index(here[0], here[1], here[2]))]);
     if (beyond[a] < 0 || beyond[a] >= cells[a]) {
       if (!grid_.periodic[a]) return;
       beyond[a] -= side * cells[a];
       other -= side * HYPRE_Int(cells[a]) * jump[a];
     }
-    rows.add(2 * cell + 1, of_s * slope[std::size_t(grid_.index(here[0], here[1], here[2]))]);
     rows.add(2 * other, -of_p);
     rows.add(2 * other + 1, -of_s * slope[std::size_t(grid_.index(beyond[0], beyond[1], beyond[2]))]);
   };

@@ -20,6 +20,7 @@ struct Column {
   std::array<int, 3> cells{1, 1, 1};      ///< along x, y, z; 1 along z in 2-D
   std::string sides = "wall";             ///< wall | periodic
   double gravity = 9.81;                  ///< m/s2, downward
+  std::string outlet = "screen";          ///< screen | open: whether solids leave at the top
   bool closed = false;                    ///< walls all round: no inlet, no outlet
 };
 
@@ -68,6 +69,16 @@ struct Inlet {
 struct Jet {
   std::vector<double> from, to;                                 ///< its corners on the bottom, m: x, or x and z
   std::vector<std::pair<double, double>> superficial_velocity;  ///< as of the inlet, over the jet's own area
+};
+
+/// Solids of one species that are fed through the bottom or the top, everywhere or in a part of it.
+struct Feed {
+  std::string species;
+  std::string at = "bottom";  ///< bottom | top
+  std::vector<std::pair<double, double>>
+      superficial_velocity;      ///< solids volume per area and time, m/s, into the column
+  double velocity = 0;           ///< of the particles as they enter, m/s
+  std::vector<double> from, to;  ///< as of a jet; empty: the whole end
 };
 
 struct RunPlan {
@@ -121,6 +132,7 @@ struct Scene {
   Bed bed;
   Inlet inlet;
   std::vector<Jet> jets;
+  std::vector<Feed> feeds;
   std::map<std::string, std::string> effects;  ///< role -> law; a role left out is off
   RunPlan run;
   OutputPlan output;

@@ -34,9 +34,13 @@ Expanded expanded(const Species& given, const ClassRule& rule, std::vector<SizeC
   return result;
 }
 
+auto record_of(const std::string& name, const std::vector<SizeClasses>& records) {
+  return std::find_if(records.begin(), records.end(), [&](const auto& r) { return r.species == name; });
+}
+
 /// The names that a name of the case stands for.
 std::vector<std::string> names_of(const std::string& name, const std::vector<SizeClasses>& records) {
-  const auto record = std::find_if(records.begin(), records.end(), [&](const auto& r) { return r.species == name; });
+  const auto record = record_of(name, records);
   if (record == records.end()) return {name};
   std::vector<std::string> names;
   for (std::size_t n = 1; n <= record->diameter.size(); ++n) names.push_back(fmt::format("{}.{}", name, n));
@@ -55,6 +59,24 @@ std::vector<ContactPair> expanded_pairs(const std::vector<ContactPair>& pairs,
         result.push_back(pair);
         result.back().between = {a, b};
       }
+  }
+  return result;
+}
+
+/// A feed of a distribution is a feed of each of its classes, by their shares.
+std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vector<SizeClasses>& records) {
+  std::vector<Feed> result;
+  for (const Feed& feed : feeds) {
+    const auto record = record_of(feed.species, records);
+    if (record == records.end()) {
+      result.push_back(feed);
+      continue;
+    }
+    for (std::size_t n = 0; n < record->share.size(); ++n) {
+      result.push_back(feed);
+      result.back().species = fmt::format("{}.{}", feed.species, n + 1);
+      for (auto& point : result.back().superficial_velocity) point.second *= record->share[n];
+    }
   }
   return result;
 }
@@ -85,6 +107,7 @@ std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule
       if (shares_fit) shares.push_back(bed.volume_share[n] * classes.share[k]);
     }
   }
+  scene.feeds = expanded_feeds(scene.feeds, scene.size_classes);
   scene.contact_pairs = expanded_pairs(scene.contact_pairs, scene.size_classes);
   if (shares_fit) {
     scene.species = std::move(species);

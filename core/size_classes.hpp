@@ -17,7 +17,8 @@ namespace polybed::core {
 using ClassRule = std::function<std::vector<std::pair<double, double>>(const SizeDistribution&)>;
 
 /// Puts `name.1`, `name.2`, ... in the place of each species with a distribution: with its properties, its share of
-/// bed.volume_share divided among them, and in the contact pairs that name it. Fills scene.size_classes.
+/// bed.volume_share divided among them, and in
+/// the contact pairs and the feeds that name it. Fills scene.size_classes.
 [[nodiscard]] std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule,
                                                            const std::string& case_name);
 

@@ -12,10 +12,12 @@ enum class WallSlip { no_slip, free_slip };
 class Boundaries {
  public:
   Boundaries() = default;
-  /// closed: no inlet and no outlet, walls all round.
-  Boundaries(const core::Grid& grid, bool closed) : grid_(grid), closed_(closed) {}
+  /// closed: no inlet and no outlet, walls all round; open: the outlet lets solids out.
+  Boundaries(const core::Grid& grid, bool closed, bool open = false)
+      : grid_(grid), closed_(closed), open_(open && !closed) {}
 
   [[nodiscard]] bool closed() const { return closed_; }
+  [[nodiscard]] bool open() const { return open_; }
 
   /// Ghosts of a cell field: images across periodic sides, else the nearest owned value.
   void fill_cells(core::Field& field) const;
@@ -33,10 +35,10 @@ class Boundaries {
   }
 
   /// The faces of an axis whose velocity moves: all but those on walls and on the distributor. The outlet's
-  /// faces move for the fluid alone.
+  /// faces move for the fluid, and for solids if it is open.
   [[nodiscard]] core::Box moving_faces(int axis, bool of_fluid) const {
     core::Box box = core::interior_faces(grid_, axis);
-    if (of_fluid && axis == 1 && !closed_ && !grid_.periodic[1]) ++box.hi[1];
+    if ((of_fluid || open_) && axis == 1 && !closed_ && !grid_.periodic[1]) ++box.hi[1];
     return box;
   }
 
@@ -49,7 +51,7 @@ class Boundaries {
   void fill_beyond(core::Field& field, int axis, double sign_low, double sign_high, bool on_faces) const;
 
   core::Grid grid_;
-  bool closed_ = false;
+  bool closed_ = false, open_ = false;
 };
 
 /// Calls body(begin, end, stride) for the rows of boundary faces of an axis at its low (side 0) or high end.

@@ -7,12 +7,13 @@
 #include "core/field.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
+#include "fluid/openings.hpp"
 
 namespace polybed::fluid {
 
 /// The state of the invariants at one time.
 struct InvariantValues {
-  double mass_error = 0;      ///< largest relative change of a species' mass since the start
+  double mass_error = 0;      ///< largest relative change of a species' mass since the start, with what came and went
   double fraction_below = 0;  ///< how far the least phi_j lies below 0
   double most_solids = 0;     ///< greatest phi
   double packing_above = 0;   ///< how far the greatest phi lies above the maximum packing
@@ -35,9 +36,11 @@ class Invariants {
   Invariants(std::vector<double> initial_mass, double rtol);
 
   /// Measures and keeps what is worst; collective over the owned cells.
+  /// \param passed  what each species has passed through open ends; empty: nothing
   InvariantValues see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid, double packing_above,
-                      double velocity_scale, double force_balance, double time);
+                      double velocity_scale, double force_balance, double time, std::span<const Passed> passed = {});
 
+  [[nodiscard]] const std::vector<double>& initial_mass() const { return initial_mass_; }
   [[nodiscard]] const std::vector<WorstInvariant>& worst() const { return worst_; }
   /// The invariant nearest to, or furthest beyond, its limit.
   [[nodiscard]] const WorstInvariant& nearest() const;
@@ -48,6 +51,10 @@ class Invariants {
   std::vector<double> initial_mass_;
   std::vector<WorstInvariant> worst_;
 };
+
+/// How far a species' mass is from what it was at the start, plus what came in, less what went out: relative to all
+/// there ever was. Masses in kg.
+[[nodiscard]] double ledger_error(double start, double in, double out, double now);
 
 /// Volume of each species in the owned cells, m3, summed with compensation.
 [[nodiscard]] std::vector<double> species_volumes(const core::Grid& grid, const Interphase& solids);

@@ -43,6 +43,28 @@ void write_invariants(Json& json, const fluid::Invariants& invariants) {
   json.end_array();
 }
 
+/// Mass of each species at the start, in, out and in the column, and how well they add up; nothing if no end is open.
+void write_ledger(Json& json, const tfm::Model& model, const fluid::Invariants& invariants) {
+  const tfm::Constants& constants = model.constants();
+  if (!constants.openings.present()) return;
+  const std::vector<fluid::Passed> passed = model.passed();
+  const std::vector<double> now = tfm::masses(model);
+  json.key("ledger").begin_array();
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const double start = invariants.initial_mass()[j], in = passed[j].in * constants.density[j],
+                 out = passed[j].out * constants.density[j];
+    json.begin_object()
+        .member("species", constants.name[j])
+        .member("start_kg", start)
+        .member("in_kg", in)
+        .member("out_kg", out)
+        .member("stored_kg", now[j])
+        .member("relative_error", fluid::ledger_error(start, in, out, now[j]))
+        .end_object();
+  }
+  json.end_array();
+}
+
 }  // namespace
 
 void write_size_classes(Json& json, const core::Scene& scene) {
@@ -94,6 +116,7 @@ std::string run_record_text(const RunRecord& record) {
   for (const core::Timers::Term& term : record.timers.terms()) json.member(term.name, term.seconds);
   json.end_object();
   write_invariants(json, record.observers.invariants());
+  write_ledger(json, model, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
   json.key("guards").begin_array();
   if (model.effects().drag) {

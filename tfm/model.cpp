@@ -40,6 +40,7 @@ Constants make_constants(const core::Scene& scene) {
     constants.density.push_back(species.density);
     constants.name.push_back(species.name);
   }
+  constants.openings = fluid::Openings(constants.grid, scene);
   return constants;
 }
 
@@ -65,15 +66,19 @@ Discretisation make_discretisation(const core::Tfm& options) {
 Model::Model(const core::Scene& scene, core::Timers& timers)
     : timers_(timers),
       options_(scene.tfm),
-      equations_(scene, make_constants(scene), fluid::Boundaries(make_grid(scene.column), scene.column.closed),
+      equations_(scene, make_constants(scene),
+                 fluid::Boundaries(make_grid(scene.column), scene.column.closed, scene.column.outlet == "open"),
                  fluid::Inlet(make_grid(scene.column), scene), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
-  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit");
+  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit",
+                        constants.openings.passages());
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
-  velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants), inlet().greatest(), least_scale});
+  velocity_scale_ = std::max(
+      {0.1 * greatest_terminal_velocity(constants), inlet().greatest(), constants.openings.greatest(), least_scale});
   Fields& fields = equations_.fields();
   fill_bed(scene.bed, constants, effects().solids_stress.get(), fields.solids);
+  constants.openings.set_velocities(fields.solids);
   core::for_each_row(constants.grid, core::owned_faces(constants.grid, 1), [&](Index begin, Index end) {
     std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inlet().mean_velocity(0));
   });
@@ -128,8 +133,10 @@ void Model::choose_integrator(const core::Scene& scene) {
 
 std::vector<double> Model::absolute_tolerances() const {
   std::vector<double> atol(layout_.size());
+  constexpr double not_tested = 1e9;  // m: sums of fluxes follow from the rest and need no error test of their own
   for (const StateLayout::Entry& entry : layout_.entries()) {
     const double value = entry.kind == Kind::fraction   ? 0.1 * options_.rtol
+                         : entry.kind == Kind::passed   ? not_tested
                          : entry.kind == Kind::pressure ? 100.0 * options_.rtol
                                                         : options_.rtol * velocity_scale_;
     std::fill_n(atol.begin() + std::ptrdiff_t(entry.begin), entry.size, value);
@@ -145,7 +152,8 @@ void Model::make_integrator() {
     options.atol = absolute_tolerances();
     options.id.assign(layout_.size(), 1.0);
     for (const StateLayout::Entry& entry : layout_.entries())
-      if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
+      if (entry.kind == Kind::pressure || entry.kind == Kind::passed)
+        std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
     integrator_ = core::make_implicit(*implicit_, std::move(options));
   } else {
     const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
@@ -268,12 +276,21 @@ core::Checkpoint Model::checkpoint() const {
   return c;
 }
 
+std::vector<double> Model::kinks() const {
+  std::vector<double> times = inlet().kinks();
+  const std::vector<double> of_feeds = constants().openings.kinks();
+  times.insert(times.end(), of_feeds.begin(), of_feeds.end());
+  return times;
+}
+
 void Model::keep_last_state() { y_.assign(integrator_->state().begin(), integrator_->state().end()); }
 
 void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
   time_ = step_ = 0;
   before_ = {};
+  for (const StateLayout::Entry& entry : layout_.entries())
+    if (entry.kind == Kind::passed) std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
   begin_integration();
 }
 

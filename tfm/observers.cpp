@@ -20,6 +20,11 @@ std::vector<std::string> history_columns(const Constants& constants) {
     columns.push_back("mass_" + name + "_kg");
   }
   columns.insert(columns.end(), {"interface_m", "mixing", "max_solids_fraction", "min_fraction", "divergence"});
+  if (constants.openings.present())
+    for (const std::string& name : constants.name) {
+      columns.push_back("in_" + name + "_kg");
+      columns.push_back("out_" + name + "_kg");
+    }
   return columns;
 }
 
@@ -107,8 +112,9 @@ void Observers::write_history(double time) {
   force_balance_ = weight != 0 ? drop / weight : 0;
   const Fields& fields = model_.fields();
   const double above = model_.effects().solids_stress ? model_.effects().solids_stress->packing_above(fields) : 0.0;
+  const std::vector<fluid::Passed> passed = model_.passed();
   const fluid::InvariantValues now = invariants_.see(constants.grid, fields.solids, fields.fluid, above,
-                                                     model_.velocity_scale(), force_balance_ - 1, time);
+                                                     model_.velocity_scale(), force_balance_ - 1, time, passed);
   const auto height = fluid::bed_height(profile);
   bed_height_ = height.value_or(0);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
@@ -118,6 +124,9 @@ void Observers::write_history(double time) {
   }
   row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), now.most_solids, -now.fraction_below,
                          now.divergence});
+  if (constants.openings.present())
+    for (std::size_t j = 0; j < constants.species(); ++j)
+      row.insert(row.end(), {passed[j].in * constants.density[j], passed[j].out * constants.density[j]});
   history_.write_row(row);
 }
 

@@ -33,8 +33,10 @@ Preconditioner::Preconditioner(const Constants& constants, const fluid::Boundari
     : constants_(constants),
       boundaries_(boundaries),
       rows_(constants.species() + 1),
+      moves_(constants.species(), true),
       slope_(core::make_field(constants.grid)),
       fraction_residual_(constants.species(), core::make_field(constants.grid)),
+      passed_residual_(constants.openings.present() ? constants.species() : 0, core::make_field(constants.grid)),
       pressure_residual_(core::make_field(constants.grid)),
       source_p_(core::make_field(constants.grid)),
       source_s_(core::make_field(constants.grid)),
@@ -58,11 +60,11 @@ bool Preconditioner::setup(const Fields& fields, double c) {
   c_ = c;
   const core::Grid& grid = constants_.grid;
   for (int axis = 0; axis < grid.dimensions; ++axis) {
-    core::Box held_solids = boundaries_.moving_faces(axis, true);
-    const core::Box moving = boundaries_.moving_faces(axis, false);
-    build(fields, axis, moving, true);
-    held_solids.lo[std::size_t(axis)] = moving.hi[std::size_t(axis)];
-    build(fields, axis, held_solids, false);
+    const core::Box inner = core::interior_faces(grid, axis);
+    core::Box at_top = boundaries_.moving_faces(axis, true);
+    at_top.lo[std::size_t(axis)] = inner.hi[std::size_t(axis)];
+    build(fields, axis, inner, Place::inside);
+    build(fields, axis, at_top, boundaries_.open() ? Place::outlet : Place::screen);
   }
   for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
   if (fields.stress.present())
@@ -73,20 +75,24 @@ bool Preconditioner::setup(const Fields& fields, double c) {
                        c);
 }
 
-void Preconditioner::build(const Fields& fields, int axis, const core::Box& box, bool solids_move) {
+/// At an open outlet solids move, but only those that rise are carried through, and none that is fed there.
+void Preconditioner::build(const Fields& fields, int axis, const core::Box& box, Place place) {
   const Index s = constants_.grid.stride(axis);
   core::for_each_row(constants_.grid, box, [&](Index begin, Index end) {
     for (Index face = begin; face < end; ++face) {
-      for (std::size_t j = 0; j < constants_.species(); ++j)
-        fraction_[std::size_t(axis)][j][std::size_t(face)] =
-            solids_move ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
+      const auto a = std::size_t(axis), at = std::size_t(face);
+      for (std::size_t j = 0; j < constants_.species(); ++j) {
+        moves_[j] = place == Place::inside || (place == Place::outlet && !constants_.openings.holds(j, face));
+        const bool carried = moves_[j] && (place == Place::inside || fields.solids.velocity[j][a][at] > 0);
+        fraction_[a][j][at] = carried ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
+      }
       invert_face(fields, axis, face);
-      respond(fields, axis, face, solids_move);
+      respond(fields, axis, face);
     }
   });
 }
 
-/// S of one face, inverted into its place.
+/// S of one face, inverted into its place; the row of a species that is held there is c dU_j.
 void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
   const Index stride = constants_.grid.stride(axis);
@@ -98,6 +104,7 @@ void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
   for (std::size_t j = 0; j < n; ++j) fluid_velocity[row(j)] = -fraction_[a][j][at] / eps;
   fluid_velocity[row(n)] = 1 / eps;
   for (std::size_t j = 0; j < n; ++j) {
+    if (!moves_[j]) continue;
     const double slip = fields.fluid.velocity[a][at] - fields.solids.velocity[j][a][at];
     const double b = fluid::exchange_on_face(fields.solids.exchange[j].data(), face, stride, slip);
     const double phi = fraction_[a][j][at];
@@ -121,7 +128,7 @@ void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
 }
 
 /// Responses of a face to unit gradients of dp and of L s, and the coefficients of the elliptic system.
-void Preconditioner::respond(const Fields& fields, int axis, Index face, bool solids_move) {
+void Preconditioner::respond(const Fields& fields, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
   const Index stride = constants_.grid.stride(axis);
   const std::size_t n = constants_.species();
@@ -129,7 +136,7 @@ void Preconditioner::respond(const Fields& fields, int axis, Index face, bool so
   Vector pressure = Vector::Zero(Eigen::Index(rows_)), stress = pressure;
   for (std::size_t j = 0; j < n; ++j) {
     const auto row = Eigen::Index(j);
-    pressure[row] = solids_move ? 1 / constants_.density[j] : 0;
+    pressure[row] = moves_[j] ? 1 / constants_.density[j] : 0;
     stress[row] = pressure[row] / phi;
     stress[Eigen::Index(n)] += fraction_[a][j][at] * stress[row];
   }
@@ -172,6 +179,9 @@ void Preconditioner::unpack(const StateLayout& layout, std::span<const double> r
         break;
       case Kind::flux:
         layout.unpack(entry, r, face_value_[a][rows_ - 1]);
+        break;
+      case Kind::passed:
+        layout.unpack(entry, r, passed_residual_[j]);
         break;
       case Kind::pressure:
         layout.unpack(entry, r, pressure_residual_);
@@ -248,7 +258,7 @@ void Preconditioner::correct_faces() {
   const core::Grid& grid = constants_.grid;
   fluid::set_outlet_pressure(grid, boundaries_, dp_);
   for (std::size_t c = 0; c < work_.size(); ++c) work_[c] = slope_[c] * s_[c];
-  boundaries_.fill_cells(work_);
+  boundaries_.open() ? fluid::set_outlet_pressure(grid, boundaries_, work_) : boundaries_.fill_cells(work_);
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     for (std::size_t k = 0; k < rows_; ++k) {
@@ -281,6 +291,11 @@ void Preconditioner::pack(const StateLayout& layout, std::span<double> z) {
         break;
       case Kind::flux:
         layout.pack(entry, face_value_[a][rows_ - 1], z);
+        break;
+      case Kind::passed:
+        divergence_of_solids(j, j + 1, work_);  // leaves the flux of the correction in flux_
+        for (std::size_t f = 0; f < work_.size(); ++f) work_[f] = (passed_residual_[j][f] + flux_[a][f]) / c_;
+        layout.pack(entry, work_, z);
         break;
       case Kind::pressure:
         layout.pack(entry, dp_, z);

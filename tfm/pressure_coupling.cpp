@@ -26,6 +26,7 @@ void subtract_pressure_gradient(const Constants& constants, const fluid::Boundar
                                    });
     }
   }
+  if (constants.openings.present()) constants.openings.hold(fields.solids.acceleration);
 }
 
 void pack_rates(const StateLayout& layout, const Fields& fields, std::span<double> dydt) {
@@ -40,6 +41,9 @@ void pack_rates(const StateLayout& layout, const Fields& fields, std::span<doubl
         break;
       case Kind::flux:
         layout.pack(entry, fields.flux_rate.free[a], dydt);
+        break;
+      case Kind::passed:
+        layout.pack(entry, fields.solids.passed_rate[j], dydt);
         break;
       case Kind::pressure:
         break;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "fluid/pressure.hpp"
 #include "tfm/mixture.hpp"
 
 namespace polybed::tfm {
@@ -38,18 +39,20 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
   timed("boundaries", [&] {
     layout.unpack(y, fields_.solids, fields_.fluid);
     set_inlet_velocity(t);
-    fill_ghosts();
+    fill_ghosts(t);
   });
   if (!admissible()) return false;
   timed("mixture", [&] { superficial_slip(constants_, fields_); });
   timed("convection", [&] {
-    continuity(constants_, boundaries_, discretisation_.flux, fields_, flux_);
+    continuity(constants_, boundaries_, discretisation_.flux, side_of(t), fields_, flux_);
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
   if (effects_.solids_stress)
     timed("solids stress", [&] {
       effects_.solids_stress->evaluate(fields_);
+      if (boundaries_.open())  // nothing presses back from beyond
+        fluid::set_outlet_pressure(constants_.grid, boundaries_, fields_.stress.pressure);
       subtract_stress(constants_, boundaries_, fields_);
     });
   timed("gravity", [&] { add_gravity(constants_, boundaries_, fields_); });
@@ -66,16 +69,22 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       add_species_exchange(constants_, boundaries_, fields_);
     });
   timed("volume flux", [&] {
+    if (constants_.openings.present()) constants_.openings.hold(fields_.solids.acceleration);
     fluid::flux_rate(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
                      fields_.fluid_acceleration, fields_.flux_rate);
+    if (constants_.openings.present()) constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
     set_inlet_rate(t);
   });
   return true;
 }
 
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.
-void RightHandSide::fill_ghosts() {
+void RightHandSide::fill_ghosts(double t) {
   for (core::Field& phi : fields_.solids.fraction) boundaries_.fill_cells(phi);
+  if (constants_.openings.present()) {
+    constants_.openings.set_velocities(fields_.solids);
+    constants_.openings.set_ghosts(side_of(t), fields_.solids);
+  }
   composition(constants_, fields_);
   for (core::FaceField& velocity : fields_.solids.velocity)
     boundaries_.fill_velocity(velocity, discretisation_.solids_wall);

@@ -37,7 +37,7 @@ class RightHandSide {
   [[nodiscard]] const Fields& fields() const { return fields_; }
 
  private:
-  void fill_ghosts();
+  void fill_ghosts(double t);
   [[nodiscard]] double side_of(double t) const;
   void set_inlet_velocity(double t);
   void set_inlet_rate(double t);

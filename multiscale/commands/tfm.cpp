@@ -136,7 +136,7 @@ class TfmRun {
                            const auto scope = timers_.scope("output");
                            observers_->write_fields(t);
                          }});
-    core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, model_.inlet().kinks()};
+    core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, model_.kinks()};
     core::run(
         model_, stops, observers, !options_.resume, [&](double) { write_checkpoint(); },
         [&] {

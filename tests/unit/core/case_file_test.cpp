@@ -176,6 +176,31 @@ INSTANTIATE_TEST_SUITE_P(
                     sizes("distribution = \"lognormal\"\nmedian = \"1 mm\"\ndeviation = 0.3\nclasses = 11",
                           "case.toml:13:11: species.classes = 11 is out of range: at least 1, at most 10")));
 
+/// The good case with a feed, or an outlet, added.
+Wrong fed(const std::string& lines, const std::string& message) {
+  return {"[effects]", lines + "\n[effects]", message};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Feed, WrongCase,
+    testing::Values(
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1", "case.toml:18:1: feed.superficial_velocity is missing"),
+        fed("[[feed]]\nspecies = \"fin\"\nvelocity = 1\nsuperficial_velocity = 0.1",
+            "feed.species = \"fin\": no such species"),
+        fed("[[feed]]\nspecies = \"fine\"\nat = \"side\"\nvelocity = 1\nsuperficial_velocity = 0.1",
+            "case.toml:20:6: feed.at = \"side\": allowed are bottom | top"),
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = -0.1",
+            "case.toml:21:24: feed.superficial_velocity = -0.10000000000000001 is out of range: at least 0"),
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 0.1\nsuperficial_velocity = 0.1",
+            "raise feed.velocity above 0.1667 m/s"),
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1\nfrom = [0.02]",
+            "feed.from and feed.to have 1 and 0 numbers: 1 here"),
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1\n[[feed]]\nspecies = \"fine\"\n"
+            "velocity = 1\nsuperficial_velocity = 0.1\nfrom = [0.02]\nto = [0.03]",
+            "two feeds of fine overlap: [[feed]] number 1 and 2"),
+        Wrong{"cells = [12, 120]", "cells = [12, 120]\noutlet = \"closed\"",
+              "case.toml:5:10: column.outlet = \"closed\": allowed are screen | open"}));
+
 /// Two classes at half and twice the median: the reader does not know the rule.
 std::vector<std::pair<double, double>> half_and_twice(const SizeDistribution& given) {
   return {{*given.median / 2, 0.25}, {*given.median * 2, 0.75}};
@@ -204,6 +229,18 @@ TEST(SizeDistribution, GivesWayToItsClasses) {
   EXPECT_EQ(resolved_case(parse_case(resolved, "again.toml", {}, roles)), resolved);
   const std::vector<std::string> set{"species.fine.median=1 mm"};
   EXPECT_EQ(parse_case(text, "case.toml", set, roles, half_and_twice).species[0].diameter, 0.5e-3);
+}
+
+TEST(Feed, OfADistributionIsOneOfEachClass) {
+  std::string text =
+      with("diameter = \"0.8 mm\"", "distribution = \"lognormal\"\nmedian = \"0.8 mm\"\ndeviation = 0.3");
+  text += "[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = [[0, 0], [1, 0.02]]\n";
+  const Scene scene = parse_case(text, "case.toml", {}, roles, half_and_twice);
+  ASSERT_EQ(scene.feeds.size(), 2U);
+  EXPECT_EQ(scene.feeds[1].species, "fine.2");
+  EXPECT_DOUBLE_EQ(scene.feeds[1].superficial_velocity.at(1).second, 0.75 * 0.02);
+  const std::string resolved = resolved_case(scene);
+  EXPECT_EQ(resolved_case(parse_case(resolved, "again.toml", {}, roles)), resolved);
 }
 
 TEST(SizeDistribution, WithoutARuleOrWithNumbersOfParticlesIsRefused) {
