@@ -1,6 +1,7 @@
 // What must hold at any time, measured on the averages: mass, bounds, volume, force balance.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 

@@ -5,8 +5,6 @@
 // plus what left, stays what it was to round-off, whatever the steps.
 #pragma once
 
-#include <span>
-#include <string>
 #include <vector>
 
 #include "core/scene.hpp"
@@ -46,9 +44,10 @@ class Openings {
   void set_velocities(Interphase& solids) const;
   /// Ghost fractions beyond fed faces, so that the mean on the face is that of the feed, F_j/U_j.
   void set_ghosts(double t, Interphase& solids) const;
-  /// Ghosts of the rates of species j likewise; fluxes of species j through the bottom and the top: what is fed, and
-  /// out of an open top what the velocity there takes along, phi_j max(U_j, 0): never in. Fills solids.passed_rate.
+  /// Fluxes of species j through the bottom and the top: what is fed, and out of an open top what the velocity there
+  /// takes along, phi_j max(U_j, 0): never in. Fills solids.passed_rate.
   void cross(double t, std::size_t j, Interphase& solids, core::Field& vertical_flux) const;
+  /// Ghosts of the rate of species j's fraction beyond fed faces, so that the mean on the face is that of F_j/U_j.
   void set_rate_ghosts(double t, std::size_t j, Interphase& solids) const;
   /// On fed faces of an open outlet: solids that are fed do not accelerate, and do not yield to the pressure.
   void hold(std::vector<core::FaceField>& acceleration) const;

@@ -43,6 +43,20 @@ void write_invariants(Json& json, const fluid::Invariants& invariants) {
   json.end_array();
 }
 
+/// How often closures were asked outside their range.
+void write_guards(Json& json, const tfm::Effects& effects) {
+  json.key("guards").begin_array();
+  if (effects.drag) {
+    const tfm::ClosureUse use = effects.drag->use();
+    json.begin_object()
+        .member("closure", use.name)
+        .member("evaluations", use.evaluations)
+        .member("outside_range", use.guarded)
+        .end_object();
+  }
+  json.end_array();
+}
+
 /// Mass of each species at the start, in, out and in the column, and how well they add up; nothing if no end is open.
 void write_ledger(Json& json, const tfm::Model& model, const fluid::Invariants& invariants) {
   const tfm::Constants& constants = model.constants();
@@ -118,16 +132,8 @@ std::string run_record_text(const RunRecord& record) {
   write_invariants(json, record.observers.invariants());
   write_ledger(json, model, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
-  json.key("guards").begin_array();
-  if (model.effects().drag) {
-    const tfm::ClosureUse use = model.effects().drag->use();
-    json.begin_object()
-        .member("closure", use.name)
-        .member("evaluations", use.evaluations)
-        .member("outside_range", use.guarded)
-        .end_object();
-  }
-  json.end_array().key("warnings").begin_array();
+  write_guards(json, model.effects());
+  json.key("warnings").begin_array();
   for (const fluid::WorstInvariant& w : record.observers.invariants().worst())
     if (w.value > w.limit) json.value(w.name + " exceeded its limit");
   json.end_array().end_object();

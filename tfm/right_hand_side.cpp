@@ -48,13 +48,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
-  if (effects_.solids_stress)
-    timed("solids stress", [&] {
-      effects_.solids_stress->evaluate(fields_);
-      if (boundaries_.open())  // nothing presses back from beyond
-        fluid::set_outlet_pressure(constants_.grid, boundaries_, fields_.stress.pressure);
-      subtract_stress(constants_, boundaries_, fields_);
-    });
+  if (effects_.solids_stress) timed("solids stress", [&] { add_solids_stress(); });
   timed("gravity", [&] { add_gravity(constants_, boundaries_, fields_); });
   if (effects_.drag)
     timed("drag", [&] {
@@ -68,14 +62,24 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       effects_.species_exchange->evaluate(fields_);
       add_species_exchange(constants_, boundaries_, fields_);
     });
-  timed("volume flux", [&] {
-    if (constants_.openings.present()) constants_.openings.hold(fields_.solids.acceleration);
-    fluid::flux_rate(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
-                     fields_.fluid_acceleration, fields_.flux_rate);
-    if (constants_.openings.present()) constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
-    set_inlet_rate(t);
-  });
+  timed("volume flux", [&] { set_flux_rate(t); });
   return true;
+}
+
+void RightHandSide::add_solids_stress() {
+  effects_.solids_stress->evaluate(fields_);
+  if (boundaries_.open())  // nothing presses back from beyond
+    fluid::set_outlet_pressure(constants_.grid, boundaries_, fields_.stress.pressure);
+  subtract_stress(constants_, boundaries_, fields_);
+}
+
+void RightHandSide::set_flux_rate(double t) {
+  const bool openings = constants_.openings.present();
+  if (openings) constants_.openings.hold(fields_.solids.acceleration);
+  fluid::flux_rate(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
+                   fields_.fluid_acceleration, fields_.flux_rate);
+  if (openings) constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
+  set_inlet_rate(t);
 }
 
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.

@@ -41,6 +41,8 @@ class RightHandSide {
   [[nodiscard]] double side_of(double t) const;
   void set_inlet_velocity(double t);
   void set_inlet_rate(double t);
+  void add_solids_stress();
+  void set_flux_rate(double t);
   [[nodiscard]] bool admissible() const;
 
   Constants constants_;

@@ -53,6 +53,7 @@ Derived derive(const core::Scene& scene) {
   derived.reason = model.integrator_reason();
   derived.unknowns = model.unknowns();
   if (model.effects().solids_stress) derived.max_packing = model.effects().solids_stress->max_packing();
+  const char* outlet = scene.column.outlet == "open" ? ", and out" : "";
   double fastest = 0;
   for (const auto& point : scene.inlet.superficial_velocity) fastest = std::max(fastest, std::abs(point.second));
   for (std::size_t j = 0; j < constants.species(); ++j) {
@@ -66,8 +67,8 @@ Derived derive(const core::Scene& scene) {
     if (fastest > derived.terminal[j])
       derived.notes.push_back(
           fmt::format("the inlet's {:.4g} m/s is above the terminal velocity of {}, {:.4g} m/s: it will be "
-                      "carried to the top",
-                      fastest, constants.name[j], derived.terminal[j]));
+                      "carried to the top{}",
+                      fastest, constants.name[j], derived.terminal[j], outlet));
   }
   note_drag(scene, derived);
   for (const core::Role& role : all_roles())
