@@ -18,7 +18,8 @@ namespace {
 /// One reading of a case: the scene as it grows, and the problems found so far.
 class CaseReader {
  public:
-  CaseReader(std::string name, std::span<const Role> roles) : name_(std::move(name)), roles_(roles), values_(name_) {}
+  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes)
+      : name_(std::move(name)), roles_(roles), classes_(classes), values_(name_) {}
 
   void read(toml::table& root, std::span<const std::string> overrides);
   Scene finish();
@@ -29,10 +30,12 @@ class CaseReader {
   void read_effects(const toml::node& node);
   void read_key(const Key& key, std::size_t index, const toml::node& node);
   void check_given();
+  void check_sizes(const toml::table& species);
   void wrong_key(const toml::key& key, std::string_view table);
 
   std::string name_;
   std::span<const Role> roles_;
+  const ClassRule& classes_;
   CaseValues values_;
   Scene scene_;
   std::vector<std::string> given_;  ///< paths of the keys that the case sets
@@ -71,7 +74,7 @@ void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& n
         else if constexpr (std::is_same_v<T, std::vector<std::string>>)
           store(place, values_.texts(key, node));
         else
-          store(place, values_.points(key, node));
+          store(place, key.by_size ? values_.sieves(key, node) : values_.points(key, node));
       },
       key.place);
 }
@@ -102,6 +105,35 @@ void CaseReader::read_table(const toml::table& table, std::string_view name, std
   for (const Key& key : keys())
     if (key.required && key.table == name && !table.contains(key.name))
       values_.add(table.source(), fmt::format("{} is missing: {}", key.path(), key.help));
+  if (name == "species") check_sizes(table);
+}
+
+/// A species has one diameter or a distribution, and a distribution what its kind needs and nothing else.
+void CaseReader::check_sizes(const toml::table& species) {
+  const auto has = [&](const char* key) { return species.contains(key); };
+  const std::string kind = species["distribution"].value_or(std::string());
+  if (!has("diameter") && !has("distribution"))
+    values_.add(species.source(), "species.diameter is missing: D_j of its spheres (or give species.distribution)");
+  if (has("diameter") && has("distribution"))
+    values_.add(species.get("diameter")->source(),
+                "species.diameter and species.distribution both say how large: give one");
+  if (has("distribution") && kind != "lognormal" && kind != "sieves") return;  // told as any wrong word
+  const auto only = [&](const char* key, const std::string& of) {
+    const bool acts = of.empty() ? !kind.empty() : kind == of;
+    if (has(key) && !acts)
+      values_.add(species.get(key)->source(), fmt::format("species.{} says nothing without species.distribution{}", key,
+                                                          of.empty() ? "" : " = \"" + of + "\""));
+  };
+  for (const char* key : {"median", "mean", "deviation"}) only(key, "lognormal");
+  only("sieves", "sieves");
+  only("classes", "");
+  const auto missing = [&](const std::string& what) {
+    values_.add(species.get("distribution")->source(),
+                fmt::format("species.distribution = \"{}\" needs {}", kind, what));
+  };
+  if (kind == "lognormal" && !has("deviation")) missing("species.deviation");
+  if (kind == "lognormal" && has("median") == has("mean")) missing("either species.median or species.mean");
+  if (kind == "sieves" && !has("sieves")) missing("species.sieves");
 }
 
 void CaseReader::read_effects(const toml::node& node) {
@@ -141,6 +173,7 @@ void CaseReader::read_entry(std::string_view table, const toml::key& name, const
     if (table == "species") scene_.species.resize(entries->size());
     if (table == "contact_pair") scene_.contact_pairs.resize(entries->size());
     if (table == "jet") scene_.jets.resize(entries->size());
+    if (table == "feed") scene_.feeds.resize(entries->size());
     for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), table, n);
     return;
   }
@@ -185,7 +218,8 @@ Scene CaseReader::finish() {
   check_given();
   std::vector<CaseProblem>& problems = values_.problems();
   if (problems.empty()) {
-    const std::vector<CaseProblem> more = resolve(scene_, name_, contains(given_, "bed.particles"));
+    std::vector<CaseProblem> more = expand_size_classes(scene_, classes_, name_);
+    if (more.empty()) more = resolve(scene_, name_, contains(given_, "bed.particles"));
     problems.insert(problems.end(), more.begin(), more.end());
   }
   std::stable_sort(problems.begin(), problems.end(), [](const CaseProblem& a, const CaseProblem& b) {
@@ -198,7 +232,7 @@ Scene CaseReader::finish() {
 }  // namespace
 
 Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                 std::span<const Role> roles) {
+                 std::span<const Role> roles, const ClassRule& classes) {
   toml::table root;
   try {
     root = toml::parse(text, name);
@@ -208,13 +242,13 @@ Scene parse_case(std::string_view text, const std::string& name, std::span<const
     problem.push_back({name, int(at.line), int(at.column), std::string(error.description())});
     throw CaseError(problem);
   }
-  CaseReader reader(name, roles);
+  CaseReader reader(name, roles, classes);
   reader.read(root, overrides);
   return reader.finish();
 }
 
-Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
-                std::span<const Role> roles) {
+Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides, std::span<const Role> roles,
+                const ClassRule& classes) {
   constexpr std::uintmax_t largest = 10'000'000;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw FileError(path.string() + " is a folder: name its case.toml");
@@ -225,7 +259,7 @@ Scene read_case(const std::filesystem::path& path, std::span<const std::string> 
   std::stringstream text;
   text << file.rdbuf();
   if (file.bad()) throw FileError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
-  return parse_case(text.str(), path.string(), overrides, roles);
+  return parse_case(text.str(), path.string(), overrides, roles, classes);
 }
 
 }  // namespace polybed::core

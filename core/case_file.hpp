@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/registry.hpp"
 #include "core/scene.hpp"
+#include "core/size_classes.hpp"
 
 namespace polybed::core {
 
@@ -19,12 +20,13 @@ namespace polybed::core {
 /// \param overrides  "key=value" each, e.g. "inlet.superficial_velocity=37 mm/s",
 /// "species.fine.diameter=1 mm"
 /// \param roles      what [effects] may name
+/// \param classes    how a distribution of sizes becomes species; without it a case may have none
 [[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
-                              std::span<const Role> roles);
+                              std::span<const Role> roles, const ClassRule& classes = {});
 
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                               std::span<const Role> roles);
+                               std::span<const Role> roles, const ClassRule& classes = {});
 
 /// What the keys say of each other: sums, sizes, conflicts, a bed that does not fit. Fills in what follows
 /// from them (axes of the column, depth, shares, defaults of output). Problems have no line.

@@ -80,7 +80,7 @@ std::optional<double> CaseValues::number(const Key& key, const toml::node& node)
     add(node.source(), fmt::format("{} = {} is out of range: {}{}", key.path(), shown(node), range_text(key), hint));
     return std::nullopt;
   }
-  if (key.table == "species" && key.name == "diameter" && !q.has_unit && q.value > 0.05) {
+  if (key.table == "species" && key.dimension == dimension::length && !q.has_unit && q.value > 0.05) {
     add(node.source(), fmt::format("{} = {:g} m is larger than any particle here: did you mean \"{:g} mm\"?",
                                    key.path(), q.value, q.value));
     return std::nullopt;
@@ -140,27 +140,47 @@ std::optional<std::vector<std::string>> CaseValues::texts(const Key& key, const 
 
 std::optional<Points> CaseValues::points(const Key& key, const toml::node& node) {
   const toml::array* rows = node.as_array();
+  if (rows == nullptr && key.by_size) {
+    expected(key, node, "a table of pairs [opening, share]");
+    return std::nullopt;
+  }
   if (rows == nullptr) {
     const auto value = number(key, node);
     return value ? std::optional(Points{{0.0, *value}}) : std::nullopt;
   }
-  static const Key time{"inlet", "superficial_velocity", key.place, "", dimension::time, 0, 1e9};
+  const Key first = key.by_size ? Key{key.table, key.name, key.place, "", dimension::length, 1e-8, 1}
+                                : Key{key.table, key.name, key.place, "", dimension::time, 0, 1e9};
+  const std::string pair_name = key.by_size ? "a pair [opening, share]" : "a pair [time, velocity]";
   Points table;
   for (const toml::node& row : *rows) {
     const toml::array* pair = row.as_array();
     if (pair == nullptr || pair->size() != 2) {
-      expected(key, row, "a pair [time, velocity]");
+      expected(key, row, pair_name);
       return std::nullopt;
     }
-    const auto t = number(time, *pair->get(0)), v = number(key, *pair->get(1));
+    const auto t = number(first, *pair->get(0)), v = number(key, *pair->get(1));
     if (!t || !v) return std::nullopt;
-    if (!table.empty() && *t < table.back().first) {
-      add(row.source(), fmt::format("{}: times must not fall", key.path()));
+    const bool falls = !table.empty() && *t < table.back().first;
+    if (falls || (key.by_size && !table.empty() && *t == table.back().first)) {
+      add(row.source(), fmt::format("{}: {}", key.path(), key.by_size ? "openings must rise" : "times must not fall"));
       return std::nullopt;
     }
     table.emplace_back(*t, *v);
   }
-  if (table.empty()) expected(key, node, "at least one pair [time, velocity]");
+  if (table.empty()) expected(key, node, "at least one: " + pair_name);
+  return table;
+}
+
+std::optional<Points> CaseValues::sieves(const Key& key, const toml::node& node) {
+  const auto table = points(key, node);
+  if (!table) return std::nullopt;
+  double sum = 0;
+  for (const auto& [opening, share] : *table) sum += share;
+  if (table->size() < 2 || table->back().second != 0)
+    add(node.source(),
+        fmt::format("{}: at least two sieves, the last with a share of 0: what everything passes", key.path()));
+  else if (!(std::abs(sum - 1) <= 1e-9))
+    add(node.source(), fmt::format("{}: the shares sum to {:.9g}, not to 1", key.path(), sum));
   return table;
 }
 

@@ -32,6 +32,9 @@ class CaseValues {
   /// A table in time: a number (for all times), or pairs [time, value] with times that do not fall.
   std::optional<Points> points(const Key& key, const toml::node& node);
 
+  /// A sieve analysis: pairs [opening, share] with rising openings; shares sum to 1, the last is 0.
+  std::optional<Points> sieves(const Key& key, const toml::node& node);
+
   /// Notes a problem at a place; a region without a line (a command line's value) has none.
   void add(const toml::source_region& place, std::string message);
   /// Notes a problem of the file as a whole.

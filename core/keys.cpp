@@ -29,6 +29,7 @@ std::vector<Key> make_keys() {
   k.push_back({"column", "depth", at<std::optional<double>>([](S& s, N) -> auto& { return s.column.depth; }), "of a 2-D column; default: twice the largest diameter, and a tenth of the smallest twice", dimension::length, 0, 1e3, true});
   k.push_back({"column", "sides", at<std::string>([](S& s, N) -> auto& { return s.column.sides; }), "walls: no slip for the fluid, free slip for solids unless said; or joined", {}, -infinity, infinity, false, "wall", {"wall", "periodic"}});
   k.push_back({"column", "gravity", at<double>([](S& s, N) -> auto& { return s.column.gravity; }), "acceleration of gravity, downward", dimension::acceleration, 0, 1e3, false, "9.81 m/s2"});
+  k.push_back({"column", "outlet", at<std::string>([](S& s, N) -> auto& { return s.column.outlet; }), "top of the column: a screen that holds solids, or open to them: they leave and are counted", {}, -infinity, infinity, false, "screen", {"screen", "open"}});
   k.push_back({"column", "closed", at<bool>([](S& s, N) -> auto& { return s.column.closed; }), "walls all round: no inlet and no outlet", {}, -infinity, infinity, false, "false"});
 
   k.push_back({"fluid", "name", at<std::string>([](S& s, N) -> auto& { return s.fluid.name; }), "water and air know density and viscosity from the temperature; any other name needs both", {}, -infinity, infinity, false, {}, {}, true});
@@ -41,7 +42,13 @@ std::vector<Key> make_keys() {
   k.push_back({"fluid", "tait_exponent", at<double>([](S& s, N) -> auto& { return s.fluid.tait_exponent; }), "n of equation_of_state = tait", {}, 1, 20, false, "7", {}, false, "c^2 = n (P + B)/rho"});
 
   k.push_back({"species", "name", at<std::string>([](S& s, N n) -> auto& { return s.species[n].name; }), "of the species; names columns and datasets", {}, -infinity, infinity, false, {}, {}, true});
-  k.push_back({"species", "diameter", at<double>([](S& s, N n) -> auto& { return s.species[n].diameter; }), "D_j of its spheres", dimension::length, 1e-8, 1, false, {}, {}, true});
+  k.push_back({"species", "diameter", at<double>([](S& s, N n) -> auto& { return s.species[n].diameter; }), "D_j of its spheres; or give a distribution", dimension::length, 1e-8, 1});
+  k.push_back({"species", "distribution", at<std::string>([](S& s, N n) -> auto& { return s.species[n].sizes.kind; }), "of sizes by volume, in place of one diameter: it becomes the species name.1, name.2, ... from fine to coarse, which have its moments", {}, -infinity, infinity, false, {}, {"lognormal", "sieves"}, false, "sum x_j D_j^k = integral X D^k dD, k = -N ... N-1", false, false, true});
+  k.push_back({"species", "median", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].sizes.median; }), "lognormal: half of the volume is finer", dimension::length, 1e-8, 1, false, {}, {}, false, {}, false, false, true});
+  k.push_back({"species", "mean", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].sizes.mean; }), "lognormal: mean diameter by volume, in place of the median", dimension::length, 1e-8, 1, false, {}, {}, false, "mean = median exp(deviation^2/2)", false, false, true});
+  k.push_back({"species", "deviation", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].sizes.deviation; }), "lognormal: standard deviation of ln D", {}, 0, 1, true, {}, {}, false, {}, false, false, true});
+  k.push_back({"species", "sieves", at<Points>([](S& s, N n) -> auto& { return s.species[n].sizes.sieves; }), "a table [[opening, share of the volume retained on it], ...]: openings rise, the last retains nothing, shares sum to 1", {}, 0, 1, false, {}, {}, false, {}, false, true, true});
+  k.push_back({"species", "classes", at<int>([](S& s, N n) -> auto& { return s.species[n].sizes.classes; }), "N: number of species that stand for the distribution", {}, 1, 10, false, "3", {}, false, {}, false, false, true});
   k.push_back({"species", "density", at<double>([](S& s, N n) -> auto& { return s.species[n].density; }), "rho_j", dimension::density, 1e-3, 1e16, false, {}, {}, true});
   k.push_back({"species", "max_packing", at<double>([](S& s, N n) -> auto& { return s.species[n].max_packing; }), "P_j: random packing of this species alone, for tfm.max_packing = fedors_landel | yu_standish", {}, 0.3, 0.9, false, "0.64"});
   k.push_back({"species", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.species[n].youngs_modulus; }), "else that of [dem]", dimension::pressure, 0, 1e13, true});
@@ -97,6 +104,14 @@ std::vector<Key> make_keys() {
   k.push_back({"jet", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].from; }), "low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, depth) in three dimensions", dimension::length, 0, 1e3, false, {}, {}, true});
   k.push_back({"jet", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].to; }), "high corner", dimension::length, 0, 1e3, false, {}, {}, true});
   k.push_back({"jet", "superficial_velocity", at<Points>([](S& s, N n) -> auto& { return s.jets[n].superficial_velocity; }), "over the jet's own area, in place of inlet.superficial_velocity; a velocity or a table as there", dimension::velocity, -1e3, 1e3, false, {}, {}, true});
+
+  k.push_back({"feed", "species", at<std::string>([](S& s, N n) -> auto& { return s.feeds[n].species; }), "name of the species that is fed; of one with a distribution: all classes, by their shares", {}, -infinity, infinity, false, {}, {}, true});
+  k.push_back({"feed", "at", at<std::string>([](S& s, N n) -> auto& { return s.feeds[n].at; }), "end of the column", {}, -infinity, infinity, false, "bottom", {"bottom", "top"}});
+  k.push_back({"feed", "superficial_velocity", at<Points>([](S& s, N n) -> auto& { return s.feeds[n].superficial_velocity; }), "volume of solids per area of the feed and time, into the column, besides the fluid of the inlet; a velocity or a table as there", dimension::velocity, 0, 1e3, false, {}, {}, true});
+  k.push_back({"feed", "velocity", at<double>([](S& s, N n) -> auto& { return s.feeds[n].velocity; }), "of the particles as they enter; superficial_velocity over it is their volume fraction", dimension::velocity, 0, 1e3, true, {}, {}, true});
+  k.push_back({"feed", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.feeds[n].from; }), "low corner of the part of the end, as of a jet; default: the whole end", dimension::length, 0, 1e3});
+  k.push_back({"feed", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.feeds[n].to; }), "high corner", dimension::length, 0, 1e3});
+
   k.push_back({"contact_pair", "between", at<std::vector<std::string>>([](S& s, N n) -> auto& { return s.contact_pairs[n].between; }), "two species, or a species and \"wall\"", {}, -infinity, infinity, false, {}, {}, true});
   k.push_back({"contact_pair", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].youngs_modulus; }), "of this pair", dimension::pressure, 0, 1e13, true});
   k.push_back({"contact_pair", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].poisson_ratio; }), "of this pair", {}, 0, 0.5});
@@ -130,7 +145,7 @@ std::span<const Key> keys() {
 }
 
 bool is_array_of_tables(std::string_view table) {
-  return table == "species" || table == "contact_pair" || table == "jet";
+  return table == "species" || table == "contact_pair" || table == "jet" || table == "feed";
 }
 
 std::string kind_name(const Key& key) {
@@ -146,7 +161,7 @@ std::string kind_name(const Key& key) {
     std::string operator()(Place<std::vector<std::string>>) const { return "list of texts"; }
     std::string operator()(Place<Points>) const { return "number or table in time"; }
   };
-  const std::string kind = std::visit(Visitor{}, key.place);
+  const std::string kind = key.by_size ? "table of length, m, and number" : std::visit(Visitor{}, key.place);
   return key.dimension == dimension::none ? kind : kind + ", " + unit_name(key.dimension);
 }
 

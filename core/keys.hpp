@@ -34,6 +34,8 @@ struct Key {
   bool required = false;
   std::string_view equation{};
   bool or_number = false;  ///< a text that may also be a number, of this dimension and range
+  bool by_size = false;    ///< pairs of a diameter and a value, not of a time and a value
+  bool replaced = false;   ///< the resolved case has what it stands for, and not it
 
   [[nodiscard]] std::string path() const {
     return table.empty() ? std::string(name) : std::string(table) + "." + std::string(name);

@@ -26,8 +26,8 @@ bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSp
   /// Flux of one unknown's equation through one face of a cell: there, and to the cell beyond.
   const auto couple = [&](Index cell, Index beyond, double of_p, double of_s) {
     rows.add(rows.row_of(cell), of_p);
-    if (rows.row_of(beyond) < 0) return;
     rows.add(rows.row_of(cell) + 1, of_s * slope[std::size_t(cell)]);
+    if (rows.row_of(beyond) < 0) return;
     rows.add(rows.row_of(beyond), -of_p);
     rows.add(rows.row_of(beyond) + 1, -of_s * slope[std::size_t(beyond)]);
   };

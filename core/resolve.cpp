@@ -33,10 +33,12 @@ class Checker {
   void bed(bool by_particles);
   void jets();
   void fluid();
+  void feeds();
   void numerics();
   [[nodiscard]] Problems problems() && { return std::move(problems_); }
 
  private:
+  bool lies_on_end(const std::vector<double>& from, const std::vector<double>& to, const char* what);
   template <class... Args>
   void add(fmt::format_string<Args...> text, Args&&... args) {
     problems_.push_back({name_, 0, 0, fmt::format(text, std::forward<Args>(args)...)});
@@ -92,28 +94,62 @@ void Checker::species() {
   }
 }
 
-void Checker::jets() {
+/// True if a part of the bottom or the top is one.
+bool Checker::lies_on_end(const std::vector<double>& from, const std::vector<double>& to, const char* what) {
   const Column& c = scene_.column;
   const std::size_t n = c.dimensions == 3 ? 2 : 1;
   const std::array<double, 2> size{c.size[0], c.size[2]};
-  if (!scene_.jets.empty() && c.closed) add("[[jet]] cannot act: column.closed = true");
-  for (const Jet& jet : scene_.jets) {
-    if (jet.from.size() != n || jet.to.size() != n) {
-      add("jet.from and jet.to have {} and {} numbers: {} here", jet.from.size(), jet.to.size(), n);
-      continue;
-    }
-    for (std::size_t d = 0; d < n; ++d)
-      if (!(jet.from[d] < jet.to[d] && jet.to[d] <= size[d] * (1 + 1e-12)))
-        add("a jet from {:.4g} to {:.4g} m does not lie on the bottom, 0 to {:.4g} m", jet.from[d], jet.to[d], size[d]);
-  }
-  const auto apart = [&](const Jet& a, const Jet& b) {
-    for (std::size_t d = 0; d < n; ++d)
-      if (a.to[d] <= b.from[d] || b.to[d] <= a.from[d]) return true;
+  if (from.size() != n || to.size() != n) {
+    add("{0}.from and {0}.to have {1} and {2} numbers: {3} here", what, from.size(), to.size(), n);
     return false;
-  };
-  for (std::size_t a = 0; problems_.empty() && a < scene_.jets.size(); ++a)
+  }
+  for (std::size_t d = 0; d < n; ++d)
+    if (!(from[d] < to[d] && to[d] <= size[d] * (1 + 1e-12))) {
+      add("a {} from {:.4g} to {:.4g} m does not lie on the bottom, 0 to {:.4g} m", what, from[d], to[d], size[d]);
+      return false;
+    }
+  return true;
+}
+
+/// True if two parts of an end have nothing in common; a part without corners is all of it.
+template <class Part>
+bool apart(const Part& a, const Part& b) {
+  for (std::size_t d = 0; d < std::min(a.from.size(), b.from.size()); ++d)
+    if (a.to[d] <= b.from[d] || b.to[d] <= a.from[d]) return true;
+  return false;
+}
+
+void Checker::jets() {
+  if (!scene_.jets.empty() && scene_.column.closed) add("[[jet]] cannot act: column.closed = true");
+  bool lie = true;
+  for (const Jet& jet : scene_.jets) lie = lies_on_end(jet.from, jet.to, "jet") && lie;
+  for (std::size_t a = 0; lie && a < scene_.jets.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       if (!apart(scene_.jets[a], scene_.jets[b])) add("two jets overlap: [[jet]] number {} and {}", b + 1, a + 1);
+}
+
+void Checker::feeds() {
+  const bool closed = scene_.column.closed;
+  if (closed && scene_.column.outlet == "open") add("column.outlet = \"open\" cannot act: column.closed = true");
+  if (closed && !scene_.feeds.empty()) add("[[feed]] cannot act: column.closed = true");
+  bool lie = true;
+  for (const Feed& feed : scene_.feeds) {
+    if (!feed.from.empty() || !feed.to.empty()) lie = lies_on_end(feed.from, feed.to, "feed") && lie;
+    if (std::none_of(scene_.species.begin(), scene_.species.end(),
+                     [&](const auto& s) { return s.name == feed.species; }))
+      add("feed.species = \"{}\": no such species", feed.species);
+    for (const auto& [t, flux] : feed.superficial_velocity)
+      if (flux > scene_.bed.solids_fraction * feed.velocity)
+        add("a feed of {} of {:.4g} m/s at a velocity of {:.4g} m/s would be denser than the settled bed: raise "
+            "feed.velocity above {:.4g} m/s",
+            feed.species, flux, feed.velocity, flux / scene_.bed.solids_fraction);
+  }
+  for (std::size_t a = 0; lie && a < scene_.feeds.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const Feed &one = scene_.feeds[a], &other = scene_.feeds[b];
+      if (one.species == other.species && one.at == other.at && !apart(one, other))
+        add("two feeds of {} overlap: [[feed]] number {} and {}", one.species, b + 1, a + 1);
+    }
 }
 
 void Checker::bed(bool by_particles) {
@@ -222,7 +258,7 @@ struct AsToml {
 
 void write_table(Scene& scene, std::string_view table, std::size_t index, std::string& out) {
   for (const Key& key : keys()) {
-    if (key.table != table) continue;
+    if (key.table != table || key.replaced) continue;
     const bool by_particles = !scene.bed.particles.empty();
     if (by_particles && table == "bed" && (key.name == "volume_share" || key.name == "static_height")) continue;
     std::string value = std::visit(AsToml{scene, index}, key.place);
@@ -237,6 +273,7 @@ std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool by_
   Checker checker(scene, name);
   checker.column();
   checker.jets();
+  checker.feeds();
   checker.species();
   checker.bed(by_particles);
   checker.fluid();
@@ -263,6 +300,10 @@ std::string resolved_case(const Scene& given) {
   for (std::size_t n = 0; n < scene.jets.size(); ++n) {
     out += "\n[[jet]]\n";
     write_table(scene, "jet", n, out);
+  }
+  for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
+    out += "\n[[feed]]\n";
+    write_table(scene, "feed", n, out);
   }
   out += "\n[effects]\n";
   for (const auto& [role, law] : scene.effects) out += fmt::format("{} = \"{}\"\n", role, law);

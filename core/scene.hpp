@@ -20,6 +20,7 @@ struct Column {
   std::array<int, 3> cells{1, 1, 1};      ///< along x, y, z; 1 along z in 2-D
   std::string sides = "wall";             ///< wall | periodic
   double gravity = 9.81;                  ///< m/s2, downward
+  std::string outlet = "screen";          ///< screen | open: whether solids leave at the top
   bool closed = false;                    ///< walls all round: no inlet, no outlet
 };
 
@@ -34,9 +35,18 @@ struct Fluid {
   double tait_exponent = 7;         ///< its n
 };
 
+/// Sizes of a species by volume, as a case gives them; its classes stand in its place once the case is resolved.
+struct SizeDistribution {
+  std::string kind;                               ///< lognormal | sieves; empty: one diameter
+  std::optional<double> median, mean, deviation;  ///< lognormal: m, m, standard deviation of ln D
+  std::vector<std::pair<double, double>> sieves;  ///< (opening m, share retained on it), openings rising
+  int classes = 3;
+};
+
 struct Species {
   std::string name;
-  double diameter = 0;                                                         ///< m
+  double diameter = 0;  ///< m
+  SizeDistribution sizes;
   double density = 0;                                                          ///< kg/m3
   double max_packing = 0.64;                                                   ///< of this species alone
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;  ///< else those of [dem]
@@ -62,6 +72,16 @@ struct Inlet {
 struct Jet {
   std::vector<double> from, to;                                 ///< its corners on the bottom, m: x, or x and z
   std::vector<std::pair<double, double>> superficial_velocity;  ///< as of the inlet, over the jet's own area
+};
+
+/// Solids of one species that are fed through the bottom or the top, everywhere or in a part of it.
+struct Feed {
+  std::string species;
+  std::string at = "bottom";  ///< bottom | top
+  std::vector<std::pair<double, double>>
+      superficial_velocity;      ///< solids volume per area and time, m/s, into the column
+  double velocity = 0;           ///< of the particles as they enter, m/s
+  std::vector<double> from, to;  ///< as of a jet; empty: the whole end
 };
 
 struct RunPlan {
@@ -109,6 +129,13 @@ struct ContactPair {
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;
 };
 
+/// What became of a species with a distribution: a record, not read again.
+struct SizeClasses {
+  std::string species;  ///< as the case names it; the classes are called name.1, name.2, ... from fine to coarse
+  SizeDistribution given;
+  std::vector<double> diameter, share;  ///< m; of the volume of this distribution
+};
+
 struct Scene {
   std::string title;
   Column column;
@@ -117,12 +144,14 @@ struct Scene {
   Bed bed;
   Inlet inlet;
   std::vector<Jet> jets;
+  std::vector<Feed> feeds;
   std::map<std::string, std::string> effects;  ///< role -> law; a role left out is off
   RunPlan run;
   OutputPlan output;
   Tfm tfm;
   Dem dem;
   std::vector<ContactPair> contact_pairs;
+  std::vector<SizeClasses> size_classes;
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
 };
 

@@ -22,10 +22,12 @@ struct Ghosts {
 class Boundaries {
  public:
   Boundaries() = default;
-  /// closed: no inlet and no outlet, walls all round.
-  Boundaries(const core::Grid& grid, bool closed) : grid_(grid), halo_(grid), closed_(closed) {}
+  /// closed: no inlet and no outlet, walls all round; open: the outlet lets solids out.
+  Boundaries(const core::Grid& grid, bool closed, bool open = false)
+      : grid_(grid), halo_(grid), closed_(closed), open_(open && !closed) {}
 
   [[nodiscard]] bool closed() const { return closed_; }
+  [[nodiscard]] bool open() const { return open_; }
 
   /// Ghosts of any number of fields, in one message to each neighbouring rank and axis. Collective, as are the others.
   void fill(std::span<const Ghosts> wanted) const;
@@ -48,10 +50,10 @@ class Boundaries {
   void join(core::FaceField& faces, core::FaceField& others) const;
 
   /// The faces of an axis whose velocity moves: all but those on walls and on the distributor. The outlet's
-  /// faces move for the fluid alone.
+  /// faces move for the fluid, and for solids if it is open.
   [[nodiscard]] core::Box moving_faces(int axis, bool of_fluid) const {
     core::Box box = core::interior_faces(grid_, axis);
-    if (of_fluid && axis == 1 && !closed_ && grid_.ends(1, 1)) ++box.hi[1];
+    if ((of_fluid || open_) && axis == 1 && !closed_ && grid_.ends(1, 1)) ++box.hi[1];
     return box;
   }
 
@@ -74,7 +76,7 @@ class Boundaries {
   core::Halo halo_;
   mutable std::vector<core::Field*> exchanged_;  ///< kept, so that filling allocates nothing
   mutable std::vector<Ghosts> wanted_;
-  bool closed_ = false;
+  bool closed_ = false, open_ = false;
 };
 
 /// Calls body(begin, end) for the rows of faces of an axis at the column's low (side 0) or high end, if this block

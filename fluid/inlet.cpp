@@ -46,20 +46,30 @@ double overlap(const core::Grid& grid, int axis, int n, double from, double to) 
 
 }  // namespace
 
+std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from,
+                                const std::vector<double>& to) {
+  std::vector<double> share;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int i = 0; i < grid.cells[0]; ++i) {
+      const double along_x = from.empty() ? 1.0 : overlap(grid, 0, i, from[0], to[0]);
+      const double along_z = from.size() < 2 ? 1.0 : overlap(grid, 2, k, from[1], to[1]);
+      share.push_back(along_x * along_z);
+    }
+  return share;
+}
+
 Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
   if (scene.column.closed) return;
   const std::size_t faces = std::size_t(grid.cells[0]) * std::size_t(grid.cells[2]);
   parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0), 1});
   for (const core::Jet& jet : scene.jets) {
-    Part part{Ramp(jet.superficial_velocity), {}, 0};
-    for (int k = 0; k < grid.cells[2]; ++k)
-      for (int i = 0; i < grid.cells[0]; ++i) {
-        const double along_z = grid.dimensions == 3 ? overlap(grid, 2, k, jet.from[1], jet.to[1]) : 1.0;
-        part.share.push_back(overlap(grid, 0, i, jet.from[0], jet.to[0]) * along_z);
-      }
+    Part part{Ramp(jet.superficial_velocity), face_shares(grid, jet.from, jet.to), 0};
     for (std::size_t f = 0; f < faces; ++f) parts_.front().share[f] -= part.share[f];
     parts_.push_back(std::move(part));
   }
+  for (const core::Feed& feed : scene.feeds)
+    if (feed.at == "bottom")
+      parts_.push_back({Ramp(feed.superficial_velocity), face_shares(grid, feed.from, feed.to), 0});
   for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
 }
 

@@ -13,7 +13,10 @@ namespace polybed::fluid {
 class Ramp {
  public:
   Ramp() = default;
-  explicit Ramp(std::vector<std::pair<double, double>> table) : table_(std::move(table)) {}
+  /// \param factor  of all velocities: -1 for what flows down
+  explicit Ramp(std::vector<std::pair<double, double>> table, double factor = 1) : table_(std::move(table)) {
+    for (auto& point : table_) point.second *= factor;
+  }
   /// Velocity, m/s, at time t, s; after the jump where the table has two points at t.
   [[nodiscard]] double velocity(double t) const;
   /// Its rate, m/s2; from the right at a kink.
@@ -26,8 +29,14 @@ class Ramp {
   std::vector<std::pair<double, double>> table_;
 };
 
+/// Share of each face of the bottom (or top), row by row, that lies in a part of it: from and to as of a jet; empty:
+/// all.
+[[nodiscard]] std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from,
+                                              const std::vector<double>& to);
+
 /// The bottom of a column. A jet takes its part of a face's area by overlap, so that what flows in does not depend on
-/// the grid; the rest of the face has the velocity of the distributor.
+/// the grid; the rest of the face has the velocity of the distributor. Solids that
+/// are fed through the bottom are a part of the flux of the mixture and add to it.
 class Inlet {
  public:
   Inlet() = default;

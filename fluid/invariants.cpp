@@ -53,14 +53,20 @@ std::vector<double> species_volumes(const core::Grid& grid, const Interphase& so
   return result;
 }
 
+double ledger_error(double start, double in, double out, double now) {
+  return start + in > 0 ? std::abs((now + out - in) - start) / (start + in) : 0;
+}
+
 InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid,
                                 double packing_above, double velocity_scale, double force_balance, double time,
-                                double fluid_error) {
+                                std::span<const Passed> passed, double fluid_error) {
   InvariantValues now;
   const std::vector<double> volume_now = species_volumes(grid, solids);
   for (std::size_t j = 0; j < solids.species(); ++j)
-    if (initial_mass_[j] > 0)
-      now.mass_error = std::max(now.mass_error, std::abs(volume_now[j] * solids.density[j] / initial_mass_[j] - 1));
+    now.mass_error =
+        std::max(now.mass_error, ledger_error(initial_mass_[j], passed.empty() ? 0 : passed[j].in * solids.density[j],
+                                              passed.empty() ? 0 : passed[j].out * solids.density[j],
+                                              volume_now[j] * solids.density[j]));
   double least = 0, most = 0;
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {

@@ -1,18 +1,20 @@
 // What must hold at any time, measured on the averages: mass, bounds, volume, force balance.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/field.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
+#include "fluid/openings.hpp"
 
 namespace polybed::fluid {
 
 /// The state of the invariants at one time.
 struct InvariantValues {
-  double mass_error = 0;      ///< largest relative change of a species' mass since the start
+  double mass_error = 0;      ///< largest relative change of a species' mass since the start, with what came and went
   double fraction_below = 0;  ///< how far the least phi_j lies below 0
   double most_solids = 0;     ///< greatest phi
   double packing_above = 0;   ///< how far the greatest phi lies above the maximum packing
@@ -37,10 +39,13 @@ class Invariants {
   Invariants(std::vector<double> initial_mass, double rtol, bool compressible = false);
 
   /// Measures and keeps what is worst in the column. Collective.
+  /// \param passed       what each species has passed through open ends; empty: nothing
   /// \param fluid_error  of the mass of a compressible fluid; else 0
   InvariantValues see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid, double packing_above,
-                      double velocity_scale, double force_balance, double time, double fluid_error = 0);
+                      double velocity_scale, double force_balance, double time, std::span<const Passed> passed = {},
+                      double fluid_error = 0);
 
+  [[nodiscard]] const std::vector<double>& initial_mass() const { return initial_mass_; }
   [[nodiscard]] const std::vector<WorstInvariant>& worst() const { return worst_; }
   /// The invariant nearest to, or furthest beyond, its limit.
   [[nodiscard]] const WorstInvariant& nearest() const;
@@ -52,6 +57,10 @@ class Invariants {
   bool compressible_;
   std::vector<WorstInvariant> worst_;
 };
+
+/// How far a species' mass is from what it was at the start, plus what came in, less what went out: relative to all
+/// there ever was. Masses in kg.
+[[nodiscard]] double ledger_error(double start, double in, double out, double now);
 
 /// Volume of each species in the column, m3, summed with compensation. Collective.
 [[nodiscard]] std::vector<double> species_volumes(const core::Grid& grid, const Interphase& solids);

@@ -1,5 +1,8 @@
 #include "multiscale/roles.hpp"
 
+#include <cmath>
+
+#include "closures/size_classes.hpp"
 #include "tfm/effects.hpp"
 
 namespace polybed::multiscale {
@@ -15,6 +18,25 @@ std::vector<core::Role> all_roles() {
        "DEM only; reaches the TFM through the solids stress",
        {{"hertz_mindlin", "Hertz and Mindlin"}, {"hertz", "normal force alone"}, {"linear", "linear springs"}}});
   return roles;
+}
+
+std::vector<std::pair<double, double>> size_classes(const core::SizeDistribution& given) {
+  std::vector<closures::SizeClass> classes;
+  if (given.kind == "sieves") {
+    std::vector<double> opening, share;
+    for (const auto& [d, x] : given.sieves) {
+      opening.push_back(d);
+      share.push_back(x);
+    }
+    classes = closures::sieve_classes(opening, share, given.classes);
+  } else {
+    const double s = given.deviation.value();
+    classes = closures::lognormal_classes(given.median ? *given.median : given.mean.value() * std::exp(-0.5 * s * s), s,
+                                          given.classes);
+  }
+  std::vector<std::pair<double, double>> result;
+  for (const closures::SizeClass& c : classes) result.emplace_back(c.diameter, c.share);
+  return result;
 }
 
 }  // namespace polybed::multiscale

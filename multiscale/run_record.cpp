@@ -44,6 +44,40 @@ void write_invariants(Json& json, const fluid::Invariants& invariants) {
   json.end_array();
 }
 
+/// How often closures were asked outside their range.
+void write_guards(Json& json, const std::vector<tfm::ClosureUse>& closures) {
+  json.key("guards").begin_array();
+  for (const tfm::ClosureUse& use : closures)
+    json.begin_object()
+        .member("closure", use.name)
+        .member("evaluations", use.evaluations)
+        .member("outside_range", use.guarded)
+        .end_object();
+  json.end_array();
+}
+
+/// Mass of each species at the start, in, out and in the column, and how well they add up; nothing if no end is open.
+void write_ledger(Json& json, const tfm::Model& model, const fluid::Invariants& invariants) {
+  const tfm::Constants& constants = model.constants();
+  if (!constants.openings.present()) return;
+  const std::vector<fluid::Passed> passed = model.passed();
+  const std::vector<double> now = tfm::masses(model);
+  json.key("ledger").begin_array();
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const double start = invariants.initial_mass()[j], in = passed[j].in * constants.density[j],
+                 out = passed[j].out * constants.density[j];
+    json.begin_object()
+        .member("species", constants.name[j])
+        .member("start_kg", start)
+        .member("in_kg", in)
+        .member("out_kg", out)
+        .member("stored_kg", now[j])
+        .member("relative_error", fluid::ledger_error(start, in, out, now[j]))
+        .end_object();
+  }
+  json.end_array();
+}
+
 }  // namespace
 
 RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
@@ -59,6 +93,30 @@ RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
   return totals;
 }
 
+void write_size_classes(Json& json, const core::Scene& scene) {
+  if (scene.size_classes.empty()) return;
+  json.key("size_classes").begin_array();
+  for (const core::SizeClasses& record : scene.size_classes) {
+    json.begin_object().member("species", record.species).member("distribution", record.given.kind);
+    if (record.given.median) json.member("median_m", *record.given.median);
+    if (record.given.mean) json.member("mean_m", *record.given.mean);
+    if (record.given.deviation) json.member("deviation", *record.given.deviation);
+    if (!record.given.sieves.empty()) json.key("sieves").begin_array();
+    for (const auto& [opening, share] : record.given.sieves)
+      json.begin_object().member("opening_m", opening).member("share", share).end_object();
+    if (!record.given.sieves.empty()) json.end_array();
+    json.key("classes").begin_array();
+    for (std::size_t k = 0; k < record.diameter.size(); ++k)
+      json.begin_object()
+          .member("name", record.species + "." + std::to_string(k + 1))
+          .member("diameter_m", record.diameter[k])
+          .member("share", record.share[k])
+          .end_object();
+    json.end_array().end_object();
+  }
+  json.end_array();
+}
+
 std::string run_record_text(const RunRecord& record) {
   const tfm::Model& model = record.model;
   const std::string text = core::resolved_case(record.scene);
@@ -69,6 +127,7 @@ std::string run_record_text(const RunRecord& record) {
   json.member("case", text).member("case_hash", core::text_hash(text)).key("overrides").begin_array();
   for (const std::string& override : record.scene.overrides) json.value(override);
   json.end_array().member("ranks", std::int64_t(record.totals.ranks));
+  write_size_classes(json, record.scene);
   json.key("machine")
       .begin_object()
       .member("processor", processor())
@@ -83,15 +142,10 @@ std::string run_record_text(const RunRecord& record) {
   for (const core::Timers::Term& term : record.timers.terms()) json.member(term.name, term.seconds);
   json.end_object();
   write_invariants(json, record.observers.invariants());
+  write_ledger(json, model, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
-  json.key("guards").begin_array();
-  for (const tfm::ClosureUse& use : record.totals.closures)
-    json.begin_object()
-        .member("closure", use.name)
-        .member("evaluations", use.evaluations)
-        .member("outside_range", use.guarded)
-        .end_object();
-  json.end_array().key("warnings").begin_array();
+  write_guards(json, record.totals.closures);
+  json.key("warnings").begin_array();
   for (const fluid::WorstInvariant& w : record.observers.invariants().worst())
     if (w.value > w.limit) json.value(w.name + " exceeded its limit");
   json.end_array().end_object();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/json.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
 #include "tfm/observers.hpp"
@@ -31,6 +32,9 @@ struct RunRecord {
   double begin;       ///< simulated time at which this process began, s
   RunTotals totals;
 };
+
+/// Writes "size_classes": what became of the species with a distribution; nothing if there is none.
+void write_size_classes(core::Json& json, const core::Scene& scene);
 
 /// The record as one JSON object.
 [[nodiscard]] std::string run_record_text(const RunRecord& record);

@@ -8,6 +8,7 @@
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
 #include "fluid/momentum.hpp"
+#include "fluid/openings.hpp"
 
 namespace polybed::tfm {
 
@@ -20,6 +21,7 @@ struct Constants {
   std::vector<double> density;    ///< rho_j, kg/m3
   std::vector<double> bed_share;  ///< X_j: share of the species in the whole bed
   std::vector<std::string> name;
+  fluid::Openings openings;  ///< where solids cross the ends of the column
 
   [[nodiscard]] std::size_t species() const { return diameter.size(); }
 };

@@ -15,7 +15,11 @@ Fields::Fields(const Constants& constants)
       share(constants.species(), core::make_field(constants.grid)),
       slip_superficial(constants.species(), core::make_field(constants.grid)),
       fluid_acceleration(core::make_face_field(constants.grid)),
-      flux_rate(constants.grid) {}
+      flux_rate(constants.grid) {
+  if (!constants.openings.present()) return;
+  solids.passed.assign(constants.species(), core::make_field(constants.grid));
+  solids.passed_rate = solids.passed;
+}
 
 void composition(const Constants& constants, Fields& fields) {
   const std::size_t cells = constants.grid.padded_size();

@@ -42,6 +42,7 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
     constants.density.push_back(species.density);
     constants.name.push_back(species.name);
   }
+  constants.openings = fluid::Openings(constants.grid, scene);
   return constants;
 }
 
@@ -68,17 +69,19 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
     : timers_(timers),
       options_(scene.tfm),
       equations_(scene, make_constants(scene, ranks),
-                 fluid::Boundaries(make_grid(scene.column, ranks), scene.column.closed),
+                 fluid::Boundaries(make_grid(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
                  fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
   layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible(),
-                        has_temperature());
+                        has_temperature(), constants.openings.passages());
   column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
-  velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants), inlet().greatest(), least_scale});
+  velocity_scale_ = std::max(
+      {0.1 * greatest_terminal_velocity(constants), inlet().greatest(), constants.openings.greatest(), least_scale});
   Fields& fields = equations_.fields();
   fill_bed(scene.bed, constants, effects().solids_stress.get(), fields.solids);
+  constants.openings.set_velocities(fields.solids);
   core::for_each_row(constants.grid, core::owned_faces(constants.grid, 1), [&](Index begin, Index end) {
     std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inlet().mean_velocity(0));
   });
@@ -135,8 +138,10 @@ void Model::choose_integrator(const core::Scene& scene) {
 
 std::vector<double> Model::absolute_tolerances() const {
   std::vector<double> atol(layout_.size());
+  constexpr double not_tested = 1e9;  // m: sums of fluxes follow from the rest and need no error test of their own
   for (const StateLayout::Entry& entry : layout_.entries()) {
     const double value = entry.kind == Kind::fraction      ? 0.1 * options_.rtol
+                         : entry.kind == Kind::passed      ? not_tested
                          : entry.kind == Kind::pressure    ? 100.0 * options_.rtol
                          : entry.kind == Kind::temperature ? options_.rtol * velocity_scale_ * velocity_scale_
                                                            : options_.rtol * velocity_scale_;
@@ -156,7 +161,8 @@ void Model::make_integrator() {
     // Of a compressible fluid p is differential, but left out of the error test all the same: sound that carries
     // nothing must not set the step.
     for (const StateLayout::Entry& entry : layout_.entries())
-      if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
+      if (entry.kind == Kind::pressure || entry.kind == Kind::passed)
+        std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
     integrator_ = core::make_implicit(*implicit_, std::move(options));
   } else {
     core::OdeProblem* problem = nullptr;
@@ -281,6 +287,13 @@ void Model::project_jump(const core::Field& before) {
       fields.fluid.flux[a][f] += fields.flux_rate.free[a][f];
   fields.fluid.pressure = pressure;
   layout_.pack(fields.solids, fields.fluid, y_);
+}
+
+std::vector<double> Model::kinks() const {
+  std::vector<double> times = inlet().kinks();
+  const std::vector<double> of_feeds = constants().openings.kinks();
+  times.insert(times.end(), of_feeds.begin(), of_feeds.end());
+  return times;
 }
 
 Work Model::work() const {

@@ -61,6 +61,10 @@ class Model : public core::Simulation {
   [[nodiscard]] const Fields& fields() const { return equations_.fields(); }
   [[nodiscard]] const fluid::Boundaries& boundaries() const { return equations_.boundaries(); }
   [[nodiscard]] const fluid::Inlet& inlet() const { return equations_.inlet(); }
+  /// Times at which what flows in changes its rate or jumps: a run must stop there.
+  [[nodiscard]] std::vector<double> kinks() const;
+  /// Volume of each species that has come in and gone out since the start, m3, of the fields last shown.
+  [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   [[nodiscard]] const std::string& integrator_name() const { return integrator_name_; }
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_reason_; }
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }

@@ -10,7 +10,8 @@
 namespace polybed::tfm {
 
 StateLayout Model::layout_on(const core::Grid& grid) const {
-  return {grid, int(constants().species()), layout_.with_pressure(), has_temperature()};
+  return {grid, int(constants().species()), layout_.with_pressure(), has_temperature(),
+          constants().openings.passages()};
 }
 
 core::Checkpoint Model::checkpoint() const {
@@ -51,6 +52,9 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
   time_ = step_ = 0;
   before_ = {};
+  for (const StateLayout::Entry& entry : layout_.entries())
+    if (entry.kind == StateLayout::Entry::Kind::passed)
+      std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
   if (compressible()) open_account();
   begin_integration();
 }

@@ -23,6 +23,11 @@ std::vector<std::string> history_columns(const Constants& constants, bool compre
   }
   columns.insert(columns.end(), {"interface_m", "mixing", "max_solids_fraction", "min_fraction", "divergence"});
   if (compressible) columns.insert(columns.end(), {"mass_fluid_kg", "fluid_in_kg", "fluid_out_kg"});
+  if (constants.openings.present())
+    for (const std::string& name : constants.name) {
+      columns.push_back("in_" + name + "_kg");
+      columns.push_back("out_" + name + "_kg");
+    }
   return columns;
 }
 
@@ -144,9 +149,10 @@ void Observers::write_history(double time) {
   const double above = model_.effects().solids_stress ? model_.effects().solids_stress->packing_above(fields) : 0.0;
   const auto account = model_.fluid_account(time);
   const double fluid_mass = account ? fluid::fluid_mass(constants.grid, fields.fluid) : 0;
+  const std::vector<fluid::Passed> passed = model_.passed();
   const fluid::InvariantValues now =
       invariants_.see(constants.grid, fields.solids, fields.fluid, above, model_.velocity_scale(), force_balance_ - 1,
-                      time, account ? account->error(fluid_mass) : 0);
+                      time, passed, account ? account->error(fluid_mass) : 0);
   const auto height = fluid::bed_height(profile);
   bed_height_ = height.value_or(0);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
@@ -157,6 +163,9 @@ void Observers::write_history(double time) {
   row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), now.most_solids, -now.fraction_below,
                          now.divergence});
   if (account) row.insert(row.end(), {fluid_mass, account->in, account->out});
+  if (constants.openings.present())
+    for (std::size_t j = 0; j < constants.species(); ++j)
+      row.insert(row.end(), {passed[j].in * constants.density[j], passed[j].out * constants.density[j]});
   core::on_first(ranks_, [&] { files_->history.write_row(row); });
 }
 

@@ -35,8 +35,10 @@ Preconditioner::Preconditioner(const Constants& constants, const fluid::Boundari
     : constants_(constants),
       boundaries_(boundaries),
       rows_(constants.species() + 1),
+      moves_(constants.species(), true),
       slope_(core::make_field(constants.grid)),
       fraction_residual_(constants.species(), core::make_field(constants.grid)),
+      passed_residual_(constants.openings.present() ? constants.species() : 0, core::make_field(constants.grid)),
       pressure_residual_(core::make_field(constants.grid)),
       source_p_(core::make_field(constants.grid)),
       source_s_(core::make_field(constants.grid)),
@@ -60,12 +62,12 @@ bool Preconditioner::setup(const Fields& fields, double c) {
   c_ = c;
   const core::Grid& grid = constants_.grid;
   for (int axis = 0; axis < grid.dimensions; ++axis) {
-    core::Box held_solids = boundaries_.moving_faces(axis, true);
-    const core::Box moving = boundaries_.moving_faces(axis, false);
-    held_solids.lo[std::size_t(axis)] = moving.hi[std::size_t(axis)];
+    const core::Box inner = core::interior_faces(grid, axis);
+    core::Box at_top = boundaries_.moving_faces(axis, true);
+    at_top.lo[std::size_t(axis)] = inner.hi[std::size_t(axis)];
     fluid::with_density(fields.fluid, constants_.fluid.density, [&](const auto& density) {
-      build(fields, density, axis, moving, true);
-      build(fields, density, axis, held_solids, false);
+      build(fields, density, axis, inner, Place::inside);
+      build(fields, density, axis, at_top, boundaries_.open() ? Place::outlet : Place::screen);
     });
   }
   for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
@@ -85,17 +87,20 @@ bool Preconditioner::setup(const Fields& fields, double c) {
                        diagonal_, c);
 }
 
+/// At an open outlet solids move, but only those that rise are carried through, and none that is fed there.
 template <class Density>
-void Preconditioner::build(const Fields& fields, const Density& density, int axis, const core::Box& box,
-                           bool solids_move) {
+void Preconditioner::build(const Fields& fields, const Density& density, int axis, const core::Box& box, Place place) {
   const Index s = constants_.grid.stride(axis);
   core::for_each_row(constants_.grid, box, [&](Index begin, Index end) {
     for (Index face = begin; face < end; ++face) {
-      for (std::size_t j = 0; j < constants_.species(); ++j)
-        fraction_[std::size_t(axis)][j][std::size_t(face)] =
-            solids_move ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
+      const auto a = std::size_t(axis), at = std::size_t(face);
+      for (std::size_t j = 0; j < constants_.species(); ++j) {
+        moves_[j] = place == Place::inside || (place == Place::outlet && !constants_.openings.holds(j, face));
+        const bool carried = moves_[j] && (place == Place::inside || fields.solids.velocity[j][a][at] > 0);
+        fraction_[a][j][at] = carried ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
+      }
       invert_face(fields, density.on_face(face, s), axis, face);
-      respond(fields, axis, face, solids_move);
+      respond(fields, axis, face);
     }
   });
 }
@@ -111,7 +116,7 @@ double Preconditioner::viscous_diagonal(int axis) const {
   return sum;
 }
 
-/// S of one face, inverted into its place.
+/// S of one face, inverted into its place; the row of a species that is held there is c dU_j.
 void Preconditioner::invert_face(const Fields& fields, double fluid_density, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
   const Index stride = constants_.grid.stride(axis);
@@ -123,6 +128,7 @@ void Preconditioner::invert_face(const Fields& fields, double fluid_density, int
   for (std::size_t j = 0; j < n; ++j) fluid_velocity[row(j)] = -fraction_[a][j][at] / eps;
   fluid_velocity[row(n)] = 1 / eps;
   for (std::size_t j = 0; j < n; ++j) {
+    if (!moves_[j]) continue;
     const double slip = fields.fluid.velocity[a][at] - fields.solids.velocity[j][a][at];
     const double b = fluid::exchange_on_face(fields.solids.exchange[j].data(), face, stride, slip);
     const double phi = fraction_[a][j][at];
@@ -152,7 +158,7 @@ void Preconditioner::invert_face(const Fields& fields, double fluid_density, int
 }
 
 /// Responses of a face to unit gradients of dp and of L s, and the coefficients of the elliptic system.
-void Preconditioner::respond(const Fields& fields, int axis, Index face, bool solids_move) {
+void Preconditioner::respond(const Fields& fields, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
   const Index stride = constants_.grid.stride(axis);
   const std::size_t n = constants_.species();
@@ -160,7 +166,7 @@ void Preconditioner::respond(const Fields& fields, int axis, Index face, bool so
   Vector pressure = Vector::Zero(Eigen::Index(rows_)), stress = pressure;
   for (std::size_t j = 0; j < n; ++j) {
     const auto row = Eigen::Index(j);
-    pressure[row] = solids_move ? 1 / constants_.density[j] : 0;
+    pressure[row] = moves_[j] ? 1 / constants_.density[j] : 0;
     stress[row] = pressure[row] / phi;
     stress[Eigen::Index(n)] += fraction_[a][j][at] * stress[row];
   }
@@ -206,6 +212,9 @@ void Preconditioner::unpack(const StateLayout& layout, std::span<const double> r
         break;
       case Kind::temperature:
         layout.unpack(entry, r, temperature_residual_[j]);
+        break;
+      case Kind::passed:
+        layout.unpack(entry, r, passed_residual_[j]);
         break;
       case Kind::pressure:
         layout.unpack(entry, r, pressure_residual_);
@@ -282,7 +291,7 @@ void Preconditioner::correct_faces() {
   const core::Grid& grid = constants_.grid;
   fluid::set_outlet_pressure(grid, boundaries_, dp_);
   for (std::size_t c = 0; c < work_.size(); ++c) work_[c] = slope_[c] * s_[c];
-  boundaries_.fill_cells(work_);
+  boundaries_.open() ? fluid::set_outlet_pressure(grid, boundaries_, work_) : boundaries_.fill_cells(work_);
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     for (std::size_t k = 0; k < rows_; ++k) {
@@ -318,6 +327,11 @@ void Preconditioner::pack(const StateLayout& layout, std::span<double> z) {
         break;
       case Kind::temperature:
         for (std::size_t c = 0; c < work_.size(); ++c) work_[c] = temperature_residual_[j][c] / temperature_row_[j][c];
+        layout.pack(entry, work_, z);
+        break;
+      case Kind::passed:
+        divergence_of_solids(j, j + 1, work_);  // leaves the flux of the correction in flux_
+        for (std::size_t f = 0; f < work_.size(); ++f) work_[f] = (passed_residual_[j][f] + flux_[a][f]) / c_;
         layout.pack(entry, work_, z);
         break;
       case Kind::pressure:

@@ -2,7 +2,8 @@
 // fraction coupled through two elliptic equations, continuity in flux form.
 //
 //   face:  S (dU_1..dU_N, dJ),  dU_f = (dJ - sum phi_j dU_j)/eps,  d_j = b_j/rho_j,  c = the integrator's cj
-//          row j: c dU_j + d_j (dU_j - dU_f) + species exchange + diagonal of the solids' viscosity
+//          row j: c dU_j + d_j (dU_j - dU_f) + species exchange + diagonal of the solids' viscosity;
+//                 c dU_j where the species is held
 //          row J: c dJ + sum phi_j b_j (1/rho_f - 1/rho_j)(dU_f - dU_j)
 //          R_q = S^-1 (1/rho_j.., B),   R_g = S^-1 (1/(phi rho_j).., sum phi_j/(phi rho_j))
 //   cell:  A (dp, s) = (kappa c dp, c s) - div( C grad(dp, L s) ),  s = sum dphi_j,  L = p_s' + lambda c
@@ -10,7 +11,8 @@
 //   apply: 1. v = S^-1 r on faces
 //          2. A (dp, s) = ( r_p - div v_J , sum r_phi_j - div sum phi_j v_j )
 //          3. v -= R_q grad dp + R_g grad(L s)
-//          4. dphi_j = (r_phi_j - div(phi_j v_j))/c,  dtheta_j = r_theta_j/(c + decay), where theta_j is an unknown
+//          4. dphi_j = (r_phi_j - div(phi_j v_j))/c, and (r + phi_j v_j)/c for what crosses an open end,
+//             dtheta_j = r_theta_j/(c + decay), where theta_j is an unknown
 //
 // Step 4 has unit column sums up to 1/c: mass is kept to round-off however inexact step 2 is.
 #pragma once
@@ -37,11 +39,12 @@ class Preconditioner {
   void apply(const StateLayout& layout, std::span<const double> r, std::span<double> z);
 
  private:
+  enum class Place { inside, outlet, screen };
   template <class Density>
-  void build(const Fields& fields, const Density& density, int axis, const core::Box& box, bool solids_move);
+  void build(const Fields& fields, const Density& density, int axis, const core::Box& box, Place place);
   [[nodiscard]] double viscous_diagonal(int axis) const;
   void invert_face(const Fields& fields, double fluid_density, int axis, core::Index face);
-  void respond(const Fields& fields, int axis, core::Index face, bool solids_move);
+  void respond(const Fields& fields, int axis, core::Index face);
   void unpack(const StateLayout& layout, std::span<const double> r);
   void solve_faces();
   void elliptic_sources();
@@ -53,7 +56,8 @@ class Preconditioner {
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
-  std::size_t rows_;  ///< species + 1: unknowns of a face
+  std::size_t rows_;         ///< species + 1: unknowns of a face
+  std::vector<bool> moves_;  ///< of the species on the face at hand: false where it is held
   double c_ = 0;
   std::array<std::vector<double>, 3> inverse_;                 ///< S^-1 by face, row major
   std::array<std::vector<core::Field>, 3> response_pressure_;  ///< R_q by axis and row
@@ -63,7 +67,7 @@ class Preconditioner {
   core::Field slope_;                                          ///< L
   core::Field diagonal_;                                       ///< kappa c; empty if the fluid is incompressible
   std::array<std::vector<core::Field>, 3> face_value_;         ///< residuals, then corrections, by row
-  std::vector<core::Field> fraction_residual_;
+  std::vector<core::Field> fraction_residual_, passed_residual_;
   std::vector<core::Field> temperature_residual_, temperature_row_;  ///< c + decay of theta_j; empty without
   core::Field pressure_residual_, source_p_, source_s_, dp_, s_, work_;
   core::FaceField flux_;

@@ -26,6 +26,7 @@ void subtract_pressure_gradient(const Constants& constants, const fluid::Boundar
                                    });
     }
   }
+  if (constants.openings.present()) constants.openings.hold(fields.solids.acceleration);
 }
 
 void pack_rates(const StateLayout& layout, const Fields& fields, std::span<double> dydt) {
@@ -43,6 +44,9 @@ void pack_rates(const StateLayout& layout, const Fields& fields, std::span<doubl
         break;
       case Kind::temperature:
         layout.pack(entry, fields.solids.temperature_rate[j], dydt);
+        break;
+      case Kind::passed:
+        layout.pack(entry, fields.solids.passed_rate[j], dydt);
         break;
       case Kind::pressure:
         if (fields.fluid.compression.present()) layout.pack(entry, fields.fluid.compression.pressure_rate, dydt);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/ranks.hpp"
+#include "fluid/pressure.hpp"
 #include "tfm/granular_temperature.hpp"
 #include "tfm/mixture.hpp"
 #include "tfm/solids_viscosity.hpp"
@@ -53,7 +54,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
   timed("boundaries", [&] {
     layout.unpack(y, fields_.solids, fields_.fluid);
     set_inlet_velocity(t);
-    fill_ghosts();
+    fill_ghosts(t);
   });
   if (!admissible()) return false;
   if (!equation_of_state()) return false;
@@ -62,7 +63,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     if (effects_.compressible) weigh_slip_by_density(constants_, fields_);
   });
   timed("convection", [&] {
-    continuity(constants_, boundaries_, discretisation_.flux, fields_, flux_);
+    continuity(constants_, boundaries_, discretisation_.flux, side_of(t), fields_, flux_);
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
@@ -83,11 +84,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       effects_.species_exchange->evaluate(fields_);
       add_species_exchange(constants_, boundaries_, fields_);
     });
-  timed("volume flux", [&] {
-    fluid::flux_rate(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
-                     fields_.fluid_acceleration, fields_.flux_rate);
-    set_inlet_rate(t);
-  });
+  timed("volume flux", [&] { set_flux_rate(t); });
   if (effects_.compressible)
     timed("fluid continuity", [&] { effects_.compressible->set_pressure_rate(fields_.solids, fields_.fluid); });
   return true;
@@ -123,12 +120,29 @@ void RightHandSide::add_solids_stress() {
     if (effects_.solids_wall) effects_.solids_wall->fill_ghosts(fields_);
     add_solids_viscosity(constants_, boundaries_, fields_, viscous_weight_);
   }
+  if (boundaries_.open())  // nothing presses back from beyond
+    fluid::set_outlet_pressure(constants_.grid, boundaries_, stress.pressure);
   subtract_stress(constants_, boundaries_, fields_);
 }
 
+void RightHandSide::set_flux_rate(double t) {
+  const bool openings = constants_.openings.present();
+  if (openings) constants_.openings.hold(fields_.solids.acceleration);
+  fluid::flux_rate(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
+                   fields_.fluid_acceleration, fields_.flux_rate);
+  if (openings) constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
+  set_inlet_rate(t);
+}
+
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.
-void RightHandSide::fill_ghosts() {
+void RightHandSide::fill_ghosts(double t) {
+  if (constants_.openings.present()) constants_.openings.set_velocities(fields_.solids);
   boundaries_.fill(state_ghosts_);
+  if (constants_.openings.present()) {
+    constants_.openings.set_ghosts(side_of(t), fields_.solids);
+    for (core::Field& phi : fields_.solids.fraction)  // the row beyond the end, of the neighbours to the sides
+      for (int axis = 0; axis < constants_.grid.dimensions; axis += 2) boundaries_.join(phi, axis);
+  }
   composition(constants_, fields_);
   fluid::fluid_velocity(constants_.grid, fields_.solids, fields_.fluid);
   boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);

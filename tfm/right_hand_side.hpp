@@ -46,12 +46,13 @@ class RightHandSide {
   [[nodiscard]] const Fields& fields() const { return fields_; }
 
  private:
-  void fill_ghosts();
+  void fill_ghosts(double t);
   [[nodiscard]] bool equation_of_state();
-  void add_solids_stress();
   [[nodiscard]] double side_of(double t) const;
   void set_inlet_velocity(double t);
   void set_inlet_rate(double t);
+  void add_solids_stress();
+  void set_flux_rate(double t);
   [[nodiscard]] bool admissible() const;
 
   Constants constants_;

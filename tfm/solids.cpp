@@ -46,14 +46,18 @@ void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const 
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     Field& rate = acceleration[std::size_t(axis)];
     std::fill(rate.begin(), rate.end(), 0.0);
-    core::subtract_convection<Difference>(grid, velocity, axis, boundaries.moving_faces(axis, of_fluid), rate);
+    // A limited slope on the outlet's faces would ask for a second layer of faces beyond it, which there is not.
+    core::Box inside = core::interior_faces(grid, axis), at_outlet = boundaries.moving_faces(axis, of_fluid);
+    at_outlet.lo[std::size_t(axis)] = inside.hi[std::size_t(axis)];
+    core::subtract_convection<Difference>(grid, velocity, axis, inside, rate);
+    core::subtract_convection<core::UpwindDifference>(grid, velocity, axis, at_outlet, rate);
   }
 }
 
 }  // namespace
 
-void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields,
-                core::FaceField& flux) {
+void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, double t,
+                Fields& fields, core::FaceField& flux) {
   const core::Grid& grid = constants.grid;
   const bool compressible = fields.fluid.compression.present();
   if (compressible) fields.fluid.compression.flux = fields.fluid.flux;
@@ -64,12 +68,15 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
       solids_flux<core::LimitedFace>(grid, boundaries, phi, velocity, flux);
     else
       solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
+    if (constants.openings.present()) constants.openings.cross(t, j, fields.solids, flux[1]);
     if (compressible) subtract(flux, fields.fluid.compression.flux);
     Field& rate = fields.solids.fraction_rate[j];
     core::divergence(grid, flux, rate);
     for (double& r : rate) r = -r;
   }
   boundaries.fill_cells(fields.solids.fraction_rate);
+  for (std::size_t j = 0; j < constants.species() && constants.openings.present(); ++j)
+    constants.openings.set_rate_ghosts(t, j, fields.solids);
 }
 
 void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields) {

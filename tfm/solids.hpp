@@ -20,9 +20,9 @@ constexpr double stress_fraction_floor = 1e-3;
 enum class Scheme { upwind, limited };
 
 /// (1): fraction_rate = -div F_j with F_j = U_j times phi_j from upwind, with half a limited slope if
-/// `limited`. Ghosts of the rate are filled. flux_j is work space. If the fluid is compressible its own flux,
-/// J - sum F_j, is set too.
-void continuity(const Constants&, const fluid::Boundaries&, Scheme, Fields&, core::FaceField& flux);
+/// `limited`, and with what crosses the ends at time t. Ghosts of the rate are filled. flux_j is work space. If the
+/// fluid is compressible its own flux, J - sum F_j, is set too.
+void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux);
 
 /// Sets the accelerations of all phases to their convection, -(U.grad)U; the rest is added to them.
 void convection(const Constants&, const fluid::Boundaries&, Scheme, Fields&);

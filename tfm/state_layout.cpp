@@ -11,13 +11,20 @@ using core::Field;
 using core::Index;
 using Kind = StateLayout::Entry::Kind;
 
-StateLayout::StateLayout(const core::Grid& grid, int species, bool with_pressure, bool with_temperature)
+StateLayout::StateLayout(const core::Grid& grid, int species, bool with_pressure, bool with_temperature,
+                         const std::vector<fluid::Openings::Passage>& passages)
     : grid_(grid), with_pressure_(with_pressure) {
   for (int j = 0; j < species; ++j) add(Kind::fraction, j, -1, core::owned_cells(grid));
   for (int j = 0; j < species; ++j)
     for (int axis = 0; axis < grid.dimensions; ++axis) add(Kind::velocity, j, axis, core::owned_faces(grid, axis));
   for (int axis = 0; axis < grid.dimensions; ++axis) add(Kind::flux, -1, axis, core::owned_faces(grid, axis));
   for (int j = 0; j < species && with_temperature; ++j) add(Kind::temperature, j, -1, core::owned_cells(grid));
+  for (const auto& passage : passages) {
+    Box row = core::owned_faces(grid, 1);
+    row.lo[1] = passage.side == fluid::Openings::bottom ? 0 : grid.cells[1];
+    row.hi[1] = row.lo[1] + (grid.ends(1, passage.side) ? 1 : 0);
+    add(Kind::passed, int(passage.species), 1, row);
+  }
   if (with_pressure) add(Kind::pressure, -1, -1, core::owned_cells(grid));
 }
 
@@ -70,6 +77,9 @@ std::string StateLayout::describe(std::size_t index, const std::vector<std::stri
         break;
       case Kind::temperature:
         name = "theta_" + species.at(std::size_t(entry.species));
+        break;
+      case Kind::passed:
+        name = "passed_" + species.at(std::size_t(entry.species));
         break;
       case Kind::pressure:
         name = "pressure";

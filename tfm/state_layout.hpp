@@ -8,23 +8,26 @@
 #include "core/field.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
+#include "fluid/openings.hpp"
 
 namespace polybed::tfm {
 
-/// The unknowns: phi_j (cells), U_j and J (all owned faces), theta_j (cells) where it has an equation, and p (cells)
-/// where the integrator carries it.
+/// The unknowns: phi_j (cells), U_j and J (all owned faces), theta_j (cells) where it has an equation, what solids have
+/// crossed which faces of open ends, and p (cells) where the integrator carries it.
 class StateLayout {
  public:
   /// One field of the state: its kind, species (-1 for the mixture), axis (-1 on cells), and place.
   struct Entry {
-    enum class Kind { fraction, velocity, flux, temperature, pressure } kind;
+    enum class Kind { fraction, velocity, flux, temperature, passed, pressure } kind;
     int species, axis;
     std::size_t begin, size;
     core::Box box;
   };
 
   StateLayout() = default;
-  StateLayout(const core::Grid& grid, int species, bool with_pressure, bool with_temperature = false);
+  /// \param passages  species and ends whose faces count what has crossed them
+  StateLayout(const core::Grid& grid, int species, bool with_pressure, bool with_temperature = false,
+              const std::vector<fluid::Openings::Passage>& passages = {});
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
@@ -64,6 +67,8 @@ template <class Solids, class Fluid>
       return fluid.flux[std::size_t(entry.axis)];
     case Kind::temperature:
       return solids.temperature[std::size_t(entry.species)];
+    case Kind::passed:
+      return solids.passed[std::size_t(entry.species)];
     case Kind::pressure:
       break;
   }

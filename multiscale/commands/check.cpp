@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "closures/drag.hpp"
+#include "closures/mixture.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case_file.hpp"
 #include "core/json.hpp"
@@ -13,6 +14,7 @@
 #include "multiscale/commands/options.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/run_record.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::multiscale {
@@ -50,6 +52,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
     derived.sound = fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, constants.fluid.density),
                                           scene.fluid.outlet_pressure);
   if (model.effects().solids_stress) derived.max_packing = model.effects().solids_stress->max_packing();
+  const char* outlet = scene.column.outlet == "open" ? ", and out" : "";
   double fastest = 0;
   for (const auto& point : scene.inlet.superficial_velocity) fastest = std::max(fastest, std::abs(point.second));
   for (std::size_t j = 0; j < constants.species(); ++j) {
@@ -63,8 +66,8 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
     if (fastest > derived.terminal[j])
       derived.notes.push_back(
           fmt::format("the inlet's {:.4g} m/s is above the terminal velocity of {}, {:.4g} m/s: it will be "
-                      "carried to the top",
-                      fastest, constants.name[j], derived.terminal[j]));
+                      "carried to the top{}",
+                      fastest, constants.name[j], derived.terminal[j], outlet));
   }
   note_drag(scene, derived);
   for (const core::Role& role : all_roles())
@@ -136,10 +139,22 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
              time_text(time.expected), time_text(time.least), time_text(time.most), time.steps, time.seconds_per_step);
 }
 
+/// The classes of the distributions, with y_j = D_j over the Sauter diameter of the distribution.
+void print_size_classes(const core::Scene& scene) {
+  for (const core::SizeClasses& record : scene.size_classes) {
+    const double sauter = closures::sauter_diameter(record.share, record.diameter);
+    fmt::print("# {}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species, record.given.kind,
+               record.diameter.size(), sauter, closures::poly_index_mean(record.share, record.diameter));
+    for (std::size_t k = 0; k < record.diameter.size(); ++k)
+      fmt::print("#   {}.{}: diameter {:.6g} m, share {:.6g}, y {:.4g}\n", record.species, k + 1, record.diameter[k],
+                 record.share[k], record.diameter[k] / sauter);
+  }
+}
+
 }  // namespace
 
 void run_check(const CaseOptions& options) {
-  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles());
+  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
   core::Timers timers;
   std::unique_ptr<tfm::Model> part;
   const Requirements need = requirements_of(scene, timers, part);
@@ -153,6 +168,7 @@ void run_check(const CaseOptions& options) {
     if (derived.sound > 0) json.member("speed_of_sound_m_s", derived.sound);
     json.member("buoyant_weight_Pa", derived.weight);
     write_requirements(json, need);
+    write_size_classes(json, scene);
     json.key("notes").begin_array();
     for (const std::string& note : derived.notes) json.value(note);
     json.end_array().end_object();
@@ -160,6 +176,7 @@ void run_check(const CaseOptions& options) {
     return;
   }
   fmt::print("{}\n", text);
+  print_size_classes(scene);
   fmt::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
   if (derived.sound > 0) fmt::print("# sound in the fluid {:.5g} m/s\n", derived.sound);
   for (std::size_t j = 0; j < scene.species.size(); ++j)

@@ -27,7 +27,7 @@ core::Scene read_scene(const RunOptions& options) {
     const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
     overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
   }
-  return core::read_case(options.case_path, overrides, all_roles());
+  return core::read_case(options.case_path, overrides, all_roles(), size_classes);
 }
 
 void check_directory(const fs::path& directory, const RunOptions& options) {
@@ -147,7 +147,7 @@ class TfmRun {
                            const auto scope = timers_.scope("output");
                            observers_->write_fields(t);
                          }});
-    core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, model_.inlet().kinks()};
+    core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, model_.kinks()};
     core::run(
         model_, stops, observers, !options_.resume, [&](double) { write_checkpoint(); },
         [&] {

@@ -149,6 +149,116 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"superficial_velocity = \"30 mm/s\"", "",
               "superficial_velocity is missing (or set column.closed = true)"}));
 
+/// The good case with another line for the diameter.
+Wrong sizes(const std::string& lines, const std::string& message) { return {"diameter = \"0.8 mm\"", lines, message}; }
+
+INSTANTIATE_TEST_SUITE_P(
+    SizeDistribution, WrongCase,
+    testing::Values(sizes("distribution = \"lognormal\"\nmedian = \"0.8 mm\"",
+                          "case.toml:10:16: species.distribution = \"lognormal\" needs species.deviation"),
+                    sizes("distribution = \"lognormal\"\ndeviation = 0.3",
+                          "case.toml:10:16: species.distribution = \"lognormal\" needs either"),
+                    sizes("distribution = \"lognormal\"\ndeviation = 3",
+                          "case.toml:11:13: species.deviation = 3 is out of range: above 0, at most 1"),
+                    sizes("distribution = \"lognormal\"\nmedian = 0.8\ndeviation = 0.3",
+                          "case.toml:11:10: species.median = 0.8 m is larger"),
+                    sizes("distribution = \"lognormel\"", "did you mean \"lognormal\"?"),
+                    sizes("diameter = \"0.8 mm\"\ndistribution = \"sieves\"",
+                          "case.toml:10:12: species.diameter and species.distribution both"),
+                    sizes("diameter = \"0.8 mm\"\nclasses = 2",
+                          "case.toml:11:11: species.classes says nothing without species.distribution"),
+                    sizes("distribution = \"sieves\"",
+                          "case.toml:10:16: species.distribution = \"sieves\" needs species.sieves"),
+                    sizes("distribution = \"sieves\"\nsieves = 3",
+                          "case.toml:11:10: species.sieves = 3: expected a table of pairs"),
+                    sizes("distribution = \"sieves\"\nsieves = [[\"1 mm\", 0.4], [\"1 mm\", 0.6], [\"2 mm\", 0]]",
+                          "case.toml:11:26: species.sieves: openings must rise"),
+                    sizes("distribution = \"sieves\"\nsieves = [[\"1 mm\", 0.4], [\"2 mm\", 0.6]]",
+                          "case.toml:11:10: species.sieves: at least two"),
+                    sizes("distribution = \"sieves\"\nsieves = [[\"1 mm\", 0.4], [\"2 mm\", 0.5], [\"3 mm\", 0]]",
+                          "the shares sum to 0.9, not to 1"),
+                    sizes("distribution = \"sieves\"\nsieves = [[\"1 s\", 1], [\"2 mm\", 0]]",
+                          "expected a value in m, this one is in s"),
+                    sizes("distribution = \"lognormal\"\nmedian = \"1 mm\"\ndeviation = 0.3\nclasses = 11",
+                          "case.toml:13:11: species.classes = 11 is out of range: at least 1, at most 10")));
+
+/// The good case with a feed, or an outlet, added.
+Wrong fed(const std::string& lines, const std::string& message) {
+  return {"[effects]", lines + "\n[effects]", message};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Feed, WrongCase,
+    testing::Values(
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1", "case.toml:18:1: feed.superficial_velocity is missing"),
+        fed("[[feed]]\nspecies = \"fin\"\nvelocity = 1\nsuperficial_velocity = 0.1",
+            "feed.species = \"fin\": no such species"),
+        fed("[[feed]]\nspecies = \"fine\"\nat = \"side\"\nvelocity = 1\nsuperficial_velocity = 0.1",
+            "case.toml:20:6: feed.at = \"side\": allowed are bottom | top"),
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = -0.1",
+            "case.toml:21:24: feed.superficial_velocity = -0.10000000000000001 is out of range: at least 0"),
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 0.1\nsuperficial_velocity = 0.1",
+            "raise feed.velocity above 0.1667 m/s"),
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1\nfrom = [0.02]",
+            "feed.from and feed.to have 1 and 0 numbers: 1 here"),
+        fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1\n[[feed]]\nspecies = \"fine\"\n"
+            "velocity = 1\nsuperficial_velocity = 0.1\nfrom = [0.02]\nto = [0.03]",
+            "two feeds of fine overlap: [[feed]] number 1 and 2"),
+        Wrong{"cells = [12, 120]", "cells = [12, 120]\noutlet = \"closed\"",
+              "case.toml:5:10: column.outlet = \"closed\": allowed are screen | open"}));
+
+/// Two classes at half and twice the median: the reader does not know the rule.
+std::vector<std::pair<double, double>> half_and_twice(const SizeDistribution& given) {
+  return {{*given.median / 2, 0.25}, {*given.median * 2, 0.75}};
+}
+
+TEST(SizeDistribution, GivesWayToItsClasses) {
+  std::string text =
+      with("diameter = \"0.8 mm\"", "distribution = \"lognormal\"\nmedian = \"0.8 mm\"\ndeviation = 0.3");
+  text.replace(text.find("[bed]"), 5, "[[species]]\nname = \"coarse\"\ndiameter = \"2 mm\"\ndensity = 1170\n[bed]");
+  text.replace(text.find("volume_share = [1.0]"), 20, "volume_share = [0.4, 0.6]");
+  text +=
+      "[[contact_pair]]\nbetween = [\"fine\", \"wall\"]\nfriction = 0.1\n[[contact_pair]]\nbetween = [\"fine\", "
+      "\"fine\"]\n";
+  const Scene scene = parse_case(text, "case.toml", {}, roles, half_and_twice);
+  ASSERT_EQ(scene.species.size(), 3U);
+  EXPECT_EQ(scene.species[0].name, "fine.1");
+  EXPECT_EQ(scene.species[1].name, "fine.2");
+  EXPECT_EQ(scene.species[2].name, "coarse");
+  EXPECT_EQ(scene.species[1].diameter, 1.6e-3);
+  EXPECT_EQ(scene.species[1].density, 1395);
+  EXPECT_THAT(scene.bed.volume_share, testing::ElementsAre(0.4 * 0.25, 0.4 * 0.75, 0.6));
+  EXPECT_EQ(scene.contact_pairs.size(), 2U + 3U);
+  EXPECT_EQ(scene.size_classes.at(0).species, "fine");
+  const std::string resolved = resolved_case(scene);
+  EXPECT_THAT(resolved, Not(HasSubstr("\ndistribution")));
+  EXPECT_EQ(resolved_case(parse_case(resolved, "again.toml", {}, roles)), resolved);
+  const std::vector<std::string> set{"species.fine.median=1 mm"};
+  EXPECT_EQ(parse_case(text, "case.toml", set, roles, half_and_twice).species[0].diameter, 0.5e-3);
+}
+
+TEST(Feed, OfADistributionIsOneOfEachClass) {
+  std::string text =
+      with("diameter = \"0.8 mm\"", "distribution = \"lognormal\"\nmedian = \"0.8 mm\"\ndeviation = 0.3");
+  text += "[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = [[0, 0], [1, 0.02]]\n";
+  const Scene scene = parse_case(text, "case.toml", {}, roles, half_and_twice);
+  ASSERT_EQ(scene.feeds.size(), 2U);
+  EXPECT_EQ(scene.feeds[1].species, "fine.2");
+  EXPECT_DOUBLE_EQ(scene.feeds[1].superficial_velocity.at(1).second, 0.75 * 0.02);
+  const std::string resolved = resolved_case(scene);
+  EXPECT_EQ(resolved_case(parse_case(resolved, "again.toml", {}, roles)), resolved);
+}
+
+TEST(SizeDistribution, WithoutARuleOrWithNumbersOfParticlesIsRefused) {
+  const std::string text =
+      with("diameter = \"0.8 mm\"", "distribution = \"lognormal\"\nmedian = \"0.8 mm\"\ndeviation = 0.3");
+  EXPECT_THAT(message_of(text), HasSubstr("knows no classes"));
+  std::string counted = text;
+  counted.replace(counted.find("volume_share = [1.0]\nstatic_height = \"60 mm\""), 44, "particles = [100]");
+  EXPECT_THAT([&] { (void)parse_case(counted, "case.toml", {}, roles, half_and_twice); },
+              testing::ThrowsMessage<CaseError>(HasSubstr("bed.particles counts spheres of one size")));
+}
+
 TEST(CaseFile, TellsEverythingAtOnceInTheOrderOfTheFile) {
   std::string text = with("diameter = \"0.8 mm\"", "diametre = 1");
   text.replace(text.find("solids_fraction = 0.6"), 21, "solids_fraction = 1.6");

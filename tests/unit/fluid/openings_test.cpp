@@ -1,0 +1,123 @@
+#include "fluid/openings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fluid/invariants.hpp"
+
+namespace polybed::fluid {
+namespace {
+
+constexpr int nx = 4, ny = 3;
+
+core::Grid column() {
+  core::Grid grid;
+  grid.cells = {nx, ny, 1};
+  grid.spacing = {0.01, 0.02, 0.005};
+  return grid;
+}
+
+/// Species a is fed from below into 5 to 20 mm, b from above everywhere; the outlet is open.
+core::Scene scene_with_feeds() {
+  core::Scene scene;
+  scene.species.resize(2);
+  scene.species[0].name = "a";
+  scene.species[1].name = "b";
+  scene.column.outlet = "open";
+  scene.feeds.push_back({"a", "bottom", {{0.0, 0.01}, {1.0, 0.03}}, 0.1, {0.005}, {0.02}});
+  scene.feeds.push_back({"b", "top", {{0.0, 0.004}}, 0.2, {}, {}});
+  return scene;
+}
+
+struct Ends : testing::Test {
+  core::Grid grid = column();
+  Openings openings{grid, scene_with_feeds()};
+  Interphase solids{grid, {2000.0, 3000.0}};
+  core::Field flux = core::make_field(grid, 7.0);
+  void SetUp() override {
+    solids.passed.assign(2, core::make_field(grid));
+    solids.passed_rate = solids.passed;
+    for (core::Field& phi : solids.fraction) std::fill(phi.begin(), phi.end(), 0.3);
+    for (auto& u : solids.velocity) std::fill(u[1].begin(), u[1].end(), 0.5);
+  }
+  [[nodiscard]] std::size_t at(int i, int j) const { return std::size_t(grid.index(i, j)); }
+};
+
+TEST_F(Ends, AFeedHasItsAreaItsFractionAndItsVelocity) {
+  openings.set_velocities(solids);
+  openings.set_ghosts(0.5, solids);
+  openings.cross(0.5, 0, solids, flux);
+  EXPECT_EQ(flux[at(2, 0)], 0);                  // 20 to 30 mm: nothing
+  EXPECT_DOUBLE_EQ(flux[at(0, 0)], 0.5 * 0.02);  // half of 0 to 10 mm
+  EXPECT_DOUBLE_EQ(flux[at(1, 0)], 0.02);        // half-way from 0.01 to 0.03
+  EXPECT_EQ(solids.velocity[0][1][at(1, 0)], 0.1);
+  EXPECT_EQ(solids.velocity[0][1][at(2, 0)], 0.5);  // not touched
+  // The mean of ghost and cell is the fraction of the feed, 0.02/0.1.
+  EXPECT_NEAR(0.5 * (solids.fraction[0][at(1, -1)] + solids.fraction[0][at(1, 0)]), 0.2, 1e-15);
+  EXPECT_EQ(solids.passed_rate[0][at(1, 0)], flux[at(1, 0)]);
+  openings.set_rate_ghosts(0.5, 0, solids);  // of 0.02 m/s2 over 0.1 m/s, the cell at rest
+  EXPECT_NEAR(solids.fraction_rate[0][at(1, -1)], 2 * 0.02 / 0.1, 1e-15);
+}
+
+TEST_F(Ends, AnOpenOutletLetsOutAndNeverIn) {
+  solids.velocity[0][1][at(1, ny)] = -0.5;
+  openings.cross(0, 0, solids, flux);
+  EXPECT_DOUBLE_EQ(flux[at(0, ny)], 0.15);
+  EXPECT_EQ(flux[at(1, ny)], 0);
+  openings.cross(0, 1, solids, flux);  // b is fed there: down, not out
+  EXPECT_DOUBLE_EQ(flux[at(0, ny)], -0.004);
+  EXPECT_EQ(flux[at(0, 0)], 0);
+}
+
+TEST_F(Ends, WhatIsFedIsHeld) {
+  EXPECT_TRUE(openings.holds(0, grid.index(0, 0)));
+  EXPECT_FALSE(openings.holds(0, grid.index(2, 0)));
+  EXPECT_FALSE(openings.holds(0, grid.index(0, ny)));
+  EXPECT_TRUE(openings.holds(1, grid.index(3, ny)));
+  for (auto& a : solids.acceleration) std::fill(a[1].begin(), a[1].end(), 1.0);
+  openings.hold(solids.acceleration);
+  EXPECT_EQ(solids.acceleration[1][1][at(0, ny)], 0);
+  EXPECT_EQ(solids.acceleration[0][1][at(0, ny)], 1);
+  core::FaceField mobility = core::make_face_field(grid, 1.0);
+  openings.hold(solids, mobility);
+  EXPECT_DOUBLE_EQ(mobility[1][at(0, ny)], 1 - 0.3 / 3000);
+  EXPECT_EQ(mobility[1][at(0, 0)], 1);
+}
+
+TEST_F(Ends, WhatHasPassedIsInOrOut) {
+  for (int i = 0; i < nx; ++i) {
+    solids.passed[0][at(i, 0)] = 2;
+    solids.passed[0][at(i, ny)] = 3;
+    solids.passed[1][at(i, ny)] = -1;
+  }
+  const std::vector<Passed> passed = openings.passed(solids);
+  constexpr double area = 0.01 * 0.005;
+  EXPECT_DOUBLE_EQ(passed[0].in, 4 * 2 * area);
+  EXPECT_DOUBLE_EQ(passed[0].out, 4 * 3 * area);
+  EXPECT_DOUBLE_EQ(passed[1].in, 4 * 1 * area);
+  EXPECT_EQ(passed[1].out, 0);
+  EXPECT_EQ(openings.passages().size(), 3U);
+  EXPECT_EQ(openings.greatest(), 0.2);
+  EXPECT_EQ(openings.kinks(), (std::vector<double>{0.0, 1.0}));
+}
+
+TEST(Screens, AreAbsent) {
+  core::Scene scene = scene_with_feeds();
+  scene.feeds.clear();
+  scene.column.outlet = "screen";
+  EXPECT_FALSE(Openings(column(), scene).present());
+  scene.column.outlet = "open";
+  EXPECT_TRUE(Openings(column(), scene).present());
+  scene.column.closed = true;
+  EXPECT_FALSE(Openings(column(), scene).present());
+}
+
+TEST(Ledger, ErrorIsRelativeToAllThereEverWas) {
+  EXPECT_EQ(ledger_error(2, 3, 1, 4), 0);
+  EXPECT_DOUBLE_EQ(ledger_error(2, 3, 1, 4.5), 0.1);
+  EXPECT_EQ(ledger_error(0, 0, 0, 0), 0);
+}
+
+}  // namespace
+}  // namespace polybed::fluid
