@@ -71,14 +71,15 @@ std::string run_record_text(const RunRecord& record) {
   write_invariants(json, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
   json.key("guards").begin_array();
-  if (model.effects().drag) {
-    const tfm::ClosureUse use = model.effects().drag->use();
+  const auto guard = [&](const tfm::ClosureUse& use) {
     json.begin_object()
         .member("closure", use.name)
         .member("evaluations", use.evaluations)
         .member("outside_range", use.guarded)
         .end_object();
-  }
+  };
+  if (model.effects().drag) guard(model.effects().drag->use());
+  if (const auto& stress = model.effects().solids_stress; stress && stress->use()) guard(*stress->use());
   json.end_array().key("warnings").begin_array();
   for (const fluid::WorstInvariant& w : record.observers.invariants().worst())
     if (w.value > w.limit) json.value(w.name + " exceeded its limit");

@@ -6,6 +6,7 @@
 #include "tfm/effects/fluid_stress_newtonian.hpp"
 #include "tfm/effects/solids_stress_frictional.hpp"
 #include "tfm/effects/solids_stress_kinetic.hpp"
+#include "tfm/effects/solids_stress_table.hpp"
 #include "tfm/effects/solids_viscosity_frictional.hpp"
 #include "tfm/effects/solids_wall_johnson_jackson.hpp"
 #include "tfm/effects/species_exchange_syamlal.hpp"
@@ -29,7 +30,8 @@ std::vector<core::Role> roles() {
            "pressure of the solids, packed or in collision",
            "particles have contacts instead",
            {{"frictional", "Johnson and Jackson 1987, with bulk viscosity"},
-            {"kinetic", "the same, and kinetic theory of collisions: pressure and viscosity"}}},
+            {"kinetic", "the same, and kinetic theory of collisions: pressure and viscosity"},
+            {"table:FILE", "frictional, and the pressure of a fluidised bed from a file of regime \"bed\""}}},
           {"granular_temperature",
            "tfm",
            "Scalar",
@@ -71,6 +73,9 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
     refuse("fluid_stress", name);
   if (const std::string name = law("solids_stress"); name == "frictional" || name == "kinetic")
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
+  else if (name.starts_with("table:"))
+    effects.solids_stress =
+        std::make_unique<TableStress>(scene, constants, boundaries, name.substr(std::string("table:").size()), fields);
   else if (name != "none")
     refuse("solids_stress", name);
   if (const std::string name = law("solids_viscosity"); name == "schaeffer" || name == "mu_i") {
