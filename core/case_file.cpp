@@ -152,7 +152,7 @@ void CaseReader::read_effects(const toml::node& node) {
     const auto law = value.value_exact<std::string>();
     std::vector<std::string> laws{"none"};
     for (const Law& l : role->laws) laws.push_back(l.name);
-    if (!law || std::find(laws.begin(), laws.end(), *law) == laws.end()) {
+    if (!law || std::none_of(laws.begin(), laws.end(), [&](const auto& l) { return fits_word(l, *law); })) {
       const std::string near = law ? nearest_name(*law, laws) : "";
       values_.add(value.source(),
                   fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value), fmt::join(laws, " | "),

@@ -165,13 +165,15 @@ std::string kind_name(const Key& key) {
   return key.dimension == dimension::none ? kind : kind + ", " + unit_name(key.dimension);
 }
 
-bool is_word(const Key& key, std::string_view text) {
+bool fits_word(std::string_view word, std::string_view text) {
   constexpr std::string_view file = "FILE";
-  return std::any_of(key.words.begin(), key.words.end(), [&](std::string_view word) {
-    if (!word.ends_with(file)) return word == text;
-    word.remove_suffix(file.size());
-    return text.starts_with(word) && text.size() > word.size();
-  });
+  if (!word.ends_with(file)) return word == text;
+  word.remove_suffix(file.size());
+  return text.starts_with(word) && text.size() > word.size();
+}
+
+bool is_word(const Key& key, std::string_view text) {
+  return std::any_of(key.words.begin(), key.words.end(), [&](std::string_view word) { return fits_word(word, text); });
 }
 
 std::string range_text(const Key& key) {

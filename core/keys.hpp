@@ -54,7 +54,10 @@ struct Key {
 /// Range for people: "above 0, at most 1"; empty if there is none.
 [[nodiscard]] std::string range_text(const Key& key);
 
-/// Whether a text is one of the key's words; a word that ends in FILE stands for any name of a file there.
+/// Whether a text is a word; a word that ends in FILE stands for any name of a file there.
+[[nodiscard]] bool fits_word(std::string_view word, std::string_view text);
+
+/// Whether a text is one of the key's words.
 [[nodiscard]] bool is_word(const Key& key, std::string_view text);
 
 /// The name nearest to a misspelt one, or empty if none is near.

@@ -85,11 +85,14 @@ RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
   RunTotals totals;
   totals.ranks = grid.ranks ? grid.ranks->count() : 1;
   totals.cpu_seconds = core::sum_of_ranks(grid, cpu_seconds);
-  if (!model.effects().drag) return totals;
-  tfm::ClosureUse use = model.effects().drag->use();
-  use.evaluations = std::uint64_t(core::sum_of_ranks(grid, double(use.evaluations)));
-  use.guarded = std::uint64_t(core::sum_of_ranks(grid, double(use.guarded)));
-  totals.closures.push_back(use);
+  const tfm::Effects& effects = model.effects();
+  if (effects.drag) totals.closures.push_back(effects.drag->use());
+  if (effects.solids_stress)
+    if (const auto use = effects.solids_stress->use()) totals.closures.push_back(*use);
+  for (tfm::ClosureUse& use : totals.closures) {
+    use.evaluations = std::uint64_t(core::sum_of_ranks(grid, double(use.evaluations)));
+    use.guarded = std::uint64_t(core::sum_of_ranks(grid, double(use.guarded)));
+  }
   return totals;
 }
 

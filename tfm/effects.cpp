@@ -1,11 +1,14 @@
 #include "tfm/effects.hpp"
 
+#include <string_view>
+
 #include "closures/drag.hpp"
 #include "core/error.hpp"
 #include "tfm/effects/drag.hpp"
 #include "tfm/effects/fluid_stress_newtonian.hpp"
 #include "tfm/effects/solids_stress_frictional.hpp"
 #include "tfm/effects/solids_stress_kinetic.hpp"
+#include "tfm/effects/solids_stress_table.hpp"
 #include "tfm/effects/solids_viscosity_frictional.hpp"
 #include "tfm/effects/solids_wall_johnson_jackson.hpp"
 #include "tfm/effects/species_exchange_syamlal.hpp"
@@ -29,7 +32,8 @@ std::vector<core::Role> roles() {
            "pressure of the solids, packed or in collision",
            "particles have contacts instead",
            {{"frictional", "Johnson and Jackson 1987, with bulk viscosity"},
-            {"kinetic", "the same, and kinetic theory of collisions: pressure and viscosity"}}},
+            {"kinetic", "the same, and kinetic theory of collisions: pressure and viscosity"},
+            {"table:FILE", "frictional, and the pressure of a fluidised bed from a file of regime \"bed\""}}},
           {"granular_temperature",
            "tfm",
            "Scalar",
@@ -52,36 +56,40 @@ std::vector<core::Role> roles() {
            {{"syamlal", "collisions, Syamlal 1987; contact in a packed bed, Gera 2004"}}}};
 }
 
-Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
-                     Fields& fields) {
-  Effects effects;
-  const auto law = [&](const char* role) {
-    const auto found = scene.effects.find(role);
-    return found == scene.effects.end() ? std::string("none") : found->second;
-  };
-  const auto refuse = [](const char* role, const std::string& name) {
-    throw core::CaseError(std::string("effects.") + role + " = \"" + name +
-                          "\": not in the continuum model; see polybed list");
-  };
-  if (const std::string name = law("drag"); name != "none")
-    effects.drag = std::make_unique<Drag>(constants, boundaries, name);
-  if (const std::string name = law("fluid_stress"); name == "newtonian")
-    effects.fluid_stress = std::make_unique<NewtonianStress>(constants, boundaries);
-  else if (name != "none")
-    refuse("fluid_stress", name);
-  if (const std::string name = law("solids_stress"); name == "frictional" || name == "kinetic")
+namespace {
+
+/// The law that a scene gives a role; "none" if it names none.
+std::string law_of(const core::Scene& scene, const char* role) {
+  const auto found = scene.effects.find(role);
+  return found == scene.effects.end() ? std::string("none") : found->second;
+}
+
+[[noreturn]] void refuse(const char* role, const std::string& name) {
+  throw core::CaseError(std::string("effects.") + role + " = \"" + name +
+                        "\": not in the continuum model; see polybed list");
+}
+
+/// All that fills the slot Stress of the solids, in the order in which it is evaluated.
+void make_solids_stress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
+                        Fields& fields, Effects& effects) {
+  constexpr std::string_view table = "table:";
+  const std::string stress = law_of(scene, "solids_stress"), viscosity = law_of(scene, "solids_viscosity"),
+                    temperature = law_of(scene, "granular_temperature");
+  if (stress == "frictional" || stress == "kinetic")
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
-  else if (name != "none")
-    refuse("solids_stress", name);
-  if (const std::string name = law("solids_viscosity"); name == "schaeffer" || name == "mu_i") {
+  else if (stress.starts_with(table))
+    effects.solids_stress =
+        std::make_unique<TableStress>(scene, constants, boundaries, stress.substr(table.size()), fields);
+  else if (stress != "none")
+    refuse("solids_stress", stress);
+  if (viscosity == "schaeffer" || viscosity == "mu_i") {
     if (!effects.solids_stress)
-      throw core::CaseError("effects.solids_viscosity = \"" + name + "\" needs a solids_stress: its pressure");
-    effects.solids_viscosity = std::make_unique<FrictionalViscosity>(scene, constants, name, fields);
-  } else if (name != "none") {
-    refuse("solids_viscosity", name);
+      throw core::CaseError("effects.solids_viscosity = \"" + viscosity + "\" needs a solids_stress: its pressure");
+    effects.solids_viscosity = std::make_unique<FrictionalViscosity>(scene, constants, viscosity, fields);
+  } else if (viscosity != "none") {
+    refuse("solids_viscosity", viscosity);
   }
-  const std::string temperature = law("granular_temperature");
-  if (law("solids_stress") == "kinetic")
+  if (stress == "kinetic")
     effects.collisions = std::make_unique<KineticStress>(scene, constants, boundaries, temperature == "transported",
                                                          effects.solids_stress->max_packing(), fields);
   else if (temperature != "none")
@@ -89,7 +97,21 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
                           "\" acts only with solids_stress = \"kinetic\"");
   if (scene.tfm.solids_wall == "johnson_jackson")
     effects.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);
-  if (const std::string name = law("species_exchange"); name == "syamlal") {
+}
+
+}  // namespace
+
+Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
+                     Fields& fields) {
+  Effects effects;
+  if (const std::string name = law_of(scene, "drag"); name != "none")
+    effects.drag = std::make_unique<Drag>(constants, boundaries, name);
+  if (const std::string name = law_of(scene, "fluid_stress"); name == "newtonian")
+    effects.fluid_stress = std::make_unique<NewtonianStress>(constants, boundaries);
+  else if (name != "none")
+    refuse("fluid_stress", name);
+  make_solids_stress(scene, constants, boundaries, fields, effects);
+  if (const std::string name = law_of(scene, "species_exchange"); name == "syamlal") {
     if (constants.species() > 1)
       effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);
   } else if (name != "none") {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,8 @@ class StressEffect {
   [[nodiscard]] virtual double pressure_at(double solids_fraction) const = 0;
   /// Solids fraction at which the stress carries a pressure, Pa, for the whole bed's composition.
   [[nodiscard]] virtual double solids_fraction_at(double pressure) const = 0;
+  /// Of a stress with a range; empty of one that holds everywhere.
+  [[nodiscard]] virtual std::optional<ClosureUse> use() const { return {}; }
 };
 
 /// Slot Stress, shear viscosity of the solids: makes stress.viscosity and strain, and adds to the first.

@@ -45,7 +45,7 @@ struct SolidsStress {
 
 /// What the equation of the granular temperature needs, species by species; empty unless theta_j is an unknown.
 struct Granular {
-  std::vector<core::Field> conductivity;  ///< k_j/phi_j, W s2/(m3)
+  std::vector<core::Field> conductivity;  ///< k_j/phi_j, kg/(m s)
   std::vector<core::Field> decay;         ///< rate at which a disturbance of theta_j in one cell decays, 1/s
 };
 

@@ -28,41 +28,46 @@ void convect(const core::Grid& grid, const core::Field& temperature, const core:
   }
 }
 
+/// Adds (2/3) div(k grad theta)/((phi + floor) rho), k = phi times conductivity; flux is work space.
+void conduct(const Constants& constants, const fluid::Boundaries& boundaries, std::size_t species, Fields& fields,
+             core::FaceField& flux) {
+  const core::Grid& grid = constants.grid;
+  const double *phi = fields.solids.fraction[species].data(), *theta = fields.solids.temperature[species].data(),
+               *k = fields.granular.conductivity[species].data();
+  double* rate = fields.solids.temperature_rate[species].data();
+  const double floor = diffusion_floor(constants, species);
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const Index s = grid.stride(axis);
+    const double h = grid.spacing[std::size_t(axis)], half_per_length = 0.5 / h;
+    core::Field& heat = flux[std::size_t(axis)];
+    std::fill(heat.begin(), heat.end(), 0.0);
+    core::for_each_row(grid, core::interior_faces(grid, axis), [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c)
+        heat[std::size_t(c)] = half_per_length * (std::max(phi[c - s], 0.0) * k[c - s] + std::max(phi[c], 0.0) * k[c]) *
+                               (theta[c] - theta[c - s]);
+    });
+    boundaries.join(heat, axis);
+    const double scale = 2 / (3 * constants.density[species] * h);
+    core::for_each_row(grid, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c)
+        rate[c] += scale * (heat[std::size_t(c + s)] - heat[std::size_t(c)]) / (std::max(phi[c], 0.0) + floor);
+    });
+  }
+}
+
 }  // namespace
 
 void add_temperature_transport(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme,
                                Fields& fields, core::FaceField& flux) {
-  const core::Grid& grid = constants.grid;
   for (std::size_t j = 0; j < constants.species(); ++j) {
     core::Field &theta = fields.solids.temperature[j], &rate = fields.solids.temperature_rate[j];
-    core::Field& conductivity = fields.granular.conductivity[j];
     boundaries.fill_cells(theta);
-    boundaries.fill_cells(conductivity);
+    boundaries.fill_cells(fields.granular.conductivity[j]);
     if (scheme == Scheme::limited)
-      convect<core::LimitedFace>(grid, theta, fields.solids.velocity[j], rate);
+      convect<core::LimitedFace>(constants.grid, theta, fields.solids.velocity[j], rate);
     else
-      convect<core::UpwindFace>(grid, theta, fields.solids.velocity[j], rate);
-    const double* phi = fields.solids.fraction[j].data();
-    const double floor = diffusion_floor(constants, j);
-    for (int axis = 0; axis < grid.dimensions; ++axis) {
-      core::Field& out = flux[std::size_t(axis)];
-      std::fill(out.begin(), out.end(), 0.0);
-      const Index s = grid.stride(axis);
-      const double* k = conductivity.data();
-      const double scale = 0.5 / grid.spacing[std::size_t(axis)];
-      core::for_each_row(grid, core::interior_faces(grid, axis), [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c)
-          out[std::size_t(c)] = scale * (std::max(phi[c - s], 0.0) * k[c - s] + std::max(phi[c], 0.0) * k[c]) *
-                                (theta[std::size_t(c)] - theta[std::size_t(c - s)]);
-      });
-      boundaries.join(out, axis);
-      const double per_length = 2 / (3 * constants.density[j] * grid.spacing[std::size_t(axis)]);
-      core::for_each_row(grid, [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c)
-          rate[std::size_t(c)] +=
-              per_length * (out[std::size_t(c + s)] - out[std::size_t(c)]) / (std::max(phi[c], 0.0) + floor);
-      });
-    }
+      convect<core::UpwindFace>(constants.grid, theta, fields.solids.velocity[j], rate);
+    conduct(constants, boundaries, j, fields, flux);
   }
 }
 

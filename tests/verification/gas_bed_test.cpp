@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "scenes.hpp"
@@ -98,6 +99,54 @@ TEST_P(GasBed, ResumedRunGivesTheSameBits) {
     }
     EXPECT_EQ(through.checkpoint().arrays.at("state"), resumed.checkpoint().arrays.at("state")) << integrator;
   }
+}
+
+/// The bed in a box, looser along a horizontal axis from one wall to the other; steps of one length.
+core::Scene box_of_gas(const std::string& temperature, int nx, int nz, const std::string& sides) {
+  core::Scene scene = gas_bed(temperature);
+  scene.column.dimensions = nz > 1 ? 3 : 2;
+  scene.column.cells = {nx, 16, nz};
+  scene.column.size = {5e-3 * nx, 0.08, 5e-3 * nz};
+  scene.bed.static_height = 0.03;
+  scene.column.sides = sides;
+  scene.tfm.fixed_step = 5e-5;
+  scene.tfm.pressure_tolerance = 1e-13;
+  return scene;
+}
+
+// Round-off of 100 steps, and the pressure solver's tolerance of 1e-13; velocities and temperatures are below 1.
+TEST_P(GasBed, TreatsNoDirectionInItsOwnWay) {
+  const auto looser = [](int n, int j) { return 1 - 0.1 * std::exp(-0.5 * std::pow(n, 2) - 0.1 * std::pow(j - 2, 2)); };
+  const auto along_x = [&](int i, int j, int) { return looser(i, j); };
+  const auto along_z = [&](int, int j, int k) { return looser(k, j); };
+  core::Timers timers;
+  tfm::Model wide(box_of_gas(GetParam(), 5, 3, "wall"), timers), deep(box_of_gas(GetParam(), 3, 5, "wall"), timers);
+  tfm::Model even(box_of_gas(GetParam(), 5, 3, "periodic"), timers),
+      flat(box_of_gas(GetParam(), 5, 1, "periodic"), timers);
+  make_uneven(wide, along_x);
+  make_uneven(deep, along_z);
+  make_uneven(even, along_x);
+  make_uneven(flat, along_x);
+  for (tfm::Model* model : {&wide, &deep, &even, &flat}) advance(*model, 5e-3);
+  const auto value = [](const tfm::Model& model, int axis, int i, int j, int k) {
+    const auto at = std::size_t(model.constants().grid.index(i, j, k));
+    const fluid::Interphase& solids = model.fields().solids;
+    return axis < 0 ? solids.temperature[0][at] : solids.velocity[0][std::size_t(axis)][at];
+  };
+  double turned = 0, in_depth = 0, most = 0;
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 16; ++j)
+      for (int i = 0; i < 5; ++i)
+        for (int axis : {-1, 0, 1}) {
+          most = std::max(most, std::abs(value(wide, 0, i, j, k)));
+          turned = std::max(turned, std::abs(value(wide, axis, i, j, k) - value(deep, axis == 0 ? 2 : axis, k, j, i)));
+          in_depth = std::max(in_depth, std::abs(value(even, axis, i, j, k) - value(flat, axis, i, j, 0)));
+        }
+  record("greatest difference, turned", turned);
+  record("greatest difference, in depth", in_depth);
+  EXPECT_LT(turned, 1e-12);
+  EXPECT_LT(in_depth, 1e-12);
+  EXPECT_GT(most, 1e-3) << "the bed must move sideways, or the test says nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(Temperatures, GasBed, testing::Values(std::string("algebraic"), std::string("transported")));
