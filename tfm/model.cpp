@@ -54,6 +54,9 @@ double greatest_terminal_velocity(const Constants& constants) {
   return greatest;
 }
 
+/// Absolute tolerance of the fractions.
+double fraction_tolerance(double rtol) { return 0.1 * rtol; }
+
 Discretisation make_discretisation(const core::Tfm& options) {
   const auto scheme = [](const std::string& name) { return name == "limited" ? Scheme::limited : Scheme::upwind; };
   return {scheme(options.flux), scheme(options.momentum),
@@ -85,6 +88,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers)
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);
   project_jump(even);
+  if (options_.flux == "limited") fallback_.emplace(constants, boundaries(), fraction_tolerance(options_.rtol));
   make_integrator();
   begin_integration();
 }
@@ -129,7 +133,7 @@ void Model::choose_integrator(const core::Scene& scene) {
 std::vector<double> Model::absolute_tolerances() const {
   std::vector<double> atol(layout_.size());
   for (const StateLayout::Entry& entry : layout_.entries()) {
-    const double value = entry.kind == Kind::fraction   ? 0.1 * options_.rtol
+    const double value = entry.kind == Kind::fraction   ? fraction_tolerance(options_.rtol)
                          : entry.kind == Kind::pressure ? 100.0 * options_.rtol
                                                         : options_.rtol * velocity_scale_;
     std::fill_n(atol.begin() + std::ptrdiff_t(entry.begin), entry.size, value);
@@ -183,6 +187,10 @@ void Model::step(double stop) {
   time_ = report.time;
   step_ = report.next_step;
   last_step_ = {report.time, report.step, report.error_norm, ""};
+  if (fallback_) {
+    fallback_->see(layout_, integrator_->state(), effects().solids_stress.get());
+    use_fallback();
+  }
   if (report.time >= stop && report.step < 0.99 * report.next_step) {
     last_step_.limited_by = "event";
   } else {
@@ -191,6 +199,21 @@ void Model::step(double stop) {
     if (last_step_.limited_by == "error test")
       last_step_.limited_by += ": " + layout_.describe(report.worst_entry, constants().name);
   }
+}
+
+void Model::use_fallback() {
+  equations_.take_first_order_on(fallback_->steps_left().empty() ? nullptr : &fallback_->faces());
+}
+
+/// A run has flags only while a cell is out of bounds, so a checkpoint without them has none.
+void Model::restore_fallback(const core::Checkpoint& checkpoint) {
+  if (!fallback_) return;
+  const auto flags = checkpoint.arrays.find("first_order_steps_left");
+  const auto count = checkpoint.integers.find("first_order_cells");
+  const bool flagged = flags != checkpoint.arrays.end() && flags->second.size() == constants().grid.cell_count();
+  fallback_->restore(layout_, flagged ? flags->second : std::vector<double>{},
+                     count == checkpoint.integers.end() ? 0 : std::uint64_t(count->second));
+  use_fallback();
 }
 
 void Model::show(double t) {
@@ -257,6 +280,7 @@ core::Checkpoint Model::checkpoint() const {
   c.numbers["time_s"] = time_;
   c.numbers["step_s"] = step_;
   c.texts["integrator"] = integrator_name_;
+  if (fallback_ && !fallback_->steps_left().empty()) c.arrays["first_order_steps_left"] = fallback_->steps_left();
   const Work done = work();
   c.integers["steps"] = std::int64_t(done.steps);
   c.integers["rejected_steps"] = std::int64_t(done.rejected_steps);
@@ -265,6 +289,7 @@ core::Checkpoint Model::checkpoint() const {
   c.integers["pressure_iterations"] = std::int64_t(done.pressure_iterations);
   c.integers["newton_iterations"] = std::int64_t(done.newton_iterations);
   c.integers["krylov_iterations"] = std::int64_t(done.krylov_iterations);
+  c.integers["first_order_cells"] = std::int64_t(done.first_order_cells);
   return c;
 }
 
@@ -274,6 +299,7 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
   time_ = step_ = 0;
   before_ = {};
+  restore_fallback({});
   begin_integration();
 }
 
@@ -295,7 +321,9 @@ void Model::resume(const core::Checkpoint& checkpoint) {
              count("pressure_solves"),
              count("pressure_iterations"),
              count("newton_iterations"),
-             count("krylov_iterations")};
+             count("krylov_iterations"),
+             0};
+  restore_fallback(checkpoint);
   begin_integration();
 }
 
@@ -306,6 +334,7 @@ Work Model::work() const {
   done.rejected_steps += s.error_failures;
   done.newton_iterations += s.newton_iterations;
   done.krylov_iterations += s.linear_iterations;
+  if (fallback_) done.first_order_cells = fallback_->count();
   if (implicit_) done.right_hand_sides += implicit_->residuals();
   if (explicit_) {
     done.right_hand_sides += explicit_->solves();

@@ -19,7 +19,7 @@ namespace polybed::tfm {
 /// What the model has done so far; repeats exactly from run to run.
 struct Work {
   std::uint64_t steps = 0, rejected_steps = 0, right_hand_sides = 0, pressure_solves = 0, pressure_iterations = 0,
-                newton_iterations = 0, krylov_iterations = 0;
+                newton_iterations = 0, krylov_iterations = 0, first_order_cells = 0;
 };
 
 /// One line of the step log.
@@ -69,6 +69,8 @@ class Model : public core::Simulation {
   void project_jump(const core::Field& before);
   [[nodiscard]] std::vector<double> absolute_tolerances() const;
   void begin_integration();
+  void use_fallback();
+  void restore_fallback(const core::Checkpoint& checkpoint);
 
   core::Timers& timers_;
   core::Tfm options_;
@@ -81,7 +83,8 @@ class Model : public core::Simulation {
   double time_ = 0, step_ = 0, velocity_scale_ = 1;
   std::vector<double> y_, dydt_;
   StepLine last_step_;
-  Work before_;  ///< of the integrators that a restart has closed
+  std::optional<FirstOrderFallback> fallback_;  ///< absent where all fluxes are of first order anyway
+  Work before_;                                 ///< of the integrators that a restart has closed
 };
 
 }  // namespace polybed::tfm

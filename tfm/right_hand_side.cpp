@@ -43,7 +43,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
   if (!admissible()) return false;
   timed("mixture", [&] { superficial_slip(constants_, fields_); });
   timed("convection", [&] {
-    continuity(constants_, boundaries_, discretisation_.flux, fields_, flux_);
+    continuity(constants_, boundaries_, discretisation_.flux, fields_, flux_, first_order_);
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });

@@ -32,6 +32,8 @@ class RightHandSide {
   [[nodiscard]] const fluid::Inlet& inlet() const { return inlet_; }
   /// An integration begins at a time, s: where the inlet jumps there, it has jumped; at later times it has not yet.
   void begin(double t) { begin_ = t; }
+  /// Faces on which the solids' flux is of first order from now on; null: none. The list must outlive its use.
+  void take_first_order_on(const FaceList* faces) { first_order_ = faces; }
   [[nodiscard]] const Effects& effects() const { return effects_; }
   [[nodiscard]] Fields& fields() { return fields_; }
   [[nodiscard]] const Fields& fields() const { return fields_; }
@@ -52,6 +54,7 @@ class RightHandSide {
   Fields fields_;
   Effects effects_;
   core::FaceField flux_;
+  const FaceList* first_order_ = nullptr;
 };
 
 }  // namespace polybed::tfm

@@ -34,6 +34,17 @@ void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, co
   }
 }
 
+/// The faces of a list done again, of first order.
+void redo_upwind(const core::Grid& grid, const FaceList& faces, const Field& fraction, const core::FaceField& velocity,
+                 core::FaceField& flux) {
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const double *phi = fraction.data(), *u = velocity[a].data();
+    double* out = flux[a].data();
+    for (const Index c : faces[a]) out[c] = u[c] * core::UpwindFace::at(phi, c, grid.stride(axis), u[c]);
+  }
+}
+
 template <class Difference>
 void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const core::FaceField& velocity,
              bool of_fluid, core::FaceField& acceleration) {
@@ -47,7 +58,7 @@ void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const 
 }  // namespace
 
 void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields,
-                core::FaceField& flux) {
+                core::FaceField& flux, const FaceList* first_order) {
   const core::Grid& grid = constants.grid;
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const Field& phi = fields.solids.fraction[j];
@@ -56,6 +67,7 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
       solids_flux<core::LimitedFace>(grid, boundaries, phi, velocity, flux);
     else
       solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
+    if (first_order != nullptr) redo_upwind(grid, *first_order, phi, velocity, flux);
     boundaries.join(flux);
     Field& rate = fields.solids.fraction_rate[j];
     core::divergence(grid, flux, rate);
