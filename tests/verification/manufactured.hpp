@@ -93,7 +93,7 @@ inline Exact exact(const std::array<double, 3>& x, int dimensions, double length
   e.flux = {w(0.08, 0.01, {1, 1, 0}, 0.5) + w(0, 0.01, {1, -1, 0}, 0.5) + w(0, 0.02, {0, 1, 1}, 0.7),
             w(0.12, -0.01, {1, 1, 0}, 0.5) + w(0, 0.01, {1, -1, 0}, 0.5) + w(0, 0.02, {1, 0, 1}, 1.7),
             w(0.06, 0.02, {1, 1, 0}, 2.7)};
-  e.pressure = w(0, 20.0, {1, 1, 1}, 0.8);
+  e.pressure = w(0, 200 * length, {1, 1, 1}, 0.8);
   return e;
 }
 
