@@ -51,6 +51,28 @@ TEST(FirstOrderFallback, FlagsTheFacesOfACellOutOfBoundsForTwentySteps) {
   EXPECT_EQ(fallback.count(), 2u);
 }
 
+// The bound is that of the cell's own composition: a mixture packs denser than either of its species.
+TEST(FirstOrderFallback, AsksForThePackingOfTheCellsOwnComposition) {
+  core::Scene scene = verification::binary_bed(4, 10, 0.012, 0.03);
+  scene.tfm.max_packing = "yu_standish";
+  for (core::Species& species : scene.species) species.max_packing = 0.62;
+  core::Timers timers;
+  const tfm::Model model(scene, timers);
+  const tfm::StressEffect& stress = *model.effects().solids_stress;
+  const std::vector<double> fine{1.0, 0.0};
+  EXPECT_DOUBLE_EQ(stress.packing_of(scene.bed.volume_share), stress.max_packing());
+  const double mixed = stress.max_packing(), pure = stress.packing_of(fine);
+  ASSERT_GT(mixed, pure + 0.01);
+  const tfm::StateLayout layout(model.constants().grid, 2, false);
+  FirstOrderFallback fallback(model.constants(), model.boundaries(), 1e-5);
+  std::vector<double> y(layout.size(), 0.0);
+  y[0] = 0.5 * (mixed + pure);  // one species alone, above its own packing and below the mixture's
+  for (std::size_t j = 0; j < 2; ++j) y[layout.entries()[j].begin + 5] = scene.bed.volume_share[j] * y[0];
+  fallback.see(layout, y, &stress);
+  EXPECT_EQ(fallback.count(), 1u);
+  EXPECT_EQ(fallback.steps_left()[0], FirstOrderFallback::steps);
+}
+
 TEST(FirstOrderFallback, FlaggedFacesTakeTheFractionFromUpwindAndTheOthersStay) {
   SmallBed bed;
   tfm::Model model(bed.scene, bed.timers);
