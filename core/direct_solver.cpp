@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/ranks.hpp"
+
 namespace polybed::core {
 
 namespace {
@@ -19,19 +21,17 @@ Index packed_neighbour(const Grid& grid, std::array<int, 3> cell, int axis, int 
   return cell[0] + grid.cells[0] * (cell[1] + Index(grid.cells[1]) * cell[2]);
 }
 
-/// The ghost cells beside the owned ones: 0, or the image across periodic sides.
-void set_ghosts(const Grid& grid, Field& p) {
+/// The ghost cells beside the owned ones: 0 beyond the column's ends, else what other cells own.
+void set_ghosts(const Grid& grid, const Halo& halo, Field& p) {
   for (int d = 0; d < grid.dimensions; ++d) {
     const auto a = std::size_t(d);
-    const Index across = grid.cells[a] * grid.stride(d);
-    for (const int side : {-1, 1}) {
+    halo.exchange(std::array<Field*, 1>{&p}, d);
+    for (const int side : {0, 1}) {
+      if (!grid.ends(d, side)) continue;
       Box box = owned_cells(grid);
-      box.lo[a] = side < 0 ? -1 : grid.cells[a];
+      box.lo[a] = side == 0 ? -1 : grid.cells[a];
       box.hi[a] = box.lo[a] + 1;
-      for_each_row(grid, box, [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c)
-          p[std::size_t(c)] = grid.periodic[a] ? p[std::size_t(c - side * across)] : 0.0;
-      });
+      for_each_row(grid, box, [&](Index begin, Index end) { std::fill(p.begin() + begin, p.begin() + end, 0.0); });
     }
   }
 }
@@ -46,9 +46,9 @@ void for_each_cell(const Grid& grid, Body&& body) {
 
 }  // namespace
 
-double relative_residual(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+double relative_residual(const Grid& grid, const Halo& halo, const std::array<std::span<const double>, 3>& coefficient,
                          std::span<const double> shift, const Field& source, Field& p) {
-  set_ghosts(grid, p);
+  set_ghosts(grid, halo, p);
   double left = 0, right = 0;
   for_each_row(grid, [&](Index begin, Index end) {
     for (Index at = begin; at < end; ++at) {
@@ -64,7 +64,9 @@ double relative_residual(const Grid& grid, const std::array<std::span<const doub
       right += source[c] * source[c];
     }
   });
-  return right > 0 ? std::sqrt(left / right) : std::sqrt(left);
+  std::array<double, 2> sums{left, right};
+  add_over_ranks(grid, sums);
+  return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : std::sqrt(sums[0]);
 }
 
 bool leaves_constant_open(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
@@ -73,17 +75,31 @@ bool leaves_constant_open(const Grid& grid, const std::array<std::span<const dou
   bool open = true;
   for (int d = 0; d < grid.dimensions; ++d) {
     const auto a = std::size_t(d);
-    if (grid.periodic[a]) continue;
-    for (const int layer : {0, grid.cells[a]}) {
+    for (const int side : {0, 1}) {
+      if (!grid.ends(d, side)) continue;
       Box box = owned_cells(grid);
-      box.lo[a] = layer;
-      box.hi[a] = layer + 1;
+      box.lo[a] = side == 0 ? 0 : grid.cells[a];
+      box.hi[a] = box.lo[a] + 1;
       for_each_row(grid, box, [&](Index begin, Index end) {
         for (Index f = begin; f < end; ++f) open = open && coefficient[a][std::size_t(f)] == 0;
       });
     }
   }
-  return open;
+  return on_all_ranks(grid, open);
+}
+
+double pin_of_first_cell(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                         std::span<const double> shift) {
+  const bool open = leaves_constant_open(grid, coefficient, shift);
+  if (!open || grid.before != std::array<int, 3>{0, 0, 0}) return 0;
+  const Index cell = grid.index(0, 0);
+  double diagonal = 0;
+  for (int d = 0; d < grid.dimensions; ++d) {
+    const auto a = std::size_t(d);
+    diagonal += (coefficient[a][std::size_t(cell)] + coefficient[a][std::size_t(cell + grid.stride(d))]) /
+                (grid.spacing[a] * grid.spacing[a]);
+  }
+  return diagonal;
 }
 
 bool solve_directly(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,

@@ -29,17 +29,17 @@ struct Box {
 
 [[nodiscard]] inline Box owned_cells(const Grid& grid) { return {{0, 0, 0}, grid.cells}; }
 
-/// All faces of an axis that the grid owns, those on the boundary included.
+/// All faces of an axis that the block owns, those on the column's boundary included.
 [[nodiscard]] inline Box owned_faces(const Grid& grid, int axis) {
   Box box = owned_cells(grid);
   box.hi[std::size_t(axis)] = grid.faces(axis);
   return box;
 }
 
-/// The owned faces of an axis with an owned cell (or, across periodic sides, its image) on either side.
+/// The owned faces of an axis with a cell of the column (or, across periodic sides, its image) on either side.
 [[nodiscard]] inline Box interior_faces(const Grid& grid, int axis) {
   Box box = owned_cells(grid);
-  if (!grid.periodic[std::size_t(axis)]) box.lo[std::size_t(axis)] = 1;
+  if (grid.ends(axis, 0)) box.lo[std::size_t(axis)] = 1;
   return box;
 }
 

@@ -1,14 +1,18 @@
-// The uniform staggered grid of a column and how its fields lie in memory.
+// The uniform staggered grid of a column, or of the block of it that this rank owns, and how its fields lie in memory.
 //
 // Axes: 0 = x (width), 1 = y (height, upward), 2 = z (depth; one cell thick in 2-D). Every field, on cells or
 // on faces of one axis, is one array over the same padded box, so that a cell and its low faces share an
-// index: face c of axis a lies between the cells c - stride[a] and c.
+// index: face c of axis a lies between the cells c - stride[a] and c. A block owns the low faces of its cells; where
+// the column ends, also the high ones.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <memory>
 
 namespace polybed::core {
+
+class Ranks;
 
 using Index = std::ptrdiff_t;
 
@@ -20,6 +24,12 @@ struct Grid {
   std::array<double, 3> spacing{1, 1, 1};             ///< cell size, m (2-D: spacing[2] is the depth)
   std::array<bool, 3> periodic{false, false, false};  ///< sides joined
 
+  std::array<int, 3> before{0, 0, 0};  ///< cells of the column on other ranks, towards lower indices
+  std::array<int, 3> after{0, 0, 0};   ///< and towards higher ones
+  std::array<int, 3> blocks{1, 1, 1};  ///< of the column, along each axis
+  std::array<int, 3> block{0, 0, 0};   ///< which of them this is
+  std::shared_ptr<const Ranks> ranks;  ///< who owns them; null: the whole column is here
+
   /// Ghost layers along an axis: none where the axis is not active.
   [[nodiscard]] int ghosts(int axis) const { return axis < dimensions ? halo : 0; }
   /// Entries of the padded box along an axis.
@@ -28,6 +38,21 @@ struct Grid {
   [[nodiscard]] Index stride(int axis) const { return axis == 0 ? 1 : axis == 1 ? extent(0) : extent(0) * extent(1); }
   /// Entries of a field, ghosts included.
   [[nodiscard]] std::size_t padded_size() const { return std::size_t(extent(0) * extent(1) * extent(2)); }
+  /// Cells of the whole column along an axis.
+  [[nodiscard]] int column_cells(int axis) const {
+    const auto a = std::size_t(axis);
+    return before[a] + cells[a] + after[a];
+  }
+  [[nodiscard]] std::size_t column_cell_count() const {
+    return std::size_t(column_cells(0)) * std::size_t(column_cells(1)) * std::size_t(column_cells(2));
+  }
+  /// Whether the column ends at the low (0) or high (1) side of this block; joined sides are no end.
+  [[nodiscard]] bool ends(int axis, int side) const {
+    const auto a = std::size_t(axis);
+    return !periodic[a] && (side == 0 ? before[a] : after[a]) == 0;
+  }
+  /// Whether other ranks own cells of the column along an axis.
+  [[nodiscard]] bool divided(int axis) const { return blocks[std::size_t(axis)] > 1; }
   /// Owned cells.
   [[nodiscard]] std::size_t cell_count() const {
     return std::size_t(cells[0]) * std::size_t(cells[1]) * std::size_t(cells[2]);
@@ -36,11 +61,13 @@ struct Grid {
   [[nodiscard]] Index index(int i, int j, int k = 0) const {
     return (i + ghosts(0)) + extent(0) * ((j + ghosts(1)) + extent(1) * Index(k + ghosts(2)));
   }
-  /// Faces of an axis along that axis: one more than cells unless periodic.
-  [[nodiscard]] int faces(int axis) const { return cells[std::size_t(axis)] + (periodic[std::size_t(axis)] ? 0 : 1); }
+  /// Owned faces of an axis along that axis: one more than cells where the column ends.
+  [[nodiscard]] int faces(int axis) const { return cells[std::size_t(axis)] + (ends(axis, 1) ? 1 : 0); }
   [[nodiscard]] double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }
   /// Centre of cell i of an axis, m; the column begins at 0.
-  [[nodiscard]] double centre(int axis, int i) const { return (i + 0.5) * spacing[std::size_t(axis)]; }
+  [[nodiscard]] double centre(int axis, int i) const {
+    return (before[std::size_t(axis)] + i + 0.5) * spacing[std::size_t(axis)];
+  }
 };
 
 /// Calls body(begin, end) for every row of contiguous cells of the box lo <= (i, j, k) < hi.

@@ -1,10 +1,10 @@
 #include "core/hypre_rows.hpp"
 
-#include <mpi.h>
-
 #include <numeric>
 
+#include "core/blocks.hpp"
 #include "core/linear_solver.hpp"
+#include "core/mpi.hpp"
 
 namespace polybed::core {
 
@@ -18,11 +18,14 @@ HYPRE_ParVector vector(HYPRE_IJVector v) {
 
 }  // namespace
 
-HypreRows::HypreRows(HYPRE_Int rows) : rows_(rows), row_(std::size_t(rows)), row_size_(std::size_t(rows)) {
+HypreRows::HypreRows(const Grid& grid, int unknowns)
+    : all_(communicator(grid)), unknowns_(unknowns), rows_(HYPRE_Int(grid.cell_count()) * unknowns) {
   open_linear_solvers();
-  std::iota(row_.begin(), row_.end(), 0);
+  numbers_ = cell_numbers(grid);
+  row_.resize(std::size_t(rows_));
+  std::iota(row_.begin(), row_.end(), row_of(grid.index(0, 0)));
   for (HYPRE_IJVector* v : {&right_, &solution_}) {
-    HYPRE_IJVectorCreate(MPI_COMM_SELF, 0, rows - 1, v);
+    HYPRE_IJVectorCreate(all_, row_.front(), row_.back(), v);
     HYPRE_IJVectorSetObjectType(*v, HYPRE_PARCSR);
     HYPRE_IJVectorInitialize(*v);
   }
@@ -44,6 +47,7 @@ void HypreRows::clear() {
 void HypreRows::begin() {
   column_.clear();
   value_.clear();
+  row_size_.clear();
 }
 
 void HypreRows::add(HYPRE_Int column, double value) {
@@ -58,7 +62,7 @@ void HypreRows::add(HYPRE_Int column, double value) {
 
 void HypreRows::assemble(int functions, bool symmetric) {
   clear();
-  HYPRE_IJMatrixCreate(MPI_COMM_SELF, 0, rows_ - 1, 0, rows_ - 1, &matrix_);
+  HYPRE_IJMatrixCreate(all_, row_.front(), row_.back(), row_.front(), row_.back(), &matrix_);
   HYPRE_IJMatrixSetObjectType(matrix_, HYPRE_PARCSR);
   HYPRE_IJMatrixSetRowSizes(matrix_, row_size_.data());
   HYPRE_IJMatrixInitialize(matrix_);
@@ -103,7 +107,7 @@ void HypreRows::cycles(int count) {
 
 int HypreRows::conjugate_gradients(double tolerance, int most_iterations) {
   HYPRE_Solver cg = nullptr;
-  HYPRE_ParCSRPCGCreate(MPI_COMM_SELF, &cg);
+  HYPRE_ParCSRPCGCreate(all_, &cg);
   HYPRE_PCGSetTol(cg, tolerance);
   HYPRE_PCGSetMaxIter(cg, most_iterations);
   HYPRE_PCGSetTwoNorm(cg, 1);

@@ -8,12 +8,15 @@
 #include <span>
 #include <vector>
 
+#include "core/field.hpp"
+
 namespace polybed::core {
 
-/// Rows are filled in order, then assembled; vectors are of the same length.
+/// Rows are filled in order, then assembled; vectors are of the same length. Each rank fills those of its cells.
 class HypreRows {
  public:
-  explicit HypreRows(HYPRE_Int rows);
+  /// \param unknowns  rows for each owned cell; the rows of cell n (core/blocks.hpp) are n unknowns, n unknowns + 1 ...
+  HypreRows(const Grid& grid, int unknowns);
   ~HypreRows();
   HypreRows(const HypreRows&) = delete;
   HypreRows& operator=(const HypreRows&) = delete;
@@ -22,7 +25,10 @@ class HypreRows {
   void begin_row() { first_ = value_.size(); }
   /// Adds to an entry of the present row; across periodic sides of one or two cells both neighbours are one.
   void add(HYPRE_Int column, double value);
-  void end_row(HYPRE_Int row) { row_size_[std::size_t(row)] = HYPRE_Int(value_.size() - first_); }
+  void end_row() { row_size_.push_back(HYPRE_Int(value_.size() - first_)); }
+
+  /// First row of a cell, owned or next to an owned one; below 0 beyond the column's ends.
+  [[nodiscard]] HYPRE_Int row_of(Index cell) const { return HYPRE_Int(numbers_[std::size_t(cell)]) * unknowns_; }
 
   /// The matrix, and its hierarchy of BoomerAMG: HMIS coarsening, extended+i interpolation.
   /// \param functions  unknowns that take turns in the rows
@@ -43,7 +49,9 @@ class HypreRows {
   void clear();
   [[nodiscard]] HYPRE_ParCSRMatrix parcsr() const;
 
-  HYPRE_Int rows_;
+  MPI_Comm all_;
+  HYPRE_Int unknowns_, rows_;
+  Field numbers_;  ///< of the cells
   HYPRE_IJMatrix matrix_ = nullptr;
   HYPRE_IJVector right_ = nullptr, solution_ = nullptr;
   HYPRE_Solver multigrid_ = nullptr;

@@ -7,6 +7,7 @@
 #include <sunlinsol/sunlinsol_spgmr.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <string>
@@ -50,8 +51,9 @@ int guarded(std::exception_ptr& kept, Work&& work) {
 /// The library's own messages are not shown: what it returns is turned into ours.
 void silent(int, const char*, const char*, char*, void*) {}
 
-/// Weighted local error of the last step.
-void report_error(std::span<const double> error, std::span<const double> weight, StepReport& report) {
+/// Weighted local error of the last step; the norm over all ranks, the worst entry of this one.
+void report_error(std::span<const double> error, std::span<const double> weight, const Ranks* ranks,
+                  StepReport& report) {
   double sum = 0;
   for (std::size_t n = 0; n < error.size(); ++n) {
     const double weighted = std::abs(error[n] * weight[n]);
@@ -61,7 +63,9 @@ void report_error(std::span<const double> error, std::span<const double> weight,
       report.worst_entry = n;
     }
   }
-  report.error_norm = std::sqrt(sum / double(error.size()));
+  std::array<double, 2> sums{sum, double(error.size())};
+  add_over_ranks(ranks, sums);
+  report.error_norm = std::sqrt(sums[0] / sums[1]);
 }
 
 std::string flag_name(char* (*name)(long int), int flag) {
@@ -76,10 +80,10 @@ class ExplicitIntegrator : public Integrator {
   ExplicitIntegrator(OdeProblem& problem, ExplicitOptions options)
       : problem_(problem),
         options_(std::move(options)),
-        y_(options_.atol.size(), context_),
-        atol_(options_.atol.size(), context_),
-        error_(options_.atol.size(), context_),
-        weight_(options_.atol.size(), context_) {
+        y_(options_.atol.size(), options_.ranks.get(), context_),
+        atol_(options_.atol.size(), options_.ranks.get(), context_),
+        error_(options_.atol.size(), options_.ranks.get(), context_),
+        weight_(options_.atol.size(), options_.ranks.get(), context_) {
     atol_.assign(options_.atol);
   }
   ~ExplicitIntegrator() override { close(); }
@@ -169,7 +173,7 @@ class ExplicitIntegrator : public Integrator {
     if (options_.fixed_step > 0) return r;
     check(ARKStepGetEstLocalErrors(memory_, error_), "ARKStepGetEstLocalErrors");
     check(ARKStepGetErrWeights(memory_, weight_), "ARKStepGetErrWeights");
-    report_error(error_.span(), weight_.span(), r);
+    report_error(error_.span(), weight_.span(), options_.ranks.get(), r);
     return r;
   }
 
@@ -188,12 +192,12 @@ class ImplicitIntegrator : public Integrator {
   ImplicitIntegrator(DaeProblem& problem, ImplicitOptions options)
       : problem_(problem),
         options_(std::move(options)),
-        y_(options_.atol.size(), context_),
-        dydt_(options_.atol.size(), context_),
-        atol_(options_.atol.size(), context_),
-        id_(options_.atol.size(), context_),
-        error_(options_.atol.size(), context_),
-        weight_(options_.atol.size(), context_) {
+        y_(options_.atol.size(), options_.ranks.get(), context_),
+        dydt_(options_.atol.size(), options_.ranks.get(), context_),
+        atol_(options_.atol.size(), options_.ranks.get(), context_),
+        id_(options_.atol.size(), options_.ranks.get(), context_),
+        error_(options_.atol.size(), options_.ranks.get(), context_),
+        weight_(options_.atol.size(), options_.ranks.get(), context_) {
     atol_.assign(options_.atol);
     id_.assign(options_.id);
   }
@@ -239,7 +243,7 @@ class ImplicitIntegrator : public Integrator {
     check(IDAGetErrWeights(memory_, weight_), "IDAGetErrWeights");
     const auto error = error_.span(), id = id_.span();
     for (std::size_t n = 0; n < error.size(); ++n) error[n] *= id[n];
-    report_error(error, weight_.span(), r);
+    report_error(error, weight_.span(), options_.ranks.get(), r);
     return r;
   }
 

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/ranks.hpp"
+
 namespace polybed::core {
 
 /// What an evaluation says: fine, or try again with a smaller step. Exceptions thrown by a problem pass
@@ -33,7 +35,7 @@ class DaeProblem {
 struct StepReport {
   double time = 0, step = 0, next_step = 0;  ///< s
   double error_norm = 0;                     ///< weighted root mean square of the local error; accepted below 1
-  std::size_t worst_entry = 0;               ///< where the weighted local error is largest
+  std::size_t worst_entry = 0;               ///< where this rank's weighted local error is largest
   double worst_error = 0;                    ///< that error over its weight
   int order = 0;
 };
@@ -62,14 +64,16 @@ class Integrator {
 
 struct ExplicitOptions {
   double rtol = 1e-4;
-  std::vector<double> atol;  ///< per entry
-  double fixed_step = 0;     ///< s; > 0: steps of one length, no error control
+  std::vector<double> atol;                      ///< per entry
+  double fixed_step = 0;                         ///< s; > 0: steps of one length, no error control
+  std::shared_ptr<const Ranks> ranks = nullptr;  ///< that hold parts of the state; null: it is all here
 };
 
 struct ImplicitOptions {
   double rtol = 1e-4;
-  std::vector<double> atol;  ///< per entry
-  std::vector<double> id;    ///< 1: differential, 0: algebraic (left out of the error test)
+  std::vector<double> atol;                      ///< per entry
+  std::vector<double> id;                        ///< 1: differential, 0: algebraic (left out of the error test)
+  std::shared_ptr<const Ranks> ranks = nullptr;  ///< that hold parts of the state; null: it is all here
   int max_order = 2;
   double linear_tolerance = 0.02;  ///< of the linear solve, relative to that of Newton
   int krylov_vectors = 30;

@@ -1,10 +1,13 @@
 #include "core/integrator_vector.hpp"
 
+#include <nvector/nvector_parallel.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/mpi.hpp"
 
 // Loops over entries, compiled for wider vectors as well, the widest that the processor has being chosen when the
 // program starts; without fused multiply-adds (-ffp-contract=off) all give the same bits.
@@ -67,14 +70,30 @@ double wrms_norm(N_Vector x, N_Vector w) {
   return std::sqrt(weighted_square_sum_of(values.data(), entries(w).data(), values.size()) / double(values.size()));
 }
 
+double wrms_norm_of_ranks(N_Vector x, N_Vector w) {
+  const std::span<double> values = entries(x);
+  const double part = weighted_square_sum_of(values.data(), entries(w).data(), values.size());
+  double sum = 0;
+  check_mpi(MPI_Allreduce(&part, &sum, 1, MPI_DOUBLE, MPI_SUM, NV_COMM_P(x)), "MPI_Allreduce");
+  return std::sqrt(sum / double(NV_GLOBLENGTH_P(x)));
+}
+
+N_Vector new_vector(std::size_t size, const Ranks* ranks, SUNContext context) {
+  if (ranks == nullptr) return N_VNew_Serial(sunindextype(size), context);
+  const MPI_Comm all = communicator(ranks);
+  long long part = static_cast<long long>(size), sum = 0;
+  check_mpi(MPI_Allreduce(&part, &sum, 1, MPI_LONG_LONG, MPI_SUM, all), "MPI_Allreduce");
+  return N_VNew_Parallel(all, sunindextype(size), sunindextype(sum), context);
+}
+
 }  // namespace
 
-Vector::Vector(std::size_t size, SUNContext context) : vector_(N_VNew_Serial(sunindextype(size), context)) {
+Vector::Vector(std::size_t size, const Ranks* ranks, SUNContext context) : vector_(new_vector(size, ranks, context)) {
   if (vector_ == nullptr) throw NumericsError("no memory for the state");
   vector_->ops->nvlinearsum = linear_sum;
   vector_->ops->nvscale = scale;
   vector_->ops->nvlinearcombination = linear_combination;
-  vector_->ops->nvwrmsnorm = wrms_norm;
+  vector_->ops->nvwrmsnorm = ranks == nullptr ? wrms_norm : wrms_norm_of_ranks;
   N_VConst(0, vector_);
 }
 
@@ -82,6 +101,9 @@ std::span<double> Vector::span() const { return entries(vector_); }
 
 void Vector::assign(std::span<const double> values) const { std::copy(values.begin(), values.end(), span().begin()); }
 
-std::span<double> entries(N_Vector v) { return {N_VGetArrayPointer(v), std::size_t(N_VGetLength(v))}; }
+std::span<double> entries(N_Vector v) {
+  const bool parallel = N_VGetVectorID(v) == SUNDIALS_NVEC_PARALLEL;
+  return {N_VGetArrayPointer(v), std::size_t(parallel ? NV_LOCLENGTH_P(v) : N_VGetLength(v))};
+}
 
 }  // namespace polybed::core

@@ -2,14 +2,13 @@
 
 #include <HYPRE.h>
 #include <HYPRE_struct_ls.h>
-#include <mpi.h>
-
 #include <algorithm>
 #include <vector>
 
 #include "core/direct_solver.hpp"
 #include "core/error.hpp"
 #include "core/linear_solver_algebraic.hpp"
+#include "core/mpi.hpp"
 
 namespace polybed::core {
 
@@ -31,9 +30,7 @@ bool long_cells(const Grid& grid) {
 
 void open_linear_solvers() {
   static const int opened = [] {
-    int mpi = 0;
-    MPI_Initialized(&mpi);
-    if (mpi == 0) MPI_Init(nullptr, nullptr);
+    open_mpi();
     return HYPRE_Init();
   }();
   if (opened != 0) throw NumericsError("hypre cannot be started");
@@ -41,6 +38,7 @@ void open_linear_solvers() {
 
 struct PoissonSolver::Hypre {
   int dimensions;
+  MPI_Comm all;
   std::array<HYPRE_Int, 3> lower{0, 0, 0}, upper{0, 0, 0};
   HYPRE_StructGrid grid = nullptr;
   HYPRE_StructStencil stencil = nullptr;
@@ -48,14 +46,15 @@ struct PoissonSolver::Hypre {
   HYPRE_StructVector source = nullptr, solution = nullptr;
   std::vector<double> entries, packed;
 
-  explicit Hypre(const Grid& g) : dimensions(g.dimensions) {
+  explicit Hypre(const Grid& g) : dimensions(g.dimensions), all(communicator(g)) {
     open_linear_solvers();
     std::array<HYPRE_Int, 3> period{0, 0, 0};
     for (std::size_t d = 0; d < 3; ++d) {
-      upper[d] = g.cells[d] - 1;
-      if (g.periodic[d]) period[d] = g.cells[d];
+      lower[d] = g.before[d];
+      upper[d] = g.before[d] + g.cells[d] - 1;
+      if (g.periodic[d]) period[d] = g.column_cells(int(d));
     }
-    HYPRE_StructGridCreate(MPI_COMM_SELF, dimensions, &grid);
+    HYPRE_StructGridCreate(all, dimensions, &grid);
     HYPRE_StructGridSetExtents(grid, lower.data(), upper.data());
     HYPRE_StructGridSetPeriodic(grid, period.data());
     HYPRE_StructGridAssemble(grid);
@@ -67,11 +66,11 @@ struct PoissonSolver::Hypre {
       offset[std::size_t(d)] = 1;
       HYPRE_StructStencilSetElement(stencil, d + 1, offset.data());
     }
-    HYPRE_StructMatrixCreate(MPI_COMM_SELF, grid, stencil, &matrix);
+    HYPRE_StructMatrixCreate(all, grid, stencil, &matrix);
     HYPRE_StructMatrixSetSymmetric(matrix, 1);
     HYPRE_StructMatrixInitialize(matrix);
     for (HYPRE_StructVector* v : {&source, &solution}) {
-      HYPRE_StructVectorCreate(MPI_COMM_SELF, grid, v);
+      HYPRE_StructVectorCreate(all, grid, v);
       HYPRE_StructVectorInitialize(*v);
     }
     entries.resize(g.cell_count() * std::size_t(dimensions + 1));
@@ -110,11 +109,11 @@ struct PoissonSolver::Hypre {
     HYPRE_StructMatrixAssemble(matrix);
   }
 
-  /// Entries that reach beyond the grid must be zero; their part of the diagonal stays (Dirichlet) by itself.
+  /// Entries that reach beyond the column must be zero; their part of the diagonal stays (Dirichlet) by itself.
   void drop_outward(const Grid& g) {
     const auto n = g.cells;
     for (int d = 0; d < dimensions; ++d) {
-      if (g.periodic[std::size_t(d)]) continue;
+      if (!g.ends(d, 1)) continue;
       Box last = owned_cells(g);
       last.lo[std::size_t(d)] = n[std::size_t(d)] - 1;
       for (int k = last.lo[2]; k < last.hi[2]; ++k)
@@ -154,11 +153,11 @@ struct PoissonSolver::Hypre {
   /// Conjugate gradients with one PFMG cycle as preconditioner; returns the iterations.
   int conjugate_gradients(double tolerance) {
     HYPRE_StructSolver cg = nullptr, multigrid = nullptr;
-    HYPRE_StructPCGCreate(MPI_COMM_SELF, &cg);
+    HYPRE_StructPCGCreate(all, &cg);
     HYPRE_StructPCGSetTol(cg, tolerance);
     HYPRE_StructPCGSetMaxIter(cg, most_iterations);
     HYPRE_StructPCGSetTwoNorm(cg, 1);
-    HYPRE_StructPFMGCreate(MPI_COMM_SELF, &multigrid);
+    HYPRE_StructPFMGCreate(all, &multigrid);
     HYPRE_StructPFMGSetMaxIter(multigrid, 1);
     HYPRE_StructPFMGSetTol(multigrid, 0);
     HYPRE_StructPFMGSetZeroGuess(multigrid);
@@ -175,54 +174,62 @@ struct PoissonSolver::Hypre {
   }
 };
 
-PoissonSolver::PoissonSolver(const Grid& grid) : grid_(grid), hypre_(std::make_unique<Hypre>(grid)) {}
+PoissonSolver::PoissonSolver(const Grid& grid) : grid_(grid), halo_(grid), hypre_(std::make_unique<Hypre>(grid)) {}
 PoissonSolver::~PoissonSolver() = default;
 PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
 PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
 
 namespace {
 
-/// Takes the mean over the owned cells out of a field.
+void subtract(const Grid& grid, double constant, Field& field) {
+  for_each_row(grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) field[std::size_t(c)] -= constant;
+  });
+}
+
+/// Takes the mean over the column out of a field.
 void remove_mean(const Grid& grid, Field& field) {
   double sum = 0;
   for_each_row(grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) sum += field[std::size_t(c)];
   });
-  const double mean = sum / double(grid.cell_count());
-  for_each_row(grid, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) field[std::size_t(c)] -= mean;
-  });
+  subtract(grid, sum_of_ranks(grid, sum) / double(grid.column_cell_count()), field);
 }
 
 }  // namespace
 
 PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const double> shift,
                                    const Field& given_source, Field& p, double tolerance) {
-  Field balanced;
+  Field balanced, pinned;
   const bool constant_open = leaves_constant_open(grid_, coefficient, shift);
   if (constant_open) {
     balanced = given_source;
     remove_mean(grid_, balanced);
+    pinned = make_field(grid_);
+    double& first = pinned[std::size_t(grid_.index(0, 0))];
+    first = pin_of_first_cell(grid_, coefficient, shift);
+    subtract(grid_, sum_of_ranks(grid_, first > 0 ? p[std::size_t(grid_.index(0, 0))] : 0), p);
   }
+  const std::span<const double> diagonal = constant_open ? std::span<const double>(pinned) : shift;
   const Field& source = constant_open ? balanced : given_source;
   PoissonResult result;
   // The residual that the iteration carries along and the true one drift apart by round-off: twice is granted.
   const auto judge = [&](const char* solver, bool fine) {
     result.solver = solver;
-    result.residual = relative_residual(grid_, coefficient, shift, source, p);
+    result.residual = relative_residual(grid_, halo_, coefficient, shift, source, p);
     result.converged = fine && result.residual <= 2 * tolerance;
   };
   if (!long_cells(grid_)) {
-    result.iterations = hypre_->solve(grid_, coefficient, shift, source, p, tolerance);
+    result.iterations = hypre_->solve(grid_, coefficient, diagonal, source, p, tolerance);
     const bool error = HYPRE_GetError() != 0;
     HYPRE_ClearAllErrors();
-    judge("PCG + PFMG", !error);
+    judge("PCG + PFMG", on_all_ranks(grid_, !error));
   }
   if (!result.converged) {
-    result.iterations += solve_algebraically(grid_, coefficient, shift, source, p, tolerance);
+    result.iterations += solve_algebraically(grid_, coefficient, diagonal, source, p, tolerance);
     judge("PCG + BoomerAMG", true);
   }
-  if (!result.converged && grid_.cell_count() <= most_cells_of_factorisation)
+  if (!result.converged && !grid_.ranks && grid_.cell_count() <= most_cells_of_factorisation)
     judge("direct", solve_directly(grid_, coefficient, shift, source, p));
   if (constant_open) remove_mean(grid_, p);
   return result;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "core/field.hpp"
+#include "core/halo.hpp"
 
 namespace polybed::core {
 
@@ -22,7 +22,7 @@ struct PoissonResult {
   const char* solver = "";  ///< which one gave the answer
 };
 
-/// Solves shift p - div(B grad p) = source on the owned cells.
+/// Solves shift p - div(B grad p) = source on the cells of the column. Collective.
 /// The coefficient on a boundary face says what holds there: 0, no flux; else p = 0 in the centre of the
 /// ghost cell. Everything is set up anew for each solve: a multigrid hierarchy kept from other coefficients
 /// can stop at once and report a residual of zero.
@@ -42,6 +42,7 @@ class PoissonSolver {
  private:
   struct Hypre;
   Grid grid_;
+  Halo halo_;
   std::unique_ptr<Hypre> hypre_;
 };
 
@@ -55,9 +56,10 @@ class BlockSolver {
   BlockSolver(BlockSolver&&) noexcept;
   BlockSolver& operator=(BlockSolver&&) noexcept;
 
-  /// Builds the matrix and its multigrid hierarchy; false if the library refuses.
+  /// Builds the matrix and its multigrid hierarchy; false if the library refuses. Ghosts of the slope must be filled.
+  /// \param diagonal_p  on cells, >= 0; empty: 0
   [[nodiscard]] bool setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
-                           const Field& slope, double diagonal_p, double c);
+                           const Field& slope, const Field& diagonal_p, double c);
   /// p, s start from zero; owned cells.
   void apply(const Field& r1, const Field& r2, Field& p, Field& s, int cycles);
 

@@ -12,30 +12,24 @@ constexpr int most_iterations = 200;
 
 /// The same rows as the structured matrix has, cell by cell.
 void fill(const Grid& grid, const FaceSpans& coefficient, std::span<const double> shift, HypreRows& rows) {
-  const auto cells = grid.cells;
-  const std::array<HYPRE_Int, 3> jump{1, cells[0], cells[0] * cells[1]};
-  HYPRE_Int cell = 0;
   rows.begin();
-  for (int k = 0; k < cells[2]; ++k)
-    for (int j = 0; j < cells[1]; ++j)
-      for (int i = 0; i < cells[0]; ++i, ++cell) {
-        const Index at = grid.index(i, j, k);
-        const std::array<int, 3> here{i, j, k};
-        rows.begin_row();
-        rows.add(cell, shift.empty() ? 0.0 : shift[std::size_t(at)]);
-        for (int d = 0; d < grid.dimensions; ++d) {
-          const auto a = std::size_t(d);
-          for (const int side : {-1, 1}) {
-            const double b = coefficient[a][std::size_t(at + (side < 0 ? 0 : grid.stride(d)))];
-            const double value = b / (grid.spacing[a] * grid.spacing[a]);
-            rows.add(cell, value);
-            const bool inside = here[a] + side >= 0 && here[a] + side < cells[a];
-            if (!inside && !grid.periodic[a]) continue;
-            rows.add(cell + side * (inside ? 1 : 1 - cells[a]) * jump[a], -value);
-          }
+  for_each_row(grid, [&](Index begin, Index end) {
+    for (Index cell = begin; cell < end; ++cell) {
+      rows.begin_row();
+      rows.add(rows.row_of(cell), shift.empty() ? 0.0 : shift[std::size_t(cell)]);
+      for (int d = 0; d < grid.dimensions; ++d) {
+        const auto a = std::size_t(d);
+        for (const int side : {-1, 1}) {
+          const double b = coefficient[a][std::size_t(cell + (side < 0 ? 0 : grid.stride(d)))];
+          const double value = b / (grid.spacing[a] * grid.spacing[a]);
+          rows.add(rows.row_of(cell), value);
+          const HYPRE_Int beyond = rows.row_of(cell + side * grid.stride(d));
+          if (beyond >= 0) rows.add(beyond, -value);
         }
-        rows.end_row(cell);
       }
+      rows.end_row();
+    }
+  });
 }
 
 std::vector<double> packed(const Grid& grid, const Field& field) {
@@ -50,7 +44,7 @@ std::vector<double> packed(const Grid& grid, const Field& field) {
 
 int solve_algebraically(const Grid& grid, const FaceSpans& coefficient, std::span<const double> shift,
                         const Field& source, Field& p, double tolerance) {
-  HypreRows rows(HYPRE_Int(grid.cell_count()));
+  HypreRows rows(grid, 1);
   fill(grid, coefficient, shift, rows);
   std::vector<double> solution = packed(grid, p);
   rows.set_right(packed(grid, source));

@@ -1,7 +1,9 @@
 #include <vector>
 
+#include "core/direct_solver.hpp"
 #include "core/hypre_rows.hpp"
 #include "core/linear_solver.hpp"
+#include "core/ranks.hpp"
 
 namespace polybed::core {
 
@@ -9,7 +11,7 @@ namespace polybed::core {
 struct BlockSolver::Hypre {
   HypreRows rows;
   std::vector<double> packed;
-  explicit Hypre(const Grid& grid) : rows(HYPRE_Int(2 * grid.cell_count())), packed(2 * grid.cell_count()) {}
+  explicit Hypre(const Grid& grid) : rows(grid, 2), packed(2 * grid.cell_count()) {}
 };
 
 BlockSolver::BlockSolver(const Grid& grid) : grid_(grid), hypre_(std::make_unique<Hypre>(grid)) {}
@@ -18,51 +20,43 @@ BlockSolver::BlockSolver(BlockSolver&&) noexcept = default;
 BlockSolver& BlockSolver::operator=(BlockSolver&&) noexcept = default;
 
 bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
-                        const Field& slope, double diagonal_p, double c) {
+                        const Field& slope, const Field& diagonal_p, double c) {
   HypreRows& rows = hypre_->rows;
   rows.begin();
-  const auto cells = grid_.cells;
-  const std::array<HYPRE_Int, 3> jump{1, cells[0], cells[0] * cells[1]};
-  HYPRE_Int cell = 0;
-  /// Flux of one unknown's equation through one face of cell (i, j, k): there, and to the cell beyond.
-  const auto couple = [&](const std::array<int, 3>& here, int d, int side, double of_p, double of_s) {
-    const auto a = std::size_t(d);
-    std::array<int, 3> beyond = here;
-    beyond[a] += side;
-    HYPRE_Int other = cell + side * jump[a];
-    rows.add(2 * cell, of_p);
-    if (beyond[a] < 0 || beyond[a] >= cells[a]) {
-      if (!grid_.periodic[a]) return;
-      beyond[a] -= side * cells[a];
-      other -= side * HYPRE_Int(cells[a]) * jump[a];
-    }
-    rows.add(2 * cell + 1, of_s * slope[std::size_t(grid_.index(here[0], here[1], here[2]))]);
-    rows.add(2 * other, -of_p);
-    rows.add(2 * other + 1, -of_s * slope[std::size_t(grid_.index(beyond[0], beyond[1], beyond[2]))]);
+  /// Flux of one unknown's equation through one face of a cell: there, and to the cell beyond.
+  const auto couple = [&](Index cell, Index beyond, double of_p, double of_s) {
+    rows.add(rows.row_of(cell), of_p);
+    if (rows.row_of(beyond) < 0) return;
+    rows.add(rows.row_of(cell) + 1, of_s * slope[std::size_t(cell)]);
+    rows.add(rows.row_of(beyond), -of_p);
+    rows.add(rows.row_of(beyond) + 1, -of_s * slope[std::size_t(beyond)]);
   };
-  for (int k = 0; k < cells[2]; ++k)
-    for (int j = 0; j < cells[1]; ++j)
-      for (int i = 0; i < cells[0]; ++i, ++cell)
-        for (int unknown = 0; unknown < 2; ++unknown) {
-          const FaceSpans& of_p = unknown == 0 ? c11 : c21;
-          const FaceSpans& of_s = unknown == 0 ? c12 : c22;
-          rows.begin_row();
-          rows.add(2 * cell, unknown == 0 ? diagonal_p : 0.0);
-          rows.add(2 * cell + 1, unknown == 0 ? 0.0 : c);
-          for (int d = 0; d < grid_.dimensions; ++d) {
-            const auto a = std::size_t(d);
-            const double w = 1 / (grid_.spacing[a] * grid_.spacing[a]);
-            for (const int side : {-1, 1}) {
-              const auto face = std::size_t(grid_.index(i, j, k) + (side < 0 ? 0 : grid_.stride(d)));
-              couple({i, j, k}, d, side, w * of_p[a][face], w * of_s[a][face]);
-            }
-          }
-          rows.end_row(2 * cell + unknown);
-        }
+  const double pin = diagonal_p.empty() ? pin_of_first_cell(grid_, c11, {}) : 0;
+  const auto add_row = [&](Index cell, int unknown, const FaceSpans& of_p, const FaceSpans& of_s) {
+    rows.begin_row();
+    rows.add(rows.row_of(cell), unknown == 0 && !diagonal_p.empty() ? diagonal_p[std::size_t(cell)] : 0.0);
+    if (unknown == 0 && cell == grid_.index(0, 0)) rows.add(rows.row_of(cell), pin);
+    rows.add(rows.row_of(cell) + 1, unknown == 0 ? 0.0 : c);
+    for (int d = 0; d < grid_.dimensions; ++d) {
+      const auto a = std::size_t(d);
+      const double w = 1 / (grid_.spacing[a] * grid_.spacing[a]);
+      for (const int side : {-1, 1}) {
+        const auto face = std::size_t(cell + (side < 0 ? 0 : grid_.stride(d)));
+        couple(cell, cell + side * grid_.stride(d), w * of_p[a][face], w * of_s[a][face]);
+      }
+    }
+    rows.end_row();
+  };
+  for_each_row(grid_, [&](Index begin, Index end) {
+    for (Index cell = begin; cell < end; ++cell) {
+      add_row(cell, 0, c11, c12);
+      add_row(cell, 1, c21, c22);
+    }
+  });
   rows.assemble(2, false);
   const bool fine = HYPRE_GetError() == 0;
   HYPRE_ClearAllErrors();
-  return fine;
+  return on_all_ranks(grid_, fine);
 }
 
 void BlockSolver::apply(const Field& r1, const Field& r2, Field& p, Field& s, int cycles) {

@@ -95,12 +95,13 @@ FaceField cell_means(const Grid& grid, const FaceField& faces) {
   FaceField means = make_face_field(grid);
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const int count = grid.cells[std::size_t(axis)];
+    const bool joined = grid.periodic[std::size_t(axis)] && !grid.divided(axis);
     for (int k = 0; k < grid.cells[2]; ++k)
       for (int j = 0; j < grid.cells[1]; ++j)
         for (int i = 0; i < grid.cells[0]; ++i) {
           std::array<int, 3> high{i, j, k};
           int& along = high[std::size_t(axis)];
-          along = grid.periodic[std::size_t(axis)] && along + 1 == count ? 0 : along + 1;
+          along = joined && along + 1 == count ? 0 : along + 1;
           const auto& f = faces[std::size_t(axis)];
           const auto here = std::size_t(grid.index(i, j, k));
           means[std::size_t(axis)][here] = 0.5 * (f[here] + f[std::size_t(grid.index(high[0], high[1], high[2]))]);

@@ -29,7 +29,7 @@ struct FieldName {
 using FieldValues = std::vector<std::span<const double>>;
 
 /// Means of a face field over the two faces of each owned cell: a velocity at cell centres, padded, ghosts
-/// zero. Across periodic sides the first face stands for the last one.
+/// zero. Across joined sides the first face stands for the last one; a block's last face must have been fetched.
 [[nodiscard]] FaceField cell_means(const Grid& grid, const FaceField& faces);
 
 class FieldWriter {

@@ -32,6 +32,7 @@ class Checker {
   void species();
   void bed(bool by_particles);
   void jets();
+  void fluid();
   void numerics();
   [[nodiscard]] Problems problems() && { return std::move(problems_); }
 
@@ -147,6 +148,16 @@ void Checker::bed(bool by_particles) {
         scene_.column.size[1]);
 }
 
+void Checker::fluid() {
+  const Fluid& fluid = scene_.fluid;
+  const std::string& law = fluid.equation_of_state;
+  if (fluid.name == "none") add("fluid.name = \"none\" is a scene for the DEM, which is not in this version");
+  if (law == "ideal_gas" && fluid.name == "water")
+    add("fluid.equation_of_state = \"ideal_gas\": water is a liquid; \"tait\" is the law of a compressible liquid");
+  if (law == "tait" && fluid.name == "air")
+    add("fluid.equation_of_state = \"tait\": air is a gas; \"ideal_gas\" is its law");
+}
+
 void Checker::numerics() {
   const Tfm& tfm = scene_.tfm;
   if (tfm.fixed_step && tfm.integrator == "implicit") add("tfm.fixed_step works with the explicit integrator only");
@@ -154,7 +165,6 @@ void Checker::numerics() {
     add("tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past "
         "packing",
         tfm.rtol);
-  if (scene_.fluid.name == "none") add("fluid.name = \"none\" is a scene for the DEM, which is not in this version");
   if (scene_.effects.contains("solids_stress") && tfm.max_packing == "auto" &&
       scene_.bed.solids_fraction <= tfm.frictional_onset)
     add("bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
@@ -230,6 +240,7 @@ std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool by_
   checker.jets();
   checker.species();
   checker.bed(by_particles);
+  checker.fluid();
   checker.numerics();
   return std::move(checker).problems();
 }

@@ -29,6 +29,9 @@ struct Fluid {
   std::optional<double> density;      ///< kg/m3
   std::optional<double> viscosity;    ///< Pa s
   std::string equation_of_state = "incompressible";
+  double outlet_pressure = 101325;  ///< absolute, at the top of the column, Pa
+  double tait_stiffness = 3.0e8;    ///< B of the Tait liquid, Pa
+  double tait_exponent = 7;         ///< its n
 };
 
 struct Species {
@@ -74,16 +77,25 @@ struct OutputPlan {
 struct Tfm {
   std::string integrator = "auto";  ///< auto | explicit | implicit
   double rtol = 1e-4;
-  std::string flux = "limited";              ///< limited | upwind: the volume fractions
-  std::string momentum = "upwind";           ///< convection of momentum
-  std::string solids_wall = "free_slip";     ///< free_slip | no_slip
-  std::string max_packing = "auto";          ///< auto (from bed.solids_fraction) | a number
-  double frictional_pressure = 0.05;         ///< Fr of p_f, Pa
-  double frictional_onset = 0.5;             ///< solids fraction above which p_f acts
-  double bulk_viscosity = 1;                 ///< alpha
-  double exchange_pressure = 0;              ///< C_s of species exchange, s/m2
-  std::optional<double> fixed_step;          ///< s: steps of one length, without error control (explicit only)
-  std::optional<double> pressure_tolerance;  ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
+  std::string flux = "limited";                  ///< limited | upwind: the volume fractions
+  std::string momentum = "upwind";               ///< convection of momentum
+  std::string solids_wall = "free_slip";         ///< free_slip | no_slip | johnson_jackson
+  std::string max_packing = "auto";              ///< auto (from bed.solids_fraction) | a number
+  double frictional_pressure = 0.05;             ///< Fr of p_f, Pa
+  double frictional_onset = 0.5;                 ///< solids fraction above which p_f acts
+  double bulk_viscosity = 1;                     ///< alpha
+  double friction_angle = 28.5;                  ///< delta of Schaeffer's viscosity, degrees
+  double viscosity_cap = 10;                     ///< greatest frictional viscosity, Pa s
+  double least_shear_rate = 1;                   ///< gamma_0 of the frictional viscosity, 1/s
+  std::string kinetic_theory = "garzo_dufty";    ///< garzo_dufty | lun
+  std::string radial_distribution = "torquato";  ///< torquato | carnahan_starling
+  double start_temperature = 1e-6;               ///< theta_j at the start where it is transported, m2/s2
+  double specularity = 0.1;                      ///< s of Johnson and Jackson's wall
+  double wall_restitution = 0.9;                 ///< e_w likewise
+  double wall_friction = 0.2;                    ///< tan(delta_w) of Johnson and Jackson's wall
+  double exchange_pressure = 0;                  ///< C_s of species exchange, s/m2
+  std::optional<double> fixed_step;              ///< s: steps of one length, without error control (explicit only)
+  std::optional<double> pressure_tolerance;      ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
 };
 
 struct Dem {

@@ -4,37 +4,9 @@
 
 namespace polybed::fluid {
 
-using core::Box;
 using core::Field;
+using core::for_each_layer_row;
 using core::Index;
-
-namespace {
-
-/// Rows of one layer of the padded box across an axis, the ghosts of the other axes included, so that corners
-/// are filled too when the axes are treated in turn.
-template <class Body>
-void for_each_layer_row(const core::Grid& grid, int axis, int layer, Body&& body) {
-  Box box{{-grid.ghosts(0), -grid.ghosts(1), -grid.ghosts(2)}, {}};
-  for (std::size_t d = 0; d < 3; ++d) box.hi[d] = grid.cells[d] + grid.ghosts(int(d));
-  box.lo[std::size_t(axis)] = layer;
-  box.hi[std::size_t(axis)] = layer + 1;
-  core::for_each_row(grid, box, body);
-}
-
-}  // namespace
-
-void Boundaries::copy_periodic(Field& field, int axis) const {
-  const int n = grid_.cells[std::size_t(axis)];
-  const Index period = n * grid_.stride(axis);
-  for (int layer = 0; layer < grid_.ghosts(axis); ++layer) {
-    for_each_layer_row(grid_, axis, n + layer, [&](Index begin, Index end) {
-      for (Index c = begin; c < end; ++c) field[std::size_t(c)] = field[std::size_t(c - period)];
-    });
-    for_each_layer_row(grid_, axis, -1 - layer, [&](Index begin, Index end) {
-      for (Index c = begin; c < end; ++c) field[std::size_t(c)] = field[std::size_t(c + period)];
-    });
-  }
-}
 
 /// Ghost layers as sign times the mirror image: about the boundary face for entries on cells (or faces of
 /// another axis), about the boundary face itself for entries on faces of this axis.
@@ -43,12 +15,13 @@ void Boundaries::fill_beyond(Field& field, int axis, double sign_low, double sig
   const Index s = grid_.stride(axis);
   for (int layer = 1; layer <= grid_.ghosts(axis); ++layer) {
     const int low = -layer, low_mirror = on_faces ? layer : layer - 1;
-    for_each_layer_row(grid_, axis, low, [&](Index begin, Index end) {
-      const Index shift = (std::min(low_mirror, n - 1) - low) * s;
-      for (Index c = begin; c < end; ++c) field[std::size_t(c)] = sign_low * field[std::size_t(c + shift)];
-    });
-    const int high = on_faces ? n + layer : n - 1 + layer, high_mirror = on_faces ? n - layer : n - layer;
-    if (high >= n + grid_.ghosts(axis)) continue;
+    if (grid_.ends(axis, 0))
+      for_each_layer_row(grid_, axis, low, [&](Index begin, Index end) {
+        const Index shift = (std::min(low_mirror, n - 1) - low) * s;
+        for (Index c = begin; c < end; ++c) field[std::size_t(c)] = sign_low * field[std::size_t(c + shift)];
+      });
+    const int high = on_faces ? n + layer : n - 1 + layer, high_mirror = n - layer;
+    if (high >= n + grid_.ghosts(axis) || !grid_.ends(axis, 1)) continue;
     for_each_layer_row(grid_, axis, high, [&](Index begin, Index end) {
       const Index shift = (high - std::max(high_mirror, 0)) * s;
       for (Index c = begin; c < end; ++c) field[std::size_t(c)] = sign_high * field[std::size_t(c - shift)];
@@ -60,43 +33,69 @@ void Boundaries::fill_beyond(Field& field, int axis, double sign_low, double sig
 void Boundaries::copy_outward(Field& u) const {
   const Index s = grid_.stride(1);
   const int n = grid_.cells[1];
-  for_each_layer_row(grid_, 1, n + 1, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) u[std::size_t(c)] = u[std::size_t(c - s)];
-  });
-  for (int layer = -1; layer >= -grid_.ghosts(1); --layer)
+  if (grid_.ends(1, 1))
+    for_each_layer_row(grid_, 1, n + 1, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) u[std::size_t(c)] = u[std::size_t(c - s)];
+    });
+  for (int layer = -1; layer >= -grid_.ghosts(1) && grid_.ends(1, 0); --layer)
     for_each_layer_row(grid_, 1, layer, [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) u[std::size_t(c)] = u[std::size_t(c + s)];
     });
 }
 
-void Boundaries::fill_cells(Field& field) const {
-  for (int axis = 0; axis < grid_.dimensions; ++axis)
-    if (grid_.periodic[std::size_t(axis)])
-      copy_periodic(field, axis);
-    else
-      fill_beyond(field, axis, 1, 1, false);
+/// What lies beyond the column's ends across one axis.
+void Boundaries::fill_walls(const Ghosts& wanted, int axis) const {
+  if (wanted.kind == Ghosts::Kind::joined) return;
+  const double along_wall = wanted.slip == WallSlip::no_slip ? -1 : 1;
+  const bool open_top = axis == 1 && !closed_;
+  if (wanted.kind == Ghosts::Kind::cells)
+    fill_beyond(*wanted.field, axis, 1, 1, false);
+  else if (axis == wanted.component)
+    fill_beyond(*wanted.field, axis, -1, -1, true);
+  else
+    fill_beyond(*wanted.field, axis, along_wall, open_top ? 1 : along_wall, false);
+}
+
+void Boundaries::fill(std::span<const Ghosts> wanted) const {
+  exchanged_.clear();
+  for (const Ghosts& ghosts : wanted) exchanged_.push_back(ghosts.field);
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    halo_.exchange(exchanged_, axis);
+    for (const Ghosts& ghosts : wanted) fill_walls(ghosts, axis);
+  }
+  for (const Ghosts& ghosts : wanted)
+    if (ghosts.kind == Ghosts::Kind::velocity && ghosts.component == 1 && !closed_) copy_outward(*ghosts.field);
+}
+
+void Boundaries::fill_cells(Field& field) const { fill_cells(std::span(&field, 1)); }
+
+void Boundaries::fill_cells(std::span<Field> fields) const {
+  wanted_.clear();
+  for (Field& field : fields) wanted_.push_back({Ghosts::Kind::cells, &field});
+  fill(wanted_);
 }
 
 void Boundaries::fill_velocity(core::FaceField& velocity, WallSlip slip) const {
-  const double along_wall = slip == WallSlip::no_slip ? -1 : 1;
-  for (int component = 0; component < grid_.dimensions; ++component) {
-    Field& u = velocity[std::size_t(component)];
-    for (int axis = 0; axis < grid_.dimensions; ++axis) {
-      const bool open_top = axis == 1 && !closed_;
-      if (grid_.periodic[std::size_t(axis)])
-        copy_periodic(u, axis);
-      else if (axis == component)
-        fill_beyond(u, axis, -1, -1, true);
-      else
-        fill_beyond(u, axis, along_wall, open_top ? 1 : along_wall, false);
-    }
-    if (component == 1 && !closed_ && !grid_.periodic[1]) copy_outward(u);
+  wanted_.clear();
+  for (int component = 0; component < grid_.dimensions; ++component)
+    wanted_.push_back({Ghosts::Kind::velocity, &velocity[std::size_t(component)], component, slip});
+  fill(wanted_);
+}
+
+void Boundaries::join(Field& on_faces, int axis) const {
+  Field* const field = &on_faces;
+  halo_.exchange(std::span(&field, 1), axis);
+}
+
+void Boundaries::join(core::FaceField& faces, core::FaceField& others) const {
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const std::array<Field*, 2> both{&faces[std::size_t(axis)], &others[std::size_t(axis)]};
+    halo_.exchange(both, axis);
   }
 }
 
 void Boundaries::hold_boundary(core::FaceField& faces, double value) const {
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
-    if (grid_.periodic[std::size_t(axis)]) continue;
     for (int side = 0; side < 2; ++side)
       for_each_boundary_row(grid_, axis, side, [&](Index begin, Index end) {
         std::fill(faces[std::size_t(axis)].begin() + begin, faces[std::size_t(axis)].begin() + end, value);

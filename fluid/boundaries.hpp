@@ -1,60 +1,87 @@
-// Values of fields in the ghost entries around the column: walls, distributor, outlet, periodic sides.
+// Values of fields in the ghost entries around a block: walls, distributor, outlet, joined sides, other ranks' cells.
 #pragma once
 
-#include "core/field.hpp"
+#include <span>
+
+#include "core/halo.hpp"
 
 namespace polybed::fluid {
 
 /// What a velocity does along a wall.
 enum class WallSlip { no_slip, free_slip };
 
+/// A field whose ghosts are wanted. `joined`: only those that other cells own, across joined sides or on other ranks.
+struct Ghosts {
+  enum class Kind { cells, velocity, joined } kind;
+  core::Field* field;
+  int component = -1;  ///< of a velocity
+  WallSlip slip = WallSlip::no_slip;
+};
+
 /// The column's sides: which faces are held, and how ghosts follow from the inside.
 class Boundaries {
  public:
   Boundaries() = default;
   /// closed: no inlet and no outlet, walls all round.
-  Boundaries(const core::Grid& grid, bool closed) : grid_(grid), closed_(closed) {}
+  Boundaries(const core::Grid& grid, bool closed) : grid_(grid), halo_(grid), closed_(closed) {}
 
   [[nodiscard]] bool closed() const { return closed_; }
 
-  /// Ghosts of a cell field: images across periodic sides, else the nearest owned value.
+  /// Ghosts of any number of fields, in one message to each neighbouring rank and axis. Collective, as are the others.
+  void fill(std::span<const Ghosts> wanted) const;
+
+  /// Ghosts of cell fields: what other cells own, and the nearest owned value where the column ends.
   void fill_cells(core::Field& field) const;
+  void fill_cells(std::span<core::Field> fields) const;
 
   /// Ghosts of a velocity on faces. Along walls and the distributor the tangential components are mirrored
   /// (no_slip) or copied (free_slip); at the outlet everything is copied; normal components mirror at walls.
   void fill_velocity(core::FaceField& velocity, WallSlip slip) const;
 
-  /// Across periodic sides the last face of an axis is the first one: makes what stands on faces say so.
-  void join(core::Field& on_faces, int axis) const {
-    if (grid_.periodic[std::size_t(axis)]) copy_periodic(on_faces, axis);
-  }
+  /// The high faces of a block's last cells belong to the next block, across joined sides to the first one: fetches
+  /// what stands on them.
+  void join(core::Field& on_faces, int axis) const;
   void join(core::FaceField& faces) const {
     for (int axis = 0; axis < grid_.dimensions; ++axis) join(faces[std::size_t(axis)], axis);
   }
+  /// The same for two fields in one message.
+  void join(core::FaceField& faces, core::FaceField& others) const;
 
   /// The faces of an axis whose velocity moves: all but those on walls and on the distributor. The outlet's
   /// faces move for the fluid alone.
   [[nodiscard]] core::Box moving_faces(int axis, bool of_fluid) const {
     core::Box box = core::interior_faces(grid_, axis);
-    if (of_fluid && axis == 1 && !closed_ && !grid_.periodic[1]) ++box.hi[1];
+    if (of_fluid && axis == 1 && !closed_ && grid_.ends(1, 1)) ++box.hi[1];
     return box;
   }
 
-  /// Sets all boundary faces of a face field (sides, bottom, top) to a value, except across periodic sides.
+  /// The moving faces of an axis that owned cells have, those of the next block or across joined sides included.
+  [[nodiscard]] core::Box moving_faces_of_cells(int axis, bool of_fluid) const {
+    core::Box box = moving_faces(axis, of_fluid);
+    if (!grid_.ends(axis, 1)) ++box.hi[std::size_t(axis)];
+    return box;
+  }
+
+  /// Sets all boundary faces of a face field (sides, bottom, top) to a value, except across joined sides.
   void hold_boundary(core::FaceField& faces, double value) const;
 
  private:
-  void copy_periodic(core::Field& field, int axis) const;
+  void fill_walls(const Ghosts& wanted, int axis) const;
   void copy_outward(core::Field& u) const;
   void fill_beyond(core::Field& field, int axis, double sign_low, double sign_high, bool on_faces) const;
 
   core::Grid grid_;
+  core::Halo halo_;
+  mutable std::vector<core::Field*> exchanged_;  ///< kept, so that filling allocates nothing
+  mutable std::vector<Ghosts> wanted_;
   bool closed_ = false;
 };
 
-/// Calls body(begin, end, stride) for the rows of boundary faces of an axis at its low (side 0) or high end.
+/// Calls body(begin, end) for the rows of faces of an axis at the column's low (side 0) or high end, if this block
+/// reaches it.
 template <class Body>
 void for_each_boundary_row(const core::Grid& grid, int axis, int side, Body&& body) {
+  if (!grid.ends(axis, side)) return;
   core::Box box = core::owned_cells(grid);
   const auto a = std::size_t(axis);
   box.lo[a] = side == 0 ? 0 : grid.cells[a];

@@ -5,20 +5,30 @@
 
 namespace polybed::fluid {
 
-/// Density and viscosity of an incompressible fluid.
+/// Density and viscosity of the fluid.
 struct FluidConstants {
-  double density = 0;    ///< rho_f, kg/m3
+  double density = 0;    ///< rho_f, kg/m3; of a compressible fluid rho_0, that at the outlet's pressure
   double viscosity = 0;  ///< mu, Pa s
 };
 
 /// Least voidage that a velocity is divided by; below it the fluid's velocity is understated, not singular.
 constexpr double voidage_floor = 0.05;
 
+/// What a compressible fluid has besides; all empty if the fluid is incompressible.
+struct Compression {
+  core::Field density;        ///< rho_f of the total pressure, kg/m3, cells and ghosts
+  core::Field kappa;          ///< eps/(rho_f c^2) of (5), 1/Pa, owned cells
+  core::Field pressure_rate;  ///< dp/dt, Pa/s, owned cells
+  core::FaceField flux;       ///< J - sum F_j: volume flux of the fluid alone, m/s
+  [[nodiscard]] bool present() const { return !density.empty(); }
+};
+
 struct FluidState {
   core::FaceField flux;      ///< J = eps U_f + sum phi_j U_j: volumetric flux of the mixture, m/s, unknown
   core::FaceField velocity;  ///< U_f, m/s, follows from J
   core::Field voidage;       ///< eps = 1 - sum phi_j, cells
   core::Field pressure;      ///< net p: without the weight of the fluid, T(1.23), Pa, cells
+  Compression compression;
 
   FluidState() = default;
   explicit FluidState(const core::Grid& grid)

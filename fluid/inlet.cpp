@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ranks.hpp"
 #include "fluid/boundaries.hpp"
 
 namespace polybed::fluid {
@@ -36,10 +37,11 @@ double Ramp::greatest() const {
 
 namespace {
 
-/// Share of cell n of an axis that lies in [from, to].
+/// Share of the block's cell n of an axis that lies in [from, to].
 double overlap(const core::Grid& grid, int axis, int n, double from, double to) {
   const double h = grid.spacing[std::size_t(axis)];
-  return std::max(0.0, std::min(to, (n + 1) * h) - std::max(from, n * h)) / h;
+  const int m = grid.before[std::size_t(axis)] + n;
+  return std::max(0.0, std::min(to, (m + 1) * h) - std::max(from, m * h)) / h;
 }
 
 }  // namespace
@@ -47,9 +49,9 @@ double overlap(const core::Grid& grid, int axis, int n, double from, double to) 
 Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
   if (scene.column.closed) return;
   const std::size_t faces = std::size_t(grid.cells[0]) * std::size_t(grid.cells[2]);
-  parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0)});
+  parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0), 1});
   for (const core::Jet& jet : scene.jets) {
-    Part part{Ramp(jet.superficial_velocity), {}};
+    Part part{Ramp(jet.superficial_velocity), {}, 0};
     for (int k = 0; k < grid.cells[2]; ++k)
       for (int i = 0; i < grid.cells[0]; ++i) {
         const double along_z = grid.dimensions == 3 ? overlap(grid, 2, k, jet.from[1], jet.to[1]) : 1.0;
@@ -58,6 +60,14 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
     for (std::size_t f = 0; f < faces; ++f) parts_.front().share[f] -= part.share[f];
     parts_.push_back(std::move(part));
   }
+  for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
+}
+
+double Inlet::mean_over_bottom(const std::vector<double>& share) const {
+  double sum = 0;
+  if (grid_.ends(1, 0))
+    for (double s : share) sum += s;
+  return core::sum_of_ranks(grid_, sum) / (double(grid_.column_cells(0)) * grid_.column_cells(2));
 }
 
 template <class Value>
@@ -81,8 +91,7 @@ void Inlet::set_rate(double t, core::Field& rate) const {
 
 double Inlet::mean_velocity(double t) const {
   double sum = 0;
-  for (const Part& part : parts_)
-    for (double share : part.share) sum += share * part.ramp.velocity(t) / double(part.share.size());
+  for (const Part& part : parts_) sum += part.mean_share * part.ramp.velocity(t);
   return sum;
 }
 

@@ -31,6 +31,7 @@ class Ramp {
 class Inlet {
  public:
   Inlet() = default;
+  /// Collective.
   Inlet(const core::Grid& grid, const core::Scene& scene);
 
   /// Sets the bottom faces of the vertical flux at time t, m/s.
@@ -45,11 +46,14 @@ class Inlet {
   [[nodiscard]] std::vector<double> kinks() const;
 
  private:
-  /// One velocity and the share of each bottom face, row by row, that has it.
+  /// One velocity, the share of each of the block's bottom faces, row by row, that has it, and that of the whole
+  /// bottom.
   struct Part {
     Ramp ramp;
     std::vector<double> share;
+    double mean_share;
   };
+  [[nodiscard]] double mean_over_bottom(const std::vector<double>& share) const;
   template <class Value>
   void set(core::Field& faces, Value&& value) const;
 

@@ -14,6 +14,8 @@ struct Interphase {
   std::vector<core::FaceField> velocity;      ///< U_j, m/s, [species][axis][face]
   std::vector<core::Field> fraction_rate;     ///< d phi_j / dt, 1/s, [species][cell]
   std::vector<core::FaceField> acceleration;  ///< a_j: dU_j/dt without the net pressure gradient, m/s2
+  std::vector<core::Field> temperature;       ///< theta_j, m2/s2, of fluctuations; empty where no closure asks for it
+  std::vector<core::Field> temperature_rate;  ///< d theta_j / dt, m2/s3; empty unless theta_j is an unknown
   std::vector<core::Field> exchange;          ///< b_j = beta_j / phi_j, kg/(m3 s), finite where phi_j = 0
 
   Interphase() = default;

@@ -17,6 +17,7 @@ struct InvariantValues {
   double most_solids = 0;     ///< greatest phi
   double packing_above = 0;   ///< how far the greatest phi lies above the maximum packing
   double divergence = 0;      ///< max |div J| h / U
+  double fluid_error = 0;     ///< of a compressible fluid: what its mass has changed by without flowing, relative
   double force_balance = 0;   ///< pressure drop over buoyant weight per area, less 1
 };
 
@@ -32,11 +33,13 @@ class Invariants {
  public:
   /// \param initial_mass  of each species, any unit; a species without mass is not watched
   /// \param rtol          relative tolerance of the time integration: sets the bounds of the fractions
-  Invariants(std::vector<double> initial_mass, double rtol);
+  /// \param compressible  the mass of the fluid is watched in place of the divergence of the volume flux
+  Invariants(std::vector<double> initial_mass, double rtol, bool compressible = false);
 
-  /// Measures and keeps what is worst; collective over the owned cells.
+  /// Measures and keeps what is worst in the column. Collective.
+  /// \param fluid_error  of the mass of a compressible fluid; else 0
   InvariantValues see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid, double packing_above,
-                      double velocity_scale, double force_balance, double time);
+                      double velocity_scale, double force_balance, double time, double fluid_error = 0);
 
   [[nodiscard]] const std::vector<WorstInvariant>& worst() const { return worst_; }
   /// The invariant nearest to, or furthest beyond, its limit.
@@ -46,10 +49,11 @@ class Invariants {
   void keep(std::size_t which, double value, double time);
 
   std::vector<double> initial_mass_;
+  bool compressible_;
   std::vector<WorstInvariant> worst_;
 };
 
-/// Volume of each species in the owned cells, m3, summed with compensation.
+/// Volume of each species in the column, m3, summed with compensation. Collective.
 [[nodiscard]] std::vector<double> species_volumes(const core::Grid& grid, const Interphase& solids);
 
 }  // namespace polybed::fluid

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/operators.hpp"
+#include "fluid/density.hpp"
 
 namespace polybed::fluid {
 
@@ -34,8 +35,11 @@ void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState
   }
 }
 
-void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
-                       const FluidState& fluid, double density, core::FaceField& acceleration) {
+namespace {
+
+template <class Density>
+void subtract_exchange_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries,
+                            const Interphase& solids, const FluidState& fluid, core::FaceField& acceleration) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
@@ -48,14 +52,16 @@ void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, con
                      *v = solids.velocity[j][a].data();
         for (Index c = begin; c < end; ++c)
           rate[c] -= face_mean(phi, c, s) * exchange_on_face(b, c, s, u[c] - v[c]) * (u[c] - v[c]) /
-                     (std::max(face_mean(eps, c, s), voidage_floor) * density);
+                     (std::max(face_mean(eps, c, s), voidage_floor) * density.on_face(c, s));
       }
     });
   }
 }
 
-void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids, const FluidState& fluid,
-               double density, const core::FaceField& acceleration, FluxRate& out) {
+template <class Density>
+void flux_rate_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries,
+                    const Interphase& solids, const FluidState& fluid, const core::FaceField& acceleration,
+                    FluxRate& out) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
@@ -65,7 +71,7 @@ void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Inter
     core::for_each_row(grid, boundaries.moving_faces(axis, true), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) {
         free[c] = face_mean(eps, c, s) * a_f[c];
-        mobility[c] = face_mean(eps, c, s) / density;
+        mobility[c] = face_mean(eps, c, s) / density.on_face(c, s);
       }
       for (std::size_t j = 0; j < solids.species(); ++j) {
         const double *phi_rate = solids.fraction_rate[j].data(), *v = solids.velocity[j][a].data();
@@ -83,8 +89,22 @@ void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Inter
       }
     });
   }
-  boundaries.join(out.free);
-  boundaries.join(out.mobility);
+  boundaries.join(out.free, out.mobility);
+}
+
+}  // namespace
+
+void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
+                       const FluidState& fluid, double density, core::FaceField& acceleration) {
+  with_density(fluid, density, [&](const auto& local) {
+    subtract_exchange_with(local, grid, boundaries, solids, fluid, acceleration);
+  });
+}
+
+void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids, const FluidState& fluid,
+               double density, const core::FaceField& acceleration, FluxRate& out) {
+  with_density(fluid, density,
+               [&](const auto& local) { flux_rate_with(local, grid, boundaries, solids, fluid, acceleration, out); });
 }
 
 }  // namespace polybed::fluid

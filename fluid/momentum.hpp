@@ -1,6 +1,7 @@
 // Momentum of the averaged fluid and the rate of the volumetric flux, T(1.16) with T(1.17), on faces.
 //
-//   (3) a_f = -(U_f.grad)U_f - sum_j phi_j b_j (U_f - U_j) / (eps rho_f)      (gravity is in the net pressure)
+//   (3) a_f = -(U_f.grad)U_f - sum_j phi_j b_j (U_f - U_j) / (eps rho_f)
+//       (gravity is in the net pressure; that of a compressible fluid's own weight, see compressible.hpp)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p,
 //       B = eps/rho_f + sum_j phi_j/rho_j
 //
@@ -39,6 +40,7 @@ void voidage(const Interphase& solids, core::Field& out);
 void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState& fluid);
 
 /// Adds the drag of the solids to the fluid's acceleration a_f: the second term of (3).
+/// \param density  rho_f, kg/m3; a compressible fluid's own field is taken in its place, here and below
 void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
                        const FluidState& fluid, double density, core::FaceField& acceleration);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/operators.hpp"
+#include "core/ranks.hpp"
 
 namespace polybed::fluid {
 
@@ -28,7 +29,7 @@ core::PoissonResult Pressure::solve(const FluxRate& rate, const core::FaceField&
 
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, Field& pressure) {
   boundaries.fill_cells(pressure);
-  if (boundaries.closed() || grid.periodic[1]) return;
+  if (boundaries.closed() || !grid.ends(1, 1)) return;
   core::Box beyond = core::owned_cells(grid);
   beyond.lo[1] = grid.cells[1];
   beyond.hi[1] = grid.cells[1] + 1;
@@ -44,7 +45,7 @@ double divergence_error(const core::Grid& grid, const core::FaceField& flux, dou
     for (Index c = begin; c < end; ++c) worst = std::max(worst, std::abs(div[std::size_t(c)]));
   });
   const double h = *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
-  return worst * h / velocity_scale;
+  return core::greatest_of_ranks(grid, worst) * h / velocity_scale;
 }
 
 }  // namespace polybed::fluid

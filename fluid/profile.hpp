@@ -24,7 +24,7 @@ struct Profile {
   }
 };
 
-/// Mean over each horizontal layer of owned cells of a padded cell field; [layer from the bottom].
+/// Mean over each horizontal layer of the column of a padded cell field; [layer from the bottom]. Collective.
 [[nodiscard]] std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field);
 
 }  // namespace polybed::fluid

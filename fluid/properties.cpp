@@ -2,10 +2,23 @@
 
 #include <stdexcept>
 
+#include "closures/equation_of_state.hpp"
 #include "closures/fluid_properties.hpp"
 #include "core/error.hpp"
 
 namespace polybed::fluid {
+
+namespace {
+
+/// Of water at the outlet's pressure, where it is compressible; the tables are for 1 atm.
+double water_density(const core::Fluid& fluid, double kelvin) {
+  const double at_atmosphere = closures::water_density(kelvin);
+  if (fluid.equation_of_state != "tait") return at_atmosphere;
+  return closures::TaitLiquid{at_atmosphere, 101325, fluid.tait_stiffness, fluid.tait_exponent}.density(
+      fluid.outlet_pressure);
+}
+
+}  // namespace
 
 FluidConstants fluid_constants(const core::Fluid& fluid) {
   FluidConstants constants{fluid.density.value_or(0), fluid.viscosity.value_or(0)};
@@ -19,7 +32,8 @@ FluidConstants fluid_constants(const core::Fluid& fluid) {
                           " knows its density and viscosity from it (or give both)");
   try {
     const double t = *fluid.temperature;
-    if (!fluid.density) constants.density = water ? closures::water_density(t) : closures::air_density(t);
+    if (!fluid.density)
+      constants.density = water ? water_density(fluid, t) : closures::air_density(t, fluid.outlet_pressure);
     if (!fluid.viscosity) constants.viscosity = water ? closures::water_viscosity(t) : closures::air_viscosity(t);
   } catch (const std::out_of_range& error) {
     throw core::CaseError(std::string("fluid.temperature: ") + error.what());

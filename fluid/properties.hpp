@@ -7,7 +7,7 @@
 namespace polybed::fluid {
 
 /// Water and air from their temperature; any other fluid from the density and viscosity given, which also
-/// override. Throws core::CaseError that names the key and its range.
+/// override. The density is that at the outlet's pressure. Throws core::CaseError that names the key and its range.
 [[nodiscard]] FluidConstants fluid_constants(const core::Fluid& fluid);
 
 }  // namespace polybed::fluid

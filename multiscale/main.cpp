@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -11,7 +12,9 @@
 #include <functional>
 #include <new>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/version.hpp"
@@ -21,22 +24,46 @@ namespace {
 
 using namespace polybed;
 
-/// Starts and ends MPI around everything.
+/// How the program ends: its code, and what it says of it.
+struct Ending {
+  int code = 0;
+  std::string message;
+};
+
+/// MPI around everything that needs it.
 class Mpi {
  public:
   Mpi(int& argc, char**& argv) {
     if (MPI_Init(&argc, &argv) != MPI_SUCCESS) throw core::MpiError("MPI cannot be started");
-    int ranks = 1;
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-    if (ranks > 1) throw core::MpiError("polybed runs on one rank in this version: leave out -n and mpirun");
   }
   ~Mpi() { MPI_Finalize(); }
   Mpi(const Mpi&) = delete;
   Mpi& operator=(const Mpi&) = delete;
 
+  [[nodiscard]] bool first() const { return rank_ == 0; }
+
+  /// An error that all ranks have met is told once. One that the others do not know of would leave them waiting for
+  /// ever: after some seconds it is told by the rank that met it, which ends them all.
+  void agree_on(Ending& ending) const {
+    if (ranks_ == 1 || ending.code == 0) return;
+    MPI_Request all_here = MPI_REQUEST_NULL;
+    MPI_Ibarrier(MPI_COMM_WORLD, &all_here);
+    for (int tenths = 0, done = 0; tenths < 50; ++tenths) {
+      MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
+      if (done != 0) {
+        if (!first()) ending.message.clear();
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    fmt::print(stderr, "rank {}: {}\n", rank_, ending.message);
+    MPI_Abort(MPI_COMM_WORLD, ending.code);
+  }
+
  private:
-  int rank_ = 0;
+  int ranks_ = 1, rank_ = 0;
 };
 
 void add_case(CLI::App& command, multiscale::CaseOptions& options) {
@@ -49,31 +76,27 @@ void add_case(CLI::App& command, multiscale::CaseOptions& options) {
 
 int exit_code(core::ExitCode code) { return static_cast<int>(code); }
 
-int fail(core::ExitCode code, const std::exception& error) {
-  fmt::print(stderr, "{}\n", error.what());
-  return exit_code(code);
-}
+Ending failed(core::ExitCode code, const std::string& message) { return {exit_code(code), message}; }
 
-int guarded(const std::function<int()>& work) {
+Ending guarded(const std::function<int()>& work) {
   try {
-    return work();
+    return {work(), ""};
   } catch (const core::CaseError& error) {
-    return fail(core::ExitCode::wrong_case, error);
+    return failed(core::ExitCode::wrong_case, error.what());
   } catch (const core::NumericsError& error) {
-    return fail(core::ExitCode::numerics, error);
+    return failed(core::ExitCode::numerics, error.what());
   } catch (const core::FileError& error) {
-    return fail(core::ExitCode::file, error);
+    return failed(core::ExitCode::file, error.what());
   } catch (const core::MpiError& error) {
-    return fail(core::ExitCode::mpi, error);
+    return failed(core::ExitCode::mpi, error.what());
   } catch (const core::Stopped& error) {
-    return fail(core::ExitCode::stopped, error);
+    return failed(core::ExitCode::stopped, error.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "not enough memory: choose fewer column.cells\n");
-    return exit_code(core::ExitCode::wrong_case);
+    return failed(core::ExitCode::wrong_case, "not enough memory: choose fewer column.cells");
   } catch (const std::system_error& error) {  // a file system or standard output
-    return fail(core::ExitCode::file, error);
+    return failed(core::ExitCode::file, error.what());
   } catch (const std::exception& error) {
-    return fail(core::ExitCode::numerics, error);
+    return failed(core::ExitCode::numerics, error.what());
   }
 }
 
@@ -83,7 +106,7 @@ void flush_standard_output() {
     throw core::FileError(fmt::format("standard output: cannot be written ({})", std::strerror(errno)));
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   using namespace multiscale;
   CLI::App app{"polybed: beds of particles of several sizes and densities in a liquid or a gas"};
   app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")");
@@ -143,10 +166,10 @@ int run(int argc, char** argv) {
     return asked ? 0 : exit_code(core::ExitCode::wrong_case);
   }
   drag.guard = guard == "on";
-  std::optional<Mpi> mpi;  // starting it takes 0.3 s, which commands that only compute a number need not wait for
+  // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
   if (app.got_subcommand("tfm") || app.got_subcommand("check")) mpi.emplace(argc, argv);
   if (app.got_subcommand("tfm")) run_tfm(tfm);
-  if (app.got_subcommand("check")) run_check(check);
+  if (app.got_subcommand("check") && mpi->first()) run_check(check);
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);
   if (app.got_subcommand("plot")) run_plot(plotted);
@@ -161,5 +184,9 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is told like a full disk
-  return guarded([&] { return run(argc, argv); });
+  std::optional<Mpi> mpi;
+  Ending ending = guarded([&] { return run(argc, argv, mpi); });
+  if (mpi) mpi->agree_on(ending);
+  if (!ending.message.empty()) fmt::print(stderr, "{}\n", ending.message);
+  return ending.code;
 }

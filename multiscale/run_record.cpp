@@ -6,6 +6,7 @@
 #include "core/case_file.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/ranks.hpp"
 #include "core/version.hpp"
 
 namespace polybed::multiscale {
@@ -46,6 +47,19 @@ void write_invariants(Json& json, const fluid::Invariants& invariants) {
 
 }  // namespace
 
+RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
+  const core::Grid& grid = model.constants().grid;
+  RunTotals totals;
+  totals.ranks = grid.ranks ? grid.ranks->count() : 1;
+  totals.cpu_seconds = core::sum_of_ranks(grid, cpu_seconds);
+  if (!model.effects().drag) return totals;
+  tfm::ClosureUse use = model.effects().drag->use();
+  use.evaluations = std::uint64_t(core::sum_of_ranks(grid, double(use.evaluations)));
+  use.guarded = std::uint64_t(core::sum_of_ranks(grid, double(use.guarded)));
+  totals.closures.push_back(use);
+  return totals;
+}
+
 std::string run_record_text(const RunRecord& record) {
   const tfm::Model& model = record.model;
   const std::string text = core::resolved_case(record.scene);
@@ -55,7 +69,7 @@ std::string run_record_text(const RunRecord& record) {
   json.member("program", core::version()).member("git_commit", core::git_commit()).member("state", record.state);
   json.member("case", text).member("case_hash", core::text_hash(text)).key("overrides").begin_array();
   for (const std::string& override : record.scene.overrides) json.value(override);
-  json.end_array().member("ranks", 1);
+  json.end_array().member("ranks", std::int64_t(record.totals.ranks));
   json.key("machine")
       .begin_object()
       .member("processor", processor())
@@ -63,8 +77,8 @@ std::string run_record_text(const RunRecord& record) {
       .end_object();
   json.member("integrator", model.integrator_name()).member("integrator_reason", model.integrator_reason());
   json.member("unknowns", std::uint64_t(model.unknowns())).member("time_s", model.time());
-  json.member("cpu_s", record.cpu_seconds)
-      .member("cpu_s_per_simulated_s", simulated > 0 ? record.cpu_seconds / simulated : 0.0);
+  json.member("cpu_s", record.totals.cpu_seconds)
+      .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);
   write_work(json, model.work());
   json.key("timers").begin_object();
   for (const core::Timers::Term& term : record.timers.terms()) json.member(term.name, term.seconds);
@@ -72,14 +86,12 @@ std::string run_record_text(const RunRecord& record) {
   write_invariants(json, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
   json.key("guards").begin_array();
-  if (model.effects().drag) {
-    const tfm::ClosureUse use = model.effects().drag->use();
+  for (const tfm::ClosureUse& use : record.totals.closures)
     json.begin_object()
         .member("closure", use.name)
         .member("evaluations", use.evaluations)
         .member("outside_range", use.guarded)
         .end_object();
-  }
   json.end_array().key("warnings").begin_array();
   for (const fluid::WorstInvariant& w : record.observers.invariants().worst())
     if (w.value > w.limit) json.value(w.name + " exceeded its limit");

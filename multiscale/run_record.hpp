@@ -10,15 +10,26 @@
 
 namespace polybed::multiscale {
 
+/// What the ranks of a run have done together.
+struct RunTotals {
+  int ranks = 1;
+  double cpu_seconds = 0;
+  std::vector<tfm::ClosureUse> closures;
+};
+
+/// Collective.
+/// \param cpu_seconds  of this process
+[[nodiscard]] RunTotals totals_of(const tfm::Model& model, double cpu_seconds);
+
 /// Everything that goes into the record; borrowed for the call.
 struct RunRecord {
   const core::Scene& scene;
   const tfm::Model& model;
   const tfm::Observers& observers;
   const core::Timers& timers;
-  std::string state;   ///< running | done | stopped by the user | failed: ...
-  double begin;        ///< simulated time at which this process began, s
-  double cpu_seconds;  ///< of this process
+  std::string state;  ///< running | done | stopped by the user | failed: ...
+  double begin;       ///< simulated time at which this process began, s
+  RunTotals totals;
 };
 
 /// The record as one JSON object.

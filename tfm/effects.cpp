@@ -5,6 +5,9 @@
 #include "tfm/effects/drag.hpp"
 #include "tfm/effects/fluid_stress_newtonian.hpp"
 #include "tfm/effects/solids_stress_frictional.hpp"
+#include "tfm/effects/solids_stress_kinetic.hpp"
+#include "tfm/effects/solids_viscosity_frictional.hpp"
+#include "tfm/effects/solids_wall_johnson_jackson.hpp"
 #include "tfm/effects/species_exchange_syamlal.hpp"
 
 namespace polybed::tfm {
@@ -23,9 +26,24 @@ std::vector<core::Role> roles() {
           {"solids_stress",
            "tfm",
            "Stress",
-           "pressure of the solids where they are packed",
+           "pressure of the solids, packed or in collision",
            "particles have contacts instead",
-           {{"frictional", "Johnson and Jackson 1987, with bulk viscosity"}}},
+           {{"frictional", "Johnson and Jackson 1987, with bulk viscosity"},
+            {"kinetic", "the same, and kinetic theory of collisions: pressure and viscosity"}}},
+          {"granular_temperature",
+           "tfm",
+           "Scalar",
+           "fluctuations that the kinetic stress rests on",
+           "particles have velocities of their own",
+           {{"algebraic", "production, collisions and drag in balance; the default with solids_stress = kinetic"},
+            {"transported", "one equation for each species"}}},
+          {"solids_viscosity",
+           "tfm",
+           "Stress",
+           "resistance of packed solids to shear",
+           "particles have contacts instead",
+           {{"schaeffer", "p_f sin(delta)/abs(gamma), capped; Schaeffer 1987"},
+            {"mu_i", "mu(I) p_f/abs(gamma), capped; Jop, Forterre and Pouliquen 2006, dry grains"}}},
           {"species_exchange",
            "tfm",
            "Exchange",
@@ -51,15 +69,38 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
     effects.fluid_stress = std::make_unique<NewtonianStress>(constants, boundaries);
   else if (name != "none")
     refuse("fluid_stress", name);
-  if (const std::string name = law("solids_stress"); name == "frictional")
+  if (const std::string name = law("solids_stress"); name == "frictional" || name == "kinetic")
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else if (name != "none")
     refuse("solids_stress", name);
+  if (const std::string name = law("solids_viscosity"); name == "schaeffer" || name == "mu_i") {
+    if (!effects.solids_stress)
+      throw core::CaseError("effects.solids_viscosity = \"" + name + "\" needs a solids_stress: its pressure");
+    effects.solids_viscosity = std::make_unique<FrictionalViscosity>(scene, constants, name, fields);
+  } else if (name != "none") {
+    refuse("solids_viscosity", name);
+  }
+  const std::string temperature = law("granular_temperature");
+  if (law("solids_stress") == "kinetic")
+    effects.collisions = std::make_unique<KineticStress>(scene, constants, boundaries, temperature == "transported",
+                                                         effects.solids_stress->max_packing(), fields);
+  else if (temperature != "none")
+    throw core::CaseError("effects.granular_temperature = \"" + temperature +
+                          "\" acts only with solids_stress = \"kinetic\"");
+  if (scene.tfm.solids_wall == "johnson_jackson")
+    effects.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);
   if (const std::string name = law("species_exchange"); name == "syamlal") {
     if (constants.species() > 1)
       effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);
   } else if (name != "none") {
     refuse("species_exchange", name);
+  }
+  if (scene.fluid.equation_of_state != "incompressible") {
+    const double density = constants.fluid.density;
+    effects.compressible = std::make_unique<fluid::Compressible>(
+        constants.grid, boundaries, fluid::equation_of_state(scene.fluid, density), scene.fluid.outlet_pressure,
+        density, constants.gravity);
+    effects.compressible->make_fields(fields.fluid);
   }
   return effects;
 }

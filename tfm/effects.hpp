@@ -11,6 +11,7 @@
 #include "core/registry.hpp"
 #include "core/scene.hpp"
 #include "fluid/boundaries.hpp"
+#include "fluid/compressible.hpp"
 #include "tfm/fields.hpp"
 
 namespace polybed::tfm {
@@ -62,12 +63,39 @@ class StressEffect {
   [[nodiscard]] virtual double solids_fraction_at(double pressure) const = 0;
 };
 
+/// Slot Stress, shear viscosity of the solids: makes stress.viscosity and strain, and adds to the first.
+class SolidsViscosity {
+ public:
+  virtual ~SolidsViscosity() = default;
+  virtual void add(Fields& fields) = 0;
+};
+
+/// Slot Stress, collisions of the solids: adds to stress.pressure, slope and viscosity; where the granular temperature
+/// is an unknown (slot Scalar) also finds the local part of its rate.
+class CollisionalStress {
+ public:
+  virtual ~CollisionalStress() = default;
+  virtual void add(Fields& fields) = 0;
+};
+
+/// What walls do to solids that slip along them, where that is neither nothing nor all.
+class SolidsWall {
+ public:
+  virtual ~SolidsWall() = default;
+  /// Sets the ghosts of the solids' velocities along walls; the viscosity, with ghosts, must be known.
+  virtual void fill_ghosts(Fields& fields) = 0;
+};
+
 /// The effects that are on; null where absent.
 struct Effects {
   std::unique_ptr<FluidExchange> drag;
   std::unique_ptr<SolidsExchange> species_exchange;
   std::unique_ptr<FluidStress> fluid_stress;
   std::unique_ptr<StressEffect> solids_stress;
+  std::unique_ptr<SolidsViscosity> solids_viscosity;
+  std::unique_ptr<CollisionalStress> collisions;
+  std::unique_ptr<SolidsWall> solids_wall;
+  std::unique_ptr<fluid::Compressible> compressible;  ///< of an incompressible fluid: null
 };
 
 /// Makes the effects that a scene names and the fields they own; throws core::CaseError for a law that the

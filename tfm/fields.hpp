@@ -24,12 +24,27 @@ struct Constants {
   [[nodiscard]] std::size_t species() const { return diameter.size(); }
 };
 
-/// Solids pressure on cells; empty where no stress acts.
+/// Solids stress on cells; empty where no stress acts.
 struct SolidsStress {
-  core::Field pressure;  ///< p_s with its bulk-viscous part, Pa
-  core::Field slope;     ///< dp_s/dphi, Pa
-  core::Field damping;   ///< lambda = alpha rho_s c_s h of the bulk-viscous part, Pa s
+  core::Field pressure;             ///< p_s with its bulk-viscous part, Pa
+  core::Field slope;                ///< dp_s/dphi, Pa
+  core::Field damping;              ///< lambda = alpha rho_s c_s h of the bulk-viscous part, Pa s
+  core::Field contact;              ///< p_f: the part of friction alone, Pa; empty if nothing asks for it
+  core::Field viscosity;            ///< mu_s/phi, Pa s; empty where the solids have no shear viscosity
+  std::vector<core::Field> strain;  ///< 2 D':D' of each species, 1/s2; with the viscosity
+  core::Field wall;                 ///< friction of walls by collisions over phi, Pa s/m; empty if absent
   [[nodiscard]] bool present() const { return !pressure.empty(); }
+  [[nodiscard]] bool viscous() const { return !viscosity.empty(); }
+  void make_viscous(const Constants& constants) {
+    viscosity = core::make_field(constants.grid);
+    strain.assign(constants.species(), core::make_field(constants.grid));
+  }
+};
+
+/// What the equation of the granular temperature needs, species by species; empty unless theta_j is an unknown.
+struct Granular {
+  std::vector<core::Field> conductivity;  ///< k_j/phi_j, W s2/(m3)
+  std::vector<core::Field> decay;         ///< rate at which a disturbance of theta_j in one cell decays, 1/s
 };
 
 struct Fields {
@@ -37,10 +52,12 @@ struct Fields {
   fluid::FluidState fluid;
   core::Field solids_fraction;                ///< phi = sum phi_j
   std::vector<core::Field> share;             ///< x_j as closures see it: [species][cell]
-  std::vector<core::Field> slip_superficial;  ///< eps |U_f - U_j| at cell centres, m/s: [species][cell]
+  std::vector<core::Field> slip_superficial;  ///< eps |U_f - U_j| at cell centres, m/s: [species][cell];
+                                              ///< times rho_f/rho_0 if the fluid is compressible
   core::FaceField fluid_acceleration;         ///< a_f, m/s2
   fluid::FluxRate flux_rate;
   SolidsStress stress;
+  Granular granular;
   /// K_jk / (phi_j phi_k), kg/(m3 s), pairs j < k; empty if absent.
   std::vector<core::Field> species_exchange;
 

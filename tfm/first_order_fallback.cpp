@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/ranks.hpp"
 #include "tfm/mixture.hpp"
 
 namespace polybed::tfm {
@@ -19,17 +20,21 @@ double fraction(const StateLayout& layout, std::span<const double> y, std::size_
 }  // namespace
 
 void FirstOrderFallback::see(const StateLayout& layout, std::span<const double> y, const StressEffect* stress) {
-  const std::size_t cells = constants_.grid.cell_count();
-  bool flagged = false;
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    const bool out = out_of_bounds(layout, y, cell, stress);
-    if (!out && left_.empty()) continue;
-    if (left_.empty()) left_.assign(cells, 0.0);
-    count_ += out && left_[cell] == 0;
-    left_[cell] = out ? steps : std::max(left_[cell] - 1, 0.0);
-    flagged = flagged || left_[cell] > 0;
+  const core::Grid& grid = constants_.grid;
+  std::vector<std::size_t> out;
+  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell)
+    if (out_of_bounds(layout, y, cell, stress)) out.push_back(cell);
+  if (left_.empty()) {  // on one rank as on all
+    if (core::sum_of_ranks(grid, double(out.size())) == 0) return;
+    left_.assign(grid.cell_count(), 0.0);
   }
-  if (!flagged) left_.clear();
+  double fresh = 0;
+  for (const std::size_t cell : out) fresh += left_[cell] == 0;
+  for (double& left : left_) left = std::max(left - 1, 0.0);
+  for (const std::size_t cell : out) left_[cell] = steps;
+  const double flagged = double(std::count_if(left_.begin(), left_.end(), [](double left) { return left > 0; }));
+  count_ += std::uint64_t(core::sum_of_ranks(grid, fresh));
+  if (core::sum_of_ranks(grid, flagged) == 0) left_.clear();
   list_faces(layout);
 }
 
@@ -59,7 +64,7 @@ void FirstOrderFallback::list_faces(const StateLayout& layout) {
   boundaries_.fill_cells(flag);
   for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
     const Index s = constants_.grid.stride(axis);
-    core::for_each_row(constants_.grid, boundaries_.moving_faces(axis, false), [&](Index begin, Index end) {
+    core::for_each_row(constants_.grid, boundaries_.moving_faces_of_cells(axis, false), [&](Index begin, Index end) {
       for (Index f = begin; f < end; ++f)
         if (flag[std::size_t(f)] > 0 || flag[std::size_t(f - s)] > 0) faces_[std::size_t(axis)].push_back(f);
     });

@@ -26,15 +26,15 @@ class FirstOrderFallback {
   FirstOrderFallback(const Constants& constants, const fluid::Boundaries& boundaries, double atol_fraction)
       : constants_(constants), boundaries_(boundaries), least_(-10 * atol_fraction) {}
 
-  /// A step has been accepted: counts the flags down and sets new ones. The stress may be null.
+  /// A step has been accepted: counts the flags down and sets new ones. The stress may be null. Collective.
   void see(const StateLayout& layout, std::span<const double> y, const StressEffect* stress);
 
   /// The faces of flagged cells on which solids move.
   [[nodiscard]] const FaceList& faces() const { return faces_; }
-  /// How often a cell has been flagged that was not.
+  /// How often a cell of the column has been flagged that was not.
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
-  /// Steps left of every owned cell, in the order of a fraction in the state; empty where none is flagged.
+  /// Steps left of every owned cell, in the order of a fraction in the state; empty if none of the column is flagged.
   [[nodiscard]] const std::vector<double>& steps_left() const { return left_; }
   /// Takes up flags and count of a checkpoint.
   void restore(const StateLayout& layout, std::vector<double> steps_left, std::uint64_t count);

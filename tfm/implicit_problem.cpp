@@ -24,11 +24,25 @@ core::Rate ImplicitProblem::residual(double t, std::span<const double> y, std::s
   pack_rates(layout_, fields, r);
   for (const StateLayout::Entry& entry : layout_.entries()) {
     if (entry.kind == Kind::pressure)
-      layout_.pack(entry, divergence_, r);
+      pack_continuity(entry, dydt, r);
     else
       for (std::size_t n = entry.begin; n < entry.begin + entry.size; ++n) r[n] = dydt[n] - r[n];
   }
   return core::Rate::ok;
+}
+
+/// Row (5): div J = 0, or kappa (dp/dt less its rate) = 0.
+void ImplicitProblem::pack_continuity(const StateLayout::Entry& entry, std::span<const double> dydt,
+                                      std::span<double> r) {
+  const fluid::Compression& own = equations_.fields().fluid.compression;
+  if (own.present()) {
+    layout_.unpack(entry, dydt, divergence_);
+    core::for_each_row(equations_.constants().grid, [&](core::Index begin, core::Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        divergence_[c] = own.kappa[c] * (divergence_[c] - own.pressure_rate[c]);
+    });
+  }
+  layout_.pack(entry, divergence_, r);
 }
 
 core::Rate ImplicitProblem::setup(double t, std::span<const double> y, std::span<const double>, std::span<const double>,

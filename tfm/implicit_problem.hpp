@@ -1,4 +1,5 @@
-// The model as a differential-algebraic system of index 2: rates of all fields, and div J = 0 for the pressure.
+// The model as a differential-algebraic system: rates of all fields, and for the pressure div J = 0 (index 2) or, where
+// the fluid is compressible, (5) of fluid/compressible.hpp.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,8 @@ class ImplicitProblem : public core::DaeProblem {
   [[nodiscard]] const Preconditioner& preconditioner() const { return preconditioner_; }
 
  private:
+  void pack_continuity(const StateLayout::Entry& entry, std::span<const double> dydt, std::span<double> r);
+
   RightHandSide& equations_;
   const StateLayout& layout_;
   core::Timers& timers_;

@@ -18,7 +18,7 @@ namespace {
 
 /// Solids fraction of the cells of a column filled evenly from the bottom; the topmost cell takes the rest.
 std::vector<double> even_column(double solids, double fraction, const core::Grid& grid) {
-  std::vector<double> column(std::size_t(grid.cells[1]), 0.0);
+  std::vector<double> column(std::size_t(grid.column_cells(1)), 0.0);
   for (double& phi : column) {
     phi = std::clamp(solids / grid.spacing[1], 0.0, fraction);
     solids -= phi * grid.spacing[1];
@@ -57,22 +57,29 @@ std::vector<double> settled_column(double solids, const StressEffect& stress, do
     return std::accumulate(c.begin(), c.end(), 0.0) * grid.spacing[1];
   };
   int cells = 0;
-  while (cells < grid.cells[1] && amount(equilibrium_below(stress, 0.0, cells + 1, weight)) <= solids) ++cells;
+  while (cells < grid.column_cells(1) && amount(equilibrium_below(stress, 0.0, cells + 1, weight)) <= solids) ++cells;
   double low = 0, high = stress.max_packing();
   for (int n = 0; n < 200; ++n) {
     const double top = 0.5 * (low + high);
     (amount(equilibrium_below(stress, top, cells, weight)) < solids ? low : high) = top;
   }
   std::vector<double> column = equilibrium_below(stress, 0.5 * (low + high), cells, weight);
-  if (column.size() < std::size_t(grid.cells[1])) column.resize(std::size_t(grid.cells[1]), 0.0);
+  if (column.size() < std::size_t(grid.column_cells(1))) column.resize(std::size_t(grid.column_cells(1)), 0.0);
   return column;
+}
+
+/// One layer of the block's cells; nothing if the block has none of it.
+void fill_layer(const core::Grid& grid, int y, double value, core::Field& field) {
+  if (y < 0 || y >= grid.cells[1]) return;
+  core::for_each_row(grid, core::Box{{0, y, 0}, {grid.cells[0], y + 1, grid.cells[2]}},
+                     [&](Index begin, Index end) { std::fill(field.begin() + begin, field.begin() + end, value); });
 }
 
 }  // namespace
 
 void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress, fluid::Interphase& solids) {
   const core::Grid& grid = constants.grid;
-  const double total = solids_height(bed), height = grid.spacing[1] * grid.cells[1];
+  const double total = solids_height(bed), height = grid.spacing[1] * grid.column_cells(1);
   if (total > bed.start_solids_fraction * height * (1 + 1e-12))
     throw core::CaseError(fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size",
                                       total / bed.start_solids_fraction, height));
@@ -89,7 +96,7 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
     column = even_column(total, bed.start_solids_fraction, grid);
   }
   double below = 0;  // solids volume per area under the cell, m
-  for (int y = 0; y < grid.cells[1]; ++y) {
+  for (int y = 0; y < grid.column_cells(1); ++y) {
     const double here = column[std::size_t(y)] * grid.spacing[1];
     double layer_end = 0;
     for (std::size_t j = 0; j < constants.species(); ++j) {
@@ -98,10 +105,7 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
       const double overlap = std::max(0.0, std::min(below + here, layer_end) - std::max(below, layer_begin));
       const double phi =
           bed.start == "layered" ? overlap / grid.spacing[1] : bed.volume_share[j] * column[std::size_t(y)];
-      core::for_each_row(grid, core::Box{{0, y, 0}, {grid.cells[0], y + 1, grid.cells[2]}},
-                         [&](Index begin, Index end) {
-                           std::fill(solids.fraction[j].begin() + begin, solids.fraction[j].begin() + end, phi);
-                         });
+      fill_layer(grid, y - grid.before[1], phi, solids.fraction[j]);
     }
     below += here;
   }

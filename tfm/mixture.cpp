@@ -57,4 +57,13 @@ void superficial_slip(const Constants& constants, Fields& fields) {
   }
 }
 
+void weigh_slip_by_density(const Constants& constants, Fields& fields) {
+  const double* density = fields.fluid.compression.density.data();
+  const double per_density = 1 / constants.fluid.density;
+  for (Field& slip : fields.slip_superficial)
+    core::for_each_row(constants.grid, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) slip[std::size_t(c)] *= density[c] * per_density;
+    });
+}
+
 }  // namespace polybed::tfm

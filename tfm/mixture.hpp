@@ -15,4 +15,7 @@ void composition(const Constants& constants, Fields& fields);
 /// Fills slip_superficial in the owned cells from all components at the centre.
 void superficial_slip(const Constants& constants, Fields& fields);
 
+/// Multiplies slip_superficial by rho_f/rho_0: the closures, which know rho_0, then see the local Reynolds number.
+void weigh_slip_by_density(const Constants& constants, Fields& fields);
+
 }  // namespace polybed::tfm

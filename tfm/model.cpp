@@ -8,7 +8,9 @@
 
 #include "closures/drag_schiller_naumann.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "core/blocks.hpp"
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 #include "fluid/properties.hpp"
 #include "tfm/initial.hpp"
 
@@ -19,19 +21,19 @@ using Kind = StateLayout::Entry::Kind;
 
 namespace {
 
-core::Grid make_grid(const core::Column& column) {
+core::Grid make_grid(const core::Column& column, const std::shared_ptr<const core::Ranks>& ranks) {
   core::Grid grid;
   grid.dimensions = column.dimensions;
   grid.cells = column.cells;
   for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.size[d] / column.cells[d];
   grid.periodic[0] = column.sides == "periodic";
   grid.periodic[2] = column.sides == "periodic" && column.dimensions == 3;
-  return grid;
+  return core::block_of(grid, ranks);
 }
 
-Constants make_constants(const core::Scene& scene) {
+Constants make_constants(const core::Scene& scene, const std::shared_ptr<const core::Ranks>& ranks) {
   Constants constants;
-  constants.grid = make_grid(scene.column);
+  constants.grid = make_grid(scene.column, ranks);
   constants.gravity = scene.column.gravity;
   constants.fluid = fluid::fluid_constants(scene.fluid);
   constants.bed_share = scene.bed.volume_share;
@@ -65,14 +67,17 @@ Discretisation make_discretisation(const core::Tfm& options) {
 
 }  // namespace
 
-Model::Model(const core::Scene& scene, core::Timers& timers)
+Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks)
     : timers_(timers),
       options_(scene.tfm),
-      equations_(scene, make_constants(scene), fluid::Boundaries(make_grid(scene.column), scene.column.closed),
-                 fluid::Inlet(make_grid(scene.column), scene), make_discretisation(scene.tfm), timers) {
+      equations_(scene, make_constants(scene, ranks),
+                 fluid::Boundaries(make_grid(scene.column, ranks), scene.column.closed),
+                 fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
-  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit");
+  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible(),
+                        has_temperature());
+  column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
   velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants), inlet().greatest(), least_scale});
   Fields& fields = equations_.fields();
@@ -89,6 +94,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers)
   layout_.pack(fields.solids, fields.fluid, y_);
   project_jump(even);
   if (options_.flux == "limited") fallback_.emplace(constants, boundaries(), fraction_tolerance(options_.rtol));
+  if (compressible()) start_compressible();
   make_integrator();
   begin_integration();
 }
@@ -117,11 +123,12 @@ void Model::choose_integrator(const core::Scene& scene) {
     const bool still = scene.column.closed || inlet().greatest() == 0;
     constexpr double fine_below = 0.3;
     const bool fine = drag_over_crossing_time(equations_.constants(), inlet().greatest()) < fine_below;
-    integrator_name_ = gas || still || fine ? "implicit" : "explicit";
-    integrator_reason_ = gas     ? "gas: drag relaxes faster than anything moves"
-                         : still ? "nothing flows in: the bed settles"
-                         : fine  ? "fine particles: drag relaxes faster than anything moves"
-                                 : "fluidised by a liquid";
+    integrator_name_ = compressible() || gas || still || fine ? "implicit" : "explicit";
+    integrator_reason_ = compressible() ? "compressible: sound is faster than anything that matters"
+                         : gas          ? "gas: drag relaxes faster than anything moves"
+                         : still        ? "nothing flows in: the bed settles"
+                         : fine         ? "fine particles: drag relaxes faster than anything moves"
+                                        : "fluidised by a liquid";
   }
   constexpr double coarsest_implicit = 2e-3;
   if (integrator_name_ == "implicit" && options_.rtol > coarsest_implicit)
@@ -133,9 +140,10 @@ void Model::choose_integrator(const core::Scene& scene) {
 std::vector<double> Model::absolute_tolerances() const {
   std::vector<double> atol(layout_.size());
   for (const StateLayout::Entry& entry : layout_.entries()) {
-    const double value = entry.kind == Kind::fraction   ? fraction_tolerance(options_.rtol)
-                         : entry.kind == Kind::pressure ? 100.0 * options_.rtol
-                                                        : options_.rtol * velocity_scale_;
+    const double value = entry.kind == Kind::fraction      ? fraction_tolerance(options_.rtol)
+                         : entry.kind == Kind::pressure    ? 100.0 * options_.rtol
+                         : entry.kind == Kind::temperature ? options_.rtol * velocity_scale_ * velocity_scale_
+                                                           : options_.rtol * velocity_scale_;
     std::fill_n(atol.begin() + std::ptrdiff_t(entry.begin), entry.size, value);
   }
   return atol;
@@ -147,18 +155,29 @@ void Model::make_integrator() {
     core::ImplicitOptions options;
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
+    options.ranks = constants().grid.ranks;
     options.id.assign(layout_.size(), 1.0);
+    // Of a compressible fluid p is differential, but left out of the error test all the same: sound that carries
+    // nothing must not set the step.
     for (const StateLayout::Entry& entry : layout_.entries())
       if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
     integrator_ = core::make_implicit(*implicit_, std::move(options));
   } else {
-    const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
-    explicit_ = std::make_unique<ExplicitProblem>(equations_, layout_, tolerance, timers_);
+    core::OdeProblem* problem = nullptr;
+    if (compressible()) {
+      acoustic_ = std::make_unique<CompressibleProblem>(equations_, layout_);
+      problem = acoustic_.get();
+    } else {
+      const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
+      explicit_ = std::make_unique<ExplicitProblem>(equations_, layout_, tolerance, timers_);
+      problem = explicit_.get();
+    }
     core::ExplicitOptions options;
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
     options.fixed_step = options_.fixed_step.value_or(0);
-    integrator_ = core::make_explicit(*explicit_, std::move(options));
+    options.ranks = constants().grid.ranks;
+    integrator_ = core::make_explicit(*problem, std::move(options));
   }
 }
 
@@ -167,7 +186,9 @@ void Model::make_integrator() {
 void Model::begin_integration() {
   equations_.begin(time_);
   if (explicit_) explicit_->begin_step(step_);
-  if (implicit_) {
+  if (compressible()) {
+    begin_compressible();
+  } else if (implicit_) {
     // The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed
     // run gives the same bits.
     for (const StateLayout::Entry& entry : layout_.entries())
@@ -186,34 +207,34 @@ void Model::step(double stop) {
   const core::StepReport report = integrator_->step(stop);
   time_ = report.time;
   step_ = report.next_step;
+  if (compressible()) count_fluid(integrator_->state());
   last_step_ = {report.time, report.step, report.error_norm, ""};
   if (fallback_) {
     fallback_->see(layout_, integrator_->state(), effects().solids_stress.get());
     use_fallback();
   }
-  if (report.time >= stop && report.step < 0.99 * report.next_step) {
-    last_step_.limited_by = "event";
-  } else {
-    const double viscosity = effects().fluid_stress ? effects().fluid_stress->kinematic_viscosity() : 0;
-    last_step_.limited_by = limited_by(time_scales(constants(), fields(), viscosity), report.step, constants());
-    if (last_step_.limited_by == "error test")
-      last_step_.limited_by += ": " + layout_.describe(report.worst_entry, constants().name);
+  last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
+}
+
+/// In the words of the rank where the limit is.
+std::string Model::what_limited(const core::StepReport& report) const {
+  const core::Grid& grid = constants().grid;
+  const double viscosity = effects().fluid_stress ? effects().fluid_stress->kinematic_viscosity() : 0;
+  std::vector<TimeScale> scales = time_scales(constants(), fields(), viscosity);
+  if (acoustic_) {
+    const auto [seconds, cell] = effects().compressible->sound_time(fields().fluid);
+    scales.push_back({"sound", seconds, cell});
   }
+  const TimeScale nearest = nearest_of(scales);
+  const int rank = core::rank_of_greatest(grid, -nearest.seconds);
+  if (report.step >= limiting_share * core::least_of_ranks(grid, nearest.seconds))
+    return core::said_by(grid, rank, place_of(nearest, grid));
+  const int worst = core::rank_of_greatest(grid, report.worst_error);
+  return core::said_by(grid, worst, "error test: " + layout_.describe(report.worst_entry, constants().name));
 }
 
 void Model::use_fallback() {
   equations_.take_first_order_on(fallback_->steps_left().empty() ? nullptr : &fallback_->faces());
-}
-
-/// A run has flags only while a cell is out of bounds, so a checkpoint without them has none.
-void Model::restore_fallback(const core::Checkpoint& checkpoint) {
-  if (!fallback_) return;
-  const auto flags = checkpoint.arrays.find("first_order_steps_left");
-  const auto count = checkpoint.integers.find("first_order_cells");
-  const bool flagged = flags != checkpoint.arrays.end() && flags->second.size() == constants().grid.cell_count();
-  fallback_->restore(layout_, flagged ? flags->second : std::vector<double>{},
-                     count == checkpoint.integers.end() ? 0 : std::uint64_t(count->second));
-  use_fallback();
 }
 
 void Model::show(double t) {
@@ -232,7 +253,8 @@ void Model::show(double t) {
 void Model::restart() {
   const auto state = integrator_->state();
   std::copy(state.begin(), state.end(), y_.begin());
-  project_jump(inlet_velocity(std::nextafter(time_, -INFINITY)));
+  // A compressible fluid hears of a jump by sound.
+  if (!compressible()) project_jump(inlet_velocity(std::nextafter(time_, -INFINITY)));
   begin_integration();
 }
 
@@ -246,11 +268,11 @@ core::Field Model::inlet_velocity(double t) const {
 /// Where the inlet jumps from `before`, an impulse brings the fluxes and velocities to the new value at once, with the
 /// operator that the pressure uses.
 void Model::project_jump(const core::Field& before) {
-  if (boundaries().closed() || constants().grid.periodic[1]) return;
+  if (boundaries().closed()) return;
   core::Field jump = inlet_velocity(std::nextafter(time_, INFINITY));
   double most = 0;
   for (std::size_t f = 0; f < jump.size(); ++f) most = std::max(most, std::abs(jump[f] -= before[f]));
-  if (most <= 1e-9 * velocity_scale_) return;
+  if (core::greatest_of_ranks(constants().grid, most) <= 1e-9 * velocity_scale_) return;
   if (!equations_.evaluate(time_, layout_, y_)) return;
   Fields& fields = equations_.fields();
   const core::Field pressure = fields.fluid.pressure;
@@ -273,60 +295,6 @@ void Model::project_jump(const core::Field& before) {
   layout_.pack(fields.solids, fields.fluid, y_);
 }
 
-core::Checkpoint Model::checkpoint() const {
-  core::Checkpoint c;
-  c.arrays["state"] = y_;
-  c.arrays["pressure"] = fields().fluid.pressure;
-  c.numbers["time_s"] = time_;
-  c.numbers["step_s"] = step_;
-  c.texts["integrator"] = integrator_name_;
-  if (fallback_ && !fallback_->steps_left().empty()) c.arrays["first_order_steps_left"] = fallback_->steps_left();
-  const Work done = work();
-  c.integers["steps"] = std::int64_t(done.steps);
-  c.integers["rejected_steps"] = std::int64_t(done.rejected_steps);
-  c.integers["right_hand_sides"] = std::int64_t(done.right_hand_sides);
-  c.integers["pressure_solves"] = std::int64_t(done.pressure_solves);
-  c.integers["pressure_iterations"] = std::int64_t(done.pressure_iterations);
-  c.integers["newton_iterations"] = std::int64_t(done.newton_iterations);
-  c.integers["krylov_iterations"] = std::int64_t(done.krylov_iterations);
-  c.integers["first_order_cells"] = std::int64_t(done.first_order_cells);
-  return c;
-}
-
-void Model::keep_last_state() { y_.assign(integrator_->state().begin(), integrator_->state().end()); }
-
-void Model::start_from(const core::Checkpoint& checkpoint) {
-  resume(checkpoint);
-  time_ = step_ = 0;
-  before_ = {};
-  restore_fallback({});
-  begin_integration();
-}
-
-void Model::resume(const core::Checkpoint& checkpoint) {
-  const auto state = checkpoint.arrays.find("state"), pressure = checkpoint.arrays.find("pressure");
-  const auto kind = checkpoint.texts.find("integrator");
-  if (state == checkpoint.arrays.end() || state->second.size() != layout_.size() ||
-      pressure == checkpoint.arrays.end() || pressure->second.size() != fields().fluid.pressure.size() ||
-      kind == checkpoint.texts.end() || kind->second != integrator_name_)
-    throw core::FileError("the checkpoint belongs to another case: its unknowns or its integrator differ");
-  y_ = state->second;
-  equations_.fields().fluid.pressure = pressure->second;
-  time_ = checkpoint.numbers.at("time_s");
-  step_ = checkpoint.numbers.at("step_s");
-  const auto count = [&](const char* name) { return std::uint64_t(checkpoint.integers.at(name)); };
-  before_ = {count("steps"),
-             count("rejected_steps"),
-             count("right_hand_sides"),
-             count("pressure_solves"),
-             count("pressure_iterations"),
-             count("newton_iterations"),
-             count("krylov_iterations"),
-             0};
-  restore_fallback(checkpoint);
-  begin_integration();
-}
-
 Work Model::work() const {
   const core::IntegratorStatistics s = integrator_->statistics();
   Work done = before_;
@@ -336,6 +304,7 @@ Work Model::work() const {
   done.krylov_iterations += s.linear_iterations;
   if (fallback_) done.first_order_cells = fallback_->count();
   if (implicit_) done.right_hand_sides += implicit_->residuals();
+  if (acoustic_) done.right_hand_sides += acoustic_->evaluations();
   if (explicit_) {
     done.right_hand_sides += explicit_->solves();
     done.pressure_solves += explicit_->solves();

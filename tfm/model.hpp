@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/run.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
+#include "tfm/compressible_problem.hpp"
 #include "tfm/explicit_problem.hpp"
 #include "tfm/implicit_problem.hpp"
 #include "tfm/step_limits.hpp"
@@ -31,7 +33,9 @@ struct StepLine {
 class Model : public core::Simulation {
  public:
   /// Everything the scene calls for, at rest at its start; throws core::CaseError for what cannot be built.
-  Model(const core::Scene& scene, core::Timers& timers);
+  /// \param ranks  that share the column, each with a model of its block; null: the column is all here. Then this and
+  /// all that steps, shows, restarts, keeps or resumes is collective.
+  Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks = nullptr);
   ~Model() override;
 
   [[nodiscard]] double time() const override { return time_; }
@@ -39,13 +43,15 @@ class Model : public core::Simulation {
   void show(double t) override;
   void restart() override;
 
-  /// The whole state, to the bit; valid right after restart().
+  /// The whole column's state, to the bit, on the first rank; valid right after restart(). It does not depend on how
+  /// many ranks share the column.
   [[nodiscard]] core::Checkpoint checkpoint() const;
   /// Keeps the state last accepted as the one that checkpoint() returns, after a step has failed.
   void keep_last_state();
   /// Begins at time 0 from the state of a checkpoint of the same species and grid.
   void start_from(const core::Checkpoint& checkpoint);
-  /// Takes a run up again; throws core::FileError if the checkpoint is of another scene.
+  /// Takes a run up again from a checkpoint, of which only the first rank's is read, written by any number of ranks;
+  /// throws core::FileError if it is of another scene.
   void resume(const core::Checkpoint& checkpoint);
 
   [[nodiscard]] const Constants& constants() const { return equations_.constants(); }
@@ -58,19 +64,33 @@ class Model : public core::Simulation {
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_reason_; }
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
   [[nodiscard]] Work work() const;
-  [[nodiscard]] std::size_t unknowns() const { return layout_.size(); }
+  /// Of the whole column.
+  [[nodiscard]] std::size_t unknowns() const;
+  /// Of a compressible fluid: what has flowed in and out by a time within the last step; nothing else.
+  [[nodiscard]] std::optional<fluid::MassAccount> fluid_account(double t) const;
   /// Velocity that errors and divergences are measured against, m/s.
   [[nodiscard]] double velocity_scale() const { return velocity_scale_; }
 
  private:
   void choose_integrator(const core::Scene& scene);
+  void check_fits(const core::Checkpoint& checkpoint) const;
+  void take_up_counts(const core::Checkpoint& checkpoint);
   void make_integrator();
   [[nodiscard]] core::Field inlet_velocity(double t) const;
   void project_jump(const core::Field& before);
   [[nodiscard]] std::vector<double> absolute_tolerances() const;
+  [[nodiscard]] StateLayout layout_of_column() const;
+  [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void begin_integration();
   void use_fallback();
   void restore_fallback(const core::Checkpoint& checkpoint);
+  [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }
+  [[nodiscard]] bool has_temperature() const { return !fields().solids.temperature_rate.empty(); }
+  void start_compressible();
+  void open_account();
+  void take_up_account(const core::Checkpoint& checkpoint);
+  void begin_compressible();
+  void count_fluid(std::span<const double> y);
 
   core::Timers& timers_;
   core::Tfm options_;
@@ -79,9 +99,12 @@ class Model : public core::Simulation {
   StateLayout layout_;
   std::unique_ptr<ExplicitProblem> explicit_;
   std::unique_ptr<ImplicitProblem> implicit_;
+  std::unique_ptr<CompressibleProblem> acoustic_;  ///< explicit steps of a compressible fluid
+  fluid::FluidLedger ledger_;                      ///< of a compressible fluid
   std::unique_ptr<core::Integrator> integrator_;
   double time_ = 0, step_ = 0, velocity_scale_ = 1;
   std::vector<double> y_, dydt_;
+  std::size_t column_size_ = 0;  ///< entries of the whole column's state
   StepLine last_step_;
   std::optional<FirstOrderFallback> fallback_;  ///< absent where all fluxes are of first order anyway
   Work before_;                                 ///< of the integrators that a restart has closed

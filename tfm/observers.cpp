@@ -7,43 +7,52 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/blocks.hpp"
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 
 namespace polybed::tfm {
 
 namespace {
 
-std::vector<std::string> history_columns(const Constants& constants) {
+std::vector<std::string> history_columns(const Constants& constants, bool compressible) {
   std::vector<std::string> columns{"time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"};
   for (const std::string& name : constants.name) {
     columns.push_back("centre_" + name + "_m");
     columns.push_back("mass_" + name + "_kg");
   }
   columns.insert(columns.end(), {"interface_m", "mixing", "max_solids_fraction", "min_fraction", "divergence"});
+  if (compressible) columns.insert(columns.end(), {"mass_fluid_kg", "fluid_in_kg", "fluid_out_kg"});
   return columns;
 }
 
 std::vector<double> slab_centres(const core::Grid& grid) {
   std::vector<double> y;
-  for (int k = 0; k < grid.cells[1]; ++k) y.push_back(grid.centre(1, k));
+  for (int k = 0; k < grid.column_cells(1); ++k) y.push_back((k + 0.5) * grid.spacing[1]);
   return y;
 }
 
-std::vector<std::string> profile_names(const Constants& constants) {
+/// Whether the solids have granular temperatures to write.
+bool has_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
+
+std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
   std::vector<std::string> names{"voidage", "p"};
   for (const std::string& name : constants.name) {
     names.push_back("phi_" + name);
     names.push_back("u_" + name);
+    if (temperature) names.push_back("theta_" + name);
   }
   return names;
 }
 
-std::vector<core::FieldName> field_names(const Constants& constants) {
+std::vector<core::FieldName> field_names(const Constants& constants, bool temperature, bool compressible) {
   std::vector<core::FieldName> names{{"voidage"}, {"pressure"}, {"u_fluid", true}};
   for (const std::string& name : constants.name) {
     names.push_back({"phi_" + name});
     names.push_back({"u_" + name, true});
+    if (temperature) names.push_back({"theta_" + name});
   }
+  if (compressible) names.insert(names.end(), {{"total_pressure"}, {"density_fluid"}});
   return names;
 }
 
@@ -69,6 +78,23 @@ std::FILE* open_steps(const std::filesystem::path& path, std::optional<double> r
 
 }  // namespace
 
+namespace {
+
+std::vector<const core::Field*> components(const core::Grid& grid, const core::FaceField& u) {
+  std::vector<const core::Field*> list;
+  for (int axis = 0; axis < grid.dimensions; ++axis) list.push_back(&u[std::size_t(axis)]);
+  return list;
+}
+
+/// Fields on cells put together on the first rank.
+std::vector<core::Field> gathered(const core::Grid& grid, const std::vector<const core::Field*>& fields) {
+  std::vector<core::Field> whole;
+  for (const core::Field* field : fields) whole.push_back(core::gather(grid, *field, -1));
+  return whole;
+}
+
+}  // namespace
+
 std::vector<double> masses(const Model& model) {
   std::vector<double> mass = fluid::species_volumes(model.constants().grid, model.fields().solids);
   for (std::size_t j = 0; j < mass.size(); ++j) mass[j] *= model.constants().density[j];
@@ -87,19 +113,28 @@ fluid::Profile profile_of(const Model& model) {
 Observers::Observers(const Model& model, const std::filesystem::path& directory, double rtol,
                      std::vector<double> initial_mass, std::optional<double> resume_time)
     : model_(model),
-      invariants_(std::move(initial_mass), rtol),
-      history_(directory, history_columns(model.constants()), resume_time),
-      profiles_(directory, slab_centres(model.constants().grid), profile_names(model.constants()), resume_time),
-      fields_(directory, model.constants().grid, field_names(model.constants()), resume_time),
-      steps_path_(directory / "steps.csv"),
-      steps_(open_steps(steps_path_, resume_time), std::fclose) {}
+      ranks_(model.constants().grid.ranks.get()),
+      invariants_(std::move(initial_mass), rtol, model.effects().compressible != nullptr) {
+  const Constants& constants = model.constants();
+  const bool compressible = model.effects().compressible != nullptr;
+  core::on_first(ranks_, [&] {
+    const std::filesystem::path steps = directory / "steps.csv";
+    files_.reset(new Files{
+        {directory, history_columns(constants, compressible), resume_time},
+        {directory, slab_centres(constants.grid), profile_names(constants, has_temperature(model)), resume_time},
+        {directory, core::whole_column(constants.grid), field_names(constants, has_temperature(model), compressible),
+         resume_time},
+        steps,
+        {open_steps(steps, resume_time), std::fclose}});
+  });
+}
 
 void Observers::write_history(double time) {
   const Constants& constants = model_.constants();
   const fluid::Profile profile = profile_of(model_);
   const std::vector<double> mass = masses(model_);
-  const double area =
-      constants.grid.spacing[0] * constants.grid.cells[0] * constants.grid.spacing[2] * constants.grid.cells[2];
+  const double area = constants.grid.spacing[0] * constants.grid.column_cells(0) * constants.grid.spacing[2] *
+                      constants.grid.column_cells(2);
   double weight = 0;
   for (std::size_t j = 0; j < constants.species(); ++j)
     weight += mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity / area;
@@ -107,8 +142,11 @@ void Observers::write_history(double time) {
   force_balance_ = weight != 0 ? drop / weight : 0;
   const Fields& fields = model_.fields();
   const double above = model_.effects().solids_stress ? model_.effects().solids_stress->packing_above(fields) : 0.0;
-  const fluid::InvariantValues now = invariants_.see(constants.grid, fields.solids, fields.fluid, above,
-                                                     model_.velocity_scale(), force_balance_ - 1, time);
+  const auto account = model_.fluid_account(time);
+  const double fluid_mass = account ? fluid::fluid_mass(constants.grid, fields.fluid) : 0;
+  const fluid::InvariantValues now =
+      invariants_.see(constants.grid, fields.solids, fields.fluid, above, model_.velocity_scale(), force_balance_ - 1,
+                      time, account ? account->error(fluid_mass) : 0);
   const auto height = fluid::bed_height(profile);
   bed_height_ = height.value_or(0);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
@@ -118,7 +156,8 @@ void Observers::write_history(double time) {
   }
   row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), now.most_solids, -now.fraction_below,
                          now.divergence});
-  history_.write_row(row);
+  if (account) row.insert(row.end(), {fluid_mass, account->in, account->out});
+  core::on_first(ranks_, [&] { files_->history.write_row(row); });
 }
 
 void Observers::write_fields(double time) {
@@ -128,27 +167,38 @@ void Observers::write_fields(double time) {
                                         fluid::lateral_mean(grid, fields.fluid.pressure)};
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));
-  const auto components = [&](const core::FaceField& u) {
-    core::FieldValues values;
-    for (int a = 0; a < grid.dimensions; ++a) values.emplace_back(u[std::size_t(a)]);
-    return values;
-  };
-  std::vector<core::FieldValues> values{{fields.fluid.voidage}, {fields.fluid.pressure}, components(velocities[0])};
+  std::vector<std::vector<core::Field>> whole{gathered(grid, {&fields.fluid.voidage}),
+                                              gathered(grid, {&fields.fluid.pressure}),
+                                              gathered(grid, components(grid, velocities[0]))};
   for (std::size_t j = 0; j < fields.solids.species(); ++j) {
     rows.push_back(fluid::lateral_mean(grid, fields.solids.fraction[j]));
     rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));
-    values.push_back({fields.solids.fraction[j]});
-    values.push_back(components(velocities[j + 1]));
+    whole.push_back(gathered(grid, {&fields.solids.fraction[j]}));
+    whole.push_back(gathered(grid, components(grid, velocities[j + 1])));
+    if (!has_temperature(model_)) continue;
+    rows.push_back(fluid::lateral_mean(grid, fields.solids.temperature[j]));
+    whole.push_back(gathered(grid, {&fields.solids.temperature[j]}));
   }
-  profiles_.write_row(time, rows);
-  fields_.write_step(time, values);
+  if (model_.effects().compressible) {
+    const core::Field total = model_.effects().compressible->total_pressure(fields.fluid);
+    whole.push_back(gathered(grid, {&total}));
+    whole.push_back(gathered(grid, {&fields.fluid.compression.density}));
+  }
+  std::vector<core::FieldValues> values;
+  for (const auto& field : whole) values.emplace_back(field.begin(), field.end());
+  core::on_first(ranks_, [&] {
+    files_->profiles.write_row(time, rows);
+    files_->fields.write_step(time, values);
+  });
 }
 
 void Observers::log_step() {
   const StepLine& step = model_.last_step();
   const std::string row = fmt::format("{},{},{:.4g},\"{}\"\n", step.time, step.step, step.error_norm, step.limited_by);
-  if (std::fwrite(row.data(), 1, row.size(), steps_.get()) != row.size() || std::fflush(steps_.get()) != 0)
-    fail(steps_path_);
+  core::on_first(ranks_, [&] {
+    std::FILE* file = files_->steps.get();
+    if (std::fwrite(row.data(), 1, row.size(), file) != row.size() || std::fflush(file) != 0) fail(files_->steps_path);
+  });
 }
 
 }  // namespace polybed::tfm

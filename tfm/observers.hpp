@@ -11,9 +11,10 @@
 
 namespace polybed::tfm {
 
-/// The vertical profile of the fields last shown.
+/// The vertical profile of the fields last shown. Collective.
 [[nodiscard]] fluid::Profile profile_of(const Model& model);
 
+/// All ranks measure, the first one writes: every function is collective.
 class Observers {
  public:
   /// Starts the files of a run directory, or goes on with them from a time.
@@ -35,17 +36,23 @@ class Observers {
   [[nodiscard]] double force_balance() const { return force_balance_; }
 
  private:
+  /// What the first rank has open.
+  struct Files {
+    core::HistoryWriter history;
+    core::ProfileWriter profiles;
+    core::FieldWriter fields;
+    std::filesystem::path steps_path;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> steps;
+  };
+
   const Model& model_;
+  const core::Ranks* ranks_;
   fluid::Invariants invariants_;
-  core::HistoryWriter history_;
-  core::ProfileWriter profiles_;
-  core::FieldWriter fields_;
-  std::filesystem::path steps_path_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> steps_;
+  std::unique_ptr<Files> files_;
   double bed_height_ = 0, force_balance_ = 0;
 };
 
-/// Mass of each species in the column, kg.
+/// Mass of each species in the column, kg. Collective.
 [[nodiscard]] std::vector<double> masses(const Model& model);
 
 }  // namespace polybed::tfm

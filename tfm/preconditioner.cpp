@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "core/operators.hpp"
+#include "fluid/density.hpp"
 #include "fluid/pressure.hpp"
 #include "tfm/solids.hpp"
+#include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
 
@@ -60,34 +62,57 @@ bool Preconditioner::setup(const Fields& fields, double c) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     core::Box held_solids = boundaries_.moving_faces(axis, true);
     const core::Box moving = boundaries_.moving_faces(axis, false);
-    build(fields, axis, moving, true);
     held_solids.lo[std::size_t(axis)] = moving.hi[std::size_t(axis)];
-    build(fields, axis, held_solids, false);
+    fluid::with_density(fields.fluid, constants_.fluid.density, [&](const auto& density) {
+      build(fields, density, axis, moving, true);
+      build(fields, density, axis, held_solids, false);
+    });
   }
   for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
+  temperature_row_ = temperature_residual_ = fields.granular.decay;
+  for (Field& row : temperature_row_)
+    for (double& rate : row) rate += c;
   if (fields.stress.present())
     for (std::size_t cell = 0; cell < slope_.size(); ++cell)
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
+  boundaries_.fill_cells(slope_);
+  if (fields.fluid.compression.present()) {
+    diagonal_ = fields.fluid.compression.kappa;
+    for (double& d : diagonal_) d *= c;
+  }
   const auto faces = [](const core::FaceField& f) { return std::array<std::span<const double>, 3>{f[0], f[1], f[2]}; };
-  return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]), slope_, 0.0,
-                       c);
+  return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]), slope_,
+                       diagonal_, c);
 }
 
-void Preconditioner::build(const Fields& fields, int axis, const core::Box& box, bool solids_move) {
+template <class Density>
+void Preconditioner::build(const Fields& fields, const Density& density, int axis, const core::Box& box,
+                           bool solids_move) {
   const Index s = constants_.grid.stride(axis);
   core::for_each_row(constants_.grid, box, [&](Index begin, Index end) {
     for (Index face = begin; face < end; ++face) {
       for (std::size_t j = 0; j < constants_.species(); ++j)
         fraction_[std::size_t(axis)][j][std::size_t(face)] =
             solids_move ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
-      invert_face(fields, axis, face);
+      invert_face(fields, density.on_face(face, s), axis, face);
       respond(fields, axis, face, solids_move);
     }
   });
 }
 
+/// Diagonal of -div(grad U + grad U^T - 2/3 div U I) for the velocity along an axis, 1/m2. The viscosity of the solids
+/// enters S by its diagonal, as if the neighbours stood still.
+double Preconditioner::viscous_diagonal(int axis) const {
+  double sum = 0;
+  for (int d = 0; d < constants_.grid.dimensions; ++d) {
+    const double h = constants_.grid.spacing[std::size_t(d)];
+    sum += (d == axis ? 8.0 / 3 : 2.0) / (h * h);
+  }
+  return sum;
+}
+
 /// S of one face, inverted into its place.
-void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
+void Preconditioner::invert_face(const Fields& fields, double fluid_density, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
   const Index stride = constants_.grid.stride(axis);
   const std::size_t n = constants_.species();
@@ -102,11 +127,17 @@ void Preconditioner::invert_face(const Fields& fields, int axis, Index face) {
     const double b = fluid::exchange_on_face(fields.solids.exchange[j].data(), face, stride, slip);
     const double phi = fraction_[a][j][at];
     const double on_solid = b / constants_.density[j];
-    const double on_flux = phi * b * (1 / constants_.fluid.density - 1 / constants_.density[j]);
+    const double on_flux = phi * b * (1 / fluid_density - 1 / constants_.density[j]);
     system.row(row(j)) -= on_solid * fluid_velocity.transpose();
     system(row(j), row(j)) += on_solid;
     system.row(row(n)) += on_flux * fluid_velocity.transpose();
     system(row(n), row(j)) -= on_flux;
+    if (fields.stress.viscous()) {
+      const double rate = face_mean(fields.stress.viscosity.data(), face, stride) * viscous_diagonal(axis) * phi /
+                          (phi + diffusion_floor(constants_, j)) / constants_.density[j];
+      system(row(j), row(j)) += rate;
+      system(row(n), row(j)) += phi * rate;
+    }
     for (std::size_t k = 0; k < n && !fields.species_exchange.empty(); ++k) {
       if (k == j) continue;
       const Field& pair = fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)];
@@ -173,6 +204,9 @@ void Preconditioner::unpack(const StateLayout& layout, std::span<const double> r
       case Kind::flux:
         layout.unpack(entry, r, face_value_[a][rows_ - 1]);
         break;
+      case Kind::temperature:
+        layout.unpack(entry, r, temperature_residual_[j]);
+        break;
       case Kind::pressure:
         layout.unpack(entry, r, pressure_residual_);
         break;
@@ -185,13 +219,13 @@ void Preconditioner::solve_faces() {
   const core::Grid& grid = constants_.grid;
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
-    for (int side = 0; side < 2 && !grid.periodic[a]; ++side)
+    for (int side = 0; side < 2; ++side)
       fluid::for_each_boundary_row(grid, axis, side, [&](Index begin, Index end) {
         for (Field& value : face_value_[a])
           for (Index face = begin; face < end; ++face) value[std::size_t(face)] /= c_;
       });
     core::for_each_row(grid, boundaries_.moving_faces(axis, true), [&](Index begin, Index end) {
-      const bool held_above = !grid.periodic[a] && axis == 1 && begin >= grid.index(0, grid.cells[1], 0);
+      const bool held_above = axis == 1 && grid.ends(1, 1) && begin >= grid.index(0, grid.cells[1], 0);
       std::array<double, most_rows> value{};
       for (Index face = begin; face < end; ++face) {
         const auto at = std::size_t(face);
@@ -281,6 +315,10 @@ void Preconditioner::pack(const StateLayout& layout, std::span<double> z) {
         break;
       case Kind::flux:
         layout.pack(entry, face_value_[a][rows_ - 1], z);
+        break;
+      case Kind::temperature:
+        for (std::size_t c = 0; c < work_.size(); ++c) work_[c] = temperature_residual_[j][c] / temperature_row_[j][c];
+        layout.pack(entry, work_, z);
         break;
       case Kind::pressure:
         layout.pack(entry, dp_, z);

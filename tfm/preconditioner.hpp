@@ -2,14 +2,15 @@
 // fraction coupled through two elliptic equations, continuity in flux form.
 //
 //   face:  S (dU_1..dU_N, dJ),  dU_f = (dJ - sum phi_j dU_j)/eps,  d_j = b_j/rho_j,  c = the integrator's cj
-//          row j: c dU_j + d_j (dU_j - dU_f) + species exchange
+//          row j: c dU_j + d_j (dU_j - dU_f) + species exchange + diagonal of the solids' viscosity
 //          row J: c dJ + sum phi_j b_j (1/rho_f - 1/rho_j)(dU_f - dU_j)
 //          R_q = S^-1 (1/rho_j.., B),   R_g = S^-1 (1/(phi rho_j).., sum phi_j/(phi rho_j))
-//   cell:  A (dp, s) = (0, c s) - div( C grad(dp, L s) ),  s = sum dphi_j,  L = p_s' + lambda c
+//   cell:  A (dp, s) = (kappa c dp, c s) - div( C grad(dp, L s) ),  s = sum dphi_j,  L = p_s' + lambda c
+//          (kappa = 0 if the fluid is incompressible)
 //   apply: 1. v = S^-1 r on faces
 //          2. A (dp, s) = ( r_p - div v_J , sum r_phi_j - div sum phi_j v_j )
 //          3. v -= R_q grad dp + R_g grad(L s)
-//          4. dphi_j = (r_phi_j - div(phi_j v_j))/c
+//          4. dphi_j = (r_phi_j - div(phi_j v_j))/c,  dtheta_j = r_theta_j/(c + decay), where theta_j is an unknown
 //
 // Step 4 has unit column sums up to 1/c: mass is kept to round-off however inexact step 2 is.
 #pragma once
@@ -36,8 +37,10 @@ class Preconditioner {
   void apply(const StateLayout& layout, std::span<const double> r, std::span<double> z);
 
  private:
-  void build(const Fields& fields, int axis, const core::Box& box, bool solids_move);
-  void invert_face(const Fields& fields, int axis, core::Index face);
+  template <class Density>
+  void build(const Fields& fields, const Density& density, int axis, const core::Box& box, bool solids_move);
+  [[nodiscard]] double viscous_diagonal(int axis) const;
+  void invert_face(const Fields& fields, double fluid_density, int axis, core::Index face);
   void respond(const Fields& fields, int axis, core::Index face, bool solids_move);
   void unpack(const StateLayout& layout, std::span<const double> r);
   void solve_faces();
@@ -58,8 +61,10 @@ class Preconditioner {
   std::array<std::vector<core::Field>, 3> fraction_;           ///< phi_j on faces
   std::array<core::FaceField, 4> coupling_;                    ///< C11, C12, C21, C22
   core::Field slope_;                                          ///< L
+  core::Field diagonal_;                                       ///< kappa c; empty if the fluid is incompressible
   std::array<std::vector<core::Field>, 3> face_value_;         ///< residuals, then corrections, by row
   std::vector<core::Field> fraction_residual_;
+  std::vector<core::Field> temperature_residual_, temperature_row_;  ///< c + decay of theta_j; empty without
   core::Field pressure_residual_, source_p_, source_s_, dp_, s_, work_;
   core::FaceField flux_;
   core::BlockSolver solver_;

@@ -41,7 +41,11 @@ void pack_rates(const StateLayout& layout, const Fields& fields, std::span<doubl
       case Kind::flux:
         layout.pack(entry, fields.flux_rate.free[a], dydt);
         break;
+      case Kind::temperature:
+        layout.pack(entry, fields.solids.temperature_rate[j], dydt);
+        break;
       case Kind::pressure:
+        if (fields.fluid.compression.present()) layout.pack(entry, fields.fluid.compression.pressure_rate, dydt);
         break;
     }
   }

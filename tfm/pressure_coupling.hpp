@@ -13,7 +13,8 @@ namespace polybed::tfm {
 /// fields.fluid.pressure is read; its ghosts are set.
 void subtract_pressure_gradient(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields);
 
-/// Writes the rates of all fields to their places in dydt; entries of the pressure are left alone.
+/// Writes the rates of all fields to their places in dydt; entries of the pressure are left alone, unless the fluid is
+/// compressible.
 void pack_rates(const StateLayout& layout, const Fields& fields, std::span<double> dydt);
 
 }  // namespace polybed::tfm

@@ -5,7 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "core/ranks.hpp"
+#include "tfm/granular_temperature.hpp"
 #include "tfm/mixture.hpp"
+#include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
 
@@ -20,16 +23,28 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
       timers_(timers),
       fields_(constants_),
       effects_(make_effects(scene, constants_, boundaries_, fields_)),
-      flux_(core::make_face_field(constants_.grid)) {}
+      flux_(core::make_face_field(constants_.grid)),
+      viscous_weight_(fields_.stress.viscosity) {
+  using Kind = fluid::Ghosts::Kind;
+  for (core::Field& phi : fields_.solids.fraction) state_ghosts_.push_back({Kind::cells, &phi});
+  for (core::FaceField& velocity : fields_.solids.velocity)
+    for (int axis = 0; axis < constants_.grid.dimensions; ++axis)
+      state_ghosts_.push_back({Kind::velocity, &velocity[std::size_t(axis)], axis, discretisation_.solids_wall});
+  for (int axis = 0; axis < constants_.grid.dimensions; ++axis)
+    state_ghosts_.push_back({Kind::joined, &fields_.fluid.flux[std::size_t(axis)]});
+}
 
 // Per unit mass of each phase, from T(1.27), T(1.28) and T(1.16) with the pressure gradient of T(1.17):
 //
 //   (1) dphi_j/dt = -div(phi_j U_j)
 //   (2) dU_j/dt   = a_j - grad p / rho_j
 //       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
-//             + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
+//             + div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
 //   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
+//
+// and, of a compressible fluid, (5) of fluid/compressible.hpp. rho_f in (2) stands for rho_0 there, and (3) has its
+// -(1 - rho_0/rho_f) g besides.
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
   const auto timed = [&](const char* term, auto&& work) {
     const auto scope = timers_.scope(term);
@@ -41,18 +56,20 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     fill_ghosts();
   });
   if (!admissible()) return false;
-  timed("mixture", [&] { superficial_slip(constants_, fields_); });
+  if (!equation_of_state()) return false;
+  timed("mixture", [&] {
+    superficial_slip(constants_, fields_);
+    if (effects_.compressible) weigh_slip_by_density(constants_, fields_);
+  });
   timed("convection", [&] {
     continuity(constants_, boundaries_, discretisation_.flux, fields_, flux_, first_order_);
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
-  if (effects_.solids_stress)
-    timed("solids stress", [&] {
-      effects_.solids_stress->evaluate(fields_);
-      subtract_stress(constants_, boundaries_, fields_);
-    });
-  timed("gravity", [&] { add_gravity(constants_, boundaries_, fields_); });
+  timed("gravity", [&] {
+    add_gravity(constants_, boundaries_, fields_);
+    if (effects_.compressible) effects_.compressible->add_gravity(fields_.fluid, fields_.fluid_acceleration);
+  });
   if (effects_.drag)
     timed("drag", [&] {
       effects_.drag->evaluate(fields_);
@@ -60,6 +77,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       fluid::subtract_exchange(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
                                fields_.fluid_acceleration);
     });
+  if (effects_.solids_stress) timed("solids stress", [&] { add_solids_stress(); });
   if (effects_.species_exchange)
     timed("species exchange", [&] {
       effects_.species_exchange->evaluate(fields_);
@@ -70,16 +88,48 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
                      fields_.fluid_acceleration, fields_.flux_rate);
     set_inlet_rate(t);
   });
+  if (effects_.compressible)
+    timed("fluid continuity", [&] { effects_.compressible->set_pressure_rate(fields_.solids, fields_.fluid); });
   return true;
+}
+
+/// Density of a compressible fluid; false at a pressure that has none.
+bool RightHandSide::equation_of_state() {
+  if (!effects_.compressible) return true;
+  const auto scope = timers_.scope("equation of state");
+  return effects_.compressible->set_density(fields_.fluid);
+}
+
+std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLayout& layout,
+                                                        std::span<const double> y) {
+  layout.unpack(y, fields_.solids, fields_.fluid);
+  set_inlet_velocity(t);
+  if (!effects_.compressible->set_density(fields_.fluid)) return std::nullopt;
+  return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid);
+}
+
+/// Pressure of the solids and, where effects give them any, viscosity and granular temperature.
+void RightHandSide::add_solids_stress() {
+  SolidsStress& stress = fields_.stress;
+  effects_.solids_stress->evaluate(fields_);
+  if (stress.viscous()) {
+    strain_rates(constants_, fields_);
+    std::fill(stress.viscosity.begin(), stress.viscosity.end(), 0.0);
+    if (effects_.solids_viscosity) effects_.solids_viscosity->add(fields_);
+    if (effects_.collisions) effects_.collisions->add(fields_);
+    if (!fields_.solids.temperature_rate.empty())
+      add_temperature_transport(constants_, boundaries_, discretisation_.flux, fields_, flux_);
+    boundaries_.fill_cells(stress.viscosity);
+    if (effects_.solids_wall) effects_.solids_wall->fill_ghosts(fields_);
+    add_solids_viscosity(constants_, boundaries_, fields_, viscous_weight_);
+  }
+  subtract_stress(constants_, boundaries_, fields_);
 }
 
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.
 void RightHandSide::fill_ghosts() {
-  for (core::Field& phi : fields_.solids.fraction) boundaries_.fill_cells(phi);
+  boundaries_.fill(state_ghosts_);
   composition(constants_, fields_);
-  for (core::FaceField& velocity : fields_.solids.velocity)
-    boundaries_.fill_velocity(velocity, discretisation_.solids_wall);
-  boundaries_.join(fields_.fluid.flux);
   fluid::fluid_velocity(constants_.grid, fields_.solids, fields_.fluid);
   boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);
 }
@@ -91,12 +141,12 @@ double RightHandSide::side_of(double t) const {
 
 /// The flux through the distributor is what the inlet says, not what the integrator has made of its rate.
 void RightHandSide::set_inlet_velocity(double t) {
-  if (boundaries_.closed() || constants_.grid.periodic[1]) return;
+  if (boundaries_.closed()) return;
   inlet_.set_velocity(side_of(t), fields_.fluid.flux[1]);
 }
 
 void RightHandSide::set_inlet_rate(double t) {
-  if (boundaries_.closed() || constants_.grid.periodic[1]) return;
+  if (boundaries_.closed()) return;
   inlet_.set_rate(side_of(t), fields_.flux_rate.free[1]);
 }
 
@@ -109,7 +159,7 @@ bool RightHandSide::admissible() const {
         speed += fields_.fluid.velocity[std::size_t(axis)][c];
     }
   });
-  return most < 1 && std::isfinite(speed);
+  return core::on_all_ranks(constants_.grid, most < 1 && std::isfinite(speed));
 }
 
 }  // namespace polybed::tfm

@@ -2,9 +2,11 @@
 // pressure acts. Both integrators use this one operator.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/timers.hpp"
+#include "fluid/fluid_mass.hpp"
 #include "fluid/inlet.hpp"
 #include "tfm/effects.hpp"
 #include "tfm/solids.hpp"
@@ -22,10 +24,17 @@ class RightHandSide {
  public:
   RightHandSide(const core::Scene& scene, Constants constants, fluid::Boundaries boundaries, fluid::Inlet inlet,
                 Discretisation discretisation, core::Timers& timers);
+  RightHandSide(const RightHandSide&) = delete;
+  RightHandSide& operator=(const RightHandSide&) = delete;
 
   /// Evaluates every term at (t, y); the result stands in fields(). False if the state is none that closures
   /// can be asked about (not finite, or a cell with more than its volume of solids): the step must shrink.
   [[nodiscard]] bool evaluate(double t, const StateLayout& layout, std::span<const double> y);
+
+  /// Of a compressible fluid: what flows in and out in a state; nothing if its pressure has no density. The unknowns
+  /// of that state stand in fields().
+  [[nodiscard]] std::optional<fluid::MassFlow> mass_flow(double t, const StateLayout& layout,
+                                                         std::span<const double> y);
 
   [[nodiscard]] const Constants& constants() const { return constants_; }
   [[nodiscard]] const fluid::Boundaries& boundaries() const { return boundaries_; }
@@ -40,6 +49,8 @@ class RightHandSide {
 
  private:
   void fill_ghosts();
+  [[nodiscard]] bool equation_of_state();
+  void add_solids_stress();
   [[nodiscard]] double side_of(double t) const;
   void set_inlet_velocity(double t);
   void set_inlet_rate(double t);
@@ -55,6 +66,8 @@ class RightHandSide {
   Effects effects_;
   core::FaceField flux_;
   const FaceList* first_order_ = nullptr;
+  std::vector<fluid::Ghosts> state_ghosts_;  ///< the unknowns, whose ghosts travel together
+  core::Field viscous_weight_;               ///< work space of the solids' viscosity; empty without
 };
 
 }  // namespace polybed::tfm

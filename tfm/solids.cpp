@@ -28,7 +28,7 @@ void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, co
     const Index s = grid.stride(axis);
     const double *phi = fraction.data(), *u = velocity[std::size_t(axis)].data();
     double* out = flux[std::size_t(axis)].data();
-    core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
+    core::for_each_row(grid, boundaries.moving_faces_of_cells(axis, false), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) out[c] = u[c] * Face::at(phi, c, s, u[c]);
     });
   }
@@ -43,6 +43,12 @@ void redo_upwind(const core::Grid& grid, const FaceList& faces, const Field& fra
     double* out = flux[a].data();
     for (const Index c : faces[a]) out[c] = u[c] * core::UpwindFace::at(phi, c, grid.stride(axis), u[c]);
   }
+}
+
+/// Takes the flux of a species from that of the mixture.
+void subtract(const core::FaceField& flux, core::FaceField& from) {
+  for (std::size_t a = 0; a < flux.size(); ++a)
+    for (std::size_t f = 0; f < flux[a].size(); ++f) from[a][f] -= flux[a][f];
 }
 
 template <class Difference>
@@ -60,6 +66,8 @@ void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const 
 void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields,
                 core::FaceField& flux, const FaceList* first_order) {
   const core::Grid& grid = constants.grid;
+  const bool compressible = fields.fluid.compression.present();
+  if (compressible) fields.fluid.compression.flux = fields.fluid.flux;
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const Field& phi = fields.solids.fraction[j];
     const core::FaceField& velocity = fields.solids.velocity[j];
@@ -68,12 +76,12 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
     else
       solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
     if (first_order != nullptr) redo_upwind(grid, *first_order, phi, velocity, flux);
-    boundaries.join(flux);
+    if (compressible) subtract(flux, fields.fluid.compression.flux);
     Field& rate = fields.solids.fraction_rate[j];
     core::divergence(grid, flux, rate);
     for (double& r : rate) r = -r;
-    boundaries.fill_cells(rate);
   }
+  boundaries.fill_cells(fields.solids.fraction_rate);
 }
 
 void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields) {

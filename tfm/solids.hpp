@@ -21,7 +21,8 @@ constexpr double stress_fraction_floor = 1e-3;
 enum class Scheme { upwind, limited };
 
 /// (1): fraction_rate = -div F_j with F_j = U_j times phi_j from upwind, with half a limited slope if
-/// `limited`. Ghosts of the rate are filled. flux_j is work space.
+/// `limited`. Ghosts of the rate are filled. flux_j is work space. If the fluid is compressible its own flux,
+/// J - sum F_j, is set too.
 /// \param first_order  faces that take phi_j from upwind alone whatever the scheme; null: none
 void continuity(const Constants&, const fluid::Boundaries&, Scheme, Fields&, core::FaceField& flux,
                 const FaceList* first_order);

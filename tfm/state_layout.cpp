@@ -11,12 +11,13 @@ using core::Field;
 using core::Index;
 using Kind = StateLayout::Entry::Kind;
 
-StateLayout::StateLayout(const core::Grid& grid, int species, bool with_pressure)
+StateLayout::StateLayout(const core::Grid& grid, int species, bool with_pressure, bool with_temperature)
     : grid_(grid), with_pressure_(with_pressure) {
   for (int j = 0; j < species; ++j) add(Kind::fraction, j, -1, core::owned_cells(grid));
   for (int j = 0; j < species; ++j)
     for (int axis = 0; axis < grid.dimensions; ++axis) add(Kind::velocity, j, axis, core::owned_faces(grid, axis));
   for (int axis = 0; axis < grid.dimensions; ++axis) add(Kind::flux, -1, axis, core::owned_faces(grid, axis));
+  for (int j = 0; j < species && with_temperature; ++j) add(Kind::temperature, j, -1, core::owned_cells(grid));
   if (with_pressure) add(Kind::pressure, -1, -1, core::owned_cells(grid));
 }
 
@@ -67,11 +68,15 @@ std::string StateLayout::describe(std::size_t index, const std::vector<std::stri
       case Kind::flux:
         name = fmt::format("flux.{}", axis_name[entry.axis]);
         break;
+      case Kind::temperature:
+        name = "theta_" + species.at(std::size_t(entry.species));
+        break;
       case Kind::pressure:
         name = "pressure";
         break;
     }
-    const std::size_t i = local % nx, j = local / nx % ny, k = local / nx / ny;
+    const auto before = [&](std::size_t axis) { return std::size_t(grid_.before[axis]); };
+    const std::size_t i = before(0) + local % nx, j = before(1) + local / nx % ny, k = before(2) + local / nx / ny;
     return grid_.dimensions == 2 ? fmt::format("{} ({}, {})", name, i, j)
                                  : fmt::format("{} ({}, {}, {})", name, i, j, k);
   }

@@ -11,19 +11,20 @@
 
 namespace polybed::tfm {
 
-/// The unknowns: phi_j (cells), U_j and J (all owned faces), and p (cells) where the integrator carries it.
+/// The unknowns: phi_j (cells), U_j and J (all owned faces), theta_j (cells) where it has an equation, and p (cells)
+/// where the integrator carries it.
 class StateLayout {
  public:
   /// One field of the state: its kind, species (-1 for the mixture), axis (-1 on cells), and place.
   struct Entry {
-    enum class Kind { fraction, velocity, flux, pressure } kind;
+    enum class Kind { fraction, velocity, flux, temperature, pressure } kind;
     int species, axis;
     std::size_t begin, size;
     core::Box box;
   };
 
   StateLayout() = default;
-  StateLayout(const core::Grid& grid, int species, bool with_pressure);
+  StateLayout(const core::Grid& grid, int species, bool with_pressure, bool with_temperature = false);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
@@ -38,7 +39,7 @@ class StateLayout {
   /// Copies one padded field to its place in a state vector.
   void pack(const Entry& entry, const core::Field& field, std::span<double> y) const;
 
-  /// Name of the field and the cell or face that an entry of the state belongs to, for messages.
+  /// Name of the field and the cell or face of the column that an entry of the state belongs to, for messages.
   [[nodiscard]] std::string describe(std::size_t index, const std::vector<std::string>& species) const;
 
  private:
@@ -61,6 +62,8 @@ template <class Solids, class Fluid>
       return solids.velocity[std::size_t(entry.species)][std::size_t(entry.axis)];
     case Kind::flux:
       return fluid.flux[std::size_t(entry.axis)];
+    case Kind::temperature:
+      return solids.temperature[std::size_t(entry.species)];
     case Kind::pressure:
       break;
   }

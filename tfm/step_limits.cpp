@@ -41,7 +41,7 @@ double courant_rate(const core::Grid& grid, const core::FaceField& velocity, Ind
 std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity) {
   const core::Grid& grid = constants.grid;
   const double h = *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
-  FastestRate convection, acoustics, damping, drag;
+  FastestRate convection, acoustics, damping, drag, viscous, temperature;
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       const auto at = std::size_t(c);
@@ -53,7 +53,10 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
         on_fluid += phi * b / (std::max(fields.fluid.voidage[at], fluid::voidage_floor) * constants.fluid.density);
         solids_density += fields.share[j][at] * constants.density[j];
         drag.see(b / constants.density[j] + on_fluid, c);
+        if (fields.stress.viscous())
+          viscous.see(4 * grid.dimensions * fields.stress.viscosity[at] / (constants.density[j] * h * h), c);
       }
+      for (const core::Field& decay : fields.granular.decay) temperature.see(decay[at], c);
       if (!fields.stress.present()) continue;
       acoustics.see(std::sqrt(std::max(fields.stress.slope[at], 0.0) / solids_density) / h, c);
       damping.see(2 * grid.dimensions * fields.stress.damping[at] / (solids_density * h * h), c);
@@ -64,20 +67,29 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
     scales.push_back(acoustics.scale("acoustics"));
     scales.push_back(damping.scale("bulk viscosity"));
   }
+  if (!fields.granular.decay.empty()) scales.push_back(temperature.scale("granular temperature"));
+  if (fields.stress.viscous()) scales.push_back(viscous.scale("solids viscosity"));
   if (kinematic_viscosity > 0)
     scales.push_back({"viscosity", h * h / (4 * grid.dimensions * kinematic_viscosity), grid.index(0, 0)});
   return scales;
 }
 
-std::string limited_by(const std::vector<TimeScale>& scales, double step, const Constants& constants) {
-  const auto nearest = std::min_element(scales.begin(), scales.end(),
-                                        [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
-  if (nearest == scales.end() || step < limiting_share * nearest->seconds) return "error test";
-  const core::Grid& grid = constants.grid;
+TimeScale nearest_of(const std::vector<TimeScale>& scales) {
+  TimeScale nearest{"nothing", std::numeric_limits<double>::infinity(), 0};
+  for (const TimeScale& scale : scales)
+    if (scale.seconds < nearest.seconds) nearest = scale;
+  return nearest;
+}
+
+std::string place_of(const TimeScale& scale, const core::Grid& grid) {
   const Index row = grid.extent(0), layer = grid.extent(0) * grid.extent(1);
-  const std::string place = fmt::format("{} at ({}, {}", nearest->process, nearest->cell % row - grid.ghosts(0),
-                                        nearest->cell % layer / row - grid.ghosts(1));
-  return grid.dimensions == 2 ? place + ")" : fmt::format("{}, {})", place, nearest->cell / layer - grid.ghosts(2));
+  const std::array<Index, 3> padded{scale.cell % row, scale.cell % layer / row, scale.cell / layer};
+  std::string place = scale.process + " at (";
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    place += fmt::format("{}{}", axis == 0 ? "" : ", ", padded[a] - grid.ghosts(axis) + grid.before[a]);
+  }
+  return place + ")";
 }
 
 }  // namespace polybed::tfm

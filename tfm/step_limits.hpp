@@ -9,7 +9,8 @@
 
 namespace polybed::tfm {
 
-/// The shortest time scale of one process, s, and where it is; infinite where the process is absent.
+/// The shortest time scale of one process in this rank's block, s, and where it is; infinite where the process is
+/// absent.
 struct TimeScale {
   std::string process;
   double seconds;
@@ -17,7 +18,8 @@ struct TimeScale {
 };
 
 /// Convection (h/|U| of any phase), acoustics of the packed bed (h/c_s), its bulk viscosity (h2 rho_s/lambda), drag
-/// (phi rho_j relaxing with the fluid) and viscosity (h2/nu), from fields of a finished evaluation.
+/// (phi rho_j relaxing with the fluid), viscosity (h2/nu), that of the solids (h2 phi rho_j/mu_s) and decay of the
+/// granular temperature, each where it is present, from fields of a finished evaluation.
 /// \param kinematic_viscosity  nu, m2/s, of the fluid's stress; 0: absent
 std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity);
 
@@ -25,7 +27,10 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
 /// third order Runge-Kutta is stable up to 1.7 on the imaginary axis and 2.5 on the real one, and steps settle below.
 constexpr double limiting_share = 0.5;
 
-/// One phrase for the step log: the process nearest to its limit if it is near, else "error test".
-std::string limited_by(const std::vector<TimeScale>& scales, double step, const Constants& constants);
+/// The process with the shortest time scale; one that takes for ever for none.
+[[nodiscard]] TimeScale nearest_of(const std::vector<TimeScale>& scales);
+
+/// One phrase for the step log: the process, and the cell of the column where it is shortest.
+[[nodiscard]] std::string place_of(const TimeScale& scale, const core::Grid& grid);
 
 }  // namespace polybed::tfm

@@ -24,6 +24,7 @@ struct Derived {
   std::size_t unknowns = 0;
   double weight = 0;  ///< buoyant weight of the solids per area, Pa
   double max_packing = 0;
+  double sound = 0;  ///< speed in a compressible fluid, m/s
   std::vector<double> terminal, reynolds;
   std::vector<std::string> notes;
 };
@@ -47,6 +48,9 @@ Derived derive(const core::Scene& scene) {
   const tfm::Constants& constants = model.constants();
   Derived derived;
   derived.fluid = constants.fluid;
+  if (scene.fluid.equation_of_state != "incompressible")
+    derived.sound = fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, constants.fluid.density),
+                                          scene.fluid.outlet_pressure);
   derived.integrator = model.integrator_name();
   derived.reason = model.integrator_reason();
   derived.unknowns = model.unknowns();
@@ -86,6 +90,7 @@ void run_check(const CaseOptions& options) {
     core::Json json;
     json.begin_object().member("case", text).member("hash", core::text_hash(text));
     json.member("fluid_density_kg_m3", derived.fluid.density).member("fluid_viscosity_Pa_s", derived.fluid.viscosity);
+    if (derived.sound > 0) json.member("speed_of_sound_m_s", derived.sound);
     json.member("integrator", derived.integrator).member("unknowns", std::uint64_t(derived.unknowns));
     json.member("memory_MB", memory).member("buoyant_weight_Pa", derived.weight);
     json.key("notes").begin_array();
@@ -96,6 +101,7 @@ void run_check(const CaseOptions& options) {
   }
   fmt::print("{}\n", text);
   fmt::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
+  if (derived.sound > 0) fmt::print("# sound in the fluid {:.5g} m/s\n", derived.sound);
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     fmt::print("# {}: terminal velocity {:.4g} m/s, Re of the inlet {:.4g}\n", scene.species[j].name,
                derived.terminal[j], derived.reynolds[j]);

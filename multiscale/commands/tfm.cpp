@@ -6,6 +6,7 @@
 #include "core/case_file.hpp"
 #include "core/interrupt.hpp"
 #include "core/progress.hpp"
+#include "core/ranks.hpp"
 #include "core/run.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/picture.hpp"
@@ -75,11 +76,17 @@ std::string physics_hash(core::Scene scene) {
   return core::text_hash(core::resolved_case(scene));
 }
 
-/// One run from its scene to its record.
+/// One run from its scene to its record. On several ranks all of them compute; the first reads, writes and speaks.
 class TfmRun {
  public:
-  TfmRun(const RunOptions& options, core::Scene scene, fs::path directory)
-      : options_(options), scene_(std::move(scene)), directory_(std::move(directory)), model_(scene_, timers_) {
+  TfmRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
+      : options_(options),
+        scene_(std::move(scene)),
+        directory_(std::move(directory)),
+        ranks_(std::move(ranks)),
+        first_(core::is_first(ranks_.get())),
+        model_(scene_, timers_, ranks_) {
+    options_.quiet = options_.quiet || !first_;
     prepare();
   }
 
@@ -101,24 +108,35 @@ class TfmRun {
     std::optional<double> resume_time;
     model_.show(model_.time());
     std::vector<double> initial_mass = tfm::masses(model_);
+    core::Checkpoint checkpoint;
     if (options_.resume) {
-      const core::Checkpoint checkpoint = read_newest_checkpoint(directory_);
-      const auto hash = checkpoint.texts.find("physics_hash");
-      if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene_))
-        throw core::CaseError(fmt::format("{}: the checkpoint is of another case; only run and output times may change",
-                                          directory_.string()));
+      core::on_first(ranks_.get(), [&] {
+        checkpoint = read_newest_checkpoint(directory_);
+        check_case_of(checkpoint);
+        initial_mass = checkpoint.arrays.at("initial_mass");
+      });
       model_.resume(checkpoint);
-      initial_mass = checkpoint.arrays.at("initial_mass");
+      core::take_from_first(ranks_.get(), initial_mass);
       resume_time = model_.time();
     } else if (scene_.bed.start.starts_with("checkpoint:")) {
-      model_.start_from(core::read_checkpoint(scene_.bed.start.substr(std::string("checkpoint:").size())));
+      core::on_first(ranks_.get(), [&] {
+        checkpoint = core::read_checkpoint(scene_.bed.start.substr(std::string("checkpoint:").size()));
+      });
+      model_.start_from(checkpoint);
       model_.show(0);
       initial_mass = tfm::masses(model_);
     }
     initial_mass_ = initial_mass;
     begin_ = model_.time();
-    if (!options_.resume) remove_checkpoints();
+    if (!options_.resume) core::on_first(ranks_.get(), [&] { remove_checkpoints(); });
     observers_.emplace(model_, directory_, scene_.tfm.rtol, initial_mass, resume_time);
+  }
+
+  void check_case_of(const core::Checkpoint& checkpoint) const {
+    const auto hash = checkpoint.texts.find("physics_hash");
+    if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene_))
+      throw core::CaseError(fmt::format("{}: the checkpoint is of another case; only run and output times may change",
+                                        directory_.string()));
   }
 
   /// A run that begins anew and is killed at once must not be resumed from the run it replaces.
@@ -142,7 +160,7 @@ class TfmRun {
         [&] {
           observers_->log_step();
           if (progress.due(model_.time())) progress.show(line());
-          return !interrupt_.wanted();
+          return !core::on_any_rank(ranks_.get(), interrupt_.wanted());
         });
   }
 
@@ -163,7 +181,7 @@ class TfmRun {
     checkpoint.arrays["initial_mass"] = initial_mass_;
     checkpoint.texts["case"] = core::resolved_case(scene_);
     checkpoint.texts["physics_hash"] = physics_hash(scene_);
-    core::write_checkpoint(directory_ / "checkpoint.h5", checkpoint);
+    core::on_first(ranks_.get(), [&] { core::write_checkpoint(directory_ / "checkpoint.h5", checkpoint); });
     record("running");
   }
 
@@ -177,24 +195,27 @@ class TfmRun {
         error.what(), model_.last_step().step, model_.last_step().limited_by, model_.time(), directory_.string()));
   }
 
-  void record(const std::string& state) {
-    write_run_record(directory_,
-                     {scene_, model_, *observers_, timers_, state, begin_, core::cpu_seconds() - cpu_begin_});
+  RunTotals record(const std::string& state) {
+    const RunTotals totals = totals_of(model_, core::cpu_seconds() - cpu_begin_);
+    core::on_first(ranks_.get(), [&] {
+      write_run_record(directory_, {scene_, model_, *observers_, timers_, state, begin_, totals});
+    });
+    return totals;
   }
 
   void finish(const std::string& state) {
-    record(state);
+    const RunTotals totals = record(state);
+    if (!first_) return;
     std::string message;
     if (!draw_picture(directory_, message) && !options_.quiet) fmt::print(stderr, "no picture: {}\n", message);
-    if (!options_.quiet) print_summary();
+    if (!options_.quiet) print_summary(totals);
     if (options_.json)
-      fmt::print("{}\n", run_record_text(
-                             {scene_, model_, *observers_, timers_, state, begin_, core::cpu_seconds() - cpu_begin_}));
+      fmt::print("{}\n", run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals}));
   }
 
-  void print_summary() const {
+  void print_summary(const RunTotals& totals) const {
     const tfm::Work work = model_.work();
-    const double cpu = core::cpu_seconds() - cpu_begin_, simulated = model_.time() - begin_;
+    const double cpu = totals.cpu_seconds, simulated = model_.time() - begin_;
     fmt::print(stderr, "\n{:26} {:>9} {:>10}\n", "term", "s", "calls");
     for (const core::Timers::Term& term : timers_.terms())
       fmt::print(stderr, "{:26} {:9.3f} {:10}\n", term.name, term.seconds, term.calls);
@@ -206,12 +227,10 @@ class TfmRun {
     for (const fluid::WorstInvariant& w : observers_->invariants().worst())
       fmt::print(stderr, "{}: worst {:.2e}, limit {:.0e}{}\n", w.name, w.value, w.limit,
                  w.value > w.limit ? "  <-- exceeded" : "");
-    if (model_.effects().drag) {
-      const tfm::ClosureUse use = model_.effects().drag->use();
+    for (const tfm::ClosureUse& use : totals.closures)
       fmt::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,
                  100.0 * double(use.guarded) / double(std::max<std::uint64_t>(use.evaluations, 1)),
                  double(use.evaluations));
-    }
     fmt::print(stderr, "{}\n", (directory_ / "picture.png").string());
   }
 
@@ -219,6 +238,8 @@ class TfmRun {
   RunOptions options_;
   core::Scene scene_;
   fs::path directory_;
+  std::shared_ptr<const core::Ranks> ranks_;
+  bool first_;  ///< this process is the one that reads, writes and speaks
   core::Timers timers_;
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
   tfm::Model model_;
@@ -231,8 +252,9 @@ class TfmRun {
 void run_tfm(const RunOptions& options) {
   core::Scene scene = read_scene(options);
   const fs::path directory = run_directory(options);
-  check_directory(directory, options);
-  TfmRun run(options, std::move(scene), directory);
+  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  core::on_first(ranks.get(), [&] { check_directory(directory, options); });
+  TfmRun run(options, std::move(scene), directory, ranks);
   run.run();
 }
 

@@ -19,7 +19,8 @@ LIBRARIES = {
     r"hdf5": r"core/output_(file\.cpp|hdf5\.hpp)",
     r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
     r"CLI/": r"multiscale/main\.cpp",
-    r"mpi\.h": r"(core/(linear_solver|hypre_rows)\.cpp|multiscale/main\.cpp)",
+    r"mpi\.h": r"(core/mpi\.hpp|multiscale/main\.cpp)",
+    r"core/mpi\.hpp": r"core/(ranks|blocks|halo|linear_solver|hypre_rows|integrator_vector)\.cpp",
 }
 CLOSURES_SEE = re.compile(r"^(closures/|Eigen/|[a-z_]+$)")  # ours, Eigen, the standard library
 

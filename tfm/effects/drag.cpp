@@ -28,7 +28,7 @@ void Drag::evaluate(Fields& fields) {
       for (std::size_t c = 0; c < cells; ++c) result_[j][c] *= factor * eps[c];
     }
   });
-  for (core::Field& b : fields.solids.exchange) boundaries_.fill_cells(b);
+  boundaries_.fill_cells(fields.solids.exchange);
 }
 
 ClosureUse Drag::use() const { return {"drag " + name_, count_.evaluations, count_.guarded}; }

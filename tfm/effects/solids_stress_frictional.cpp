@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 #include "tfm/initial.hpp"
 
 namespace polybed::tfm {
@@ -95,7 +96,7 @@ double FrictionalStress::packing_above(const Fields& fields) const {
   for_each_cell_with_packing(fields, [&](Index c, double packing) {
     most = std::max(most, fields.solids_fraction[std::size_t(c)] - packing);
   });
-  return most;
+  return core::greatest_of_ranks(constants_.grid, most);
 }
 
 double FrictionalStress::pressure_at(double solids_fraction) const { return law_(solids_fraction).pressure; }
@@ -110,6 +111,10 @@ void FrictionalStress::evaluate(Fields& fields) {
     pressure[c] = value.pressure;
     slope[c] = value.slope;
   });
+  if (!fields.stress.contact.empty()) {
+    std::copy(fields.stress.pressure.begin(), fields.stress.pressure.end(), fields.stress.contact.begin());
+    boundaries_.fill_cells(fields.stress.contact);
+  }
   if (bulk_viscosity_ > 0) add_bulk_viscosity(fields);
   boundaries_.fill_cells(fields.stress.pressure);
 }

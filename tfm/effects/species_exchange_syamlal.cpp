@@ -52,7 +52,7 @@ void SyamlalExchange::evaluate(Fields& fields) {
         }
     }
   });
-  for (core::Field& k : fields.species_exchange) boundaries_.fill_cells(k);
+  boundaries_.fill_cells(fields.species_exchange);
 }
 
 }  // namespace polybed::tfm

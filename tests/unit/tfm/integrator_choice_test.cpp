@@ -38,6 +38,14 @@ TEST(IntegratorChoice, GasAndSettlingBedsAreForImplicitSteps) {
   EXPECT_EQ(chosen(settling), "implicit");
 }
 
+TEST(IntegratorChoice, CompressibleFluidsAreForImplicitSteps) {
+  core::Scene scene = glass(0.8e-3);
+  scene.fluid.equation_of_state = "tait";
+  EXPECT_EQ(chosen(scene), "implicit");
+  scene.tfm.integrator = "explicit";
+  EXPECT_EQ(chosen(scene), "explicit");
+}
+
 TEST(IntegratorChoice, TheCaseHasTheLastWord) {
   core::Scene scene = glass(0.2e-3);
   scene.tfm.integrator = "explicit";

@@ -1,0 +1,23 @@
+// MPI for the files of core that speak it.
+#pragma once
+
+#include <mpi.h>
+
+#include "core/grid.hpp"
+#include "core/ranks.hpp"
+
+namespace polybed::core {
+
+/// The communicator of the ranks that share a column; this process alone for none.
+[[nodiscard]] inline MPI_Comm communicator(const Ranks* ranks) {
+  return ranks == nullptr ? MPI_COMM_SELF : MPI_Comm_f2c(ranks->handle());
+}
+[[nodiscard]] inline MPI_Comm communicator(const Grid& grid) { return communicator(grid.ranks.get()); }
+
+/// Starts MPI if nobody has.
+void open_mpi();
+
+/// Turns what an MPI call returns into an MpiError.
+void check_mpi(int code, const char* call);
+
+}  // namespace polybed::core

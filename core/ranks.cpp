@@ -1,0 +1,126 @@
+#include "core/ranks.hpp"
+
+#include <exception>
+#include <new>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/mpi.hpp"
+
+namespace polybed::core {
+
+void check_mpi(int code, const char* call) {
+  if (code != MPI_SUCCESS) throw MpiError(std::string(call) + " failed");
+}
+
+void open_mpi() {
+  int started = 0;
+  MPI_Initialized(&started);
+  if (started == 0) check_mpi(MPI_Init(nullptr, nullptr), "MPI_Init");
+}
+
+std::shared_ptr<const Ranks> Ranks::of_program() {
+  open_mpi();
+  int count = 1, rank = 0;
+  check_mpi(MPI_Comm_size(MPI_COMM_WORLD, &count), "MPI_Comm_size");
+  check_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "MPI_Comm_rank");
+  if (count == 1) return nullptr;
+  return std::shared_ptr<const Ranks>(new Ranks(MPI_Comm_c2f(MPI_COMM_WORLD), count, rank));
+}
+
+bool is_first(const Ranks* ranks) { return ranks == nullptr || ranks->rank() == 0; }
+
+namespace {
+
+double reduced(const Grid& grid, double value, MPI_Op operation) {
+  if (!grid.ranks) return value;
+  double result = 0;
+  check_mpi(MPI_Allreduce(&value, &result, 1, MPI_DOUBLE, operation, communicator(grid)), "MPI_Allreduce");
+  return result;
+}
+
+}  // namespace
+
+double sum_of_ranks(const Grid& grid, double value) { return reduced(grid, value, MPI_SUM); }
+double greatest_of_ranks(const Grid& grid, double value) { return reduced(grid, value, MPI_MAX); }
+double least_of_ranks(const Grid& grid, double value) { return reduced(grid, value, MPI_MIN); }
+bool on_all_ranks(const Grid& grid, bool holds) { return reduced(grid, holds ? 1 : 0, MPI_MIN) > 0; }
+
+bool on_any_rank(const Ranks* ranks, bool holds) {
+  if (ranks == nullptr) return holds;
+  int here = holds ? 1 : 0, anywhere = 0;
+  check_mpi(MPI_Allreduce(&here, &anywhere, 1, MPI_INT, MPI_MAX, communicator(ranks)), "MPI_Allreduce");
+  return anywhere != 0;
+}
+
+void add_over_ranks(const Ranks* ranks, std::span<double> values) {
+  if (ranks == nullptr) return;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, MPI_SUM, communicator(ranks)),
+            "MPI_Allreduce");
+}
+
+void add_over_ranks(const Grid& grid, std::span<double> values) { add_over_ranks(grid.ranks.get(), values); }
+
+int rank_of_greatest(const Grid& grid, double value) {
+  if (!grid.ranks) return 0;
+  struct {
+    double value;
+    int rank;
+  } here{value, grid.ranks->rank()}, result{};
+  check_mpi(MPI_Allreduce(&here, &result, 1, MPI_DOUBLE_INT, MPI_MAXLOC, communicator(grid)), "MPI_Allreduce");
+  return result.rank;
+}
+
+namespace {
+
+std::string broadcast(MPI_Comm all, int from, int rank, const std::string& text) {
+  int length = int(text.size());
+  check_mpi(MPI_Bcast(&length, 1, MPI_INT, from, all), "MPI_Bcast");
+  std::string result = rank == from ? text : std::string(std::size_t(length), ' ');
+  check_mpi(MPI_Bcast(result.data(), length, MPI_CHAR, from, all), "MPI_Bcast");
+  return result;
+}
+
+}  // namespace
+
+std::string said_by(const Grid& grid, int rank, const std::string& text) {
+  return grid.ranks ? broadcast(communicator(grid), rank, grid.ranks->rank(), text) : text;
+}
+
+void take_from_first(const Ranks* ranks, std::span<double> values) {
+  if (ranks == nullptr) return;
+  check_mpi(MPI_Bcast(values.data(), int(values.size()), MPI_DOUBLE, 0, communicator(ranks)), "MPI_Bcast");
+}
+
+void on_first(const Ranks* ranks, const std::function<void()>& work) {
+  if (ranks == nullptr) return work();
+  enum Outcome : int { fine, file, numerics, wrong_case, memory };
+  int outcome = fine;
+  std::string message;
+  const auto keep = [&](Outcome kind, const char* text) {
+    outcome = kind;
+    message = text;
+  };
+  if (is_first(ranks)) {
+    try {
+      work();
+    } catch (const NumericsError& error) {
+      keep(numerics, error.what());
+    } catch (const CaseError& error) {
+      keep(wrong_case, error.what());
+    } catch (const std::bad_alloc& error) {
+      keep(memory, error.what());
+    } catch (const std::exception& error) {
+      keep(file, error.what());
+    }
+  }
+  check_mpi(MPI_Bcast(&outcome, 1, MPI_INT, 0, communicator(ranks)), "MPI_Bcast");
+  if (outcome == fine) return;
+  message = broadcast(communicator(ranks), 0, ranks->rank(), message);
+  if (outcome == numerics) throw NumericsError(message);
+  if (outcome == wrong_case) throw CaseError(message);
+  if (outcome == memory) throw std::bad_alloc();
+  throw FileError(message);
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,63 @@
+// The divergence of a viscous stress on the faces of the staggered grid, for the fluid and for solids: second order,
+// normal stresses in cells, shear stresses on edges. Walls act through the ghosts of the velocity.
+#pragma once
+
+#include <array>
+
+#include "core/field.hpp"
+
+namespace polybed::fluid {
+
+/// div(w (grad U + grad U^T - 2/3 div U I)) on the faces of one axis, w a weight on cells (eps of the fluid, phi_j
+/// times viscosity of a solid). Ghosts of both must be filled; fields must outlive this.
+class FaceStress {
+ public:
+  FaceStress(const core::Grid& grid, const core::Field& weight, const core::FaceField& velocity, int axis)
+      : grid_(grid), axis_(axis), weight_(weight.data()) {
+    for (int d = 0; d < grid.dimensions; ++d) {
+      u_[std::size_t(d)] = velocity[std::size_t(d)].data();
+      stride_[std::size_t(d)] = grid.stride(d);
+      per_length_[std::size_t(d)] = 1 / grid.spacing[std::size_t(d)];
+    }
+  }
+
+  /// On face c: of the weight times 1/(m s).
+  [[nodiscard]] double divergence(core::Index c) const {
+    const auto a = std::size_t(axis_);
+    double force = (normal(c) - normal(c - stride_[a])) * per_length_[a];
+    for (int d = 0; d < grid_.dimensions; ++d) {
+      if (d == axis_) continue;
+      const auto b = std::size_t(d);
+      force += (shear(c + stride_[b], b) - shear(c, b)) * per_length_[b];
+    }
+    return force;
+  }
+
+ private:
+  /// w (2 du_a/dx_a - 2/3 div U) in cell c.
+  [[nodiscard]] double normal(core::Index c) const {
+    double div = 0;
+    for (int d = 0; d < grid_.dimensions; ++d) div += along(std::size_t(d), c);
+    return weight_[c] * 2 * (along(std::size_t(axis_), c) - div / 3);
+  }
+  [[nodiscard]] double along(std::size_t d, core::Index c) const {
+    return (u_[d][c + stride_[d]] - u_[d][c]) * per_length_[d];
+  }
+
+  /// w (du_a/dx_b + du_b/dx_a) on the edge below the faces c of both axes.
+  [[nodiscard]] double shear(core::Index c, std::size_t b) const {
+    const auto a = std::size_t(axis_);
+    const core::Index sa = stride_[a], sb = stride_[b];
+    const double weight = 0.25 * ((weight_[c] + weight_[c - sa]) + (weight_[c - sb] + weight_[c - sa - sb]));
+    return weight * ((u_[a][c] - u_[a][c - sb]) * per_length_[b] + (u_[b][c] - u_[b][c - sa]) * per_length_[a]);
+  }
+
+  const core::Grid& grid_;
+  int axis_;
+  const double* weight_;
+  std::array<const double*, 3> u_{};
+  std::array<core::Index, 3> stride_{};
+  std::array<double, 3> per_length_{};
+};
+
+}  // namespace polybed::fluid

@@ -1,0 +1,143 @@
+// A gas bed with all that the solids' stress can have: both integrators run it and agree; what must not change it does
+// not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "scenes.hpp"
+#include "tfm/observers.hpp"
+
+namespace polybed::verification {
+namespace {
+
+/// Glass of two sizes, fluidised by air above the minimum of both, on a coarse grid.
+core::Scene gas_bed(const std::string& temperature) {
+  core::Scene scene = binary_bed(6, 40, 0.03, 0.2);
+  scene.fluid.name = "test gas";
+  scene.fluid.temperature.reset();
+  scene.fluid.density = 1.2;
+  scene.fluid.viscosity = 1.8e-5;
+  scene.species[0].diameter = 0.4e-3;
+  scene.species[1].diameter = 0.6e-3;
+  scene.species[0].density = scene.species[1].density = 2500;
+  scene.inlet.superficial_velocity = {{0.0, 0.6}};
+  scene.effects = {{"drag", "gidaspow"},
+                   {"solids_stress", "kinetic"},
+                   {"granular_temperature", temperature},
+                   {"solids_viscosity", "schaeffer"},
+                   {"species_exchange", "syamlal"}};
+  scene.tfm.solids_wall = "johnson_jackson";
+  scene.tfm.rtol = 1e-4;
+  return scene;
+}
+
+class GasBed : public testing::TestWithParam<std::string> {};
+
+TEST_P(GasBed, IsTheSameByBothIntegrators) {
+  core::Scene scene = gas_bed(GetParam());
+  core::Timers timers;
+  tfm::Model by_steps(scene, timers);
+  scene.tfm.integrator = "implicit";
+  tfm::Model by_newton(scene, timers);
+  const std::vector<double> mass = tfm::masses(by_steps);
+  for (tfm::Model* model : {&by_steps, &by_newton}) {
+    advance(*model, 0.05);
+    for (std::size_t j = 0; j < mass.size(); ++j)
+      EXPECT_NEAR(tfm::masses(*model)[j], mass[j], 1e-12 * mass[j]);  // round-off of sums over the steps
+    for (const core::Field& theta : model->fields().solids.temperature) {
+      EXPECT_GT(*std::max_element(theta.begin(), theta.end()), 1e-5);  // grains at 1 cm/s, driven by slip of 60 cm/s
+      EXPECT_GT(*std::min_element(theta.begin(), theta.end()), -1e-4 * 0.36);  // rtol U^2
+    }
+  }
+  // Each keeps its error near 1e-4 per step; ten times that.
+  const double apart =
+      distance(by_steps.constants().grid, by_steps.fields().solids.fraction[0], by_newton.fields().solids.fraction[0]);
+  record("distance", apart);
+  record("steps, explicit", double(by_steps.work().steps));
+  record("steps, implicit", double(by_newton.work().steps));
+  EXPECT_LT(apart, 1e-3);
+}
+
+TEST_P(GasBed, ASpeciesCutInTwoMovesAsOne) {
+  core::Scene whole = gas_bed(GetParam());
+  whole.effects.erase("species_exchange");
+  whole.tfm.fixed_step = 2e-5;
+  whole.tfm.pressure_tolerance = 1e-13;
+  core::Scene cut = whole;
+  cut.species.push_back(cut.species[1]);
+  cut.species[2].name = "coarse too";
+  cut.bed.volume_share = {0.569, 0.2, 0.231};
+  core::Timers timers;
+  tfm::Model a(whole, timers), b(cut, timers);
+  advance(a, 1e-3);
+  advance(b, 1e-3);
+  core::Field sum = b.fields().solids.fraction[1];
+  for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += b.fields().solids.fraction[2][c];
+  const core::Grid& grid = a.constants().grid;
+  record("distance", distance(grid, a.fields().solids.fraction[1], sum));
+  EXPECT_LT(distance(grid, a.fields().solids.fraction[1], sum), 1e-10);  // as in the test of a liquid bed
+  const auto &theta = a.fields().solids.temperature, &theta_cut = b.fields().solids.temperature;
+  for (std::size_t j : {std::size_t(1), std::size_t(2)}) EXPECT_LT(distance(grid, theta[1], theta_cut[j]), 1e-10);
+}
+
+TEST_P(GasBed, ResumedRunGivesTheSameBits) {
+  for (const char* integrator : {"explicit", "implicit"}) {
+    core::Scene scene = gas_bed(GetParam());
+    scene.tfm.integrator = integrator;
+    scene.tfm.rtol = 1e-3;
+    core::Timers timers;
+    tfm::Model through(scene, timers);
+    while (through.time() < 5e-3) through.step(5e-3);
+    through.restart();
+    tfm::Model resumed(scene, timers);
+    resumed.resume(through.checkpoint());
+    for (tfm::Model* model : {&through, &resumed}) {
+      while (model->time() < 0.01) model->step(0.01);
+      model->restart();
+    }
+    EXPECT_EQ(through.checkpoint().arrays.at("state"), resumed.checkpoint().arrays.at("state")) << integrator;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Temperatures, GasBed, testing::Values(std::string("algebraic"), std::string("transported")));
+
+// What is absent has no state and no fields.
+TEST(GasBed, WithoutKineticStressHasNoTemperature) {
+  core::Scene scene = gas_bed("transported");
+  core::Timers timers;
+  const tfm::Model with(scene, timers);
+  scene.effects["solids_stress"] = "frictional";
+  scene.effects.erase("granular_temperature");
+  const tfm::Model without(scene, timers);
+  EXPECT_EQ(with.unknowns(), without.unknowns() + 2 * 6 * 40);
+  EXPECT_TRUE(without.fields().solids.temperature.empty());
+  EXPECT_TRUE(without.fields().stress.wall.empty());
+  scene.effects.erase("solids_viscosity");
+  scene.tfm.solids_wall = "free_slip";
+  const tfm::Model bare(scene, timers);
+  EXPECT_FALSE(bare.fields().stress.viscous());
+  EXPECT_TRUE(bare.fields().stress.strain.empty());
+  EXPECT_TRUE(bare.fields().stress.contact.empty());
+}
+
+TEST(GasBed, RefusesWhatCannotAct) {
+  core::Timers timers;
+  const auto refused = [&](auto&& change) {
+    core::Scene scene = gas_bed("algebraic");
+    change(scene);
+    EXPECT_THROW(tfm::Model(scene, timers), core::CaseError);
+  };
+  refused([](core::Scene& s) { s.effects["solids_stress"] = "frictional"; });  // a temperature without collisions
+  refused([](core::Scene& s) { s.species[0].restitution = 1; });               // nothing limits the temperature
+  refused([](core::Scene& s) {
+    s.effects = {{"drag", "gidaspow"}, {"solids_stress", "frictional"}};  // partial slip without viscosity
+  });
+  refused([](core::Scene& s) {
+    s.effects = {{"drag", "gidaspow"}, {"solids_viscosity", "mu_i"}};  // a viscosity of no pressure
+    s.tfm.solids_wall = "free_slip";
+  });
+}
+
+}  // namespace
+}  // namespace polybed::verification

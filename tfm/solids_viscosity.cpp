@@ -1,0 +1,86 @@
+#include "tfm/solids_viscosity.hpp"
+
+#include <algorithm>
+
+#include "core/operators.hpp"
+#include "fluid/face_stress.hpp"
+
+namespace polybed::tfm {
+
+using core::Index;
+
+namespace {
+
+/// The rate of strain of one velocity at cell centres.
+class Strain {
+ public:
+  Strain(const core::Grid& grid, const core::FaceField& velocity) : grid_(grid) {
+    for (std::size_t d = 0; d < std::size_t(grid.dimensions); ++d) {
+      u_[d] = velocity[d].data();
+      stride_[d] = grid.stride(int(d));
+      per_length_[d] = 1 / grid.spacing[d];
+    }
+  }
+
+  /// 2 D':D' in cell c, 1/s2.
+  [[nodiscard]] double squared(Index c) const {
+    const auto n = std::size_t(grid_.dimensions);
+    double squares = 0, divergence = 0, shear = 0;
+    for (std::size_t a = 0; a < n; ++a) {
+      const double along = (u_[a][c + stride_[a]] - u_[a][c]) * per_length_[a];
+      squares += along * along;
+      divergence += along;
+      for (std::size_t b = a + 1; b < n; ++b)
+        shear += 0.25 * (edge(c, a, b) + edge(c + stride_[a], a, b) +
+                         (edge(c + stride_[b], a, b) + edge(c + stride_[a] + stride_[b], a, b)));
+    }
+    return 2 * std::max(squares - divergence * divergence / 3, 0.0) + shear;
+  }
+
+ private:
+  /// (du_a/dx_b + du_b/dx_a)^2 on the edge below the faces c of both axes.
+  [[nodiscard]] double edge(Index c, std::size_t a, std::size_t b) const {
+    const double rate =
+        (u_[a][c] - u_[a][c - stride_[b]]) * per_length_[b] + (u_[b][c] - u_[b][c - stride_[a]]) * per_length_[a];
+    return rate * rate;
+  }
+
+  const core::Grid& grid_;
+  std::array<const double*, 3> u_{};
+  std::array<Index, 3> stride_{};
+  std::array<double, 3> per_length_{};
+};
+
+}  // namespace
+
+void strain_rates(const Constants& constants, Fields& fields) {
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const Strain strain(constants.grid, fields.solids.velocity[j]);
+    double* out = fields.stress.strain[j].data();
+    core::for_each_row(constants.grid, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) out[c] = strain.squared(c);
+    });
+  }
+}
+
+void add_solids_viscosity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields,
+                          core::Field& weight) {
+  const core::Grid& grid = constants.grid;
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const core::Field& phi = fields.solids.fraction[j];
+    for (std::size_t c = 0; c < weight.size(); ++c) weight[c] = std::max(phi[c], 0.0) * fields.stress.viscosity[c];
+    for (int axis = 0; axis < grid.dimensions; ++axis) {
+      const fluid::FaceStress stress(grid, weight, fields.solids.velocity[j], axis);
+      const Index s = grid.stride(axis);
+      double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
+      const double per_density = 1 / constants.density[j], floor = diffusion_floor(constants, j);
+      core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c)
+          a[c] += per_density * stress.divergence(c) /
+                  (0.5 * (std::max(phi[std::size_t(c - s)], 0.0) + std::max(phi[std::size_t(c)], 0.0)) + floor);
+      });
+    }
+  }
+}
+
+}  // namespace polybed::tfm
