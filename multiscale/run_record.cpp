@@ -28,7 +28,8 @@ void write_work(Json& json, const tfm::Work& work) {
   json.member("steps", work.steps).member("rejected_steps", work.rejected_steps);
   json.member("rhs_evaluations", work.right_hand_sides).member("pressure_solves", work.pressure_solves);
   json.member("linear_iterations", work.pressure_iterations + work.krylov_iterations);
-  json.member("newton_iterations", work.newton_iterations).end_object();
+  json.member("newton_iterations", work.newton_iterations);
+  json.member("first_order_cells", work.first_order_cells).end_object();
 }
 
 void write_invariants(Json& json, const fluid::Invariants& invariants) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,8 @@ class StressEffect {
   virtual void evaluate(Fields& fields) = 0;
   /// Greatest solids fraction that the stress allows for the whole bed's composition.
   [[nodiscard]] virtual double max_packing() const = 0;
+  /// The same for a composition: shares of the species as closures see them.
+  [[nodiscard]] virtual double packing_of(std::span<const double> share) const = 0;
   /// How far phi lies above the maximum packing of its cell, where that is furthest; 0 if nowhere.
   [[nodiscard]] virtual double packing_above(const Fields& fields) const = 0;
   /// Pressure, Pa, of solids at rest at a solids fraction, for the whole bed's composition.

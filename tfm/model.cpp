@@ -57,6 +57,9 @@ double greatest_terminal_velocity(const Constants& constants) {
   return greatest;
 }
 
+/// Absolute tolerance of the fractions.
+double fraction_tolerance(double rtol) { return 0.1 * rtol; }
+
 Discretisation make_discretisation(const core::Tfm& options) {
   const auto scheme = [](const std::string& name) { return name == "limited" ? Scheme::limited : Scheme::upwind; };
   return {scheme(options.flux), scheme(options.momentum),
@@ -93,6 +96,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);
   project_jump(even);
+  if (options_.flux == "limited") fallback_.emplace(constants, boundaries(), fraction_tolerance(options_.rtol));
   if (compressible()) start_compressible();
   make_integrator();
   begin_integration();
@@ -140,7 +144,7 @@ std::vector<double> Model::absolute_tolerances() const {
   std::vector<double> atol(layout_.size());
   constexpr double not_tested = 1e9;  // m: sums of fluxes follow from the rest and need no error test of their own
   for (const StateLayout::Entry& entry : layout_.entries()) {
-    const double value = entry.kind == Kind::fraction      ? 0.1 * options_.rtol
+    const double value = entry.kind == Kind::fraction      ? fraction_tolerance(options_.rtol)
                          : entry.kind == Kind::passed      ? not_tested
                          : entry.kind == Kind::pressure    ? 100.0 * options_.rtol
                          : entry.kind == Kind::temperature ? options_.rtol * velocity_scale_ * velocity_scale_
@@ -211,6 +215,10 @@ void Model::step(double stop) {
   step_ = report.next_step;
   if (compressible()) count_fluid(integrator_->state());
   last_step_ = {report.time, report.step, report.error_norm, ""};
+  if (fallback_) {
+    fallback_->see(layout_, integrator_->state(), effects().solids_stress.get());
+    use_fallback();
+  }
   last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
 }
 
@@ -229,6 +237,10 @@ std::string Model::what_limited(const core::StepReport& report) const {
     return core::said_by(grid, rank, place_of(nearest, grid));
   const int worst = core::rank_of_greatest(grid, report.worst_error);
   return core::said_by(grid, worst, "error test: " + layout_.describe(report.worst_entry, constants().name));
+}
+
+void Model::use_fallback() {
+  equations_.take_first_order_on(fallback_->steps_left().empty() ? nullptr : &fallback_->faces());
 }
 
 void Model::show(double t) {
@@ -303,6 +315,7 @@ Work Model::work() const {
   done.rejected_steps += s.error_failures;
   done.newton_iterations += s.newton_iterations;
   done.krylov_iterations += s.linear_iterations;
+  if (fallback_) done.first_order_cells = fallback_->count();
   if (implicit_) done.right_hand_sides += implicit_->residuals();
   if (acoustic_) done.right_hand_sides += acoustic_->evaluations();
   if (explicit_) {

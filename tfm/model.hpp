@@ -22,7 +22,7 @@ namespace polybed::tfm {
 /// What the model has done so far; repeats exactly from run to run.
 struct Work {
   std::uint64_t steps = 0, rejected_steps = 0, right_hand_sides = 0, pressure_solves = 0, pressure_iterations = 0,
-                newton_iterations = 0, krylov_iterations = 0;
+                newton_iterations = 0, krylov_iterations = 0, first_order_cells = 0;
 };
 
 /// One line of the step log.
@@ -93,6 +93,8 @@ class Model : public core::Simulation {
   [[nodiscard]] StateLayout layout_of_column() const { return layout_on(core::whole_column(constants().grid)); }
   [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void begin_integration();
+  void use_fallback();
+  void restore_fallback(const core::Checkpoint& checkpoint);
   [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }
   [[nodiscard]] bool has_temperature() const { return !fields().solids.temperature_rate.empty(); }
   void start_compressible();
@@ -115,7 +117,8 @@ class Model : public core::Simulation {
   std::vector<double> y_, dydt_;
   std::size_t column_size_ = 0;  ///< entries of the whole column's state
   StepLine last_step_;
-  Work before_;  ///< of the integrators that a restart has closed
+  std::optional<FirstOrderFallback> fallback_;  ///< absent where all fluxes are of first order anyway
+  Work before_;                                 ///< of the integrators that a restart has closed
 };
 
 }  // namespace polybed::tfm

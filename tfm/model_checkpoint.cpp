@@ -1,6 +1,7 @@
 // The model's state in a checkpoint: the whole column, whoever computes it.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/blocks.hpp"
 #include "core/error.hpp"
@@ -43,7 +44,37 @@ core::Checkpoint Model::checkpoint() const {
   c.integers["pressure_iterations"] = std::int64_t(done.pressure_iterations);
   c.integers["newton_iterations"] = std::int64_t(done.newton_iterations);
   c.integers["krylov_iterations"] = std::int64_t(done.krylov_iterations);
+  c.integers["first_order_cells"] = std::int64_t(done.first_order_cells);
+  if (fallback_ && !fallback_->steps_left().empty()) {
+    core::Field left = core::make_field(grid);
+    layout_.unpack(layout_.entries().front(), fallback_->steps_left(), left);
+    c.arrays["first_order_steps_left"] = core::gather(grid, left, -1);
+  }
   return c;
+}
+
+/// A run has flags only while a cell is out of bounds, so a checkpoint without them has none.
+void Model::restore_fallback(const core::Checkpoint& checkpoint) {
+  if (!fallback_) return;
+  const core::Grid& grid = constants().grid;
+  const core::Ranks* ranks = grid.ranks.get();
+  const bool first = core::is_first(ranks);
+  const auto flags = checkpoint.arrays.find("first_order_steps_left");
+  const auto count = checkpoint.integers.find("first_order_cells");
+  std::array<double, 2> known{};
+  if (first)
+    known = {flags == checkpoint.arrays.end() ? 0.0 : 1.0,
+             count == checkpoint.integers.end() ? 0.0 : double(count->second)};
+  core::take_from_first(ranks, known);
+  std::vector<double> left;
+  if (known[0] > 0) {
+    core::Field block = core::make_field(grid);
+    core::scatter(grid, first ? flags->second : core::Field(), -1, block);
+    left.resize(grid.cell_count());
+    layout_.pack(layout_.entries().front(), block, left);
+  }
+  fallback_->restore(layout_, std::move(left), std::uint64_t(known[1]));
+  use_fallback();
 }
 
 void Model::keep_last_state() { y_.assign(integrator_->state().begin(), integrator_->state().end()); }
@@ -56,6 +87,7 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
     if (entry.kind == StateLayout::Entry::Kind::passed)
       std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
   if (compressible()) open_account();
+  restore_fallback({});
   begin_integration();
 }
 
@@ -91,6 +123,7 @@ void Model::resume(const core::Checkpoint& checkpoint) {
   step_ = clock[1];
   take_up_counts(checkpoint);
   if (compressible()) take_up_account(checkpoint);
+  restore_fallback(checkpoint);
   begin_integration();
 }
 

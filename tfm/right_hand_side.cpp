@@ -63,7 +63,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     if (effects_.compressible) weigh_slip_by_density(constants_, fields_);
   });
   timed("convection", [&] {
-    continuity(constants_, boundaries_, discretisation_.flux, side_of(t), fields_, flux_);
+    continuity(constants_, boundaries_, discretisation_.flux, side_of(t), fields_, flux_, first_order_);
     convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });

@@ -41,6 +41,8 @@ class RightHandSide {
   [[nodiscard]] const fluid::Inlet& inlet() const { return inlet_; }
   /// An integration begins at a time, s: where the inlet jumps there, it has jumped; at later times it has not yet.
   void begin(double t) { begin_ = t; }
+  /// Faces on which the solids' flux is of first order from now on; null: none. The list must outlive its use.
+  void take_first_order_on(const FaceList* faces) { first_order_ = faces; }
   [[nodiscard]] const Effects& effects() const { return effects_; }
   [[nodiscard]] Fields& fields() { return fields_; }
   [[nodiscard]] const Fields& fields() const { return fields_; }
@@ -64,6 +66,7 @@ class RightHandSide {
   Fields fields_;
   Effects effects_;
   core::FaceField flux_;
+  const FaceList* first_order_ = nullptr;
   std::vector<fluid::Ghosts> state_ghosts_;  ///< the unknowns, whose ghosts travel together
   core::Field viscous_weight_;               ///< work space of the solids' viscosity; empty without
 };

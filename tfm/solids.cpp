@@ -34,6 +34,17 @@ void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, co
   }
 }
 
+/// The faces of a list done again, of first order.
+void redo_upwind(const core::Grid& grid, const FaceList& faces, const Field& fraction, const core::FaceField& velocity,
+                 core::FaceField& flux) {
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const double *phi = fraction.data(), *u = velocity[a].data();
+    double* out = flux[a].data();
+    for (const Index c : faces[a]) out[c] = u[c] * core::UpwindFace::at(phi, c, grid.stride(axis), u[c]);
+  }
+}
+
 /// Takes the flux of a species from that of the mixture.
 void subtract(const core::FaceField& flux, core::FaceField& from) {
   for (std::size_t a = 0; a < flux.size(); ++a)
@@ -57,7 +68,7 @@ void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const 
 }  // namespace
 
 void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, double t,
-                Fields& fields, core::FaceField& flux) {
+                Fields& fields, core::FaceField& flux, const FaceList* first_order) {
   const core::Grid& grid = constants.grid;
   const bool compressible = fields.fluid.compression.present();
   if (compressible) fields.fluid.compression.flux = fields.fluid.flux;
@@ -68,6 +79,7 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
       solids_flux<core::LimitedFace>(grid, boundaries, phi, velocity, flux);
     else
       solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
+    if (first_order != nullptr) redo_upwind(grid, *first_order, phi, velocity, flux);
     if (constants.openings.present()) constants.openings.cross(t, j, fields.solids, flux[1]);
     if (compressible) subtract(flux, fields.fluid.compression.flux);
     Field& rate = fields.solids.fraction_rate[j];

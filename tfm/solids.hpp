@@ -10,6 +10,7 @@
 
 #include "fluid/boundaries.hpp"
 #include "tfm/fields.hpp"
+#include "tfm/first_order_fallback.hpp"
 
 namespace polybed::tfm {
 
@@ -22,7 +23,9 @@ enum class Scheme { upwind, limited };
 /// (1): fraction_rate = -div F_j with F_j = U_j times phi_j from upwind, with half a limited slope if
 /// `limited`, and with what crosses the ends at time t. Ghosts of the rate are filled. flux_j is work space. If the
 /// fluid is compressible its own flux, J - sum F_j, is set too.
-void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux);
+/// \param first_order  faces that take phi_j from upwind alone whatever the scheme; null: none
+void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux,
+                const FaceList* first_order);
 
 /// Sets the accelerations of all phases to their convection, -(U.grad)U; the rest is added to them.
 void convection(const Constants&, const fluid::Boundaries&, Scheme, Fields&);

@@ -68,6 +68,22 @@ class Ranks(Scratch):
         record = json.loads((self.folder / "on3/run.json").read_text())
         self.assertEqual(record["ranks"], 3)
 
+    def test_first_order_fluxes_are_the_same(self):
+        """A bed that starts above its packing, with a stress too weak to throw it apart: cells on both sides of every cut
+        are flagged."""
+        words = [*FIXED, *TIGHT, "--set", 'column.size=["60 mm","90 mm"]', "--set", "column.cells=[24,12]",
+                 "--set", "tfm.max_packing=0.548", "--set", "tfm.frictional_onset=0.54",
+                 "--set", 'tfm.frictional_pressure="1e-7 Pa"']
+        self.check_equal(*words)
+        flagged = {json.loads((self.folder / f"on{n}/run.json").read_text())["work"]["first_order_cells"]
+                   for n in (1, 2, 3, 4)}
+        self.assertEqual(len(flagged), 1)
+        self.assertGreater(flagged.pop(), 100)
+        cut = self.folder / "cut"  # and the flags go to other ranks with the checkpoint
+        self.on(4, CASE, *words, "--until", "0.02", "-o", cut)
+        self.on(2, CASE, *words, "--resume", "-o", cut)
+        self.assertLessEqual(self.largest_difference(self.folder / "on1", cut), SAME)
+
     def test_a_deep_bed_with_joined_sides_is_the_same(self):
         self.check_equal(*DEEP, *FIXED, *TIGHT, case=self.write("deep.toml", case_without("depth")))
 

@@ -37,6 +37,20 @@ double front(const tfm::Model& model, double level) {
   return 0;
 }
 
+/// Speed of a level in the fan at 1.2 mm/s, m/s: U - q'(phi), q' = u_t (1 - phi)^(n - 1) (1 - (n + 1) phi).
+double fan_speed(double phi) { return 1.2e-3 - 2.79282e-3 * std::pow(1 - phi, 3.65) * (1 - 5.65 * phi); }
+
+/// Height, m, at which phi first rises to a level, seen from below; linear between cell centres.
+double rise(const tfm::Model& model, double level) {
+  for (int j = 1; j < cells; ++j) {
+    const auto at = std::size_t(model.constants().grid.index(0, j));
+    const double above = model.fields().solids_fraction[at],
+                 below = model.fields().solids_fraction[at - std::size_t(model.constants().grid.stride(1))];
+    if (below < level && above >= level) return (j - 0.5 + (level - below) / (above - below)) * cell;
+  }
+  return 0;
+}
+
 TEST(Sedimentation, ADiluteSuspensionSettlesWithTwoShocks) {
   core::Timers timers;
   tfm::Model model(suspension(0.12), timers);
@@ -83,6 +97,30 @@ TEST(Sedimentation, ABedAnswersAStepOfTheVelocityWithAShock) {
   EXPECT_NEAR(top, 0.060 - 0.6e-3 * 20, cell);
   EXPECT_NEAR(shock, 0.86309e-3 * 20, cell);
   EXPECT_NEAR(model.fields().solids_fraction[std::size_t(model.constants().grid.index(0, 8))], 0.28160, 1e-3);
+}
+
+// And back: 35.394 mm at 0.6 mm/s, phi 0.28160, stepped to 1.2 mm/s. The top rises by the difference; from the
+// distributor a fan spreads, each phi at U - q'(phi), from 1.1116 mm/s for 0.16612 to 1.6936 mm/s for 0.28160. Half
+// way, 0.22386: 1.49326 mm/s by hand. Its corners are rounded over some cells, so that its width is taken between
+// levels inside.
+TEST(Sedimentation, ABedAnswersAStepBackWithAFan) {
+  core::Scene scene = suspension(0.28160);
+  scene.column.closed = false;
+  scene.bed.static_height = 0.035394 * 0.28160 / 0.62;
+  scene.inlet.superficial_velocity = {{0.0, 0.6e-3}, {1.0, 0.6e-3}, {1.0, 1.2e-3}};
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  advance(model, 1.0);
+  model.restart();
+  advance(model, 21.0);
+  const double top = front(model, 0.14080), middle = rise(model, 0.22386);
+  const double ends = rise(model, 0.25) - rise(model, 0.20);
+  record("top, mm", top * 1e3);
+  record("fan at 0.22386, mm", middle * 1e3);
+  record("fan from 0.20 to 0.25, mm", ends * 1e3);
+  EXPECT_NEAR(top, 0.035394 + 0.6e-3 * 20, cell);
+  EXPECT_NEAR(middle, 1.49326e-3 * 20, cell);
+  EXPECT_NEAR(ends, (fan_speed(0.25) - fan_speed(0.20)) * 20, cell);  // a shock would have no width
 }
 
 }  // namespace

@@ -86,6 +86,11 @@ void FrictionalStress::for_each_cell_with_packing(const Fields& fields, Body&& b
   });
 }
 
+double FrictionalStress::packing_of(std::span<const double> share) const {
+  return mixture_packing_ == nullptr ? law_.max_packing
+                                     : mixture_packing_(share, constants_.diameter, species_packing_);
+}
+
 double FrictionalStress::packing_above(const Fields& fields) const {
   double most = 0;
   for_each_cell_with_packing(fields, [&](Index c, double packing) {

@@ -16,6 +16,7 @@ class FrictionalStress : public StressEffect {
                    Fields& fields);
   void evaluate(Fields& fields) override;
   [[nodiscard]] double max_packing() const override { return law_.max_packing; }
+  [[nodiscard]] double packing_of(std::span<const double> share) const override;
   [[nodiscard]] double packing_above(const Fields& fields) const override;
   [[nodiscard]] double pressure_at(double solids_fraction) const override;
   [[nodiscard]] double solids_fraction_at(double pressure) const override;

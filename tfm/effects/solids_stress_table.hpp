@@ -16,6 +16,9 @@ class TableStress : public StressEffect {
               const std::string& file, Fields& fields);
   void evaluate(Fields& fields) override;
   [[nodiscard]] double max_packing() const override { return frictional_.max_packing(); }
+  [[nodiscard]] double packing_of(std::span<const double> share) const override {
+    return frictional_.packing_of(share);
+  }
   [[nodiscard]] double packing_above(const Fields& fields) const override { return frictional_.packing_above(fields); }
   [[nodiscard]] double pressure_at(double solids_fraction) const override;
   [[nodiscard]] double solids_fraction_at(double pressure) const override;
