@@ -135,7 +135,7 @@ def write_start(directory, bed, solids_wall):
     inside = bed["velocity"] / fractions[fluid][..., None] * np.array([0.0, 1.0, 0.0])
     write_field(directory, f"U.{fluid}", "0 1 -1 0", inside, {
         "inlet": {"type": "interstitialInletVelocity", "inletVelocity": f"uniform {text(up)}",
-                  "alpha": f"alpha.{fluid}", "value": f"uniform {text(up)}"},
+                  "alpha": f"alpha.{fluid}", "value": f"uniform {text(tuple(inside[0, 0].tolist()))}"},
         "outlet": {"type": "pressureInletOutletVelocity", "phi": f"phi.{fluid}", "value": f"uniform {text(up)}"},
         "walls": {"type": "noSlip"}})
     value = {"value": f"uniform {PRESSURE:g}"}

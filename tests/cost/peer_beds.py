@@ -85,7 +85,7 @@ def phases(stress):
     gas, finest_gas = gas_runs(stress)
     # That tutorial moves the fractions in two parts of a step; version 1912 then moves them anew in each iteration.
     packed = liquid_runs((5e-3, 2.5e-3, 1e-3), (5e-3, 2.5e-3))
-    packed["OpenFOAM, 1 ms, 3 outer, 2 alpha"] = openfoam_liquid(1e-3, 3, 2)
+    packed["OpenFOAM, 5 ms, 3 outer, 2 alpha"] = openfoam_liquid(5e-3, 3, 2)
     return [
         {"name": "liquid packed", "bed": system_b(0.62), "begin": 0.0, "end": 1.5, "at": (0.5, 1.0, 1.5), "every": 0.5,
          "runs": packed, "finest": FINEST_LIQUID, "goal": 20.0, "plug": True, "differences": LIQUID_DIFFERENCES},
