@@ -87,10 +87,10 @@ def phases(stress):
     packed = liquid_runs((5e-3, 2.5e-3, 1e-3), (5e-3, 2.5e-3))
     packed["OpenFOAM, 5 ms, 3 outer, 2 alpha"] = openfoam_liquid(5e-3, 3, 2)
     return [
-        {"name": "liquid packed", "bed": system_b(0.62), "begin": 0.0, "end": 1.5, "at": (0.5, 1.0, 1.5), "every": 0.5,
+        {"name": "liquid packed", "bed": system_b(0.62), "begin": 0.0, "end": 1.0, "at": (0.5, 1.0), "every": 0.5,
          "runs": packed, "finest": FINEST_LIQUID, "goal": 20.0, "plug": True, "differences": LIQUID_DIFFERENCES},
         {"name": "liquid expanded", "bed": system_b(0.2), "begin": 5.0, "end": 10.0, "at": (2.5, 5.0), "every": 2.5,
-         "runs": liquid_runs((1e-2, 5e-3), (1e-2, 5e-3)), "finest": {}, "goal": 20.0, "rate_goal": 0.4,
+         "runs": liquid_runs((1e-2, 5e-3), (1e-2,)), "finest": {}, "goal": 20.0, "rate_goal": 0.4,
          "differences": LIQUID_DIFFERENCES},
-        {"name": "gas", "bed": GAS_BED, "begin": 0.0, "end": 0.2, "at": (0.1, 0.15, 0.2), "every": 0.05, "runs": gas,
+        {"name": "gas", "bed": GAS_BED, "begin": 0.0, "end": 0.1, "at": (0.05, 0.1), "every": 0.05, "runs": gas,
          "finest": finest_gas, "goal": 5.0, "differences": GAS_DIFFERENCES.format(stress=stress)}]

@@ -3,9 +3,9 @@
 
     tests/cost/tfm_peers.py PROGRAM [--phase NAME]... [--repeat N] [--reference] [--solids-stress LAW] [--json FILE]
 
-Both serial, on the same grid, over the same simulated time; CPU seconds of the process, without the mesh. Step error of
-a run: its largest relative difference, over the compared times, from the same program with the next smaller step or
-tolerance; error: that from the same program on cells of half the size, with --reference, which takes many minutes.
+Both serial, on the same grid, over the same simulated time; CPU seconds of the process, without mesh or picture. Step
+error of a run: its largest relative difference, over the compared times, from the same program with the next smaller step
+or tolerance; error: that from the same program on cells of half the size, with --reference, which takes many minutes.
 Exit code 1: a goal is missed; 2: OpenFOAM is not installed.
 """
 import argparse
