@@ -4,8 +4,9 @@
     tests/cost/tfm_peers.py PROGRAM [--phase NAME]... [--repeat N] [--reference] [--solids-stress LAW] [--json FILE]
 
 Both serial, on the same grid, over the same simulated time; CPU seconds of the process, without mesh or picture. Step
-error of a run: its largest relative difference, over the compared times, from the same program with the next smaller step
-or tolerance; error: that from the same program on cells of half the size, with --reference, which takes many minutes.
+error of a run: its largest relative difference, over the compared times, from the same program with the next smaller
+step or tolerance; error: that from the same program on cells of half the size, with --reference, which takes many
+minutes.
 Exit code 1: a goal is missed; 2: OpenFOAM is not installed.
 """
 import argparse
@@ -179,7 +180,7 @@ def equal_error(kind, mine, peers, goal):
     """The cheapest run of OpenFOAM whose error is at most polybed's; if there is none, what first order would cost."""
     judged = {n: r for n, r in peers.items() if r[kind] is not None and not r["wrong"]}
     as_good = {n: r for n, r in judged.items() if r[kind] <= mine[kind]}
-    what = f"at a {kind.replace('_', ' ')} of polybed's {percent(mine[kind])} % or less"
+    what = f"{kind.replace('_', ' ')} at most polybed's {percent(mine[kind])} %"
     if as_good:
         name = min(as_good, key=lambda n: as_good[n]["ratio"])
         ratio = as_good[name]["ratio"]
