@@ -58,7 +58,8 @@ Terms hard_packing(const core::Scene& scene, const tfm::Model& model) {
                packing = model.effects().solids_stress->max_packing();
   return [=](const tfm::RightHandSide& equations, tfm::Fields& fields) {
     Field& pressure = fields.stress.pressure;
-    pressure.resize(fields.solids_fraction.size());
+    for (Field* field : {&pressure, &fields.stress.slope, &fields.stress.damping})
+      field->resize(fields.solids_fraction.size());
     for (std::size_t c = 0; c < pressure.size(); ++c) {
       const double phi = fields.solids_fraction[c], gap = packing - phi;
       pressure[c] = phi > onset ? strength * (phi - onset) * (phi - onset) / (gap * gap * gap * gap * gap) : 0.0;

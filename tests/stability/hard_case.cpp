@@ -38,6 +38,9 @@ class ModelRun : public Run {
   tfm::Model model_;
 };
 
+/// Where solids rest: below, nothing carries them, and a loose top layer still falls.
+constexpr double packed = 0.5;
+
 /// Thrown where a run makes no headway: neither a result nor an honest stop.
 struct Stuck : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -70,7 +73,7 @@ double characteristic_time(const tfm::Model& model, const tfm::Fields& fields) {
   return shortest;
 }
 
-/// Pressure drop over buoyant weight per area, less 1.
+/// What carries the bed, pressure drop and solids pressure on the distributor, over buoyant weight per area, less 1.
 double force_balance(const tfm::Model& model, const tfm::Fields& fields) {
   const tfm::Constants& constants = model.constants();
   fluid::Profile profile;
@@ -82,7 +85,12 @@ double force_balance(const tfm::Model& model, const tfm::Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j)
     for (const double phi : profile.fraction[j])
       weight += phi * profile.slab * (constants.density[j] - constants.fluid.density) * constants.gravity;
-  return fluid::pressure_drop(profile) / weight - 1;
+  double carried = fluid::pressure_drop(profile);
+  if (fields.stress.present()) {
+    profile.pressure = fluid::lateral_mean(constants.grid, fields.stress.pressure);
+    carried += fluid::pressure_drop(profile);
+  }
+  return carried / weight - 1;
 }
 
 }  // namespace
@@ -153,18 +161,14 @@ void Trial::see(Run& run, const Watch& watch) {
     measure("V2 phi above packing", stress->packing_above(fields), 1e-3);
   measure("V3 finite", std::isfinite(sum) ? 0 : 1, 0);
   measure("V13 drag power below 0", negative_drag, 0);
+  if (watch.rests_always) measure("V6 rest", fastest(grid, fields, packed), 1e-10);
   shortest_time_ = std::min(shortest_time_, characteristic_time(run.model(), fields));
 }
 
-void Trial::see_end(Run& run, const Watch& watch) {
+void Trial::see_end(Run& run, const Watch& watch, double mean_balance) {
   see(run, watch);
-  const tfm::Fields& fields = run.fields();
-  const core::Grid& grid = run.model().constants().grid;
-  if (watch.rests) {
-    constexpr double packed = 0.5;  // below, nothing carries the solids: a loose top layer still falls
-    measure("V6 rest", fastest(grid, fields, packed), 1e-10);
-  }
-  if (watch.fluidised) measure("V7 force balance", std::abs(force_balance(run.model(), fields)), 1e-3);
+  if (watch.rests) measure("V6 rest", fastest(run.model().constants().grid, run.fields(), packed), 1e-10);
+  if (watch.fluidised) measure("V7 force balance", std::abs(mean_balance), 1e-3);
   work_ = run.work();
   if (!watch.steps) return;
   measure("V8 rejected", double(work_.rejected_steps) / double(std::max<std::uint64_t>(work_.steps, 20)), 0.2);
@@ -185,10 +189,17 @@ void Trial::advance(Run& run, double until, const Watch& watch) {
   std::vector<double> stops = run.model().inlet().kinks();
   std::erase_if(stops, [&](double t) { return t <= run.time() || t >= until; });
   stops.push_back(until);
+  const double half = 0.5 * (run.time() + until);
+  double impulse = 0, span = 0;
   int n = 0;
   for (const double stop : stops) {
     while (run.time() < stop) {
-      keep_step(run, run.step(stop));
+      const tfm::StepLine line = run.step(stop);
+      keep_step(run, line);
+      if (watch.fluidised && line.time > half) {
+        impulse += line.step * force_balance(run.model(), run.fields());
+        span += line.step;
+      }
       if (++n % seen_every == 0) see(run, watch);
     }
     if (stop < until) {
@@ -196,7 +207,7 @@ void Trial::advance(Run& run, double until, const Watch& watch) {
       steps_since_start_ = 0;
     }
   }
-  see_end(run, watch);
+  see_end(run, watch, span > 0 ? impulse / span : 0);
 }
 
 Result Trial::judge(const std::function<void(Trial&)>& work) {

@@ -60,7 +60,9 @@ struct Result {
 /// What is watched in a run beside mass, bounds, finiteness, drag power and steps.
 struct Watch {
   bool rests = false;      ///< V6 at the end: solids and flux below 1e-10 m/s
-  bool fluidised = false;  ///< V7 at the end: pressure drop is the buoyant weight within 1e-3
+  bool rests_always = false;  ///< V6 at all times
+  bool fluidised = false;  ///< V7: over the last half, pressure drop and solids pressure on the distributor carry the
+                           ///< buoyant weight within 1e-3
   bool steps = true;       ///< V8: share of rejected steps, least step
   bool packing = true;     ///< V2's upper bound: phi_max + 1e-3 where a solids stress acts
 };
@@ -87,7 +89,7 @@ class Trial {
 
  private:
   void see(Run& run, const Watch& watch);
-  void see_end(Run& run, const Watch& watch);
+  void see_end(Run& run, const Watch& watch, double mean_balance);
   void keep_step(Run& run, const tfm::StepLine& line);
 
   Treatment treatment_;
