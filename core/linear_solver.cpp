@@ -47,6 +47,7 @@ struct PoissonSolver::Hypre {
   HYPRE_StructMatrix matrix = nullptr;
   HYPRE_StructVector source = nullptr, solution = nullptr;
   std::vector<double> entries, packed;
+  Field balanced;  ///< the source without its mean, where a constant is left open
 
   explicit Hypre(const Grid& g) : dimensions(g.dimensions) {
     open_linear_solvers();
@@ -198,7 +199,7 @@ void remove_mean(const Grid& grid, Field& field) {
 
 PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const double> shift,
                                    const Field& given_source, Field& p, double tolerance) {
-  Field balanced;
+  Field& balanced = hypre_->balanced;
   const bool constant_open = leaves_constant_open(grid_, coefficient, shift);
   if (constant_open) {
     balanced = given_source;

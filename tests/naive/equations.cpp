@@ -21,6 +21,25 @@ tfm::Discretisation discretisation_of(const core::Tfm& options) {
   return {scheme(options.flux), scheme(options.momentum), fluid::WallSlip::free_slip};
 }
 
+/// dphi_j/dt = -div(U_j at(phi_j)) with other values on faces.
+template <class Face>
+void set_continuity(const tfm::RightHandSide& equations, tfm::Fields& fields, core::FaceField& flux, Face&& at) {
+  const core::Grid& grid = equations.constants().grid;
+  for (std::size_t j = 0; j < fields.solids.species(); ++j) {
+    for (int axis = 0; axis < grid.dimensions; ++axis) {
+      const auto a = std::size_t(axis);
+      const double *phi = fields.solids.fraction[j].data(), *u = fields.solids.velocity[j][a].data();
+      core::for_each_row(grid, equations.boundaries().moving_faces(axis, false), [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c) flux[a][std::size_t(c)] = u[c] * at(phi, c, grid.stride(axis), u[c]);
+      });
+    }
+    equations.boundaries().join(flux);
+    core::divergence(grid, flux, fields.solids.fraction_rate[j]);
+    for (double& rate : fields.solids.fraction_rate[j]) rate = -rate;
+    equations.boundaries().fill_cells(fields.solids.fraction_rate[j]);
+  }
+}
+
 }  // namespace
 
 Equations::Equations(const core::Scene& scene, const tfm::Model& model, const tfm::StateLayout& layout, Terms terms,
@@ -53,19 +72,15 @@ core::Rate Equations::rates(double t, std::span<const double> y, std::span<doubl
   return core::Rate::ok;
 }
 
-Terms hard_packing(const core::Scene& scene, const tfm::Model& model) {
-  const double strength = scene.tfm.frictional_pressure, onset = scene.tfm.frictional_onset,
-               packing = model.effects().solids_stress->max_packing();
-  return [=](const tfm::RightHandSide& equations, tfm::Fields& fields) {
-    Field& pressure = fields.stress.pressure;
-    for (Field* field : {&pressure, &fields.stress.slope, &fields.stress.damping})
-      field->resize(fields.solids_fraction.size());
-    for (std::size_t c = 0; c < pressure.size(); ++c) {
-      const double phi = fields.solids_fraction[c], gap = packing - phi;
-      pressure[c] = phi > onset ? strength * (phi - onset) * (phi - onset) / (gap * gap * gap * gap * gap) : 0.0;
-    }
-    equations.boundaries().fill_cells(pressure);
-    tfm::subtract_stress(equations.constants(), equations.boundaries(), fields);
+Terms hard_packing(const tfm::Model& model) {
+  const double packing = model.effects().solids_stress->max_packing();
+  auto flux = std::make_shared<core::FaceField>(core::make_face_field(model.constants().grid));
+  return [packing, flux](const tfm::RightHandSide& equations, tfm::Fields& fields) {
+    const double* total = fields.solids_fraction.data();
+    set_continuity(equations, fields, *flux, [&](const double* phi, Index c, Index s, double u) {
+      const bool full = (u > 0 ? total[c] : total[c - s]) >= packing;
+      return full ? 0.0 : core::UpwindFace::at(phi, c, s, u);
+    });
   };
 }
 
@@ -103,20 +118,8 @@ Terms raw_drag(const core::Scene& scene, const tfm::Model& model, bool plain_sha
 Terms central_flux(const tfm::Model& model) {
   auto flux = std::make_shared<core::FaceField>(core::make_face_field(model.constants().grid));
   return [flux](const tfm::RightHandSide& equations, tfm::Fields& fields) {
-    const core::Grid& grid = equations.constants().grid;
-    for (std::size_t j = 0; j < fields.solids.species(); ++j) {
-      for (int axis = 0; axis < grid.dimensions; ++axis)
-        core::for_each_row(grid, equations.boundaries().moving_faces(axis, false), [&](Index begin, Index end) {
-          for (Index c = begin; c < end; ++c)
-            (*flux)[std::size_t(axis)][std::size_t(c)] =
-                core::face_mean(fields.solids.fraction[j].data(), c, grid.stride(axis)) *
-                fields.solids.velocity[j][std::size_t(axis)][std::size_t(c)];
-        });
-      equations.boundaries().join(*flux);
-      core::divergence(grid, *flux, fields.solids.fraction_rate[j]);
-      for (double& rate : fields.solids.fraction_rate[j]) rate = -rate;
-      equations.boundaries().fill_cells(fields.solids.fraction_rate[j]);
-    }
+    set_continuity(equations, fields, *flux,
+                   [](const double* phi, Index c, Index s, double) { return core::face_mean(phi, c, s); });
   };
 }
 

@@ -38,8 +38,8 @@ class Equations : public core::OdeProblem {
   std::uint64_t solves_ = 0;
 };
 
-/// The published frictional pressure: a pole at phi_max, no tangent before it, no bulk viscosity.
-[[nodiscard]] Terms hard_packing(const core::Scene& scene, const tfm::Model& model);
+/// No solids pressure: what flows into a cell that is full is cut off.
+[[nodiscard]] Terms hard_packing(const tfm::Model& model);
 /// Drag by the bare law; with `plain_shares` the guarded law of shares that are 0/0 where there are no solids.
 [[nodiscard]] Terms raw_drag(const core::Scene& scene, const tfm::Model& model, bool plain_shares);
 /// Continuity with plain means of phi_j on faces.

@@ -174,7 +174,7 @@ std::unique_ptr<stability::Run> make_run(const std::string& name, core::Scene sc
   if (name == "raw_drag" || name == "unguarded_alpha")
     return explicit_run({"drag"}, [&](const tfm::Model& model) { return raw_drag(scene, model, false); });
   if (name == "hard_packing")
-    return explicit_run({"solids_stress"}, [&](const tfm::Model& model) { return hard_packing(scene, model); });
+    return explicit_run({"solids_stress"}, hard_packing);
   if (name == "central_flux") return explicit_run({}, central_flux);
   if (name == "unbalanced_gravity") return explicit_run({}, unbalanced_gravity);
   if (name == "drag_explicit") {

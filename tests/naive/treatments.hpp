@@ -15,7 +15,7 @@ namespace polybed::naive {
 ///   divide_by_phi              momentum per volume phi U is the unknown, U = m / max(phi, 1e-10)
 ///   divide_by_phi composition  shares of the species phi_j / sum phi_k, without a floor
 ///   clip_rhs                   a fraction at or below 0 is not lowered further; implicit
-///   hard_packing               the frictional pressure with its pole as published, neither tangent nor bulk viscosity
+///   hard_packing               no solids pressure: nothing flows into a cell at phi_max
 ///   drag_explicit              third-order explicit steps of one length, Courant number 0.5 of the fastest inlet
 ///   raw_drag                   drag laws and mixtures without their guards (unguarded_alpha: the same)
 ///   central_flux               plain means of phi_j on faces

@@ -73,7 +73,7 @@ void settle_and_hold(Trial& trial, double until, bool rests) {
   scene.bed.static_height = 0.05;
   scene.bed.start_solids_fraction = 0.35;
   const auto run = trial.begin(scene);
-  trial.advance(*run, until, {.rests = rests});
+  trial.advance(*run, until, {.settles = true, .rests = rests});
 }
 
 /// Height of a settled bed of which the topmost cell, too, carries its own weight: near a height, m.

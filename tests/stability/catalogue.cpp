@@ -16,6 +16,6 @@ std::vector<HardCase> short_cases() {
   return joined({settling_cases(), closure_cases(), fluidised_cases(), transport_cases()});
 }
 
-std::vector<HardCase> long_cases() { return {}; }
+std::vector<HardCase> long_cases() { return demanding_cases(); }
 
 }  // namespace polybed::stability

@@ -131,9 +131,12 @@ std::unique_ptr<Run> Trial::begin(core::Scene scene, const std::function<void(tf
 }
 
 void Trial::measure(const std::string& id, double value, double limit) {
-  auto found = std::find_if(worst_.begin(), worst_.end(), [&](const Measured& m) { return m.id == id; });
-  if (found == worst_.end()) found = worst_.insert(worst_.end(), {id, 0, limit});
-  if (!(value <= found->value)) found->value = std::isfinite(value) ? value : 1e300;
+  const Measured now{id, std::isfinite(value) ? value : 1e300, limit};
+  const auto found = std::find_if(worst_.begin(), worst_.end(), [&](const Measured& m) { return m.id == id; });
+  if (found == worst_.end())
+    worst_.push_back(now);
+  else if (now.share() > found->share())
+    *found = now;
 }
 
 void Trial::report(const std::string& name, double value) { reported_ += fmt::format("{}: {:.3g}. ", name, value); }
@@ -167,6 +170,9 @@ void Trial::see(Run& run, const Watch& watch) {
 
 void Trial::see_end(Run& run, const Watch& watch, double mean_balance) {
   see(run, watch);
+  if (watch.settles)
+    measure("at rest within tolerance", fastest(run.model().constants().grid, run.fields(), packed),
+            10 * rtol_ * run.model().velocity_scale());
   if (watch.rests) measure("V6 rest", fastest(run.model().constants().grid, run.fields(), packed), 1e-10);
   if (watch.fluidised) measure("V7 force balance", std::abs(mean_balance), 1e-3);
   work_ = run.work();

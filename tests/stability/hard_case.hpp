@@ -59,6 +59,7 @@ struct Result {
 
 /// What is watched in a run beside mass, bounds, finiteness, drag power and steps.
 struct Watch {
+  bool settles = false;  ///< at the end, packed solids and flux below ten times the tolerance of velocities
   bool rests = false;      ///< V6 at the end: solids and flux below 1e-10 m/s
   bool rests_always = false;  ///< V6 at all times
   bool fluidised = false;  ///< V7: over the last half, pressure drop and solids pressure on the distributor carry the
