@@ -85,7 +85,8 @@ Terms hard_packing(const tfm::Model& model) {
 }
 
 Terms raw_drag(const core::Scene& scene, const tfm::Model& model, bool plain_shares) {
-  const auto law = closures::drag_law(scene.effects.at("drag"), plain_shares ? closures::Guard::on : closures::Guard::off);
+  const auto law =
+      closures::drag_law(scene.effects.at("drag"), plain_shares ? closures::Guard::on : closures::Guard::off);
   const std::size_t species = model.constants().species();
   return [=](const tfm::RightHandSide& equations, tfm::Fields& fields) {
     const tfm::Constants& constants = equations.constants();

@@ -43,11 +43,6 @@ class NaiveRun : public stability::Run {
     next_step_ = report.next_step;
     return {report.time, report.step, report.error_norm, event ? "event" : ""};
   }
-  void restart() override {
-    const std::vector<double> y(integrator_->state().begin(), integrator_->state().end());
-    const std::vector<double> dydt(integrator_->derivative().begin(), integrator_->derivative().end());
-    integrator_->restart(time_, y, dydt, next_step_);
-  }
   [[nodiscard]] tfm::Work work() const override {
     const core::IntegratorStatistics s = integrator_->statistics();
     return {s.steps, s.error_failures + s.recoverable_failures, 0, 0, 0, s.newton_iterations, s.linear_iterations};
@@ -56,6 +51,15 @@ class NaiveRun : public stability::Run {
 
  protected:
   virtual void before_step(double) {}
+  /// A state after a jump of the inlet at the present time, by the product's projection.
+  std::vector<double> projected(std::vector<double> y) {
+    core::Checkpoint now = model_.checkpoint();
+    now.arrays.at("state") = std::move(y);
+    now.numbers.at("time_s") = time_;
+    model_.resume(now);
+    model_.restart();
+    return model_.checkpoint().arrays.at("state");
+  }
   core::Scene scene_;
   core::Timers& timers_;
   tfm::Model model_;
@@ -78,9 +82,15 @@ class ExplicitRun : public NaiveRun {
     integrator_ = core::make_explicit(*equations_, std::move(options));
     integrator_->restart(0, model_.checkpoint().arrays.at("state"), {}, 0);
   }
+  void restart() override {
+    const auto state = integrator_->state();
+    equations_->right_hand_side().begin(time_);
+    integrator_->restart(time_, projected({state.begin(), state.end()}), {}, next_step_);
+  }
   const tfm::Fields& fields() override {
     const core::Field pressure = equations_->fields().fluid.pressure;
-    (void)equations_->evaluate(time_, integrator_->state());  // a state that cannot be evaluated is shown as far as it goes
+    (void)equations_->evaluate(time_,
+                               integrator_->state());  // a state that cannot be evaluated is shown as far as it goes
     equations_->fields().fluid.pressure = pressure;
     return equations_->fields();
   }
@@ -106,28 +116,31 @@ class ImplicitRun : public NaiveRun {
       momenta_ = momenta.get();
       wrapper_ = std::move(momenta);
     }
+    core::DaeProblem& problem = wrapper_ ? *wrapper_ : *problem_;
     core::ImplicitOptions options;
     options.rtol = scene.tfm.rtol;
     options.atol = tolerances(layout_, scene.tfm.rtol, model_.velocity_scale());
     options.id.assign(layout_.size(), 1.0);
     for (const auto& entry : layout_.entries())
       if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
-    integrator_ = core::make_implicit(*wrapper_, std::move(options));
+    integrator_ = core::make_implicit(problem, std::move(options));
     begin(model_.checkpoint().arrays.at("state"));
   }
   const tfm::Fields& fields() override {
     (void)equations_.evaluate(time_, velocities());
     return equations_.fields();
   }
-  void restart() override { begin(velocities()); }
+  void restart() override { begin(projected(velocities())); }
 
  private:
   /// Consistent rates and pressure from one projected evaluation, as the product does.
   void begin(std::vector<double> y) {
     std::vector<double> dydt(y.size(), 0.0);
     equations_.right_hand_side().begin(time_);
-    tfm::ExplicitProblem projected(equations_.right_hand_side(), layout_, 1e-8, timers_);
-    if (projected.rates(time_, y, dydt) != core::Rate::ok) throw std::runtime_error("no rates at the start");
+    for (const auto& entry : layout_.entries())
+      if (entry.kind == Kind::pressure) std::fill_n(y.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
+    tfm::ExplicitProblem solved(equations_.right_hand_side(), layout_, 1e-8, timers_);
+    if (solved.rates(time_, y, dydt) != core::Rate::ok) throw std::runtime_error("no rates at the start");
     for (const auto& entry : layout_.entries())
       if (entry.kind == Kind::pressure) layout_.pack(entry, equations_.fields().fluid.pressure, y);
     if (momenta_ != nullptr) {
@@ -159,7 +172,8 @@ double courant_step(const core::Scene& scene) {
 std::unique_ptr<stability::Run> make_run(const std::string& name, core::Scene scene, core::Timers& timers,
                                          const Start& start) {
   if (name == "cold_restart") return nullptr;
-  const bool implicit = name == "clip_rhs" || name == "jacobi_preconditioner" || name == "divide_by_phi";
+  const bool implicit =
+      name == "clip_rhs" || name == "jacobi_preconditioner" || name == "divide_by_phi" || name == "nothing implicit";
   scene.tfm.integrator = implicit ? "implicit" : "explicit";
   if (implicit) {
     scene.tfm.fixed_step.reset();
@@ -169,12 +183,12 @@ std::unique_ptr<stability::Run> make_run(const std::string& name, core::Scene sc
                                 const std::function<Terms(const tfm::Model&)>& terms) {
     return std::make_unique<ExplicitRun>(scene, timers, start, without, terms);
   };
+  if (name == "nothing explicit") return explicit_run({}, {});
   if (name == "divide_by_phi composition")
     return explicit_run({"drag"}, [&](const tfm::Model& model) { return raw_drag(scene, model, true); });
   if (name == "raw_drag" || name == "unguarded_alpha")
     return explicit_run({"drag"}, [&](const tfm::Model& model) { return raw_drag(scene, model, false); });
-  if (name == "hard_packing")
-    return explicit_run({"solids_stress"}, hard_packing);
+  if (name == "hard_packing") return explicit_run({"solids_stress"}, hard_packing);
   if (name == "central_flux") return explicit_run({}, central_flux);
   if (name == "unbalanced_gravity") return explicit_run({}, unbalanced_gravity);
   if (name == "drag_explicit") {

@@ -1,5 +1,5 @@
-// Textbook treatments that hard cases must defeat, for tests only: each replaces one treatment of the product and leaves
-// the rest as it is. Production code knows nothing of them.
+// Textbook treatments that hard cases must defeat, for tests only: each replaces one treatment of the product and
+// leaves the rest as it is. Production code knows nothing of them.
 #pragma once
 
 #include <functional>
@@ -22,6 +22,7 @@ namespace polybed::naive {
 ///   unbalanced_gravity         weight from the cell above a face, solids pressure from both
 ///   jacobi_preconditioner      continuity rows divided by their diagonal, 1/dt and what flows out; implicit
 ///   cold_restart               null: the case itself goes on without the restart that a checkpoint asks for
+///   nothing explicit, nothing implicit   no change at all: what the runs themselves do
 /// Throws std::invalid_argument for any other name.
 [[nodiscard]] std::unique_ptr<stability::Run> make_run(const std::string& name, core::Scene scene, core::Timers& timers,
                                                        const std::function<void(tfm::Model&)>& start);

@@ -129,8 +129,7 @@ core::Rate JacobiContinuity::setup(double t, std::span<const double> y, std::spa
       const Index s = grid.stride(axis);
       core::for_each_row(grid, [&](Index begin, Index end) {
         for (Index c = begin; c < end; ++c)
-          outflow[std::size_t(c)] +=
-              (std::max(u[c + s], 0.0) + std::max(-u[c], 0.0)) / grid.spacing[std::size_t(axis)];
+          outflow[std::size_t(c)] += (std::max(u[c + s], 0.0) + std::max(-u[c], 0.0)) / grid.spacing[std::size_t(axis)];
       });
     }
     layout_.pack(entry, outflow, diagonal_);

@@ -58,7 +58,8 @@ void many_steps(Trial& trial) {
   for (const core::Field& phi : run->fields().solids.fraction)
     for (int k = 0; k < 20; ++k)
       for (int i = 0; i < 3; ++i)
-        asymmetry = std::max(asymmetry, std::abs(phi[std::size_t(grid.index(i, k))] - phi[std::size_t(grid.index(5 - i, k))]));
+        asymmetry =
+            std::max(asymmetry, std::abs(phi[std::size_t(grid.index(i, k))] - phi[std::size_t(grid.index(5 - i, k))]));
   trial.report("mirror asymmetry", asymmetry);
   trial.report("steps", double(run->work().steps));
   for (std::size_t j = 0; j < 2; ++j)
@@ -127,13 +128,14 @@ void five_species(Trial& trial) {
 /// T24: viscosities from 1e-6 to 1e3 Pa s, and a column without gravity. Explicit steps are bound to the relaxation of
 /// slip, D^2 rho_s/(18 mu): they get two hundred of those times, implicit ones a second.
 void viscosities(Trial& trial) {
-  for (const double viscosity : {1e-6, 1e-3, 1.0, 1e3})
+  const std::vector<double> all{1e-6, 1e-3, 1.0, 1e3}, viscous{1.0};  // where drag, not the fall of a sphere, is fast
+  for (const double viscosity : trial.naive() ? viscous : all)
     for (const double gravity : {9.81, 0.0}) {
       core::Scene scene = uniform_bed(1e-3, 2200, 998.207, viscosity, 0.58, 30, 0.09);
       scene.effects["solids_stress"] = "frictional";
       scene.tfm.max_packing = "0.62";
       scene.column.gravity = gravity;
-      scene.inlet.superficial_velocity = {{0.0, viscosity < 1 ? 0.03 : 1e-6}};
+      scene.inlet.superficial_velocity = {{0.0, viscosity < 1e3 ? 0.03 : 1e-6}};
       scene.bed.static_height = 0.03;
       scene.bed.start_solids_fraction = 0.5;
       const double slip_time = 1e-6 * 2200 / (18 * viscosity);
@@ -147,14 +149,15 @@ void viscosities(Trial& trial) {
 
 std::vector<HardCase> demanding_cases() {
   const std::vector<Treatment> both{{"explicit", "limited", ""}, {"implicit", "limited", ""}};
-  return {{"T11", "packed gas bed, step to 10 u_mf", {"drag_explicit"}, all_schemes(), piston},
-          {"T12", "jet at 20 u_mf breaks the surface", {"divide_by_phi"}, all_schemes(), jet},
-          {"T18", "twenty thousand steps in a closed column", {"jacobi_preconditioner"}, all_schemes(), many_steps},
-          {"T20", "tolerances from 1e-1 to 1e-9", {}, all_schemes(), tolerances},
-          {"T20 loose", "tolerance 1e-1", {}, both, [](Trial& trial) { beyond_tolerances(trial, 1e-1); }},
-          {"T20 tight", "tolerance 1e-13", {}, both, [](Trial& trial) { beyond_tolerances(trial, 1e-13); }},
-          {"T21", "five species", {"jacobi_preconditioner"}, all_schemes(), five_species},
-          {"T24", "viscosity 1e-6 to 1e3 Pa s, with and without gravity", {"drag_explicit"}, all_schemes(), viscosities}};
+  return {
+      {"T11", "packed gas bed, step to 10 u_mf", {"drag_explicit"}, all_schemes(), piston},
+      {"T12", "jet at 20 u_mf breaks the surface", {"divide_by_phi"}, all_schemes(), jet},
+      {"T18", "twenty thousand steps in a closed column", {"jacobi_preconditioner"}, all_schemes(), many_steps},
+      {"T20", "tolerances from 1e-1 to 1e-9", {}, all_schemes(), tolerances},
+      {"T20 loose", "tolerance 1e-1", {}, both, [](Trial& trial) { beyond_tolerances(trial, 1e-1); }},
+      {"T20 tight", "tolerance 1e-13", {}, both, [](Trial& trial) { beyond_tolerances(trial, 1e-13); }},
+      {"T21", "five species", {"jacobi_preconditioner"}, all_schemes(), five_species},
+      {"T24", "viscosity 1e-6 to 1e3 Pa s, with and without gravity", {"drag_explicit"}, all_schemes(), viscosities}};
 }
 
 }  // namespace polybed::stability

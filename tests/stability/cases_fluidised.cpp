@@ -31,9 +31,9 @@ double exchange_left_over(const core::Scene& scene, const tfm::Model& model, con
       for (std::size_t j = 0; j < model.constants().species(); ++j)
         solids += core::face_mean(with_drag.fields().solids.fraction[j].data(), c, s) * model.constants().density[j] *
                   (with_drag.fields().solids.acceleration[j][1][f] - no_drag.fields().solids.acceleration[j][1][f]);
-      const double fluid =
-          core::face_mean(with_drag.fields().fluid.voidage.data(), c, s) * model.constants().fluid.density *
-          (with_drag.fields().fluid_acceleration[1][f] - no_drag.fields().fluid_acceleration[1][f]);
+      const double fluid = core::face_mean(with_drag.fields().fluid.voidage.data(), c, s) *
+                           model.constants().fluid.density *
+                           (with_drag.fields().fluid_acceleration[1][f] - no_drag.fields().fluid_acceleration[1][f]);
       worst = std::max(worst, std::abs(solids + fluid) / std::max(std::abs(solids), 1.0));
     }
   });
@@ -83,7 +83,8 @@ double height_after(Trial& trial, const std::vector<std::pair<double, double>>& 
 void stepped_inlet(Trial& trial) {
   const double end = 6;
   const double stepped = height_after(
-      trial, {{0, 0.03}, {0.5, 0.03}, {0.5, 0.05}, {1, 0.05}, {1, 0}, {1.3, 0}, {1.3, -0.005}, {1.5, -0.005}, {1.5, 0.03}},
+      trial,
+      {{0, 0.03}, {0.5, 0.03}, {0.5, 0.05}, {1, 0.05}, {1, 0}, {1.3, 0}, {1.3, -0.005}, {1.5, -0.005}, {1.5, 0.03}},
       end + 1.5, 0.5);
   const double from_below = height_after(trial, {{0, 0.03}}, end, 0.55);
   const double from_above = height_after(trial, {{0, 0.03}}, end, 0.30);
@@ -92,8 +93,8 @@ void stepped_inlet(Trial& trial) {
 }
 
 /// T22: 1 kg/m3 heavier than the fluid; a bed of 1 mm spheres that starts at the force balance, f U/eps = D^2 (rho_s -
-/// rho_f) g/(18 mu), with one in a hundred more in its upper half. Reported: what a relative change of the excess density
-/// does to that of the density itself, the condition of anything found from the difference.
+/// rho_f) g/(18 mu), with one in a hundred more in its upper half. Reported: what a relative change of the excess
+/// density does to that of the density itself, the condition of anything found from the difference.
 void nearly_neutral(Trial& trial) {
   constexpr double phi = 0.4, excess = 998.207e-3, diameter = 1e-3, viscosity = 1.00157e-3;
   const double stokes = diameter * diameter * excess * 9.81 / (18 * viscosity);
@@ -140,12 +141,14 @@ double farthest(const std::vector<double>& a, const std::vector<double>& b) {
   return most;
 }
 
-/// T23: a bed turned upside down is its mirror image, and solids lighter than the fluid by as much as others are heavier
-/// end where those do. With steps of one length; the implicit integrator has none, and its Newton iteration leaves rtol.
+/// T23: a bed turned upside down is its mirror image, and solids lighter than the fluid by as much as others are
+/// heavier end where those do. With steps of one length; the implicit integrator has none, and its Newton iteration
+/// leaves rtol.
 void light_solids(Trial& trial) {
   const double round_off = trial.treatment().integrator == "implicit" ? 1e-3 : 1e-12;
   trial.measure("V11 mirror image",
-                farthest(bed_of(trial, 400, 9.81, 0.01, 0.5, 1e-3), bed_of(trial, 400, -9.81, -0.01, 0.5, 1e-3)), round_off);
+                farthest(bed_of(trial, 400, 9.81, 0.01, 0.5, 1e-3), bed_of(trial, 400, -9.81, -0.01, 0.5, 1e-3)),
+                round_off);
   trial.measure("the bed that hangs is the bed that stands",
                 farthest(bed_of(trial, 400, 9.81, 0.01, 4, 0), bed_of(trial, -400, 9.81, -0.01, 4, 0)), 1e-3);
 }
@@ -153,9 +156,15 @@ void light_solids(Trial& trial) {
 }  // namespace
 
 std::vector<HardCase> fluidised_cases() {
-  return {{"T4", "steel in air, density ratio 6500", {"drag_explicit"}, all_schemes(),
+  return {{"T4",
+           "steel in air, density ratio 6500",
+           {"drag_explicit"},
+           all_schemes(),
            [](Trial& trial) { steel_in_air(trial, false); }},
-          {"T4 balance", "the same as it slugs, pressure drop against weight (V7)", {}, all_schemes(),
+          {"T4 balance",
+           "the same as it slugs, pressure drop against weight (V7)",
+           {},
+           all_schemes(),
            [](Trial& trial) { steel_in_air(trial, true); }},
           {"T16", "inlet stepped, shut, reversed, opened", {"clip_rhs"}, all_schemes(), stepped_inlet},
           {"T22", "density ratio 1.001", {}, all_schemes(), nearly_neutral},

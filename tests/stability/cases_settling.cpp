@@ -10,8 +10,8 @@ namespace polybed::stability {
 
 namespace {
 
-/// Height of the bed after 1 s of settling; the freeboard holds `trace` of both species, the fine one is absent from the
-/// lower half of the bed, the coarse one from the upper half.
+/// Height of the bed after 1 s of settling; the freeboard holds `trace` of both species, the fine one is absent from
+/// the lower half of the bed, the coarse one from the upper half.
 double height_after_settling(Trial& trial, double trace) {
   core::Scene scene = two_species(50, 0.1, true);
   scene.bed.start = "layered";
@@ -19,7 +19,8 @@ double height_after_settling(Trial& trial, double trace) {
   scene.bed.start_solids_fraction = 0.3;
   const auto run = trial.begin(scene, [&](tfm::Model& model) {
     // Down from the trace at the surface of the bed to exactly nothing at the top of the column.
-    set_fractions(model, [&](std::size_t, int k, double phi) { return phi > 0 || k > 45 ? phi : trace * (1 - k / 45.0); });
+    set_fractions(model,
+                  [&](std::size_t, int k, double phi) { return phi > 0 || k > 45 ? phi : trace * (1 - k / 45.0); });
   });
   trial.advance(*run, 1.0);
   return fluid::bed_height(profile_of(*run)).value_or(0);
@@ -56,7 +57,8 @@ void empty_species(Trial& trial) {
   const std::vector<double> beside = profile_of(*b).fraction[0];
   double apart = 0;
   for (std::size_t k = 0; k < alone.size(); ++k) apart = std::max(apart, std::abs(alone[k] - beside[k]));
-  trial.measure("equal to the bed of one species", apart, trial.treatment().integrator == "implicit" ? 100 * one.tfm.rtol : 1e-12);
+  trial.measure("equal to the bed of one species", apart,
+                trial.treatment().integrator == "implicit" ? 100 * one.tfm.rtol : 1e-12);
 }
 
 /// Glass in water, 1.2 mm, in a closed column.
@@ -115,9 +117,16 @@ void rest_and_restart(Trial& trial) {
 std::vector<HardCase> settling_cases() {
   return {{"T1", "fractions of 1e-16 to 0 in the freeboard", {"divide_by_phi"}, all_schemes(), vanishing_phases},
           {"T2", "an empty species beside another", {"divide_by_phi composition"}, all_schemes(), empty_species},
-          {"T3", "settle to the maximum packing and hold", {"hard_packing", "jacobi_preconditioner"}, all_schemes(),
+          {"T3",
+           "settle to the maximum packing and hold",
+           {"hard_packing", "jacobi_preconditioner"},
+           all_schemes(),
            [](Trial& trial) { settle_and_hold(trial, 4, false); }},
-          {"T3 rest", "the same, at rest in the end (V6)", {}, all_schemes(), [](Trial& trial) { settle_and_hold(trial, 4, true); }},
+          {"T3 rest",
+           "the same, at rest in the end (V6)",
+           {},
+           all_schemes(),
+           [](Trial& trial) { settle_and_hold(trial, 4, true); }},
           {"T17", "a settled bed, restarted at rest", {"unbalanced_gravity"}, all_schemes(), rest_and_restart}};
 }
 

@@ -30,7 +30,8 @@ void interface_of_one_cell(Trial& trial) {
     const double share = profile.fraction[0][k] / profile.solids_fraction(k);
     width += share > 0.1 && share < 0.9 ? 1 : 0;
   }
-  trial.measure("growth of total variation", variation - std::abs(profile.fraction[0][69] - profile.fraction[0][19]), 1e-12);
+  trial.measure("growth of total variation", variation - std::abs(profile.fraction[0][69] - profile.fraction[0][19]),
+                1e-12);
   trial.report("interface, cells of share 0.1 to 0.9", width);
 }
 

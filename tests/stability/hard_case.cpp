@@ -46,7 +46,8 @@ struct Stuck : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The greatest speed of any phase: the mixture's on all faces, that of solids on faces with more than a fraction of them.
+/// The greatest speed of any phase: the mixture's on all faces, that of solids on faces with more than a fraction of
+/// them.
 double fastest(const core::Grid& grid, const tfm::Fields& fields, double above) {
   double most = 0;
   for (int axis = 0; axis < grid.dimensions; ++axis) {
@@ -186,7 +187,12 @@ void Trial::keep_step(Run& run, const tfm::StepLine& line) {
   if (!std::isfinite(line.time) || !(line.step > 0)) throw Stuck("a step without length");
   if (++steps_since_start_ <= starting || line.limited_by == "event") return;
   if (least_step_ == 0 || line.step < least_step_) least_step_ = line.step;
-  constexpr std::uint64_t most_steps = 3'000'000;
+  // Ten times what the longest case takes (T18, 20,000), and a step at the floor for as long as a case has in all.
+  constexpr std::uint64_t most_steps = 200'000;
+  constexpr int most_small_steps = 500;
+  small_steps_ = line.step < 1e-3 * shortest_time_ ? small_steps_ + 1 : 0;
+  if (small_steps_ > most_small_steps)
+    throw Stuck(fmt::format("t = {:.3g} s: {} steps in a row near {:.2g} s", line.time, most_small_steps, line.step));
   if (run.work().steps > most_steps) throw Stuck(fmt::format("t = {:.3g} s after {} steps", line.time, most_steps));
 }
 
@@ -233,10 +239,15 @@ Result Trial::judge(const std::function<void(Trial&)>& work) {
     result.cause = stuck.what();
   }
   result.cpu = core::cpu_seconds() - begin;
-  for (const Measured& m : worst_)
+  for (const Measured& m : worst_) {
+    if (m.share() > 1) result.broken += (result.broken.empty() ? "" : "; ") + m.id;
     if (m.share() > result.worst.share() || result.worst.id.empty()) result.worst = m;
+  }
   const double share = result.worst.share();
-  result.outcome = share > 10 ? Outcome::fail : stopped ? Outcome::refused : share > 1 ? Outcome::degraded : Outcome::pass;
+  result.outcome = share > 10  ? Outcome::fail
+                   : stopped   ? Outcome::refused
+                   : share > 1 ? Outcome::degraded
+                               : Outcome::pass;
   result.least_step = least_step_;
   result.work = work_;
   result.reported = reported_;

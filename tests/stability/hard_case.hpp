@@ -16,7 +16,10 @@ namespace polybed::stability {
 /// How a scene is treated: a scheme of the product, or a textbook variant of tests/naive by name.
 struct Treatment {
   std::string integrator = "explicit", flux = "limited", naive;
-  [[nodiscard]] std::string name() const { return naive.empty() ? integrator + "/" + flux : "naive " + naive; }
+  [[nodiscard]] std::string name() const {
+    if (!naive.empty()) return "naive " + naive;
+    return flux.empty() ? integrator : integrator + "/" + flux;
+  }
 };
 
 /// One run of a scene, by the product's model or by a naive variant that shares its fields.
@@ -54,13 +57,14 @@ struct Result {
   tfm::Work work;
   double cpu = 0;  ///< s
   std::string cause;
+  std::string broken;    ///< the invariants beyond their limits
   std::string reported;  ///< further figures, without a limit
 };
 
 /// What is watched in a run beside mass, bounds, finiteness, drag power and steps.
 struct Watch {
-  bool settles = false;  ///< at the end, packed solids and flux below ten times the tolerance of velocities
-  bool rests = false;      ///< V6 at the end: solids and flux below 1e-10 m/s
+  bool settles = false;       ///< at the end, packed solids and flux below ten times the tolerance of velocities
+  bool rests = false;         ///< V6 at the end: solids and flux below 1e-10 m/s
   bool rests_always = false;  ///< V6 at all times
   bool fluidised = false;  ///< V7: over the last half, pressure drop and solids pressure on the distributor carry the
                            ///< buoyant weight within 1e-3
@@ -99,7 +103,7 @@ class Trial {
   std::vector<Measured> worst_;
   double rtol_ = 1e-4, least_step_ = 0;
   double shortest_time_ = std::numeric_limits<double>::infinity();
-  int steps_since_start_ = 0;
+  int steps_since_start_ = 0, small_steps_ = 0;
   tfm::Work work_;
   std::string reported_;
 };

@@ -59,9 +59,9 @@ def page(rows, text):
 if __name__ == "__main__":
     found = results(sys.argv[1])
     if sys.argv[2] == "--expected":
-        print("case,treatment,outcome")
+        print("case,treatment,outcome,broken")
         for result in found:
-            print(f"{result['case']},{result['treatment']},{result['outcome']}")
+            print(f"{result['case']},{result['treatment']},{result['outcome']},{result['broken']}")
     else:
         target = pathlib.Path(sys.argv[2])
         target.write_text(page(found, target.read_text()))
