@@ -187,10 +187,10 @@ void Trial::keep_step(Run& run, const tfm::StepLine& line) {
   if (!std::isfinite(line.time) || !(line.step > 0)) throw Stuck("a step without length");
   if (++steps_since_start_ <= starting || line.limited_by == "event") return;
   if (least_step_ == 0 || line.step < least_step_) least_step_ = line.step;
-  // Ten times what the longest case takes (T18, 20,000), and a step at the floor for as long as a case has in all.
+  // Ten times what the longest case takes (T18, 20,000); steps that even the tightest tolerance does not ask for.
   constexpr std::uint64_t most_steps = 200'000;
   constexpr int most_small_steps = 500;
-  small_steps_ = line.step < 1e-3 * shortest_time_ ? small_steps_ + 1 : 0;
+  small_steps_ = line.step < 1e-6 * shortest_time_ ? small_steps_ + 1 : 0;
   if (small_steps_ > most_small_steps)
     throw Stuck(fmt::format("t = {:.3g} s: {} steps in a row near {:.2g} s", line.time, most_small_steps, line.step));
   if (run.work().steps > most_steps) throw Stuck(fmt::format("t = {:.3g} s after {} steps", line.time, most_steps));

@@ -2,8 +2,8 @@
 """Writes the matrix of hard cases from the report of the tests.
 
   build/tests/test_stability --gtest_output=json:REPORT
-  tests/stability/matrix.py REPORT docs/stability.md      replaces the tables between the marks of the page
-  tests/stability/matrix.py REPORT --expected             prints the table of outcomes as expected.csv has it
+  tests/stability/matrix.py REPORT... docs/stability.md   replaces the tables between the marks of the page
+  tests/stability/matrix.py REPORT... --expected          prints the table of outcomes as expected.csv has it
 """
 import datetime
 import json
@@ -15,8 +15,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BEGIN, END = "<!-- matrix: begin -->", "<!-- matrix: end -->"
 
 
-def results(report):
-    tests = [t for suite in json.loads(pathlib.Path(report).read_text())["testsuites"] for t in suite["testsuite"]]
+def results(reports):
+    suites = [s for report in reports for s in json.loads(pathlib.Path(report).read_text())["testsuites"]]
+    tests = [t for suite in suites for t in suite["testsuite"]]
     return [t for t in tests if "outcome" in t]
 
 
@@ -57,11 +58,11 @@ def page(rows, text):
 
 
 if __name__ == "__main__":
-    found = results(sys.argv[1])
-    if sys.argv[2] == "--expected":
+    found = results(sys.argv[1:-1])
+    if sys.argv[-1] == "--expected":
         print("case,treatment,outcome,broken")
         for result in found:
             print(f"{result['case']},{result['treatment']},{result['outcome']},{result['broken']}")
     else:
-        target = pathlib.Path(sys.argv[2])
+        target = pathlib.Path(sys.argv[-1])
         target.write_text(page(found, target.read_text()))
