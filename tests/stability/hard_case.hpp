@@ -95,7 +95,7 @@ class Trial {
  private:
   void see(Run& run, const Watch& watch);
   void see_end(Run& run, const Watch& watch, double mean_balance);
-  void keep_step(Run& run, const tfm::StepLine& line);
+  void keep_step(Run& run, const tfm::StepLine& line, const Watch& watch);
 
   Treatment treatment_;
   core::Timers timers_;
