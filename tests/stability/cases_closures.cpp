@@ -144,7 +144,11 @@ void no_slip(Trial& trial) {
 
 std::vector<HardCase> closure_cases() {
   const std::vector<Treatment> one{{"closures", "", ""}};  // no run, no scheme
-  return {{"T5", "size ratio 10 and 20, a trace of fines, phi 0.65", {"unguarded_alpha"}, all_schemes(), size_ratio},
+  return {{"T5",
+           "size ratio 10 and 20, a trace of fines, phi 0.65 to 0.70",
+           {"unguarded_alpha"},
+           all_schemes(),
+           size_ratio},
           {"T6", "every drag law, any voidage, Reynolds number and slip 0", {"raw_drag"}, one, every_law},
           {"T7", "slope of the solids pressure against the critical one", {"no_stress"}, one, well_posedness},
           {"T9", "slip exactly 0", {"divide_by_phi"}, all_schemes(), no_slip}};
