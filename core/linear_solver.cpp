@@ -45,6 +45,8 @@ struct PoissonSolver::Hypre {
   HYPRE_StructMatrix matrix = nullptr;
   HYPRE_StructVector source = nullptr, solution = nullptr;
   std::vector<double> entries, packed;
+  Field balanced;  ///< the source without its mean, where a constant is left open
+  Field pinned;    ///< and the diagonal that holds it
 
   explicit Hypre(const Grid& g) : dimensions(g.dimensions), all(communicator(g)) {
     open_linear_solvers();
@@ -200,12 +202,12 @@ void remove_mean(const Grid& grid, Field& field) {
 
 PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const double> shift,
                                    const Field& given_source, Field& p, double tolerance) {
-  Field balanced, pinned;
+  Field &balanced = hypre_->balanced, &pinned = hypre_->pinned;
   const bool constant_open = leaves_constant_open(grid_, coefficient, shift);
   if (constant_open) {
     balanced = given_source;
     remove_mean(grid_, balanced);
-    pinned = make_field(grid_);
+    pinned.assign(grid_.padded_size(), 0.0);
     double& first = pinned[std::size_t(grid_.index(0, 0))];
     first = pin_of_first_cell(grid_, coefficient, shift);
     subtract(grid_, sum_of_ranks(grid_, first > 0 ? p[std::size_t(grid_.index(0, 0))] : 0), p);

@@ -1,0 +1,16 @@
+// The groups of the catalogue.
+#pragma once
+
+#include <vector>
+
+#include "stability/hard_case.hpp"
+
+namespace polybed::stability {
+
+[[nodiscard]] std::vector<HardCase> closure_cases();    // T5 T6 T7 T9
+[[nodiscard]] std::vector<HardCase> settling_cases();   // T1 T2 T3 T17
+[[nodiscard]] std::vector<HardCase> fluidised_cases();  // T4 T16 T22 T23
+[[nodiscard]] std::vector<HardCase> transport_cases();  // T10 T19 T25
+[[nodiscard]] std::vector<HardCase> demanding_cases();  // T11 T12 T18 T20 T21 T24, on demand
+
+}  // namespace polybed::stability
