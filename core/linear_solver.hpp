@@ -24,8 +24,7 @@ struct PoissonResult {
 
 /// Solves shift p - div(B grad p) = source on the cells of the column. Collective.
 /// The coefficient on a boundary face says what holds there: 0, no flux; else p = 0 in the centre of the
-/// ghost cell. Everything is set up anew for each solve: a multigrid hierarchy kept from other coefficients
-/// can stop at once and report a residual of zero.
+/// ghost cell. The multigrid hierarchy is kept while it serves; the residual is always the true one, recomputed.
 class PoissonSolver {
  public:
   explicit PoissonSolver(const Grid& grid);
@@ -38,6 +37,8 @@ class PoissonSolver {
   /// \param tolerance    of the residual relative to the source's norm
   PoissonResult solve(const FaceSpans& coefficient, std::span<const double> shift, const Field& source, Field& p,
                       double tolerance);
+  /// Begins anew: what comes next does not depend on earlier solves.
+  void forget();
 
  private:
   struct Hypre;

@@ -20,6 +20,8 @@ class Pressure {
   /// \param flux  J, m/s
   /// \param w     rate at which div J is driven to zero, 1/s
   core::PoissonResult solve(const FluxRate& rate, const core::FaceField& flux, double w, core::Field& pressure);
+  /// Begins anew: what comes next does not depend on earlier solves.
+  void forget() { solver_.forget(); }
 
  private:
   core::Grid grid_;

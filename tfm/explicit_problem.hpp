@@ -15,6 +15,8 @@ class ExplicitProblem : public core::OdeProblem {
 
   core::Rate rates(double t, std::span<const double> y, std::span<double> dydt) override;
 
+  /// An integration begins: what comes next depends on the state alone.
+  void begin() { pressure_.forget(); }
   /// Called before a step: what is left of div J is halved within two steps of length h, s.
   void begin_step(double h) { correction_rate_ = h > 0 ? 0.5 / h : 0; }
 

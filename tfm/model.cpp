@@ -191,7 +191,10 @@ void Model::make_integrator() {
 /// right-hand side gives both.
 void Model::begin_integration() {
   equations_.begin(time_);
-  if (explicit_) explicit_->begin_step(step_);
+  if (explicit_) {
+    explicit_->begin();
+    explicit_->begin_step(step_);
+  }
   if (compressible()) {
     begin_compressible();
   } else if (implicit_) {
