@@ -16,6 +16,9 @@ from sources import ROOT, report, tracked
 
 PYTHON = "/usr/bin/python3"
 MOST_NOT_RUN = 6
+# What Open MPI needs in a container and as root.
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+       "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 SHORT = ["--until", "0.1 s", "--quiet"]
 
 
@@ -32,16 +35,20 @@ def blocks(text):
 def shortened(command, program):
     words = shlex.split(command, comments=True)
     words[0] = program if words[0] in ("./polybed", "polybed") else words[0]
+    on_ranks = []
+    if words[0] == program and words[1] == "-n":  # as the launcher does it
+        on_ranks = ["mpirun", "-q", "-n", words[2]]
+        del words[1:3]
     if len(words) > 1 and words[1] == "tfm":
         if "--until" in words:
             at = words.index("--until")
             del words[at:at + 2]
         words += SHORT + ([] if {"--resume", "--force"} & set(words) else ["--force"])
-    return words
+    return on_ranks + words
 
 
 def run(command, program, scratch):
-    environment = os.environ | {"PYTHONPATH": str(ROOT / "multiscale/python")}
+    environment = os.environ | MPI | {"PYTHONPATH": str(ROOT / "multiscale/python")}
     done = subprocess.run(shortened(command, program), cwd=scratch, env=environment, capture_output=True, text=True,
                           timeout=300)
     return [] if done.returncode == 0 else [f"{command}\n  ended with {done.returncode}: {done.stderr[-500:]}"]
@@ -51,6 +58,7 @@ def self_test():
     assert list(blocks("```sh\na b\n```\n```sh no-run\nc\n```\n")) == [("", ["a b"]), ("no-run", ["c"])]
     assert list(blocks("```python\nprint(1)\n```\n")) == [("", [f"{PYTHON} -c 'print(1)\n'"])]
     assert shortened("./polybed tfm x --until '20 s'", "p") == ["p", "tfm", "x", *SHORT, "--force"]
+    assert shortened("./polybed -n 2 check x", "p") == ["mpirun", "-q", "-n", "2", "p", "check", "x"]
     assert "--force" not in shortened("./polybed tfm x --resume", "p")
     assert run("false", "p", ".")
 
