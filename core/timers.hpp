@@ -1,7 +1,6 @@
 // CPU time by term of the equations. One object per run; no global state.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -23,9 +22,9 @@ class Timers {
   /// Adds the time until its end to a term.
   class Scope {
    public:
-    explicit Scope(Term& term) : term_(term), begin_(std::chrono::steady_clock::now()) {}
+    explicit Scope(Term& term) : term_(term), begin_(cpu_seconds()) {}
     ~Scope() {
-      term_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+      term_.seconds += cpu_seconds() - begin_;
       ++term_.calls;
     }
     Scope(const Scope&) = delete;
@@ -33,7 +32,7 @@ class Timers {
 
    private:
     Term& term_;
-    std::chrono::steady_clock::time_point begin_;
+    double begin_;
   };
 
   Timers() { terms_.reserve(most_terms); }
