@@ -58,11 +58,11 @@ void write_guards(Json& json, const std::vector<tfm::ClosureUse>& closures) {
 }
 
 /// Mass of each species at the start, in, out and in the column, and how well they add up; nothing if no end is open.
-void write_ledger(Json& json, const tfm::Model& model, const fluid::Invariants& invariants) {
-  const tfm::Constants& constants = model.constants();
+void write_ledger(Json& json, const tfm::Constants& constants, const RunTotals& totals,
+                  const fluid::Invariants& invariants) {
   if (!constants.openings.present()) return;
-  const std::vector<fluid::Passed> passed = model.passed();
-  const std::vector<double> now = tfm::masses(model);
+  const std::vector<fluid::Passed>& passed = totals.passed;
+  const std::vector<double>& now = totals.masses;
   json.key("ledger").begin_array();
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const double start = invariants.initial_mass()[j], in = passed[j].in * constants.density[j],
@@ -86,6 +86,8 @@ RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
   RunTotals totals;
   totals.ranks = grid.ranks ? grid.ranks->count() : 1;
   totals.cpu_seconds = core::sum_of_ranks(grid, cpu_seconds);
+  totals.masses = tfm::masses(model);
+  if (model.constants().openings.present()) totals.passed = model.passed();
   const tfm::Effects& effects = model.effects();
   if (effects.drag) totals.closures.push_back(effects.drag->use());
   if (effects.solids_stress)
@@ -146,7 +148,7 @@ std::string run_record_text(const RunRecord& record) {
   for (const core::Timers::Term& term : record.timers.terms()) json.member(term.name, term.seconds);
   json.end_object();
   write_invariants(json, record.observers.invariants());
-  write_ledger(json, model, record.observers.invariants());
+  write_ledger(json, model.constants(), record.totals, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
   write_guards(json, record.totals.closures);
   json.key("warnings").begin_array();

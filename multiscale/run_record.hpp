@@ -16,6 +16,8 @@ struct RunTotals {
   int ranks = 1;
   double cpu_seconds = 0;
   std::vector<tfm::ClosureUse> closures;
+  std::vector<double> masses;         ///< of the species in the column, kg
+  std::vector<fluid::Passed> passed;  ///< through open ends; empty if there are none
 };
 
 /// Collective.

@@ -57,8 +57,8 @@ class Ranks(Scratch):
             worst = max(worst, float(np.abs(a[name] - b[name]).max() / scale))
         return worst
 
-    def check_equal(self, *words, same=SAME, case=CASE):
-        for ranks in (1, 2, 3, 4):
+    def check_equal(self, *words, same=SAME, case=CASE, on=(2, 3, 4)):
+        for ranks in (1, *on):
             self.on(ranks, case, *words, "-o", self.folder / f"on{ranks}")
             if ranks > 1:
                 self.assertLessEqual(self.largest_difference(self.folder / "on1", self.folder / f"on{ranks}"), same)
@@ -86,6 +86,27 @@ class Ranks(Scratch):
 
     def test_a_deep_bed_with_joined_sides_is_the_same(self):
         self.check_equal(*DEEP, *FIXED, *TIGHT, case=self.write("deep.toml", case_without("depth")))
+
+    def test_every_stress_is_the_same(self):
+        effects = {"solids_stress": "kinetic", "granular_temperature": "transported", "solids_viscosity": "schaeffer",
+                   "fluid_stress": "newtonian"}
+        words = [w for role, law in effects.items() for w in ("--set", f'effects.{role}="{law}"')]
+        self.check_equal(*FLAT, *FIXED, *TIGHT, *words, "--set", 'tfm.solids_wall="johnson_jackson"',
+                         "--set", 'tfm.momentum="limited"', on=(4,))
+
+    def test_a_compressible_fluid_is_the_same(self):
+        self.check_equal(*FLAT, *TIGHT, "--set", 'fluid.equation_of_state="tait"', "--set", 'tfm.integrator="explicit"',
+                         "--set", "tfm.fixed_step=1e-6", "--set", "run.until=1e-4", "--set", "output.every=1e-4",
+                         "--set", "output.history_every=1e-4", on=(4,))
+
+    def test_what_is_fed_and_leaves_is_the_same(self):
+        words = ["--set", "tfm.fixed_step=1e-4", "--set", 'tfm.integrator="explicit"', "--set", "run.until=5e-3",
+                 "--set", "output.every=5e-3", "--set", "output.history_every=1e-3"]
+        self.check_equal(*words, *TIGHT, case=CASE.parents[1] / "classifier/case.toml", on=(4,))
+        one, other = history(self.folder / "on1"), history(self.folder / "on4")
+        for name in one:
+            if name.startswith(("in_", "out_")):
+                self.assertLessEqual(abs(one[name][-1] - other[name][-1]), SAME * max(abs(one[name][-1]), 1e-6), name)
 
     def test_adaptive_steps_are_the_same(self):
         """A step follows from the error of the one before, a small difference of rates: what is left of the pressure's
