@@ -1,6 +1,8 @@
 #include "tfm/conservative_convection.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "core/operators.hpp"
 
@@ -20,7 +22,9 @@ void ConservativeConvection::begin(const Fields& fields) { fluid_flux_ = fields.
 
 void ConservativeConvection::carry_species(std::size_t j, core::FaceField& flux, Fields& fields) {
   const auto dimensions = std::size_t(constants_.grid.dimensions);
-  boundaries_.join(flux);
+  std::array<fluid::Ghosts, 3> ghosts{};
+  for (std::size_t a = 0; a < dimensions; ++a) ghosts[a] = {fluid::Ghosts::Kind::joined, &flux[a]};
+  boundaries_.fill(std::span(ghosts).first(dimensions));
   for (std::size_t a = 0; a < dimensions; ++a)
     for (std::size_t f = 0; f < flux[a].size(); ++f) fluid_flux_[a][f] -= flux[a][f];
   carry(flux, fields.solids.velocity[j], fields.solids.fraction[j], momentum_floor(constants_.bed_share[j]), false,
