@@ -87,6 +87,10 @@ class Ranks(Scratch):
     def test_a_deep_bed_with_joined_sides_is_the_same(self):
         self.check_equal(*DEEP, *FIXED, *TIGHT, case=self.write("deep.toml", case_without("depth")))
 
+    def test_momentum_in_conservative_form_is_the_same(self):
+        """Fluxes of the solids are taken from neighbours across every cut, corners included."""
+        self.check_equal(*FLAT, *FIXED, *TIGHT, "--set", 'tfm.momentum="conservative_limited"')
+
     def test_adaptive_steps_are_the_same(self):
         """A step follows from the error of the one before, a small difference of rates: what is left of the pressure's
         residual, 1e-12, moves it by some 1e-13, and the pressure, which starts each stage anew, by a hundred times as
