@@ -71,4 +71,27 @@ void subtract_convection(const Grid& grid, const FaceField& velocity, int axis, 
   }
 }
 
+/// Adds -[div(F U) - U div F] of the velocity U on the faces of one axis within a box, where F, on the faces of all
+/// axes, carries it: between two cells of U, each half of two cells of the grid, F is the mean of what passes both, so
+/// that the sum over cells of U times the mean of dphi/dt = -div F, and of this, telescopes. Face: UpwindFace or
+/// LimitedFace. Ghosts of U must be filled, and those of F where other cells own them.
+template <class Face>
+void subtract_carried(const Grid& grid, const FaceField& flux, const Field& velocity, int axis, const Box& box,
+                      Field& rate) {
+  const double* u = velocity.data();
+  const Index s = grid.stride(axis);
+  for (int along = 0; along < grid.dimensions; ++along) {
+    const double* f = flux[std::size_t(along)].data();
+    const Index t = grid.stride(along);
+    const double per_length = 1 / grid.spacing[std::size_t(along)];
+    for_each_row(grid, box, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) {
+        const double in = 0.5 * (f[c - s] + f[c]), out = 0.5 * (f[c + t - s] + f[c + t]);
+        rate[std::size_t(c)] -=
+            per_length * (out * (Face::at(u, c + t, t, out) - u[c]) - in * (Face::at(u, c, t, in) - u[c]));
+      }
+    });
+  }
+}
+
 }  // namespace polybed::core

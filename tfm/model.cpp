@@ -62,8 +62,10 @@ double fraction_tolerance(double rtol) { return 0.1 * rtol; }
 
 Discretisation make_discretisation(const core::Tfm& options) {
   const auto scheme = [](const std::string& name) { return name == "limited" ? Scheme::limited : Scheme::upwind; };
-  return {scheme(options.flux), scheme(options.momentum),
-          options.solids_wall == "no_slip" ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip};
+  const bool conservative = options.momentum.rfind("conservative", 0) == 0;
+  const bool limited = options.momentum == "limited" || options.momentum == "conservative_limited";
+  return {scheme(options.flux), limited ? Scheme::limited : Scheme::upwind,
+          options.solids_wall == "no_slip" ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip, conservative};
 }
 
 }  // namespace

@@ -68,10 +68,11 @@ void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const 
 }  // namespace
 
 void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, double t,
-                Fields& fields, core::FaceField& flux, const FaceList* first_order) {
+                Fields& fields, core::FaceField& flux, const FaceList* first_order, ConservativeConvection* momentum) {
   const core::Grid& grid = constants.grid;
   const bool compressible = fields.fluid.compression.present();
   if (compressible) fields.fluid.compression.flux = fields.fluid.flux;
+  if (momentum != nullptr) momentum->begin(fields);
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const Field& phi = fields.solids.fraction[j];
     const core::FaceField& velocity = fields.solids.velocity[j];
@@ -82,10 +83,12 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
     if (first_order != nullptr) redo_upwind(grid, *first_order, phi, velocity, flux);
     if (constants.openings.present()) constants.openings.cross(t, j, fields.solids, flux[1]);
     if (compressible) subtract(flux, fields.fluid.compression.flux);
+    if (momentum != nullptr) momentum->carry_species(j, flux, fields);
     Field& rate = fields.solids.fraction_rate[j];
     core::divergence(grid, flux, rate);
     for (double& r : rate) r = -r;
   }
+  if (momentum != nullptr) momentum->carry_fluid(fields);
   boundaries.fill_cells(fields.solids.fraction_rate);
   for (std::size_t j = 0; j < constants.species() && constants.openings.present(); ++j)
     constants.openings.set_rate_ghosts(t, j, fields.solids);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "fluid/boundaries.hpp"
+#include "tfm/conservative_convection.hpp"
 #include "tfm/fields.hpp"
 #include "tfm/first_order_fallback.hpp"
 
@@ -24,8 +25,9 @@ enum class Scheme { upwind, limited };
 /// `limited`, and with what crosses the ends at time t. Ghosts of the rate are filled. flux_j is work space. If the
 /// fluid is compressible its own flux, J - sum F_j, is set too.
 /// \param first_order  faces that take phi_j from upwind alone whatever the scheme; null: none
+/// \param momentum  convection that these fluxes carry; null: none, it is left to convection()
 void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux,
-                const FaceList* first_order);
+                const FaceList* first_order, ConservativeConvection* momentum = nullptr);
 
 /// Sets the accelerations of all phases to their convection, -(U.grad)U; the rest is added to them.
 void convection(const Constants&, const fluid::Boundaries&, Scheme, Fields&);

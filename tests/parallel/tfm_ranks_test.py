@@ -108,6 +108,10 @@ class Ranks(Scratch):
             if name.startswith(("in_", "out_")):
                 self.assertLessEqual(abs(one[name][-1] - other[name][-1]), SAME * max(abs(one[name][-1]), 1e-6), name)
 
+    def test_momentum_in_conservative_form_is_the_same(self):
+        """Fluxes of the solids are taken from neighbours across every cut, corners included."""
+        self.check_equal(*FLAT, *FIXED, *TIGHT, "--set", 'tfm.momentum="conservative_limited"', on=(4,))
+
     def test_adaptive_steps_are_the_same(self):
         """A step follows from the error of the one before, a small difference of rates: what is left of the pressure's
         residual, 1e-12, moves it by some 1e-13, and the pressure, which starts each stage anew, by a hundred times as

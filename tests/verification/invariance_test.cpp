@@ -23,8 +23,11 @@ struct Finished {
   [[nodiscard]] const core::Field& phi(std::size_t j) const { return model.fields().solids.fraction[j]; }
 };
 
-TEST(Invariance, AnEmptySpeciesChangesNothing) {
-  const core::Scene without = short_bed();
+class Invariance : public testing::TestWithParam<std::string> {};
+
+TEST_P(Invariance, AnEmptySpeciesChangesNothing) {
+  core::Scene without = short_bed();
+  without.tfm.momentum = GetParam();
   core::Scene with = without;
   core::Species none = without.species[0];
   none.name = "none";
@@ -40,8 +43,9 @@ TEST(Invariance, AnEmptySpeciesChangesNothing) {
   EXPECT_EQ(*std::max_element(b.phi(2).begin(), b.phi(2).end()), 0.0);
 }
 
-TEST(Invariance, ASpeciesCutInTwoMovesAsOne) {
+TEST_P(Invariance, ASpeciesCutInTwoMovesAsOne) {
   core::Scene whole = short_bed();
+  whole.tfm.momentum = GetParam();
   whole.effects.erase("species_exchange");
   core::Scene cut = whole;
   cut.species.push_back(cut.species[1]);
@@ -56,8 +60,9 @@ TEST(Invariance, ASpeciesCutInTwoMovesAsOne) {
   EXPECT_LT(distance(a.model.constants().grid, a.phi(1), sum), 1e-10);
 }
 
-TEST(Invariance, OrderOfSpeciesDoesNotMatter) {
-  const core::Scene one = short_bed();
+TEST_P(Invariance, OrderOfSpeciesDoesNotMatter) {
+  core::Scene one = short_bed();
+  one.tfm.momentum = GetParam();
   core::Scene other = one;
   std::swap(other.species[0], other.species[1]);
   std::swap(other.bed.volume_share[0], other.bed.volume_share[1]);
@@ -67,8 +72,9 @@ TEST(Invariance, OrderOfSpeciesDoesNotMatter) {
   EXPECT_LT(apart, 1e-12);
 }
 
-TEST(Invariance, LeftAndRightAreMirrorImages) {
+TEST_P(Invariance, LeftAndRightAreMirrorImages) {
   core::Scene scene = binary_bed(8, 40, 0.024, 0.12);
+  scene.tfm.momentum = GetParam();
   scene.tfm.fixed_step = 1e-3;
   scene.tfm.pressure_tolerance = 1e-13;
   const auto asymmetry = [&](double until) {
@@ -87,6 +93,8 @@ TEST(Invariance, LeftAndRightAreMirrorImages) {
   record("greatest difference", worst);
   EXPECT_LT(worst, 1e-12);
 }
+
+INSTANTIATE_TEST_SUITE_P(Momentum, Invariance, testing::Values(std::string("upwind"), std::string("conservative")));
 
 }  // namespace
 }  // namespace polybed::verification

@@ -1,0 +1,41 @@
+// Convection of momentum in conservative form: what leaves one face's momentum arrives on the next.
+//
+//   a = -[div(F U) - U div F] / phi,   phi = phi_j, F = F_j of a species; phi = eps, F = J - sum F_j of the fluid
+//
+// F between the cells of the momentum, each half of two cells of the fractions, is the mean of the fluxes of continuity
+// of both (Harlow and Welch 1965), so that div F is the mean of their -dphi/dt: with (1) the sum of phi rho U over
+// faces changes by what crosses the ends alone. A compressible fluid's density is taken as even over a cell of
+// momentum.
+#pragma once
+
+#include "fluid/boundaries.hpp"
+#include "tfm/fields.hpp"
+
+namespace polybed::tfm {
+
+/// Least fraction of species j that its momentum's convection is divided by: 1e-3 of all solids, shared as in the bed,
+/// so that a species may be cut in two; an empty species has something left to be divided by.
+[[nodiscard]] inline double momentum_floor(double bed_share) { return 1e-3 * (bed_share > 0 ? bed_share : 1.0); }
+
+class ConservativeConvection {
+ public:
+  /// limited: velocities are carried with half a limited slope; otherwise from upwind alone.
+  ConservativeConvection(const Constants&, const fluid::Boundaries&, bool limited);
+
+  /// Called by continuity(), in this order: before all fluxes; for the flux of each species, whose ghosts are filled;
+  /// after the last. Sets the accelerations of all phases. Collective.
+  void begin(const Fields&);
+  void carry_species(std::size_t j, core::FaceField& flux, Fields&);
+  void carry_fluid(Fields&);
+
+ private:
+  void carry(const core::FaceField& flux, const core::FaceField& velocity, const core::Field& fraction, double floor,
+             bool of_fluid, core::FaceField& acceleration) const;
+
+  const Constants& constants_;
+  const fluid::Boundaries& boundaries_;
+  bool limited_;
+  core::FaceField fluid_flux_;  ///< J - sum F_j, m/s, ghosts of other cells included
+};
+
+}  // namespace polybed::tfm
