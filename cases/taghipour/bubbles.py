@@ -17,7 +17,6 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from scipy import ndimage
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "multiscale/python"))
 import polybed
@@ -37,9 +36,26 @@ def davidson_harrison(diameter, excess):
     return excess + 0.711 * np.sqrt(GRAVITY * diameter)
 
 
+def regions(mask):
+    """Numbers of the connected regions of a field, sides count, 0 outside of all."""
+    labels, count = np.zeros(mask.shape, dtype=int), 0
+    for start in zip(*np.nonzero(mask)):
+        if labels[start]:
+            continue
+        count, ends = count + 1, [start]
+        labels[start] = count
+        while ends:
+            j, i = ends.pop()
+            for at in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
+                if 0 <= at[0] < mask.shape[0] and 0 <= at[1] < mask.shape[1] and mask[at] and not labels[at]:
+                    labels[at] = count
+                    ends.append(at)
+    return labels, count
+
+
 def bubbles_of(voidage, x, y):
     """Area, centre x and centre y of each bubble of one field [y][x]."""
-    labels, count = ndimage.label(voidage > THRESHOLD)
+    labels, count = regions(voidage > THRESHOLD)
     freeboard, bottom = set(np.unique(labels[-1])), set(np.unique(labels[0]))
     cell = (x[1] - x[0]) * (y[1] - y[0])
     found = []
