@@ -243,6 +243,10 @@ class ImplicitIntegrator : public Integrator {
     if (flag < 0)
       throw NumericsError(fmt::format("t = {:.9g} s: the implicit integrator cannot go on ({}), last step {:.3g} s",
                                       time_, flag_name(IDAGetReturnFlagName, flag), last_step_));
+    // The library goes on with steps that are lost in the round-off of time.
+    if (t <= time_)
+      throw NumericsError(fmt::format(
+          "t = {:.9g} s: the implicit integrator stands still, its steps have shrunk to {:.3g} s", time_, last_step_));
     StepReport r;
     r.time = time_ = t;
     IDAGetLastStep(memory_, &r.step);
