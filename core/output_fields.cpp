@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
 #include "core/error.hpp"
 #include "core/output_xdmf.hpp"
@@ -18,10 +17,6 @@ namespace fs = std::filesystem;
 const FileKind index_kind{"polybed fields", 1};
 const FileKind step_kind{"polybed fields step", 1};
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-
-fs::path step_file(const fs::path& directory, std::size_t step) {
-  return directory / "fields" / (step_name(step) + ".h5");
-}
 
 std::vector<double> face_positions(const Grid& grid, int axis) {
   std::vector<double> faces;
@@ -84,9 +79,28 @@ OutputFile step_content(const Grid& grid, std::span<const FieldName> names, std:
   return file;
 }
 
-void remove_quietly(const fs::path& path) {
-  std::error_code ignored;  // a file that stays is linked by nothing
-  fs::remove(path, ignored);
+void write_grid(const Grid& grid, OutputFile& file) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double> faces = face_positions(grid, axis);
+    file.write(std::string("grid/") + axis_names[std::size_t(axis)], {faces.size()}, faces);
+  }
+}
+
+bool has_grid(const Grid& grid, const OutputFile& file) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (file.read(std::string("grid/") + axis_names[std::size_t(axis)]).values != face_positions(grid, axis))
+      return false;
+  return true;
+}
+
+StepSeries fields_series(const Grid& grid, const std::vector<FieldName>& names) {
+  return {"fields",
+          index_kind,
+          [grid](OutputFile& file) { write_grid(grid, file); },
+          [grid](const OutputFile& file) { return has_grid(grid, file); },
+          "grid",
+          "",
+          [grid, names](const StepTimes& steps) { return fields_xdmf(grid, names, steps.time); }};
 }
 
 }  // namespace
@@ -110,58 +124,14 @@ FaceField cell_means(const Grid& grid, const FaceField& faces) {
   return means;
 }
 
-FieldWriter::FieldWriter(fs::path run_directory, const Grid& grid, std::vector<FieldName> names,
+FieldWriter::FieldWriter(const fs::path& run_directory, const Grid& grid, std::vector<FieldName> names,
                          std::optional<double> resume_time)
-    : directory_(std::move(run_directory)), grid_(grid), names_(std::move(names)) {
-  make_directories(directory_ / "fields");
-  if (resume_time && fs::exists(directory_ / "fields.h5"))
-    go_on(*resume_time);
-  else
-    begin();
-}
-
-void FieldWriter::begin() {
-  index_.emplace(index_kind);
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::vector<double> faces = face_positions(grid_, axis);
-    index_->write(std::string("grid/") + axis_names[std::size_t(axis)], {faces.size()}, faces);
-  }
-  index_->make_group("step");
-  index_->make_rows("time_s", 0);
-  remove_quietly(directory_ / "fields.xdmf");
-  index_->save(directory_ / "fields.h5");
-  for (std::size_t step = 0; fs::exists(step_file(directory_, step)); ++step)
-    remove_quietly(step_file(directory_, step));
-}
-
-void FieldWriter::go_on(double resume_time) {
-  index_.emplace(directory_ / "fields.h5", index_kind);
-  for (int axis = 0; axis < 3; ++axis)
-    if (index_->read(std::string("grid/") + axis_names[std::size_t(axis)]).values != face_positions(grid_, axis))
-      throw FileError((directory_ / "fields.h5").string() + " has another grid: it cannot be continued");
-  times_ = index_->read("time_s").values;
-  const std::size_t all = times_.size();
-  while (!times_.empty() && times_.back() > resume_time) times_.pop_back();
-  for (std::size_t step = times_.size(); step < all; ++step) index_->remove("step/" + step_name(step));
-  index_->keep_rows("time_s", times_.size());
-  write_description();
-  for (std::size_t step = times_.size(); step < all; ++step) remove_quietly(step_file(directory_, step));
-}
+    : grid_(grid), names_(std::move(names)), steps_(run_directory, fields_series(grid_, names_), resume_time) {}
 
 void FieldWriter::write_step(double time_s, std::span<const FieldValues> values) {
   if (values.size() != names_.size())
     throw std::invalid_argument(fmt::format("{} fields for {} names", values.size(), names_.size()));
-  const std::size_t step = times_.size();
-  step_content(grid_, names_, values, time_s).save(step_file(directory_, step));
-  index_->link("step/" + step_name(step), "fields/" + step_name(step) + ".h5", "/step");
-  index_->append_row("time_s", std::span(&time_s, 1));
-  times_.push_back(time_s);
-  write_description();
-}
-
-void FieldWriter::write_description() const {
-  index_->save(directory_ / "fields.h5");
-  write_atomically(directory_ / "fields.xdmf", fields_xdmf(grid_, names_, times_));
+  steps_.add(step_content(grid_, names_, values, time_s), time_s);
 }
 
 FieldReader::FieldReader(fs::path run_directory)
@@ -174,10 +144,7 @@ std::vector<double> FieldReader::faces(int axis) const {
 }
 
 OutputFile FieldReader::open(std::size_t step) const {
-  if (step >= times_.size())
-    throw FileError(
-        fmt::format("{} has {} steps, none numbered {}", (directory_ / "fields.h5").string(), times_.size(), step));
-  return OutputFile(step_file(directory_, step), step_kind);
+  return open_step(directory_, "fields", step, times_.size(), step_kind);
 }
 
 std::vector<std::string> FieldReader::names(std::size_t step) const { return open(step).names("step"); }

@@ -1,9 +1,5 @@
-// fields.h5 and fields.xdmf: what every cell holds, at each output time.
-//
-// The numbers of step 7 lie in a file of their own, fields/000007.h5, which is put in place whole and never
-// touched again; fields.h5 links to it, so that readers find step/000007 in fields.h5. Both files and the
-// XDMF are replaced by renaming, in this order. A run killed at any moment leaves all steps before, readable,
-// and a reader of a running run never meets a half-written file.
+// fields.h5 and fields.xdmf: what every cell holds, at each output time. How the files are kept whole:
+// core/output_steps.hpp.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +12,7 @@
 #include "core/field.hpp"
 #include "core/grid.hpp"
 #include "core/output_file.hpp"
+#include "core/output_steps.hpp"
 
 namespace polybed::core {
 
@@ -37,25 +34,19 @@ class FieldWriter {
   /// Starts fields.h5 in a run directory that exists, or goes on with it.
   /// \param resume_time  empty: what an earlier run left is removed. Else s: steps later than that are
   /// removed. Throws FileError, also if the file that it goes on with has another grid.
-  FieldWriter(std::filesystem::path run_directory, const Grid& grid, std::vector<FieldName> names,
+  FieldWriter(const std::filesystem::path& run_directory, const Grid& grid, std::vector<FieldName> names,
               std::optional<double> resume_time = std::nullopt);
 
   /// Stores all fields at a time, in the order of the names; complete on the disk when it returns.
   /// Throws NumericsError, and writes nothing, if a value is not finite: field and cell are in the text.
   void write_step(double time_s, std::span<const FieldValues> values);
 
-  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  [[nodiscard]] const std::vector<double>& times() const { return steps_.times(); }
 
  private:
-  void begin();
-  void go_on(double resume_time);
-  void write_description() const;
-
-  std::filesystem::path directory_;
   Grid grid_;
   std::vector<FieldName> names_;
-  std::optional<OutputFile> index_;
-  std::vector<double> times_;
+  StepWriter steps_;
 };
 
 /// Reads fields.h5 back.

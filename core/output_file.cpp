@@ -48,8 +48,21 @@ struct OutputFile::State {
     const Handle links = making_groups();
     return Handle(name, [&] { return H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT); });
   }
-  void write_attribute(const std::string& object_name, const std::string& name, hid_t type, const void* value) const {
-    const Handle owner = object(object_name), space = simple_space({});
+  /// A whole dataset: `stored` is the type in the file, `given` that of the values.
+  template <class Number>
+  void write_data(const std::string& name, const std::vector<std::size_t>& shape, std::span<const Number> values,
+                  Packing packing, hid_t stored, hid_t given) const {
+    if (values.size() != product(shape))
+      throw FileError(fmt::format("{}: {} numbers do not fill its shape", name, values.size()));
+    const Handle space = simple_space(shape), properties = dataset_properties();
+    if (packing != Packing::plain && !values.empty() && !shape.empty()) set_packing(properties, chunk_shape(shape));
+    const Handle data = make_dataset(name, stored, space, properties);
+    if (values.empty()) return;
+    checked(name, [&] { return H5Dwrite(data, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+  }
+  void write_attribute(const std::string& object_name, const std::string& name, hid_t type, const void* value,
+                       const std::vector<std::size_t>& shape = {}) const {
+    const Handle owner = object(object_name), space = simple_space(shape);
     const Handle attribute(name,
                            [&] { return H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT); });
     checked(name, [&] { return H5Awrite(attribute, type, value); });
@@ -94,14 +107,18 @@ void OutputFile::make_group(const std::string& name) {
 
 void OutputFile::write(const std::string& name, const std::vector<std::size_t>& shape, std::span<const double> values,
                        Packing packing) {
-  if (values.size() != product(shape))
-    throw FileError(fmt::format("{}: {} numbers do not fill its shape", name, values.size()));
-  const Handle space = simple_space(shape), properties = dataset_properties();
-  if (packing != Packing::plain && !values.empty() && !shape.empty()) set_packing(properties, chunk_shape(shape));
   const hid_t stored = packing == Packing::small_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-  const Handle data = state_->make_dataset(name, stored, space, properties);
-  if (values.empty()) return;
-  checked(name, [&] { return H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+  state_->write_data(name, shape, values, packing, stored, H5T_NATIVE_DOUBLE);
+}
+
+void OutputFile::write(const std::string& name, const std::vector<std::size_t>& shape,
+                       std::span<const std::int64_t> values, Packing packing) {
+  state_->write_data(name, shape, values, packing, H5T_STD_I64LE, H5T_NATIVE_INT64);
+}
+
+void OutputFile::write(const std::string& name, const std::vector<std::size_t>& shape,
+                       std::span<const std::int32_t> values, Packing packing) {
+  state_->write_data(name, shape, values, packing, H5T_STD_I32LE, H5T_NATIVE_INT32);
 }
 
 void OutputFile::write(const std::string& name, std::int64_t value) {
@@ -129,6 +146,13 @@ void OutputFile::set_attribute(const std::string& object, const std::string& nam
 void OutputFile::set_attribute(const std::string& object, const std::string& name, const std::string& text) {
   const char* begin = text.c_str();
   state_->write_attribute(object, name, text_type(), &begin);
+}
+
+void OutputFile::set_attribute(const std::string& object, const std::string& name,
+                               const std::vector<std::string>& texts) {
+  std::vector<const char*> begins;
+  for (const std::string& text : texts) begins.push_back(text.c_str());
+  state_->write_attribute(object, name, text_type(), begins.data(), {begins.size()});
 }
 
 void OutputFile::link(const std::string& name, const std::string& file, const std::string& object) {
@@ -200,6 +224,14 @@ DataSet OutputFile::read(const std::string& name) const {
   return result;
 }
 
+std::vector<std::int64_t> OutputFile::read_integers(const std::string& name) const {
+  const Handle data = state_->dataset(name);
+  std::vector<std::int64_t> values(product(shape_of(data, name)));
+  if (!values.empty())
+    checked(name, [&] { return H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+  return values;
+}
+
 std::int64_t OutputFile::read_integer(const std::string& name) const {
   const Handle data = state_->dataset(name);
   if (!shape_of(data, name).empty()) throw FileError(name + " is not one number");
@@ -230,6 +262,17 @@ std::string OutputFile::text_attribute(const std::string& object, const std::str
   char* buffer = nullptr;
   checked(name, [&] { return H5Aread(attribute, type, &buffer); });
   return taken(buffer);
+}
+
+std::vector<std::string> OutputFile::texts_attribute(const std::string& object, const std::string& name) const {
+  const Handle owner = state_->object(object), type = text_type();
+  const Handle attribute(name, [&] { return H5Aopen(owner, name.c_str(), H5P_DEFAULT); });
+  const Handle space(name, [&] { return H5Aget_space(attribute); });
+  std::vector<char*> buffers(std::size_t(checked(name, [&] { return H5Sget_simple_extent_npoints(space); })), nullptr);
+  checked(name, [&] { return H5Aread(attribute, type, buffers.data()); });
+  std::vector<std::string> texts;
+  for (char* buffer : buffers) texts.push_back(taken(buffer));
+  return texts;
 }
 
 Bytes OutputFile::bytes() const {

@@ -50,11 +50,16 @@ class OutputFile {
   void make_group(const std::string& name);
   void write(const std::string& name, const std::vector<std::size_t>& shape, std::span<const double> values,
              Packing packing = Packing::plain);
+  void write(const std::string& name, const std::vector<std::size_t>& shape, std::span<const std::int64_t> values,
+             Packing packing = Packing::plain);
+  void write(const std::string& name, const std::vector<std::size_t>& shape, std::span<const std::int32_t> values,
+             Packing packing = Packing::plain);
   void write(const std::string& name, std::int64_t value);
   void write(const std::string& name, const std::string& text);
   void set_attribute(const std::string& object, const std::string& name, double value);
   void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& object, const std::string& name, const std::string& text);
+  void set_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts);
   /// A link to an object of another file; `file` is relative to the directory of this one.
   void link(const std::string& name, const std::string& file, const std::string& object);
   void remove(const std::string& name);
@@ -68,10 +73,12 @@ class OutputFile {
   /// Names in a group, in alphabetical order.
   [[nodiscard]] std::vector<std::string> names(const std::string& group) const;
   [[nodiscard]] DataSet read(const std::string& name) const;
+  [[nodiscard]] std::vector<std::int64_t> read_integers(const std::string& name) const;
   [[nodiscard]] std::int64_t read_integer(const std::string& name) const;
   [[nodiscard]] std::string read_text(const std::string& name) const;
   [[nodiscard]] double attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> texts_attribute(const std::string& object, const std::string& name) const;
 
   /// The file as bytes.
   [[nodiscard]] Bytes bytes() const;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace polybed::core {
 
 namespace {
@@ -46,12 +44,6 @@ std::string attribute(const Grid& grid, const FieldName& field, const std::strin
 }
 
 }  // namespace
-
-std::string step_name(std::size_t step) {
-  constexpr std::size_t digits = 6;
-  const std::string number = std::to_string(step + 1);
-  return std::string(digits - std::min(digits, number.size()), '0') + number;
-}
 
 std::string fields_xdmf(const Grid& grid, std::span<const FieldName> names, std::span<const double> times) {
   std::string text =

@@ -9,9 +9,6 @@
 
 namespace polybed::core {
 
-/// Name of a step's group and file, counted from 0: "000001" for the first.
-[[nodiscard]] std::string step_name(std::size_t step);
-
 /// XDMF 3.0: a temporal collection of rectilinear grids, one per stored step.
 [[nodiscard]] std::string fields_xdmf(const Grid& grid, std::span<const FieldName> names,
                                       std::span<const double> times);
