@@ -1,0 +1,169 @@
+#include "fluid/particle_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace polybed::fluid {
+
+namespace {
+
+double volume_of(double radius) { return sphere_volume_below(radius, 0, radius); }
+
+/// A power of two such that `count` numbers of at most `most` add up to less than 2^62 of it.
+double unit_for(std::int64_t count, double most) {
+  const double bound = double(count) * most;
+  return bound > 0 ? std::ldexp(1.0, std::ilogb(bound) + 1 - 62) : 1.0;
+}
+
+std::int64_t in_units(double value, double unit) { return std::int64_t(std::nearbyint(value / unit)); }
+
+double speed_squared(const std::array<double, 3>& u) { return u[0] * u[0] + u[1] * u[1] + u[2] * u[2]; }
+
+/// Number of the slab at a height; heights beyond the ends belong to the outermost ones.
+std::size_t slab_at(const Slabs& slabs, double height) {
+  return std::size_t(std::clamp(std::floor(height / slabs.thickness()), 0.0, double(slabs.count - 1)));
+}
+
+/// Adds one particle to the sums [quantity][slab] of its species.
+void add_particle(double radius, double centre, const std::array<double, 3>& u, const Slabs& slabs,
+                  const std::array<double, ParticleSums::quantities>& unit, std::int64_t* sum) {
+  const std::size_t last = slab_at(slabs, centre + radius);
+  std::int64_t below = 0;
+  for (std::size_t k = slab_at(slabs, centre - radius); k <= last; ++k) {
+    const double plane = double(k + 1) * slabs.thickness();
+    const double cap = k == last ? volume_of(radius) : sphere_volume_below(radius, centre, plane);
+    const std::int64_t up_to_here = in_units(cap, unit[0]);
+    const std::int64_t part = up_to_here - below;  // of rounded caps: the parts add up to the rounded sphere
+    below = up_to_here;
+    const double volume = double(part) * unit[0];
+    sum[k] += part;
+    for (std::size_t a = 0; a < 3; ++a) sum[(a + 1) * slabs.count + k] += in_units(volume * u[a], unit[a + 1]);
+    sum[4 * slabs.count + k] += in_units(volume * speed_squared(u), unit[4]);
+  }
+}
+
+/// A sum of numbers no greater than `most` that does not depend on their order.
+class SteadySum {
+ public:
+  SteadySum(std::int64_t count, double most) : unit_(unit_for(count, most)) {}
+  void add(double value) { sum_ += in_units(value, unit_); }
+  [[nodiscard]] double value() const { return double(sum_) * unit_; }
+
+ private:
+  double unit_;
+  std::int64_t sum_ = 0;
+};
+
+}  // namespace
+
+double sphere_volume_below(double radius, double centre, double plane) {
+  const double h = std::clamp(plane - (centre - radius), 0.0, 2 * radius);
+  return std::numbers::pi * h * h * (3 * radius - h) / 3;
+}
+
+ParticleExtremes extremes_of(const core::ParticleSnapshot& particles) {
+  ParticleExtremes most;
+  most.particles = std::int64_t(particles.id.size());
+  for (std::size_t i = 0; i < particles.id.size(); ++i) {
+    const double volume = volume_of(particles.radius[i]);
+    most.volume = std::max(most.volume, volume);
+    for (double u : particles.velocity[i]) most.momentum = std::max(most.momentum, volume * std::abs(u));
+    most.energy = std::max(most.energy, volume * speed_squared(particles.velocity[i]));
+  }
+  return most;
+}
+
+ParticleSums particle_sums(const core::ParticleSnapshot& particles, std::size_t species, const Slabs& slabs,
+                           const ParticleExtremes& all) {
+  ParticleSums sums;
+  const double momentum = unit_for(all.particles, all.momentum);
+  sums.unit = {unit_for(all.particles, all.volume), momentum, momentum, momentum, unit_for(all.particles, all.energy)};
+  const std::size_t block = ParticleSums::quantities * slabs.count;
+  sums.sum.assign(species * block, 0);
+  for (std::size_t i = 0; i < particles.id.size(); ++i)
+    add_particle(particles.radius[i], particles.position[i][1], particles.velocity[i], slabs, sums.unit,
+                 &sums.sum[std::size_t(particles.species[i]) * block]);
+  return sums;
+}
+
+ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, const Slabs& slabs) {
+  ParticleProfile profile;
+  profile.solids.slab = slabs.thickness();
+  const std::vector<double> empty(slabs.count, 0.0);
+  profile.solids.fraction = profile.velocity = profile.temperature = std::vector(species, empty);
+  for (std::size_t j = 0; j < species; ++j)
+    for (std::size_t k = 0; k < slabs.count; ++k) {
+      std::array<double, ParticleSums::quantities> total;
+      for (std::size_t q = 0; q < total.size(); ++q)
+        total[q] = double(sums.sum[(j * total.size() + q) * slabs.count + k]) * sums.unit[q];
+      const auto& [volume, x, y, z, energy] = total;
+      profile.solids.fraction[j][k] = volume / (slabs.area * slabs.thickness());
+      if (!(volume > 0)) continue;
+      const double mean_squared = speed_squared({x / volume, y / volume, z / volume});
+      profile.velocity[j][k] = y / volume;
+      // Of particles that move as one the difference is rounding, which may be negative.
+      profile.temperature[j][k] = std::max(energy / volume - mean_squared, 0.0) / 3;
+    }
+  return profile;
+}
+
+ParticleProfile particle_profile(const core::ParticleSnapshot& particles, std::size_t species, const Slabs& slabs) {
+  return particle_profile(particle_sums(particles, species, slabs, extremes_of(particles)), species, slabs);
+}
+
+ParticleHeights particle_heights(const core::ParticleSnapshot& particles, std::span<const double> density) {
+  const std::size_t n = particles.id.size();
+  const auto mass = [&](std::size_t i) {
+    return density[std::size_t(particles.species[i])] * volume_of(particles.radius[i]);
+  };
+  double highest = 0, heaviest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    highest = std::max(highest, std::abs(particles.position[i][1]));
+    heaviest = std::max(heaviest, mass(i));
+  }
+  std::vector<SteadySum> height(density.size(), SteadySum(std::int64_t(n), highest));
+  std::vector<std::int64_t> count(density.size(), 0);
+  SteadySum weight(std::int64_t(n), heaviest), moment(std::int64_t(n), heaviest * highest);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto j = std::size_t(particles.species[i]);
+    height[j].add(particles.position[i][1]);
+    ++count[j];
+    weight.add(mass(i));
+    moment.add(mass(i) * particles.position[i][1]);
+  }
+  ParticleHeights heights;
+  for (std::size_t j = 0; j < density.size(); ++j)
+    heights.mean.push_back(count[j] > 0 ? std::optional(height[j].value() / double(count[j])) : std::nullopt);
+  if (weight.value() > 0) heights.mean_by_mass = moment.value() / weight.value();
+  return heights;
+}
+
+std::optional<double> bed_height_columns(const core::ParticleSnapshot& particles, std::array<double, 2> size,
+                                         std::array<int, 2> columns) {
+  struct Ends {
+    double low = 0, high = 0;
+    bool found = false;
+  };
+  std::vector<Ends> ends(std::size_t(columns[0]) * std::size_t(columns[1]));
+  const auto place = [](double position, double length, int count) {
+    return std::size_t(std::clamp(std::floor(position / length * count), 0.0, double(count - 1)));
+  };
+  for (const auto& x : particles.position) {
+    const std::size_t across = place(x[0], size[0], columns[0]), deep = place(x[2], size[1], columns[1]);
+    Ends& here = ends[across + std::size_t(columns[0]) * deep];
+    here.low = here.found ? std::min(here.low, x[1]) : x[1];
+    here.high = here.found ? std::max(here.high, x[1]) : x[1];
+    here.found = true;
+  }
+  double sum = 0;
+  std::size_t held = 0;
+  for (const Ends& here : ends)
+    if (here.found) {
+      sum += here.high - here.low;
+      ++held;
+    }
+  return held > 0 ? std::optional(sum / double(held)) : std::nullopt;
+}
+
+}  // namespace polybed::fluid

@@ -1,0 +1,83 @@
+// Particles as a vertical profile, by the exact part of each sphere between two planes, so that fluid/measures measures
+// a bed of particles and a continuum by one definition.
+//
+// Sums run in whole numbers: the result has the same bits in any order of the particles, and on any number of ranks
+// if the units (agreed first) and the sums are added up over them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/output_particles.hpp"
+#include "fluid/profile.hpp"
+
+namespace polybed::fluid {
+
+/// Volume, m3, of the part of a sphere below a horizontal plane: the cap pi h^2 (3R - h)/3 of height
+/// h = plane - (centre - R), 0 for h < 0 and the whole sphere for h > 2R.
+/// \param radius  R, m, >= 0   \param centre  height of the centre, m   \param plane  height of the plane, m
+[[nodiscard]] double sphere_volume_below(double radius, double centre, double plane);
+
+/// Slabs of one thickness that a column is cut into.
+struct Slabs {
+  double area = 0;    ///< of the column's cross-section, m2
+  double height = 0;  ///< of the column, m
+  std::size_t count = 0;
+  [[nodiscard]] double thickness() const { return height / double(count); }
+};
+
+/// What fixes the units of the sums: over ranks, `particles` is added up and of the others the greatest is taken.
+struct ParticleExtremes {
+  std::int64_t particles = 0;
+  double volume = 0;    ///< V, m3
+  double momentum = 0;  ///< V |u_a| along any axis a, m4/s
+  double energy = 0;    ///< V |u|^2, m5/s2
+};
+[[nodiscard]] ParticleExtremes extremes_of(const core::ParticleSnapshot& particles);
+
+/// Sums of V, V u_x, V u_y, V u_z and V |u|^2 over the parts of the particles in each slab, in whole units.
+struct ParticleSums {
+  static constexpr std::size_t quantities = 5;
+  std::array<double, quantities> unit{};
+  std::vector<std::int64_t> sum;  ///< [species][quantity][slab]; over ranks, to be added up
+};
+
+/// The sums of these particles. What of a particle lies beyond the ends of the column, as where it is pressed into the
+/// bottom, counts for the outermost slab: a species' sum of V is that of its particles, each rounded to a unit.
+/// \param all  of the particles on all ranks, these included
+[[nodiscard]] ParticleSums particle_sums(const core::ParticleSnapshot& particles, std::size_t species,
+                                         const Slabs& slabs, const ParticleExtremes& all);
+
+/// Means over slabs; where a species is absent its velocity and temperature are 0.
+struct ParticleProfile {
+  Profile solids;                                ///< phi_j; without pressure
+  std::vector<std::vector<double>> velocity;     ///< vertical, weighted by volume, m/s, [species][slab]
+  std::vector<std::vector<double>> temperature;  ///< theta = <|u - <u>|^2>/3, m2/s2; <u> of this slab and species
+};
+[[nodiscard]] ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, const Slabs& slabs);
+
+/// The same in one go, where all particles are at hand.
+[[nodiscard]] ParticleProfile particle_profile(const core::ParticleSnapshot& particles, std::size_t species,
+                                               const Slabs& slabs);
+
+/// Heights that the thesis takes from particles rather than from a profile.
+struct ParticleHeights {
+  std::vector<std::optional<double>> mean;  ///< H_b,j: mean height of the centres of species j, T(5.14), m
+  std::optional<double> mean_by_mass;       ///< H_b,t: of all particles, weighted by mass, m
+};
+
+/// \param density  of each species, kg/m3. Independent of the order of the particles.
+[[nodiscard]] ParticleHeights particle_heights(const core::ParticleSnapshot& particles,
+                                               std::span<const double> density);
+
+/// Height of the bed as the thesis has it, m: in each vertical column the highest less the lowest centre, the mean over
+/// the columns that hold a particle; empty without particles. Grows with the number of particles, as extremes do: for
+/// the tables of the thesis only. A centre beyond the sides counts for the column next to it.
+/// \param size   width and depth, m   \param columns  along the width and along the depth
+[[nodiscard]] std::optional<double> bed_height_columns(const core::ParticleSnapshot& particles,
+                                                       std::array<double, 2> size, std::array<int, 2> columns);
+
+}  // namespace polybed::fluid
