@@ -59,6 +59,19 @@ void add_over_ranks(const Ranks* ranks, std::span<double> values) {
             "MPI_Allreduce");
 }
 
+void add_over_ranks(const Ranks* ranks, std::span<std::int64_t> values) {
+  if (ranks == nullptr) return;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_INT64_T, MPI_SUM, communicator(ranks)),
+            "MPI_Allreduce");
+}
+
+double greatest_of_ranks(const Ranks* ranks, double value) {
+  double greatest = value;
+  if (ranks != nullptr)
+    check_mpi(MPI_Allreduce(&value, &greatest, 1, MPI_DOUBLE, MPI_MAX, communicator(ranks)), "MPI_Allreduce");
+  return greatest;
+}
+
 void add_over_ranks(const Grid& grid, std::span<double> values) { add_over_ranks(grid.ranks.get(), values); }
 
 int rank_of_greatest(const Grid& grid, double value) {

@@ -2,6 +2,7 @@
 // every function below then returns what it is given.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -35,7 +36,9 @@ class Ranks {
 [[nodiscard]] double sum_of_ranks(const Grid& grid, double value);
 [[nodiscard]] double greatest_of_ranks(const Grid& grid, double value);
 [[nodiscard]] double least_of_ranks(const Grid& grid, double value);
+[[nodiscard]] double greatest_of_ranks(const Ranks* ranks, double value);
 /// Sums, entry by entry, in place.
+void add_over_ranks(const Ranks* ranks, std::span<std::int64_t> values);
 void add_over_ranks(const Ranks* ranks, std::span<double> values);
 void add_over_ranks(const Grid& grid, std::span<double> values);
 /// Whether something holds on every rank.

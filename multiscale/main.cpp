@@ -74,6 +74,17 @@ void add_case(CLI::App& command, multiscale::CaseOptions& options) {
   command.add_flag("--json", options.json, "one JSON object on standard output, nothing else there");
 }
 
+/// A command that runs a case by a model of that name.
+void add_run(CLI::App& app, const std::string& model, const std::string& help, multiscale::RunOptions& options) {
+  CLI::App& command = *app.add_subcommand(model, help);
+  add_case(command, options);
+  command.add_option("-o,--output", options.output, "run directory; default runs/<case name>-" + model);
+  command.add_option("--until", options.until, "simulated time, e.g. \"20 s\"");
+  command.add_flag("--resume", options.resume, "go on from the checkpoint in the run directory");
+  command.add_flag("--force", options.force, "replace a run directory that exists");
+  command.add_flag("--quiet", options.quiet, "no progress");
+}
+
 int exit_code(core::ExitCode code) { return static_cast<int>(code); }
 
 Ending failed(core::ExitCode code, const std::string& message) { return {exit_code(code), message}; }
@@ -113,14 +124,9 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")" + kind);
   app.require_subcommand(1);
 
-  RunOptions tfm;
-  CLI::App* tfm_command = app.add_subcommand("tfm", "run the case as a continuum (two-fluid model)");
-  add_case(*tfm_command, tfm);
-  tfm_command->add_option("-o,--output", tfm.output, "run directory; default runs/<case name>-tfm");
-  tfm_command->add_option("--until", tfm.until, "simulated time, e.g. \"20 s\"");
-  tfm_command->add_flag("--resume", tfm.resume, "go on from the checkpoint in the run directory");
-  tfm_command->add_flag("--force", tfm.force, "replace a run directory that exists");
-  tfm_command->add_flag("--quiet", tfm.quiet, "no progress");
+  RunOptions tfm, dem;
+  add_run(app, "tfm", "run the case as a continuum (two-fluid model)", tfm);
+  add_run(app, "dem", "run the case particle by particle", dem);
 
   CaseOptions check;
   add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);
@@ -177,8 +183,9 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   drag.guard = guard == "on";
   if (app.got_subcommand("plot")) return exit_code(run_plot(plot));
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
-  if (app.got_subcommand("tfm") || app.got_subcommand("check")) mpi.emplace(argc, argv);
+  if (app.got_subcommand("tfm") || app.got_subcommand("dem") || app.got_subcommand("check")) mpi.emplace(argc, argv);
   if (app.got_subcommand("tfm")) run_tfm(tfm);
+  if (app.got_subcommand("dem")) run_dem(dem);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);

@@ -123,30 +123,38 @@ void write_size_classes(Json& json, const core::Scene& scene) {
   json.end_array();
 }
 
-std::string run_record_text(const RunRecord& record) {
-  const tfm::Model& model = record.model;
-  const std::string text = core::resolved_case(record.scene);
-  const double simulated = model.time() - record.begin;
-  Json json;
-  json.begin_object().member("filetype", "polybed run").member("version", 1).member("model", "tfm");
-  json.member("program", core::version()).member("git_commit", core::git_commit()).member("state", record.state);
+void begin_record(Json& json, const core::Scene& scene, const std::string& model, const std::string& state, int ranks) {
+  const std::string text = core::resolved_case(scene);
+  json.begin_object().member("filetype", "polybed run").member("version", 1).member("model", model);
+  json.member("program", core::version()).member("git_commit", core::git_commit()).member("state", state);
   json.member("case", text).member("case_hash", core::text_hash(text)).key("overrides").begin_array();
-  for (const std::string& override : record.scene.overrides) json.value(override);
-  json.end_array().member("ranks", std::int64_t(record.totals.ranks));
-  write_size_classes(json, record.scene);
+  for (const std::string& override : scene.overrides) json.value(override);
+  json.end_array().member("ranks", std::int64_t(ranks));
+  write_size_classes(json, scene);
   json.key("machine")
       .begin_object()
       .member("processor", processor())
       .member("cores", std::int64_t(std::thread::hardware_concurrency()))
       .end_object();
+}
+
+void write_timers(Json& json, const core::Timers& timers) {
+  json.key("timers").begin_object();
+  for (const core::Timers::Term& term : timers.terms()) json.member(term.name, term.seconds);
+  json.end_object();
+}
+
+std::string run_record_text(const RunRecord& record) {
+  const tfm::Model& model = record.model;
+  const double simulated = model.time() - record.begin;
+  Json json;
+  begin_record(json, record.scene, "tfm", record.state, record.totals.ranks);
   json.member("integrator", model.integrator_name()).member("integrator_reason", model.integrator_reason());
   json.member("unknowns", std::uint64_t(model.unknowns())).member("time_s", model.time());
   json.member("cpu_s", record.totals.cpu_seconds)
       .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);
   write_work(json, model.work());
-  json.key("timers").begin_object();
-  for (const core::Timers::Term& term : record.timers.terms()) json.member(term.name, term.seconds);
-  json.end_object();
+  write_timers(json, record.timers);
   write_invariants(json, record.observers.invariants());
   write_ledger(json, model.constants(), record.totals, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
@@ -156,10 +164,6 @@ std::string run_record_text(const RunRecord& record) {
     if (w.value > w.limit) json.value(w.name + " exceeded its limit");
   json.end_array().end_object();
   return json.text();
-}
-
-void write_run_record(const std::filesystem::path& directory, const RunRecord& record) {
-  core::write_atomically(directory / "run.json", run_record_text(record) + "\n");
 }
 
 }  // namespace polybed::multiscale

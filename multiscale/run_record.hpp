@@ -38,10 +38,14 @@ struct RunRecord {
 /// Writes "size_classes": what became of the species with a distribution; nothing if there is none.
 void write_size_classes(core::Json& json, const core::Scene& scene);
 
+/// Opens a record with what is the same for both models: program, case, machine.
+void begin_record(core::Json& json, const core::Scene& scene, const std::string& model, const std::string& state,
+                  int ranks);
+
+/// Writes "timers": seconds by term.
+void write_timers(core::Json& json, const core::Timers& timers);
+
 /// The record as one JSON object.
 [[nodiscard]] std::string run_record_text(const RunRecord& record);
-
-/// Puts run.json in place in a run directory.
-void write_run_record(const std::filesystem::path& directory, const RunRecord& record);
 
 }  // namespace polybed::multiscale

@@ -47,6 +47,7 @@ struct InversionOptions : CaseOptions {
 
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
+void run_dem(const RunOptions& options);
 void run_check(const CaseOptions& options);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);

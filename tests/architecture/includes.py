@@ -10,7 +10,8 @@ MAY_USE = {
     "core": {"core"},
     "fluid": {"fluid", "core", "closures"},
     "tfm": {"tfm", "fluid", "core", "closures"},
-    "multiscale": {"multiscale", "tfm", "fluid", "core", "closures"},
+    "dem": {"dem", "fluid", "core", "closures"},
+    "multiscale": {"multiscale", "tfm", "dem", "fluid", "core", "closures"},
 }
 # header -> the only files that may include it
 LIBRARIES = {
@@ -20,7 +21,7 @@ LIBRARIES = {
     r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
     r"CLI/": r"multiscale/main\.cpp",
     r"mpi\.h": r"(core/mpi\.hpp|multiscale/main\.cpp)",
-    r"core/mpi\.hpp": r"core/(ranks|blocks|halo|linear_solver|hypre_rows|integrator_vector)\.cpp",
+    r"core/mpi\.hpp": r"core/(ranks|blocks|halo|messages|linear_solver|hypre_rows|integrator_vector)\.cpp",
 }
 CLOSURES_SEE = re.compile(r"^(closures/|Eigen/|[a-z_]+$)")  # ours, Eigen, the standard library
 
@@ -49,6 +50,7 @@ def self_test():
     assert problems_of("closures/a.hpp", '#include "core/error.hpp"')
     assert problems_of("core/a.hpp", '#include "closures/drag.hpp"')
     assert problems_of("tfm/a.cpp", "#include <hdf5.h>")
+    assert problems_of("dem/a.cpp", '#include "tfm/model.hpp"') and problems_of("tfm/a.cpp", '#include "dem/model.hpp"')
     assert problems_of("core/run.cpp", "#include <ida/ida.h>")
     assert not problems_of("tfm/a.cpp", '#include "fluid/pressure.hpp"\n#include <vector>')
 

@@ -1,0 +1,46 @@
+// A few dozen contacts side by side. Each law is a loop over a batch: it is chosen once, runs at vector speed in the
+// innermost cache, and one that a scene leaves out has no loop and no branch.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace polybed::dem {
+
+// One machine code per width of vectors, chosen at the first call. The results have the same bits: nothing but + - * /
+// and sqrt, none fused. The sanitizers cannot follow the choice.
+#if defined(__SANITIZE_ADDRESS__)
+#define POLYBED_ALL_VECTOR_WIDTHS
+#else
+#define POLYBED_ALL_VECTOR_WIDTHS __attribute__((target_clones("default", "avx2", "avx512f")))
+#endif
+
+struct ContactBatch {
+  static constexpr int width = 64;  ///< contacts
+  static constexpr int most_memory = 16;
+  using Row = double[width];
+
+  int count = 0;  ///< contacts; loops run to padded(), over finite values
+  [[nodiscard]] int padded() const { return (count + 7) & ~7; }
+
+  std::int32_t kind[width] = {};     ///< of the pair of materials
+  alignas(64) Row distance[3] = {};  ///< x_i - x_j, then n of unit length
+  alignas(64) Row velocity[3] = {};  ///< v_i - v_j, then v_t, of the surfaces at the contact
+  alignas(64) Row spin_i[3] = {}, spin_j[3] = {};
+  alignas(64) Row radius_i = {}, radius_j = {};  ///< radius_j is without meaning at walls
+  alignas(64) Row memory[most_memory] = {};      ///< what the laws keep of a contact from step to step
+
+  alignas(64) Row overlap = {}, arm_i = {}, arm_j = {};
+  alignas(64) Row speed = {};           ///< v_n, negative on approach
+  alignas(64) Row contact_radius = {};  ///< a
+  alignas(64) Row normal = {};          ///< F_n
+  alignas(64) Row elastic = {};         ///< its elastic part
+  alignas(64) Row dashpot = {};         ///< c_n
+  alignas(64) Row tangential[3] = {};   ///< F_t
+  alignas(64) Row moment[3] = {};       ///< on i, of rolling friction; on j its opposite
+
+  using Units = std::int64_t[width];  ///< in whole units of force and torque
+  alignas(64) Units force[3] = {}, torque_i[3] = {}, torque_j[3] = {};
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,38 @@
+// Pairs that may touch before the list is made again, those that touch now, and what is kept of each contact.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace polybed::dem {
+
+/// Pairs of particles, or of a particle and a wall (then `second` counts walls). Of two particles the first has the
+/// lower id, on every rank, so that a pair has one orientation and one history.
+struct Contacts {
+  struct Pair {
+    std::int32_t first, second;
+  };
+  std::vector<Pair> pairs;
+  std::vector<std::int32_t> touching;  ///< pairs in contact (or within the reach of cohesion), rising
+  std::vector<double> memory;          ///< memory_size numbers of each pair; zero of pairs that do not touch
+  int memory_size = 0;
+
+  [[nodiscard]] double* memory_of(std::int32_t pair) { return memory.data() + std::ptrdiff_t(pair) * memory_size; }
+  [[nodiscard]] const double* memory_of(std::int32_t pair) const {
+    return memory.data() + std::ptrdiff_t(pair) * memory_size;
+  }
+
+  /// Forgets the memory of pairs that touched (`before`, rising) and do so no longer.
+  void forget_parted(std::span<const std::int32_t> before) {
+    if (memory_size == 0) return;
+    auto now = touching.begin();
+    for (const std::int32_t pair : before) {
+      while (now != touching.end() && *now < pair) ++now;
+      if (now == touching.end() || *now != pair) std::fill_n(memory_of(pair), memory_size, 0.0);
+    }
+  }
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,81 @@
+// The effects of the particle model, by the slot they fill, and the registry that makes them. What a scene does not
+// call for is not made: it has no memory in a contact, no loop and no reach.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/registry.hpp"
+#include "core/scene.hpp"
+#include "dem/contact_batch.hpp"
+#include "dem/materials.hpp"
+
+namespace polybed::dem {
+
+/// Slot Pair, normal force of a contact.
+class NormalLaw {
+ public:
+  virtual ~NormalLaw() = default;
+  /// From overlap and speed: contact_radius, normal, elastic and dashpot.
+  virtual void act(ContactBatch& batch) const = 0;
+  /// Energy stored at an overlap, J.
+  [[nodiscard]] virtual double energy(int kind, double overlap) const = 0;
+  /// Elastic force at an overlap, N.
+  [[nodiscard]] virtual double force_at(int kind, double overlap) const = 0;
+  /// Duration of an impact at a speed, s.
+  [[nodiscard]] virtual double contact_time(int kind, double speed) const = 0;
+  /// Greatest overlap of an impact at a speed, m.
+  [[nodiscard]] virtual double overlap_of_impact(int kind, double speed) const = 0;
+  /// dF_n/d(overlap) at an overlap, N/m, and the damping ratio (both constants of the linear law).
+  [[nodiscard]] virtual double stiffness_at(int kind, double overlap) const = 0;
+  [[nodiscard]] virtual double damping_ratio(int kind) const = 0;
+};
+
+/// Slot Pair, friction: keeps a displacement or a force from step to step.
+class TangentialLaw {
+ public:
+  virtual ~TangentialLaw() = default;
+  /// From the normal force and v_t: tangential; moves the memory on by dt, s.
+  virtual void act(ContactBatch& batch, double dt) const = 0;
+  [[nodiscard]] virtual int memory_size() const = 0;
+  /// Energy stored in the tangential springs, J.
+  virtual void energy(const ContactBatch& batch, ContactBatch::Row& stored) const = 0;
+};
+
+/// Slot Pair, resistance to rolling: fills moment.
+class RollingLaw {
+ public:
+  virtual ~RollingLaw() = default;
+  virtual void act(ContactBatch& batch, double dt) const = 0;
+  [[nodiscard]] virtual int memory_size() const = 0;
+};
+
+/// Slot Pair, attraction: adds to normal; may reach beyond contact.
+class CohesionLaw {
+ public:
+  virtual ~CohesionLaw() = default;
+  virtual void act(ContactBatch& batch) const = 0;
+  /// m, beyond contact.
+  [[nodiscard]] virtual double reach() const = 0;
+};
+
+struct PairLaws {
+  std::unique_ptr<NormalLaw> normal;  ///< the one that always is
+  std::unique_ptr<TangentialLaw> tangential;
+  std::unique_ptr<RollingLaw> rolling;
+  std::unique_ptr<CohesionLaw> cohesion;
+
+  [[nodiscard]] double reach() const { return cohesion ? cohesion->reach() : 0; }
+  [[nodiscard]] int memory_size() const {
+    return (tangential ? tangential->memory_size() : 0) + (rolling ? rolling->memory_size() : 0);
+  }
+};
+
+/// The laws that a scene names; throws core::CaseError for one that is not known.
+[[nodiscard]] PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials);
+
+/// The roles that act in the particle model, with their laws.
+[[nodiscard]] std::vector<core::Role> roles();
+
+}  // namespace polybed::dem

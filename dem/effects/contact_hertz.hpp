@@ -1,0 +1,33 @@
+// Hertz's normal force with a dashpot that gives the restitution asked for.
+#pragma once
+
+#include <vector>
+
+#include "dem/effects.hpp"
+
+namespace polybed::dem {
+
+class HertzContact final : public NormalLaw {
+ public:
+  /// \param tail  "clip": no force pulls the particles together; "keep": the dashpot may
+  HertzContact(const Materials& materials, const std::string& tail);
+  void act(ContactBatch& batch) const override;
+  [[nodiscard]] double energy(int kind, double overlap) const override;
+  [[nodiscard]] double force_at(int kind, double overlap) const override;
+  [[nodiscard]] double contact_time(int kind, double speed) const override;
+  [[nodiscard]] double overlap_of_impact(int kind, double speed) const override;
+  [[nodiscard]] double stiffness_at(int kind, double overlap) const override;
+  [[nodiscard]] double damping_ratio(int kind) const override { return constants_[std::size_t(kind)].damping; }
+
+ private:
+  struct Constants {
+    double radius, mass, modulus;  ///< R*, m*, E*
+    double stiffness;              ///< (4/3) E*, Pa
+    double dashpot;                ///< c_n/sqrt(a)
+    double damping;                ///< beta
+  };
+  std::vector<Constants> constants_;
+  double least_force_;  ///< N: 0, or none
+};
+
+}  // namespace polybed::dem

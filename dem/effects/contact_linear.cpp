@@ -1,0 +1,53 @@
+#include "dem/effects/contact_linear.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "closures/contact_linear.hpp"
+#include "closures/restitution.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+POLYBED_ALL_VECTOR_WIDTHS void linear(ContactBatch& b, double stiffness, const ContactBatch::Row& dashpot,
+                                      double least_force) {
+  const int n = b.padded();
+  for (int c = 0; c < n; ++c) {
+    const double overlap = b.overlap[c] > 0 ? b.overlap[c] : 0;
+    const double damping = b.overlap[c] > 0 ? dashpot[c] : 0, elastic = stiffness * overlap;
+    const double force = elastic - damping * b.speed[c];
+    b.elastic[c] = elastic;
+    b.dashpot[c] = damping;
+    b.normal[c] = force > least_force ? force : least_force;
+  }
+}
+
+}  // namespace
+
+LinearContact::LinearContact(const Materials& materials, double stiffness, const std::string& tail)
+    : stiffness_(stiffness), least_force_(tail == "clip" ? 0 : -std::numeric_limits<double>::infinity()) {
+  for (const PairMaterial& m : materials.kinds()) {
+    const double beta =
+        tail == "clip" ? closures::damping_ratio_clipped(m.restitution) : closures::damping_ratio_kept(m.restitution);
+    constants_.push_back({m.mass, closures::linear_dashpot(stiffness, m.mass, beta), beta});
+  }
+}
+
+void LinearContact::act(ContactBatch& batch) const {
+  alignas(64) ContactBatch::Row dashpot = {};
+  for (int c = 0; c < batch.count; ++c) dashpot[c] = constants_[std::size_t(batch.kind[c])].dashpot;
+  linear(batch, stiffness_, dashpot, least_force_);
+}
+
+double LinearContact::contact_time(int kind, double) const {
+  const Constants& k = constants_[std::size_t(kind)];
+  return closures::linear_contact_time(stiffness_, k.mass, 0);
+}
+
+double LinearContact::overlap_of_impact(int kind, double speed) const {
+  return speed * std::sqrt(constants_[std::size_t(kind)].mass / stiffness_);
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,58 @@
+// What ranks tell each other of their particles: who moves to whom, and copies of those near another's part (ghosts).
+//
+// The thesis keeps three lists on every process: its own particles, those of its neighbours that it needs, and forces
+// that others must add. The first two are the owned particles and the ghosts here. The third is not needed: a pair
+// across ranks is computed on both, from the same numbers to the same bits.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/messages.hpp"
+#include "core/ranks.hpp"
+#include "dem/contact_batch.hpp"
+#include "dem/decomposition.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+/// What is kept of a contact, by the ids of its particles; of a wall: -1 - its number.
+struct KeptContact {
+  std::int64_t low, high;
+  std::array<double, ContactBatch::most_memory> memory;
+};
+
+class Exchange {
+ public:
+  /// \param reach  m: particles whose surfaces are nearer than this may touch before the next choice of ghosts
+  Exchange(const Box& box, std::shared_ptr<const core::Ranks> ranks, double reach, double greatest_radius);
+
+  // Collective, all of these; nothing happens without ranks.
+
+  /// Sends particles to the ranks that own their places, with their contacts. No ghosts before or after.
+  void migrate(Particles& particles, std::vector<KeptContact>& kept);
+  /// Sends copies of particles to ranks whose parts they are near, and adds those received as ghosts.
+  void choose_ghosts(Particles& particles);
+  /// Places and motions of the ghosts as their owners have them now.
+  void refresh_ghosts(Particles& particles);
+
+  [[nodiscard]] Decomposition& decomposition() { return decomposition_; }
+  [[nodiscard]] const Decomposition& decomposition() const { return decomposition_; }
+
+ private:
+  struct Refresh {
+    Vector x, v, w;
+  };
+  [[nodiscard]] bool near(const Place& place, const Part& part) const;
+
+  const Box& box_;
+  std::shared_ptr<const core::Ranks> ranks_;
+  double reach_, greatest_radius_;
+  Decomposition decomposition_;
+  std::vector<std::int32_t> sent_;  ///< owned particles that are ghosts elsewhere, in the order of ranks
+  std::unique_ptr<core::Messages> ghosts_;
+  std::vector<Refresh> outgoing_, incoming_;
+};
+
+}  // namespace polybed::dem

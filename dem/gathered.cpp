@@ -1,0 +1,44 @@
+#include "dem/gathered.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/messages.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+template <class Item>
+std::vector<Item> on_first(const std::vector<Item>& own, const std::shared_ptr<const core::Ranks>& ranks) {
+  if (!ranks) return own;
+  std::vector<int> to(std::size_t(ranks->count()), 0);
+  to[0] = int(own.size());
+  core::Messages messages(ranks, to);
+  std::vector<Item> all(messages.incoming());
+  messages.start(std::span<const Item>(own), std::span<Item>(all));
+  messages.finish();
+  return all;
+}
+
+}  // namespace
+
+std::vector<Particle> gathered_particles(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks) {
+  std::vector<Particle> own;
+  for (std::size_t i = 0; i < particles.owned; ++i) own.push_back(particles.at(i));
+  std::vector<Particle> all = on_first(own, ranks);
+  std::sort(all.begin(), all.end(), [](const Particle& a, const Particle& b) { return a.id < b.id; });
+  return all;
+}
+
+std::vector<KeptContact> gathered_contacts(const std::vector<KeptContact>& contacts,
+                                           const std::shared_ptr<const core::Ranks>& ranks) {
+  std::vector<KeptContact> all = on_first(contacts, ranks);
+  const auto key = [](const KeptContact& c) { return std::tuple(c.low, c.high); };
+  std::sort(all.begin(), all.end(), [&](const KeptContact& a, const KeptContact& b) { return key(a) < key(b); });
+  all.erase(std::unique(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+            all.end());
+  return all;
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,87 @@
+#include "dem/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/messages.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+/// Sums that are the same in any order: each number in whole units of the greatest there is.
+class Sum {
+ public:
+  explicit Sum(FixedPoint unit) : unit_(unit) {}
+  void add(double value) { units_ += std::llround(value * unit_.per_unit); }
+  [[nodiscard]] std::int64_t units() const { return units_; }
+
+ private:
+  FixedPoint unit_;
+  std::int64_t units_ = 0;
+};
+
+/// Elastic energy, number and extremes of contacts that this rank counts.
+void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum& elastic, Totals& totals) {
+  const Images images(model.box(), model.time());
+  ContactBatch batch;
+  alignas(64) ContactBatch::Row stored = {};
+  const Particles& particles = model.particles();
+  for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
+    if (walls)
+      model.pair_forces().gather_walls(particles, contacts, begin, batch);
+    else
+      model.pair_forces().gather(particles, contacts, images, begin, batch);
+    model.laws().normal->act(batch);
+    if (model.laws().tangential) model.laws().tangential->energy(batch, stored);
+    for (int c = 0; c < batch.count; ++c) {
+      const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
+      if (std::size_t(pair.first) >= particles.owned || batch.overlap[c] <= 0) continue;
+      elastic.add(model.laws().normal->energy(batch.kind[c], batch.overlap[c]) + stored[c]);
+      ++totals.contacts;
+      totals.max_overlap = std::max(totals.max_overlap, batch.overlap[c]);
+      totals.max_force = std::max(totals.max_force, batch.elastic[c]);
+    }
+  }
+}
+
+}  // namespace
+
+Totals totals_of(const Model& model) {
+  Totals totals;
+  const FixedPoint unit = model.energy_unit(), momentum_unit = model.momentum_unit();
+  Sum kinetic(unit), rotational(unit), potential(unit), elastic(unit);
+  std::array<Sum, 3> momentum{Sum(momentum_unit), Sum(momentum_unit), Sum(momentum_unit)};
+  const Particles& particles = model.particles();
+  const Vector g = model.gravity();
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const Motion& m = particles.motion[i];
+    const Vector& x = particles.place[i].x;
+    const double vv = m.v[0] * m.v[0] + m.v[1] * m.v[1] + m.v[2] * m.v[2];
+    const double ww = m.w[0] * m.w[0] + m.w[1] * m.w[1] + m.w[2] * m.w[2];
+    kinetic.add(0.5 * vv / m.inverse_mass);
+    rotational.add(0.5 * ww / m.inverse_inertia);
+    potential.add(-(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / m.inverse_mass);
+    for (std::size_t k = 0; k < 3; ++k) momentum[k].add(m.v[k] / m.inverse_mass);
+    totals.greatest_speed = std::max(totals.greatest_speed, std::sqrt(vv));
+  }
+  add_contacts(model, model.pairs(), false, elastic, totals);
+  add_contacts(model, model.walls(), true, elastic, totals);
+  std::array<std::int64_t, 9> sums{kinetic.units(),     rotational.units(),  potential.units(),
+                                   elastic.units(),     model.dissipated(),  totals.contacts,
+                                   momentum[0].units(), momentum[1].units(), momentum[2].units()};
+  core::add_over_ranks(model.ranks(), sums);
+  totals.kinetic = double(sums[0]) * unit.unit;
+  totals.rotational = double(sums[1]) * unit.unit;
+  totals.potential = double(sums[2]) * unit.unit;
+  totals.elastic = double(sums[3]) * unit.unit;
+  totals.dissipated = double(sums[4]) * unit.unit;
+  totals.contacts = sums[5];
+  for (std::size_t k = 0; k < 3; ++k) totals.momentum[k] = double(sums[6 + k]) * momentum_unit.unit;
+  totals.max_overlap = core::greatest_of_ranks(model.ranks(), totals.max_overlap);
+  totals.max_force = core::greatest_of_ranks(model.ranks(), totals.max_force);
+  totals.greatest_speed = core::greatest_of_ranks(model.ranks(), totals.greatest_speed);
+  return totals;
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,227 @@
+#include "dem/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "dem/packing.hpp"
+#include "dem/scene.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+/// Contacts that have a memory, by ids.
+void keep(const Contacts& contacts, const Particles& particles, bool walls, std::vector<KeptContact>& kept) {
+  for (const std::int32_t p : contacts.touching) {
+    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
+    KeptContact c{particles.id[std::size_t(pair.first)],
+                  walls ? -1 - std::int64_t(pair.second) : particles.id[std::size_t(pair.second)],
+                  {}};
+    std::copy_n(contacts.memory_of(p), contacts.memory_size, c.memory.begin());
+    kept.push_back(c);
+  }
+}
+
+struct PairHash {
+  std::size_t operator()(const std::pair<std::int64_t, std::int64_t>& p) const {
+    return std::size_t(std::uint64_t(p.first) * 0x9e3779b97f4a7c15ULL ^
+                       std::uint64_t(p.second) * 0xc2b2ae3d27d4eb4fULL);
+  }
+};
+using Memories = std::unordered_map<std::pair<std::int64_t, std::int64_t>, const KeptContact*, PairHash>;
+
+/// Gives the pairs of a new list the memory they had; those that have one are the ones that touch.
+void recall(Contacts& contacts, const Particles& particles, bool walls, const Memories& memories) {
+  contacts.memory.assign(contacts.pairs.size() * std::size_t(contacts.memory_size), 0.0);
+  contacts.touching.clear();
+  for (std::int32_t p = 0; p < std::int32_t(contacts.pairs.size()); ++p) {
+    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
+    const auto found = memories.find({particles.id[std::size_t(pair.first)],
+                                      walls ? -1 - std::int64_t(pair.second) : particles.id[std::size_t(pair.second)]});
+    if (found == memories.end()) continue;
+    std::copy_n(found->second->memory.begin(), contacts.memory_size, contacts.memory_of(p));
+    contacts.touching.push_back(p);
+  }
+}
+
+}  // namespace
+
+Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks)
+    : ranks_(std::move(ranks)),
+      timers_(timers),
+      box_(box_of(scene)),
+      materials_(scene),
+      laws_(make_pair_laws(scene, materials_)),
+      limits_(step_limits(scene, materials_, laws_, greatest_speed(scene, box_))),
+      gravity_(gravity_of(scene)),
+      force_unit_(force_unit(scene, materials_, laws_)),
+      torque_unit_(torque_unit(force_unit_, materials_)),
+      skin_(skin_of(scene, materials_)),
+      verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
+      search_(box_, skin_ + laws_.reach(), materials_.least_diameter(), materials_.greatest_diameter()),
+      pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
+      exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
+  require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
+  pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size : 0);
+  place(start_particles(scene, materials_, box_));
+  if (scene.dem.ledger) {
+    ledger_.emplace(laws_, laws_.memory_size(), energy_unit_);
+    pair_forces_.keep(*ledger_);
+  }
+  rebuild();
+  find_forces(0);
+}
+
+/// Every rank makes all particles and keeps its own: the start is the same on any number of ranks.
+void Model::place(const std::vector<Particle>& all) {
+  count_ = std::int64_t(all.size());
+  std::vector<Place> places;
+  double mass = 0;
+  for (const Particle& p : all) {
+    places.push_back(p.place);
+    mass += 1 / p.motion.inverse_mass;
+  }
+  const double length = std::max({box_.size[0], box_.size[1], box_.size[2]});
+  const double weight = std::hypot(gravity_[0], gravity_[1], gravity_[2]) * length;
+  const double speed = limits_.greatest_speed;
+  // What the sums may grow to: the energy of all at the greatest speed, and a reserve for what is dissipated meanwhile.
+  energy_unit_ = FixedPoint::for_sums_of(mass * (speed * speed + weight), 1024);
+  momentum_unit_ = FixedPoint::for_sums_of(mass * speed, 1024);
+  if (ranks_) {
+    const std::vector<std::int32_t> work(ranks_->rank() > 0 ? 0 : all.size(), 1);
+    exchange_.decomposition().balance(std::span(places).first(work.size()), work);
+  }
+  for (const Particle& p : all)
+    if (!ranks_ || exchange_.decomposition().owner(p.place.x) == ranks_->rank()) particles_.add(p);
+  particles_.owned = particles_.size();
+}
+
+void Model::step(double) {
+  if (list_is_stale()) {
+    const auto scope = timers_.scope("neighbours");
+    rebuild();
+  }
+  {
+    const auto scope = timers_.scope("motion");
+    verlet_.begin(particles_);
+  }
+  refresh_ghosts();
+  ++steps_;
+  find_forces(limits_.dt);
+  {
+    const auto scope = timers_.scope("motion");
+    verlet_.end(particles_);
+  }
+  stop_if_troubled();
+}
+
+bool Model::list_is_stale() const {
+  const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
+  // Two particles may approach from both sides, and a sheared box moves the one faster than the other.
+  const double flow = std::abs(box_.shear_rate) * since * (materials_.greatest_diameter() + skin_ + laws_.reach());
+  const double moved = 2 * verlet_.next_moved(particles_, since) + flow;
+  return core::on_any_rank(ranks_.get(), !(moved <= skin_));
+}
+
+void Model::wrap() {
+  for (std::size_t i = 0; i < particles_.owned; ++i) {
+    Vector& x = particles_.place[i].x;
+    if (box_.periodic[1] && (x[1] < 0 || x[1] >= box_.size[1])) {
+      const double boxes = std::floor(x[1] / box_.size[1]);
+      x[0] -= boxes * box_.image_shift(time());
+      particles_.motion[i].v[0] -= boxes * box_.image_speed();
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      if (box_.periodic[k]) {
+        x[k] -= std::floor(x[k] / box_.size[k]) * box_.size[k];
+        if (x[k] >= box_.size[k]) x[k] = 0;  // of a tiny negative number, whose sum with the length is the length
+      }
+  }
+}
+
+std::vector<KeptContact> Model::kept_contacts() const {
+  std::vector<KeptContact> kept;
+  keep(pairs_, particles_, false, kept);
+  keep(walls_, particles_, true, kept);
+  return kept;
+}
+
+void Model::rebuild() {
+  std::vector<KeptContact> kept = kept_contacts();
+  wrap();
+  list_pairs(kept);
+}
+
+/// Moves particles to their owners and finds anew who is near whom; contacts go with their particles.
+void Model::list_pairs(std::vector<KeptContact>& kept) {
+  particles_.resize(particles_.owned);
+  exchange_.migrate(particles_, kept);
+  const std::vector<std::int32_t> order = search_.order(particles_);
+  const Particles before = particles_;
+  for (std::size_t n = 0; n < order.size(); ++n) particles_.set(n, before.at(std::size_t(order[n])));
+  exchange_.choose_ghosts(particles_);
+  search_.find_pairs(particles_, time(), exchange_.decomposition().centre(), exchange_.decomposition().whole(),
+                     pairs_.pairs);
+  search_.find_walls(particles_, walls_.pairs);
+  Memories memories;
+  memories.reserve(kept.size());
+  for (const KeptContact& c : kept) memories.emplace(std::pair(c.low, c.high), &c);
+  recall(pairs_, particles_, false, memories);
+  recall(walls_, particles_, true, memories);
+  verlet_.mark(particles_);
+  marked_at_ = steps_;
+  ++work_.rebuilds;
+  work_.candidates += search_.candidates();
+}
+
+void Model::refresh_ghosts() {
+  if (!ranks_) return;
+  const auto scope = timers_.scope("ghosts");
+  exchange_.refresh_ghosts(particles_);
+}
+
+void Model::find_forces(double dt) {
+  {
+    const auto scope = timers_.scope("pair forces");
+    pair_forces_.add_pairs(particles_, pairs_, time(), dt);
+  }
+  if (box_.walls.empty()) return;
+  const auto scope = timers_.scope("walls");
+  pair_forces_.add_walls(particles_, walls_, dt);
+}
+
+void Model::stop_if_troubled() const {
+  const PairTrouble& t = pair_forces_.trouble();
+  if (!core::on_any_rank(ranks_.get(), t.pair >= 0)) return;
+  std::string text = "another rank met it";
+  if (t.pair >= 0) {
+    const Contacts::Pair pair = (t.wall ? walls_ : pairs_).pairs[std::size_t(t.pair)];
+    const Place& at = particles_.place[std::size_t(pair.first)];
+    const std::string other = t.wall ? fmt::format("wall {}", pair.second)
+                                     : fmt::format("particle {}", particles_.id[std::size_t(pair.second)]);
+    text = fmt::format(
+        "t = {:.6g} s: particle {} and {} overlap by {:.3g} m more than dem.max_overlap allows, near ({:.6g}, {:.6g}, "
+        "{:.6g}) m; raise dem.youngs_modulus, state a higher dem.greatest_speed, or look at the start",
+        time(), particles_.id[std::size_t(pair.first)], other, t.excess, at.x[0], at.x[1], at.x[2]);
+  }
+  throw core::NumericsError(text);
+}
+
+Work Model::work() const {
+  Work work = work_;
+  work.steps = std::uint64_t(steps_);
+  work.particle_steps = work.steps * std::uint64_t(count_);
+  std::array<double, 3> sums{double(pair_forces_.pair_checks()), double(pair_forces_.contact_steps()),
+                             double(work.candidates)};
+  core::add_over_ranks(ranks_.get(), sums);
+  work.pair_checks = std::uint64_t(sums[0]);
+  work.contact_steps = std::uint64_t(sums[1]);
+  work.candidates = std::uint64_t(sums[2]);
+  return work;
+}
+
+}  // namespace polybed::dem

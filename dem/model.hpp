@@ -1,0 +1,109 @@
+// The particle model as something that can be run: it owns the particles, their contacts, and the step.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/checkpoint.hpp"
+#include "core/ranks.hpp"
+#include "core/run.hpp"
+#include "core/scene.hpp"
+#include "core/timers.hpp"
+#include "dem/box.hpp"
+#include "dem/contacts.hpp"
+#include "dem/effects.hpp"
+#include "dem/exchange.hpp"
+#include "dem/materials.hpp"
+#include "dem/neighbours.hpp"
+#include "dem/pair_forces.hpp"
+#include "dem/particles.hpp"
+#include "dem/step_limits.hpp"
+#include "dem/verlet.hpp"
+
+namespace polybed::dem {
+
+/// What the model has done so far on all ranks; repeats exactly from run to run and on any number of ranks, but for
+/// what pairs across ranks add.
+struct Work {
+  std::uint64_t steps = 0, particle_steps = 0, pair_checks = 0, contact_steps = 0, rebuilds = 0, candidates = 0;
+};
+
+class Model : public core::Simulation {
+ public:
+  /// The scene's particles at their start; throws core::CaseError for what cannot be built. Collective, as are step,
+  /// restart, checkpoint and resume.
+  /// \param ranks  that share the box; null: it is all here
+  Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks = nullptr);
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  [[nodiscard]] double time() const override { return double(steps_) * limits_.dt; }
+  /// One step of dt; `stop` is passed by less than one step.
+  void step(double stop) override;
+  /// The state is that of the last step: observers read times not more than a step old.
+  void show(double) override {}
+  /// Lists the pairs anew, as a run taken up again does: both then have the same bits.
+  void restart() override { rebuild(); }
+
+  /// All particles and contacts, to the bit, on the first rank; it does not depend on how many ranks there are.
+  [[nodiscard]] core::Checkpoint checkpoint() const;
+  /// Takes a run up again, on any number of ranks; only the first rank's checkpoint is read.
+  void resume(const core::Checkpoint& checkpoint);
+  /// Begins at time 0 from the particles of a checkpoint.
+  void start_from(const core::Checkpoint& checkpoint);
+
+  [[nodiscard]] const Particles& particles() const { return particles_; }
+  [[nodiscard]] const Contacts& pairs() const { return pairs_; }
+  [[nodiscard]] const Contacts& walls() const { return walls_; }
+  [[nodiscard]] const Materials& materials() const { return materials_; }
+  [[nodiscard]] const PairLaws& laws() const { return laws_; }
+  [[nodiscard]] const PairForces& pair_forces() const { return pair_forces_; }
+  [[nodiscard]] const Box& box() const { return box_; }
+  [[nodiscard]] const StepLimits& limits() const { return limits_; }
+  [[nodiscard]] const core::Ranks* ranks() const { return ranks_.get(); }
+  [[nodiscard]] const std::shared_ptr<const core::Ranks>& share() const { return ranks_; }
+  [[nodiscard]] Vector gravity() const { return gravity_; }
+  [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
+  [[nodiscard]] std::int64_t particle_count() const { return count_; }
+  [[nodiscard]] std::int64_t steps() const { return steps_; }
+  /// Collective.
+  [[nodiscard]] Work work() const;
+  /// Units of the energies and momenta of all particles together, and what this rank's contacts have dissipated.
+  [[nodiscard]] FixedPoint energy_unit() const { return energy_unit_; }
+  [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
+  [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
+
+ private:
+  void place(const std::vector<Particle>& all);
+  [[nodiscard]] bool list_is_stale() const;
+  [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
+  void rebuild();
+  void list_pairs(std::vector<KeptContact>& kept);
+  void refresh_ghosts();
+  void find_forces(double dt);
+  void stop_if_troubled() const;
+  void wrap();
+
+  std::shared_ptr<const core::Ranks> ranks_;
+  core::Timers& timers_;
+  Box box_;
+  Materials materials_;
+  PairLaws laws_;
+  StepLimits limits_;
+  Vector gravity_;
+  FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
+  std::optional<Ledger> ledger_;  ///< absent: energies lost are not counted
+  double skin_;
+  Verlet verlet_;
+  NeighbourSearch search_;
+  PairForces pair_forces_;
+  Exchange exchange_;
+  Particles particles_;
+  Contacts pairs_, walls_;
+  std::int64_t steps_ = 0, count_ = 0, marked_at_ = 0;
+  Work work_;
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,117 @@
+// The whole state of the particles, to the bit, independent of how many ranks share them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "dem/gathered.hpp"
+#include "dem/model.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+/// Numbers as doubles: ids and counts below 2^53 are exact; sums in whole units are kept as two halves.
+void store(std::vector<double>& out, std::int64_t units) {
+  out.push_back(double(units >> 32));
+  out.push_back(double(units & 0xffffffff));
+}
+std::int64_t recalled(const double* in) { return (std::int64_t(in[0]) << 32) + std::int64_t(in[1]); }
+
+constexpr std::size_t particle_width = 2 + 9 + 12;
+
+void write_particles(core::Checkpoint& checkpoint, const std::vector<Particle>& particles) {
+  std::vector<double>& out = checkpoint.arrays["particles"];
+  for (const Particle& p : particles) {
+    out.push_back(double(p.id));
+    out.push_back(p.species);
+    out.insert(out.end(), p.place.x.begin(), p.place.x.end());
+    out.insert(out.end(), p.motion.v.begin(), p.motion.v.end());
+    out.insert(out.end(), p.motion.w.begin(), p.motion.w.end());
+    for (const std::int64_t f : p.load.force) store(out, f);
+    for (const std::int64_t t : p.load.torque) store(out, t);
+  }
+}
+
+Particle read_particle(const double* in, const Materials& materials) {
+  Particle p{};
+  p.id = std::int64_t(in[0]);
+  p.species = std::int32_t(in[1]);
+  const Species& s = materials.species()[std::size_t(p.species)];
+  p.place.radius = s.radius;
+  p.motion.inverse_mass = 1 / s.mass;
+  p.motion.inverse_inertia = 1 / s.inertia;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p.place.x[k] = in[2 + k];
+    p.motion.v[k] = in[5 + k];
+    p.motion.w[k] = in[8 + k];
+    p.load.force[k] = recalled(in + 11 + 2 * k);
+    p.load.torque[k] = recalled(in + 17 + 2 * k);
+  }
+  return p;
+}
+
+}  // namespace
+
+core::Checkpoint Model::checkpoint() const {
+  core::Checkpoint checkpoint;
+  std::vector<Particle> particles = gathered_particles(particles_, ranks_);
+  std::vector<KeptContact> contacts = gathered_contacts(kept_contacts(), ranks_);
+  write_particles(checkpoint, particles);
+  std::vector<double>& out = checkpoint.arrays["contacts"];
+  for (const KeptContact& c : contacts) {
+    out.push_back(double(c.low));
+    out.push_back(double(c.high));
+    out.insert(out.end(), c.memory.begin(), c.memory.begin() + pairs_.memory_size);
+  }
+  checkpoint.integers["steps"] = steps_;
+  checkpoint.integers["memory_size"] = pairs_.memory_size;
+  checkpoint.numbers["dt"] = limits_.dt;
+  std::array<std::int64_t, 1> dissipated{this->dissipated()};
+  core::add_over_ranks(ranks_.get(), dissipated);
+  checkpoint.integers["dissipated"] = dissipated[0];
+  return checkpoint;
+}
+
+void Model::resume(const core::Checkpoint& checkpoint) {
+  std::vector<double> particles, contacts;
+  std::array<double, 4> head{};
+  core::on_first(ranks_.get(), [&] {
+    particles = checkpoint.arrays.at("particles");
+    contacts = checkpoint.arrays.at("contacts");
+    head = {double(particles.size()), double(contacts.size()), double(checkpoint.integers.at("steps")),
+            checkpoint.numbers.at("dt")};
+    if (checkpoint.integers.at("memory_size") != pairs_.memory_size || head[3] != limits_.dt)
+      throw core::FileError("the checkpoint is of another law of contact or another time step");
+  });
+  if (ledger_) ledger_->set_units(core::is_first(ranks_.get()) ? checkpoint.integers.at("dissipated") : 0);
+  core::take_from_first(ranks_.get(), head);
+  particles.resize(std::size_t(head[0]));
+  contacts.resize(std::size_t(head[1]));
+  core::take_from_first(ranks_.get(), particles);
+  core::take_from_first(ranks_.get(), contacts);
+  steps_ = std::int64_t(head[2]);
+  particles_.resize(0);
+  for (std::size_t n = 0; n < particles.size(); n += particle_width) {
+    const Particle p = read_particle(particles.data() + n, materials_);
+    if (!ranks_ || exchange_.decomposition().owner(p.place.x) == ranks_->rank()) particles_.add(p);
+  }
+  particles_.owned = particles_.size();
+  count_ = std::int64_t(particles.size() / particle_width);
+  std::vector<KeptContact> kept;
+  const auto width = std::size_t(pairs_.memory_size) + 2;
+  for (std::size_t n = 0; n < contacts.size(); n += width) {
+    KeptContact c{std::int64_t(contacts[n]), std::int64_t(contacts[n + 1]), {}};
+    std::copy_n(contacts.data() + n + 2, pairs_.memory_size, c.memory.begin());
+    kept.push_back(c);
+  }
+  list_pairs(kept);
+}
+
+void Model::start_from(const core::Checkpoint& checkpoint) {
+  resume(checkpoint);
+  steps_ = marked_at_ = 0;
+}
+
+}  // namespace polybed::dem

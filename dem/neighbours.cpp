@@ -1,0 +1,201 @@
+#include "dem/neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace polybed::dem {
+
+namespace {
+
+/// Cells on both sides of one: all there are at most once, none beyond an end that does not wrap.
+struct Span {
+  std::array<int, 3> cell{};
+  int count = 0;
+  void add(int c) {
+    if (std::find(cell.begin(), cell.begin() + count, c) == cell.begin() + count) cell[std::size_t(count++)] = c;
+  }
+};
+
+Span around(int c, int count, bool wraps) {
+  Span span;
+  for (int k = c - 1; k <= c + 1; ++k) {
+    if (wraps)
+      span.add(((k % count) + count) % count);
+    else if (k >= 0 && k < count)
+      span.add(k);
+  }
+  return span;
+}
+
+std::uint64_t spread_bits(std::uint64_t x) {
+  x = (x | x << 32) & 0x1f00000000ffffULL;
+  x = (x | x << 16) & 0x1f0000ff0000ffULL;
+  x = (x | x << 8) & 0x100f00f00f00f00fULL;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+  return (x | x << 2) & 0x1249249249249249ULL;
+}
+
+}  // namespace
+
+int NeighbourSearch::Level::place(double x, std::size_t axis) const {
+  const int c = int(std::floor((x - low[axis]) * inverse[axis]));
+  return wraps[axis] ? ((c % count[axis]) + count[axis]) % count[axis] : c;
+}
+
+NeighbourSearch::NeighbourSearch(const Box& box, double reach, double least, double greatest)
+    : box_(box), reach_(reach), least_(least) {
+  // Below a ratio of three one level costs less than two.
+  const bool one = greatest < 3 * least;
+  if (one) least_ = greatest;
+  levels_.resize(one ? 1 : level_of(0.5 * greatest) + 1);
+  for (std::size_t l = 0; l < levels_.size(); ++l) levels_[l].cell = std::ldexp(least_ + reach_, int(l));
+}
+
+std::size_t NeighbourSearch::level_of(double radius) const {
+  if (levels_.size() == 1) return 0;
+  const double ratio = (2 * radius + reach_) / (least_ + reach_);
+  return ratio <= 1 ? 0 : std::size_t(std::ceil(std::log2(ratio) - 1e-12));
+}
+
+void NeighbourSearch::lay_out(const std::array<bool, 3>& whole) {
+  for (Level& level : levels_)
+    for (std::size_t k = 0; k < 3; ++k) {
+      level.wraps[k] = box_.periodic[k] && whole[k];
+      double low = 0, extent = box_.size[k];
+      if (!level.wraps[k]) {
+        double high = low = near_.empty() ? 0 : near_[0][k];
+        for (const Vector& x : near_) {
+          low = std::min(low, x[k]);
+          high = std::max(high, x[k]);
+        }
+        extent = high - low;
+      }
+      // A wider cell is as right as a narrower one is wrong: wrapping ones are stretched to fill the box.
+      const double most = double(std::cbrt(4.0 * double(near_.size()) + 64)) * 64;
+      level.count[k] = std::max(1, int(std::min(std::floor(extent / level.cell), most)));
+      level.low[k] = low;
+      if (level.wraps[k]) {
+        level.inverse[k] = level.count[k] / extent;
+      } else {
+        level.count[k] += 1;
+        const double cell = std::max(level.cell, extent / level.count[k] * (1 + 1e-12));
+        level.inverse[k] = 1 / cell;
+      }
+    }
+  // With so few rows of a sheared box that one is met directly and as an image, all cells of a row are near.
+  for (Level& level : levels_)
+    if (box_.shear_rate != 0 && level.count[1] < 4) {
+      level.count[0] = 1;
+      level.inverse[0] = 1 / box_.size[0];
+    }
+}
+
+void NeighbourSearch::sort_in(const Particles& particles) {
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    const auto cells = std::size_t(level.count[0]) * std::size_t(level.count[1]) * std::size_t(level.count[2]);
+    level.start.assign(cells + 1, 0);
+    std::vector<std::int32_t> at(particles.size(), -1);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (level_of(particles.place[i].radius) != l) continue;
+      const Vector& x = near_[i];
+      at[i] = (level.place(x[2], 2) * level.count[1] + level.place(x[1], 1)) * level.count[0] + level.place(x[0], 0);
+      ++level.start[std::size_t(at[i]) + 1];
+    }
+    std::partial_sum(level.start.begin(), level.start.end(), level.start.begin());
+    level.member.resize(std::size_t(level.start.back()));
+    std::vector<std::int32_t> next(level.start.begin(), level.start.end() - 1);
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      if (at[i] >= 0) level.member[std::size_t(next[std::size_t(at[i])]++)] = std::int32_t(i);
+  }
+}
+
+/// Pairs of particle i with those of a level: of its own level those with a higher id, of coarser ones all.
+void NeighbourSearch::search(const Particles& particles, std::size_t i, std::size_t l, const Images& images,
+                             std::vector<Contacts::Pair>& pairs) {
+  const Level& level = levels_[l];
+  const bool own = level_of(particles.place[i].radius) == l;
+  const Place& here = particles.place[i];
+  const Vector& x = near_[i];
+  const int at_y = int(std::floor((x[1] - level.low[1]) * level.inverse[1]));
+  const Span depth = around(level.place(x[2], 2), level.count[2], level.wraps[2]);
+  const Span height = around(level.place(x[1], 1), level.count[1], level.wraps[1]);
+  for (int row = 0; row < height.count; ++row) {
+    const int cy = height.cell[std::size_t(row)];
+    // Across the joined faces of a sheared box the cells beside are those beside the image.
+    double shifted = x[0];
+    if (box_.shear_rate != 0) shifted -= images.shift * (cy - at_y > 1 ? -1.0 : cy - at_y < -1 ? 1.0 : 0.0);
+    Span width = around(level.place(shifted, 0), level.count[0], level.wraps[0]);
+    for (int a = 0; a < depth.count; ++a)
+      for (int b = 0; b < width.count; ++b) {
+        const auto cell = std::size_t((depth.cell[std::size_t(a)] * level.count[1] + cy) * level.count[0] +
+                                      width.cell[std::size_t(b)]);
+        for (std::int32_t m = level.start[cell]; m < level.start[cell + 1]; ++m) {
+          const auto j = std::size_t(level.member[std::size_t(m)]);
+          ++candidates_;
+          if (own && particles.id[j] <= particles.id[i]) continue;
+          if (i >= particles.owned && j >= particles.owned) continue;
+          const Place& there = particles.place[j];
+          double dx = here.x[0] - there.x[0], dy = here.x[1] - there.x[1], dz = here.x[2] - there.x[2];
+          images.shorten(dx, dy, dz);
+          const double near = here.radius + there.radius + reach_;
+          if (dx * dx + dy * dy + dz * dz >= near * near) continue;
+          if (particles.id[i] < particles.id[j])
+            pairs.push_back({std::int32_t(i), std::int32_t(j)});
+          else
+            pairs.push_back({std::int32_t(j), std::int32_t(i)});
+        }
+      }
+  }
+}
+
+void NeighbourSearch::find_pairs(const Particles& particles, double time, const Vector& centre,
+                                 const std::array<bool, 3>& whole, std::vector<Contacts::Pair>& pairs) {
+  pairs.clear();
+  candidates_ = 0;
+  near_.resize(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = particles.place[i].x[k];
+      near_[i][k] = box_.periodic[k] && !whole[k] ? x - box_.size[k] * std::round((x - centre[k]) / box_.size[k]) : x;
+    }
+  lay_out(whole);
+  sort_in(particles);
+  const Images images(box_, time);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    for (std::size_t l = level_of(particles.place[i].radius); l < levels_.size(); ++l)
+      search(particles, i, l, images, pairs);
+}
+
+void NeighbourSearch::find_walls(const Particles& particles, std::vector<Contacts::Pair>& pairs) const {
+  pairs.clear();
+  for (std::size_t i = 0; i < particles.owned; ++i)
+    for (std::size_t w = 0; w < box_.walls.size(); ++w) {
+      const Wall& wall = box_.walls[w];
+      const double s = particles.place[i].x[std::size_t(wall.axis)] - wall.place;
+      if ((wall.side == 0 ? s : -s) < particles.place[i].radius + reach_)
+        pairs.push_back({std::int32_t(i), std::int32_t(w)});
+    }
+}
+
+std::vector<std::int32_t> NeighbourSearch::order(const Particles& particles) const {
+  std::vector<std::uint64_t> key(particles.owned);
+  const double cell = levels_.front().cell;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    key[i] = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double place = particles.place[i].x[k] / cell + 1024;
+      key[i] |= spread_bits(std::uint64_t(std::clamp(place, 0.0, 2.0e6))) << k;
+    }
+  }
+  std::vector<std::int32_t> order(particles.owned);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    const auto ka = key[std::size_t(a)], kb = key[std::size_t(b)];
+    return ka != kb ? ka < kb : particles.id[std::size_t(a)] < particles.id[std::size_t(b)];
+  });
+  return order;
+}
+
+}  // namespace polybed::dem

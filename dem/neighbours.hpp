@@ -1,0 +1,57 @@
+// Which pairs may touch before a list is made again: a search in cells by levels of size, so that its cost hardly
+// depends on how different the particles are.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/box.hpp"
+#include "dem/contacts.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+class NeighbourSearch {
+ public:
+  /// \param reach            skin and the longest pair effect, m: pairs nearer than this are listed
+  /// \param least, greatest  diameters, m
+  NeighbourSearch(const Box& box, double reach, double least, double greatest);
+
+  /// Pairs with at least one owned particle whose surfaces are nearer than the reach; the first has the lower id.
+  /// \param centre  of the space of these particles: of directions in which they do not fill the box, images are
+  ///                taken near it   \param whole  directions in which they do
+  void find_pairs(const Particles& particles, double time, const Vector& centre, const std::array<bool, 3>& whole,
+                  std::vector<Contacts::Pair>& pairs);
+  /// Owned particles and walls likewise.
+  void find_walls(const Particles& particles, std::vector<Contacts::Pair>& pairs) const;
+
+  /// Pairs looked at in the last search.
+  [[nodiscard]] std::uint64_t candidates() const { return candidates_; }
+  /// The particles in an order in which near ones are near.
+  [[nodiscard]] std::vector<std::int32_t> order(const Particles& particles) const;
+
+ private:
+  /// Cells of one size and the particles of that size in them.
+  struct Level {
+    double cell = 0;  ///< m, at least
+    Vector low{}, inverse{};
+    std::array<int, 3> count{};
+    std::array<bool, 3> wraps{};
+    std::vector<std::int32_t> start, member;
+
+    [[nodiscard]] int place(double x, std::size_t axis) const;
+  };
+  [[nodiscard]] std::size_t level_of(double radius) const;
+  void lay_out(const std::array<bool, 3>& whole);
+  void sort_in(const Particles& particles);
+  void search(const Particles& particles, std::size_t i, std::size_t level, const Images& images,
+              std::vector<Contacts::Pair>& pairs);
+
+  const Box& box_;
+  double reach_, least_;
+  std::vector<Level> levels_;
+  std::vector<Vector> near_;  ///< positions with images taken near the centre
+  std::uint64_t candidates_ = 0;
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,55 @@
+// Writes the files of a particle run: history.csv, profiles.h5, particles.h5.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "core/output_history.hpp"
+#include "core/output_particles.hpp"
+#include "core/output_profiles.hpp"
+#include "core/scene.hpp"
+#include "dem/measures.hpp"
+#include "dem/model.hpp"
+#include "fluid/particle_profile.hpp"
+
+namespace polybed::dem {
+
+// Collective, all of these.
+class Observers {
+ public:
+  /// Starts the files of a run directory, or goes on with them from a time.
+  /// \param initial_energy  J, that the ledger is checked against; empty: that of now
+  Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
+            std::optional<double> initial_energy, std::optional<double> resume_time);
+
+  /// One row of history.csv; also measures the ledgers.
+  void write_history(double time);
+  /// One row of profiles.h5 and one step of particles.h5.
+  void write_particles(double time);
+
+  /// Of the last row of the history.
+  [[nodiscard]] const Totals& totals() const { return totals_; }
+  [[nodiscard]] double bed_height() const { return bed_height_; }
+  [[nodiscard]] double initial_energy() const { return initial_energy_; }
+  /// Largest difference of the ledger from the energy at the start, against the greatest energy met: V5.
+  [[nodiscard]] double ledger_error() const { return ledger_error_; }
+
+ private:
+  /// What the first rank has open.
+  struct Files {
+    core::HistoryWriter history;
+    core::ProfileWriter profiles;
+    core::ParticleWriter particles;
+  };
+  void close_ledger();
+
+  const Model& model_;
+  fluid::Slabs slabs_;
+  bool has_ledger_;
+  std::unique_ptr<Files> files_;
+  Totals totals_;
+  double bed_height_ = 0, initial_energy_ = 0, greatest_energy_ = 0, ledger_error_ = 0;
+};
+
+}  // namespace polybed::dem

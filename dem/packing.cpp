@@ -1,0 +1,131 @@
+#include "dem/packing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/particle_list.hpp"
+#include "core/random.hpp"
+#include "dem/relaxation.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+/// Solids fraction that random particles are pushed apart to in short time; a denser bed has to settle.
+constexpr double loose = 0.55;
+
+enum Sequence : std::uint64_t { place_x, place_y, place_z, speed_x, speed_y, speed_z };
+
+double volume(const Species& s) { return 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius; }
+
+Particle particle(const Materials& materials, std::int32_t species, std::int64_t id) {
+  const Species& s = materials.species()[std::size_t(species)];
+  return {{{0, 0, 0}, s.radius}, {{0, 0, 0}, {0, 0, 0}, 1 / s.mass, 1 / s.inertia}, {}, id, species};
+}
+
+std::vector<Particle> listed(const core::Scene& scene, const Materials& materials) {
+  const core::ParticleList list = core::read_particle_list(scene);
+  std::vector<Particle> particles;
+  for (std::size_t n = 0; n < list.species.size(); ++n) {
+    Particle p = particle(materials, list.species[n], std::int64_t(n));
+    p.place.x = list.position[n];
+    p.motion.v = list.velocity[n];
+    p.motion.w = list.spin[n];
+    particles.push_back(p);
+  }
+  return particles;
+}
+
+/// Heights between which species may lie, m.
+struct Layer {
+  double low, high;
+};
+
+/// Layers of the species, each as high as its volume asks for; or one for all of them.
+std::vector<Layer> layers(const core::Scene& scene, const Materials& materials, const Box& box,
+                          const std::vector<std::int64_t>& numbers) {
+  const double area = box.size[0] * box.size[2];
+  std::vector<double> height;
+  double sum = 0;
+  const double wanted = scene.bed.start_solids_fraction > 0 ? std::min(loose, scene.bed.start_solids_fraction) : loose;
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    height.push_back(double(numbers[j]) * volume(materials.species()[j]) / (area * wanted));
+    sum += height.back();
+  }
+  if (scene.bed.start == "random") sum = box.size[1];
+  if (sum > box.size[1])
+    throw core::CaseError(fmt::format(
+        "column.size: the particles fill {:.4g} m of its height at a solids fraction of {:.3g}, which is more than it "
+        "has, {:.4g} m",
+        sum, wanted, box.size[1]));
+  std::vector<Layer> layers(numbers.size(), {0, sum});
+  if (scene.bed.start != "layered") return layers;
+  double low = 0;
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    layers[j] = {low, low + height[j]};
+    low += height[j];
+  }
+  return layers;
+}
+
+/// Velocities of a granular temperature, without net momentum.
+void set_in_motion(std::vector<Particle>& particles, double speed, std::uint64_t seed) {
+  if (speed <= 0 || particles.empty()) return;
+  Vector momentum{};
+  double mass = 0;
+  for (Particle& p : particles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      p.motion.v[k] = speed * core::normal(seed, speed_x + k, std::uint64_t(p.id));
+      momentum[k] += p.motion.v[k] / p.motion.inverse_mass;
+    }
+    mass += 1 / p.motion.inverse_mass;
+  }
+  for (Particle& p : particles)
+    for (std::size_t k = 0; k < 3; ++k) p.motion.v[k] -= momentum[k] / mass;
+}
+
+/// The flow of a sheared box at the start.
+void shear(std::vector<Particle>& particles, double rate) {
+  for (Particle& p : particles) p.motion.v[0] += rate * p.place.x[1];
+}
+
+}  // namespace
+
+std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Materials& materials, const Box& box) {
+  if (!scene.bed.particles.empty()) return scene.bed.particles;
+  const double solids = scene.bed.static_height * box.size[0] * box.size[2] * scene.bed.solids_fraction;
+  std::vector<std::int64_t> numbers;
+  for (std::size_t j = 0; j < materials.species().size(); ++j)
+    numbers.push_back(std::llround(scene.bed.volume_share[j] * solids / volume(materials.species()[j])));
+  return numbers;
+}
+
+std::vector<Particle> start_particles(const core::Scene& scene, const Materials& materials, const Box& box) {
+  if (scene.bed.start.starts_with("list:")) return listed(scene, materials);
+  const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);
+  const std::vector<Layer> layer = layers(scene, materials, box, numbers);
+  const std::uint64_t seed = scene.bed.seed;
+  std::vector<Particle> particles;
+  std::vector<Vector> low, high;
+  for (std::size_t j = 0; j < numbers.size(); ++j)
+    for (std::int64_t n = 0; n < numbers[j]; ++n) {
+      Particle p = particle(materials, std::int32_t(j), std::int64_t(particles.size()));
+      const double top = layer[j].high, bottom = layer[j].low;
+      low.push_back({0, bottom, 0});
+      high.push_back({box.size[0], top, box.size[2]});
+      for (std::size_t k = 0; k < 3; ++k)
+        p.place.x[k] =
+            low.back()[k] + (high.back()[k] - low.back()[k]) * core::uniform(seed, place_x + k, std::uint64_t(p.id));
+      particles.push_back(p);
+    }
+  push_apart(particles, low, high, box, materials);
+  set_in_motion(particles, scene.dem.start_speed, seed);
+  shear(particles, scene.dem.shear_rate);
+  return particles;
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,66 @@
+// Forces between touching particles and on walls: find what touches, gather a batch, let each law act on it, scatter.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/box.hpp"
+#include "dem/contact_batch.hpp"
+#include "dem/contacts.hpp"
+#include "dem/effects.hpp"
+#include "dem/ledger.hpp"
+#include "dem/materials.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+/// What went wrong with a pair, if anything: found after the loop, so that the loop has no branch for it.
+struct PairTrouble {
+  double excess = 0;       ///< m, of the deepest overlap over the one allowed; beyond 0 the run must stop
+  std::int32_t pair = -1;  ///< in its list
+  bool wall = false;
+};
+
+class PairForces {
+ public:
+  /// \param max_overlap  greatest overlap allowed, as a share of the smaller diameter
+  PairForces(const Box& box, const Materials& materials, const PairLaws& laws, FixedPoint force, FixedPoint torque,
+             double max_overlap);
+  /// Counts energies in a ledger from now on, which must stay.
+  void keep(Ledger& ledger) { ledger_ = &ledger; }
+
+  /// Adds the forces and torques of all pairs of a list to the loads of its particles, and moves its memory on.
+  /// \param time  s, places the images of a sheared box
+  /// \param dt    s, since the last call
+  void add_pairs(Particles& particles, Contacts& contacts, double time, double dt);
+  /// The same with the walls.
+  void add_walls(Particles& particles, Contacts& contacts, double dt);
+
+  [[nodiscard]] const PairTrouble& trouble() const { return trouble_; }
+  [[nodiscard]] std::uint64_t pair_checks() const { return pair_checks_; }
+  [[nodiscard]] std::uint64_t contact_steps() const { return contact_steps_; }
+
+  /// Fills a batch with touching pairs from `begin` on, up to the forces; for those who look at single contacts.
+  void gather(const Particles& particles, const Contacts& contacts, const Images& images, std::size_t begin,
+              ContactBatch& batch) const;
+  void gather_walls(const Particles& particles, const Contacts& contacts, std::size_t begin, ContactBatch& batch) const;
+
+ private:
+  void act(double dt);
+  void mark_counted(const Particles& particles, const Contacts& contacts, std::size_t begin);
+  void watch_overlap(const Contacts& contacts, std::size_t begin, bool wall);
+
+  const Box& box_;
+  const Materials& materials_;
+  const PairLaws& laws_;
+  FixedPoint force_, torque_;
+  double max_overlap_;
+  Ledger* ledger_ = nullptr;  ///< absent: energies are not counted
+  ContactBatch batch_;
+  alignas(64) ContactBatch::Row counted_ = {};  ///< by the ledger: 1, or 0 of pairs that another rank counts
+  std::vector<std::int32_t> before_;
+  PairTrouble trouble_;
+  std::uint64_t pair_checks_ = 0, contact_steps_ = 0;
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,94 @@
+#include "dem/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+/// Contacts that a particle of the largest kind has room for among the smallest: its surface over the area that each
+/// takes, and those a fully packed monodisperse bed allows.
+double most_contacts(const Materials& materials) {
+  const double ratio = materials.greatest_diameter() / materials.least_diameter();
+  return std::max(16.0, 4 * (ratio + 1) * (ratio + 1));
+}
+
+}  // namespace
+
+Box box_of(const core::Scene& scene) {
+  const core::Column& column = scene.column;
+  Box box;
+  box.size = column.size;
+  box.periodic = {column.sides == "periodic", column.ends == "periodic",
+                  column.dimensions == 2 || column.sides == "periodic"};
+  box.shear_rate = scene.dem.shear_rate;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.periodic[std::size_t(axis)]) continue;
+    box.walls.push_back({axis, 0, 0});
+    // The top of a column lets particles fly beyond it, and gravity bring them back, unless it is closed.
+    if (axis != 1 || column.closed) box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
+  }
+  return box;
+}
+
+Vector gravity_of(const core::Scene& scene) {
+  const std::vector<double>& direction = scene.column.gravity_direction;
+  double length = 0;
+  for (const double d : direction) length += d * d;
+  Vector g{0, direction.empty() ? -scene.column.gravity : 0, 0};
+  for (std::size_t k = 0; k < direction.size(); ++k) g[k] = scene.column.gravity * direction[k] / std::sqrt(length);
+  return g;
+}
+
+double skin_of(const core::Scene& scene, const Materials& materials) {
+  return scene.dem.skin.value_or(0.1 * materials.least_diameter());
+}
+
+double greatest_speed(const core::Scene& scene, const Box& box) {
+  if (scene.dem.greatest_speed) return *scene.dem.greatest_speed;
+  double height = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!box.periodic[k]) height = std::max(height, box.size[k]);
+  // Three standard deviations of each component: few particles are faster.
+  const double speed =
+      std::max({std::sqrt(2 * scene.column.gravity * height), 3 * scene.dem.start_speed, std::abs(box.image_speed())});
+  if (!(speed > 0))
+    throw core::CaseError(
+        "dem.greatest_speed: without gravity, shear or dem.start_speed nothing tells how fast the particles will be; "
+        "give the greatest speed expected, which sets the time step");
+  return speed;
+}
+
+FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws) {
+  double most = 0;
+  for (std::size_t k = 0; k < materials.kinds().size(); ++k) {
+    const double overlap = scene.dem.max_overlap * 2 * materials.kinds()[k].least_radius;
+    most = std::max(most, laws.normal->force_at(int(k), overlap));
+  }
+  // The dashpot and friction add to the elastic force, hardly more than it.
+  return FixedPoint::for_sums_of(4 * most, most_contacts(materials));
+}
+
+FixedPoint torque_unit(const FixedPoint& force, const Materials& materials) {
+  const double arm = std::ldexp(1.0, int(std::ceil(std::log2(0.5 * materials.greatest_diameter()))));
+  return {force.per_unit / arm, force.unit * arm};
+}
+
+void require_room_for_images(const Box& box, double greatest_diameter, double reach) {
+  const double least = 2 * (greatest_diameter + reach);
+  constexpr std::array<const char*, 3> names = {"width", "height", "depth"};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (box.periodic[k] && box.size[k] < least * (1 - 1e-12))
+      throw core::CaseError(
+          fmt::format("column.{}: {:.6g} m is periodic and must be at least {:.6g} m, two of the largest particles and "
+                      "twice the skin (dem.skin), or a particle meets another and its image",
+                      k == 2 ? "depth" : "size", box.size[k], least) +
+          (k == 2 ? "" : fmt::format(" ({})", names[k])));
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,33 @@
+// The time step of the particles and what limits it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "dem/effects.hpp"
+#include "dem/materials.hpp"
+
+namespace polybed::dem {
+
+struct StepLimit {
+  std::string name;  ///< what it is, with the species
+  double dt = 0;     ///< s
+};
+
+struct StepLimits {
+  double dt = 0;  ///< s
+  std::string limited_by;
+  double greatest_speed = 0;  ///< m/s, expected
+  bool synchronised = false;  ///< the integrator, and why
+  std::string integrator_reason;
+  std::vector<StepLimit> all;  ///< the smallest first
+};
+
+/// The step of a scene: the smallest of contact time over steps_per_contact, a share of the Rayleigh time, of the
+/// oscillation of the stiffest contact and of the time to move a part of a diameter. Spec: smallest over species.
+/// \param speed  greatest expected, m/s, above 0
+[[nodiscard]] StepLimits step_limits(const core::Scene& scene, const Materials& materials, const PairLaws& laws,
+                                     double speed);
+
+}  // namespace polybed::dem

@@ -1,0 +1,47 @@
+// Motion of the particles: velocity Verlet, T(2.11)-(2.13), in its two readings.
+#pragma once
+
+#include <vector>
+
+#include "dem/box.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+/// U' = U + F dt/(2 m); x += U' dt; F = F(x, U'); U = U' + F dt/(2 m), and the same for spins.
+///
+/// With friction and very unequal particles, a force from positions of a full step and velocities of a half step is
+/// unphysical (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524). The synchronised reading gives the force
+/// U'' = U' + F_old dt/(2 m) instead, which belongs to the time of the positions.
+class Verlet {
+ public:
+  Verlet(bool synchronised, double dt, Vector gravity, FixedPoint force, FixedPoint torque, double shear_rate);
+
+  /// First half: afterwards positions and the velocities that the force needs are there, and loads are clear.
+  void begin(Particles& particles);
+  /// Second half: the velocities of the full step.
+  void end(Particles& particles);
+
+  [[nodiscard]] bool synchronised() const { return synchronised_; }
+  [[nodiscard]] double dt() const { return dt_; }
+
+  /// Remembers where the owned particles are: what next_moved() counts from.
+  void mark(const Particles& particles);
+  /// Greatest distance from the marked place that an owned particle will have after the next begin(), against a sheared
+  /// box's own flow, m. \param time  from the mark to then, s
+  [[nodiscard]] double next_moved(const Particles& particles, double time) const;
+
+ private:
+  [[nodiscard]] Vector kicked(const Particles& particles, std::size_t i, double time) const;
+  void kick(Particles& particles, std::size_t i, const Load& load, double time) const;
+
+  bool synchronised_;
+  double dt_;
+  Vector gravity_;
+  FixedPoint force_, torque_;
+  double shear_rate_;
+  std::vector<Load> before_;  ///< of the last step, where synchronised
+  std::vector<Vector> marked_;
+};
+
+}  // namespace polybed::dem

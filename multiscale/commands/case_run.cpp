@@ -1,0 +1,109 @@
+#include "multiscale/commands/case_run.hpp"
+
+#include <fmt/format.h>
+
+#include "core/case_file.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "multiscale/picture.hpp"
+
+namespace polybed::multiscale {
+
+CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
+                 std::shared_ptr<const core::Ranks> ranks)
+    : options_(options),
+      scene_(std::move(scene)),
+      directory_(std::move(directory)),
+      ranks_(std::move(ranks)),
+      first_(core::is_first(ranks_.get())) {
+  options_.quiet = options_.quiet || !first_;
+}
+
+void CaseRun::prepare(const std::function<void(core::Checkpoint&)>& resume,
+                      const std::function<void(core::Checkpoint&)>& start_from) {
+  core::Checkpoint checkpoint;
+  const std::string word = "checkpoint:";
+  if (options_.resume) {
+    core::on_first(ranks_.get(), [&] {
+      checkpoint = read_newest_checkpoint(directory_);
+      require_same_case(checkpoint, scene_, directory_);
+    });
+    resume(checkpoint);
+  } else if (scene_.bed.start.starts_with(word)) {
+    core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(scene_.bed.start.substr(word.size())); });
+    start_from(checkpoint);
+  }
+  begin_ = simulation().time();
+  if (!options_.resume) core::on_first(ranks_.get(), [&] { remove_checkpoints(directory_); });
+}
+
+void CaseRun::run() {
+  record("running");
+  try {
+    go();
+  } catch (const core::Stopped&) {
+    finish("stopped by the user");
+    throw;
+  } catch (const core::NumericsError& error) {
+    fail(error);
+  }
+  finish("done");
+}
+
+void CaseRun::go() {
+  core::Progress progress(options_.quiet, simulation().time(), scene_.run.until);
+  core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, kinks()};
+  core::run(
+      simulation(), stops, observers(), !options_.resume, [&](double) { write_checkpoint(); },
+      [&] {
+        if (progress.due(simulation().time())) progress.show(line());
+        return after_step();
+      });
+}
+
+bool CaseRun::after_step() { return !core::on_any_rank(ranks_.get(), interrupt_.wanted()); }
+
+void CaseRun::write_checkpoint() {
+  const auto scope = timers_.scope("output");
+  core::Checkpoint state = checkpoint();
+  state.texts["case"] = core::resolved_case(scene_);
+  state.texts["physics_hash"] = physics_hash(scene_);
+  core::on_first(ranks_.get(), [&] { core::write_checkpoint(directory_ / "checkpoint.h5", state); });
+  record("running");
+}
+
+void CaseRun::fail(const core::NumericsError& error) {
+  keep_last_state();
+  write_checkpoint();
+  record(fmt::format("failed: {}", error.what()));
+  throw core::NumericsError(fmt::format("{}\na checkpoint of t = {:.6g} s is in {}\n{}", error.what(),
+                                        simulation().time(), directory_.string(), advice()));
+}
+
+void CaseRun::record(const std::string& state) {
+  const std::string text = record_text(state);
+  core::on_first(ranks_.get(), [&] { core::write_atomically(directory_ / "run.json", text + "\n"); });
+}
+
+void CaseRun::finish(const std::string& state) {
+  const std::string text = record_text(state);
+  core::on_first(ranks_.get(), [&] { core::write_atomically(directory_ / "run.json", text + "\n"); });
+  if (!first_) return;
+  std::string message;
+  const bool drawn = draw_picture(directory_, message);
+  if (!drawn && !options_.quiet) fmt::print(stderr, "no picture: {}\n", message);
+  if (!options_.quiet) {
+    print_timers(timers_);
+    print_summary();
+    if (drawn) fmt::print(stderr, "{}\n", (directory_ / "picture.png").string());
+  }
+  if (options_.json) fmt::print("{}\n", text);
+}
+
+void print_timers(const core::Timers& timers) {
+  fmt::print(stderr, "\n{:26} {:>9} {:>10}\n", "term", "s", "calls");
+  for (const core::Timers::Term& term : timers.terms())
+    fmt::print(stderr, "{:26} {:9.3f} {:10}\n", term.name, term.seconds, term.calls);
+}
+
+}  // namespace polybed::multiscale

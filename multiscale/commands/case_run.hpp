@@ -1,0 +1,70 @@
+// One run of a case from its scene to its record, by either model. On several ranks all of them compute; the first
+// reads, writes and speaks.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/interrupt.hpp"
+#include "core/progress.hpp"
+#include "core/ranks.hpp"
+#include "core/run.hpp"
+#include "core/timers.hpp"
+#include "multiscale/commands/run_directory.hpp"
+
+namespace polybed::multiscale {
+
+class CaseRun {
+ public:
+  virtual ~CaseRun() = default;
+  void run();
+
+ protected:
+  CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
+          std::shared_ptr<const core::Ranks> ranks);
+
+  /// Takes up the run that --resume asks for, or the state of bed.start = "checkpoint:FILE", or begins anew.
+  /// Collective. \param resume  with the checkpoint, on the first rank that of the file  \param start_from  likewise
+  void prepare(const std::function<void(core::Checkpoint&)>& resume,
+               const std::function<void(core::Checkpoint&)>& start_from);
+
+  [[nodiscard]] virtual core::Simulation& simulation() = 0;
+  [[nodiscard]] virtual std::vector<core::Observer> observers() = 0;
+  [[nodiscard]] virtual core::Checkpoint checkpoint() = 0;
+  [[nodiscard]] virtual core::ProgressLine line() = 0;
+  /// run.json. Collective; meant on the first rank.
+  [[nodiscard]] virtual std::string record_text(const std::string& state) = 0;
+  /// Work and invariants, on standard error; on the first rank.
+  virtual void print_summary() = 0;
+  /// What to say of a failure, and what to do about it.
+  [[nodiscard]] virtual std::string advice() = 0;
+  /// After a step has failed: makes checkpoint() that of the last good state.
+  virtual void keep_last_state() {}
+  /// After each step: false if the user wants to stop.
+  [[nodiscard]] virtual bool after_step();
+  [[nodiscard]] virtual std::vector<double> kinks() { return {}; }
+
+  core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
+  RunOptions options_;
+  core::Scene scene_;
+  std::filesystem::path directory_;
+  std::shared_ptr<const core::Ranks> ranks_;
+  bool first_;  ///< this process is the one that reads, writes and speaks
+  core::Timers timers_;
+  double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
+
+ private:
+  void go();
+  void write_checkpoint();
+  void record(const std::string& state);
+  void finish(const std::string& state);
+  [[noreturn]] void fail(const core::NumericsError& error);
+};
+
+/// Prints the table of time by term.
+void print_timers(const core::Timers& timers);
+
+}  // namespace polybed::multiscale

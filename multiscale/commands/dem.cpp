@@ -1,0 +1,150 @@
+// polybed dem: runs a case particle by particle and writes its run directory.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/json.hpp"
+#include "dem/observers.hpp"
+#include "multiscale/commands/case_run.hpp"
+#include "multiscale/run_record.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How well the energy ledger must close, as a share of the greatest energy met (V5).
+constexpr double ledger_limit = 1e-3;
+
+class DemRun final : public CaseRun {
+ public:
+  DemRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
+      : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks)), model_(scene_, timers_, ranks_) {
+    std::optional<double> initial_energy;
+    prepare(
+        [&](core::Checkpoint& checkpoint) {
+          model_.resume(checkpoint);
+          std::array<double, 1> energy{first_ ? checkpoint.numbers["initial_energy"] : 0.0};
+          core::take_from_first(ranks_.get(), energy);
+          initial_energy = energy[0];
+        },
+        [&](core::Checkpoint& checkpoint) { model_.start_from(checkpoint); });
+    const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
+    observers_.emplace(model_, scene_, directory_, initial_energy, resume_time);
+  }
+
+ private:
+  core::Simulation& simulation() override { return model_; }
+
+  std::vector<core::Observer> observers() override {
+    return {{"history", *scene_.output.history_every, [&](double t) { observers_->write_history(t); }},
+            {"particles", *scene_.output.every, [&](double t) {
+               const auto scope = timers_.scope("output");
+               observers_->write_particles(t);
+             }}};
+  }
+
+  /// Steps are short: asking all ranks at each whether the user wants to stop would cost more than some of them.
+  bool after_step() override { return model_.steps() % 64 != 0 || CaseRun::after_step(); }
+
+  core::ProgressLine line() override {
+    return {model_.time(),
+            scene_.run.until,
+            model_.limits().dt,
+            model_.limits().limited_by,
+            observers_->bed_height(),
+            scene_.dem.ledger ? fmt::format("energy {:.0e} of {:.0e}", observers_->ledger_error(), ledger_limit)
+                              : fmt::format("{} contacts", observers_->totals().contacts)};
+  }
+
+  core::Checkpoint checkpoint() override {
+    core::Checkpoint checkpoint = model_.checkpoint();
+    checkpoint.numbers["initial_energy"] = observers_->initial_energy();
+    return checkpoint;
+  }
+
+  std::string advice() override {
+    return fmt::format("the step was {:.3g} s, limited by {}; try a larger dem.steps_per_contact", model_.limits().dt,
+                       model_.limits().limited_by);
+  }
+
+  std::string record_text(const std::string& state) override {
+    cpu_ = core::cpu_seconds() - cpu_begin_;
+    std::array<double, 1> cpu{cpu_};
+    core::add_over_ranks(ranks_.get(), cpu);
+    cpu_ = cpu[0];
+    work_ = model_.work();
+    const int ranks = ranks_ ? ranks_->count() : 1;
+    core::Json json;
+    begin_record(json, scene_, "dem", state, ranks);
+    json.member("particles", model_.particle_count()).member("time_s", model_.time()).member("cpu_s", cpu_);
+    json.member("integrator", model_.synchronised() ? "synchronised" : "thesis");
+    json.member("integrator_reason", model_.limits().integrator_reason);
+    write_step(json);
+    write_work(json);
+    write_timers(json, timers_);
+    if (observers_) write_ledger(json);
+    json.key("warnings").begin_array().end_array().end_object();
+    return json.text();
+  }
+
+  void write_step(core::Json& json) const {
+    json.key("step").begin_object().member("dt_s", model_.limits().dt);
+    json.member("limited_by", model_.limits().limited_by);
+    json.member("greatest_speed_expected_m_s", model_.limits().greatest_speed).key("limits").begin_array();
+    for (const dem::StepLimit& limit : model_.limits().all)
+      json.begin_object().member("name", limit.name).member("dt_s", limit.dt).end_object();
+    json.end_array().end_object();
+  }
+
+  void write_work(core::Json& json) const {
+    json.key("work").begin_object().member("steps", work_.steps).member("particle_steps", work_.particle_steps);
+    json.member("pair_checks", work_.pair_checks).member("contact_steps", work_.contact_steps);
+    json.member("rebuilds", work_.rebuilds).member("candidates", work_.candidates).end_object();
+  }
+
+  void write_ledger(core::Json& json) const {
+    const dem::Totals& t = observers_->totals();
+    json.key("energy").begin_object().member("kinetic_J", t.kinetic).member("rotational_J", t.rotational);
+    json.member("elastic_J", t.elastic).member("potential_J", t.potential);
+    if (scene_.dem.ledger)
+      json.member("dissipated_J", t.dissipated)
+          .member("initial_J", observers_->initial_energy())
+          .member("worst_error", observers_->ledger_error())
+          .member("limit", ledger_limit);
+    json.end_object().key("momentum_kg_m_s").begin_array();
+    for (const double p : t.momentum) json.value(p);
+    json.end_array().member("contacts", t.contacts).member("max_overlap_m", t.max_overlap);
+  }
+
+  void print_summary() override {
+    fmt::print(stderr, "\n{} particles, {} steps, {:.4g} particle-steps per CPU second, list made {} times\n",
+               model_.particle_count(), work_.steps, double(work_.particle_steps) / std::max(cpu_, 1e-9),
+               work_.rebuilds);
+    fmt::print(stderr, "step {:.3g} s, limited by {}; {} integrator ({})\n", model_.limits().dt,
+               model_.limits().limited_by, model_.synchronised() ? "synchronised" : "thesis",
+               model_.limits().integrator_reason);
+    if (scene_.dem.ledger)
+      fmt::print(stderr, "energy ledger: worst {:.2e}, limit {:.0e}{}\n", observers_->ledger_error(), ledger_limit,
+                 observers_->ledger_error() > ledger_limit ? "  <-- exceeded" : "");
+  }
+
+  dem::Model model_;
+  std::optional<dem::Observers> observers_;
+  dem::Work work_;
+  double cpu_ = 0;
+};
+
+}  // namespace
+
+void run_dem(const RunOptions& options) {
+  core::Scene scene = read_scene(options);
+  const fs::path directory = options.output.empty() ? default_run_directory(options.case_path, "dem") : options.output;
+  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  core::on_first(ranks.get(), [&] { check_directory(directory, options); });
+  DemRun run(options, std::move(scene), directory, ranks);
+  run.run();
+}
+
+}  // namespace polybed::multiscale
