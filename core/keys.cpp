@@ -26,13 +26,15 @@ std::vector<Key> make_keys() {
 
   k.push_back({"column", "size", at<std::vector<double>>([](S& s, N) -> auto& { return s.column.given_size; }), "width, height; three numbers make it 3-D: width, depth, height", dimension::length, 0, 1e3, true, {}, {}, true});
   k.push_back({"column", "cells", at<std::vector<std::int64_t>>([](S& s, N) -> auto& { return s.column.given_cells; }), "number of cells along each direction of size", {}, 1, 1e6, false, {}, {}, true});
-  k.push_back({"column", "depth", at<std::optional<double>>([](S& s, N) -> auto& { return s.column.depth; }), "of a 2-D column; default: twice the largest diameter, and a tenth of the smallest twice", dimension::length, 0, 1e3, true});
+  k.push_back({"column", "depth", at<std::optional<double>>([](S& s, N) -> auto& { return s.column.depth; }), "of a 2-D column; default: twice the largest diameter and twice dem.skin", dimension::length, 0, 1e3, true});
   k.push_back({"column", "sides", at<std::string>([](S& s, N) -> auto& { return s.column.sides; }), "walls: no slip for the fluid, free slip for solids unless said; or joined", {}, -infinity, infinity, false, "wall", {"wall", "periodic"}});
-  k.push_back({"column", "gravity", at<double>([](S& s, N) -> auto& { return s.column.gravity; }), "acceleration of gravity, downward", dimension::acceleration, 0, 1e3, false, "9.81 m/s2"});
+  k.push_back({"column", "ends", at<std::string>([](S& s, N) -> auto& { return s.column.ends; }), "bottom and top; joined for the DEM only, without a fluid", {}, -infinity, infinity, false, "wall", {"wall", "periodic"}});
+  k.push_back({"column", "gravity", at<double>([](S& s, N) -> auto& { return s.column.gravity; }), "acceleration of gravity", dimension::acceleration, 0, 1e3, false, "9.81 m/s2"});
+  k.push_back({"column", "gravity_direction", at<std::vector<double>>([](S& s, N) -> auto& { return s.column.gravity_direction; }), "of gravity, of any length, in the order of size: along width and height, or width, depth and height; default: down; another one for the DEM only", {}, -1e6, 1e6});
   k.push_back({"column", "outlet", at<std::string>([](S& s, N) -> auto& { return s.column.outlet; }), "top of the column: a screen that holds solids, or open to them: they leave and are counted", {}, -infinity, infinity, false, "screen", {"screen", "open"}});
   k.push_back({"column", "closed", at<bool>([](S& s, N) -> auto& { return s.column.closed; }), "walls all round: no inlet and no outlet", {}, -infinity, infinity, false, "false"});
 
-  k.push_back({"fluid", "name", at<std::string>([](S& s, N) -> auto& { return s.fluid.name; }), "water and air know density and viscosity from the temperature; any other name needs both", {}, -infinity, infinity, false, {}, {}, true});
+  k.push_back({"fluid", "name", at<std::string>([](S& s, N) -> auto& { return s.fluid.name; }), "water and air know density and viscosity from the temperature; any other name needs both; none: particles without a fluid, for the DEM only", {}, -infinity, infinity, false, {}, {}, true});
   k.push_back({"fluid", "temperature", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.temperature; }), "water 0 to 40 degC, air 200 to 1000 K", dimension::temperature, 0, 5000, true});
   k.push_back({"fluid", "density", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.density; }), "rho_f", dimension::density, 0, 1e5, true});
   k.push_back({"fluid", "viscosity", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.viscosity; }), "mu", dimension::viscosity, 0, 1e6, true});
@@ -61,7 +63,7 @@ std::vector<Key> make_keys() {
   k.push_back({"bed", "solids_fraction", at<double>([](S& s, N) -> auto& { return s.bed.solids_fraction; }), "of the settled bed", {}, 0, 0.9, true});
   k.push_back({"bed", "start_solids_fraction", at<std::optional<double>>([](S& s, N) -> auto& { return s.bed.start_fraction; }), "of the bed at the start, with the mass of the settled bed; default: solids_fraction", {}, 0, 0.9, true});
   k.push_back({"bed", "particles", at<std::vector<std::int64_t>>([](S& s, N) -> auto& { return s.bed.particles; }), "numbers of particles of each species, instead of volume_share and static_height", {}, 0, 1e12});
-  k.push_back({"bed", "start", at<std::string>([](S& s, N) -> auto& { return s.bed.start; }), "the bed at time zero; layered: in the order of the species, the first at the bottom; settled: in equilibrium", {}, -infinity, infinity, false, "mixed", {"mixed", "layered", "settled", "checkpoint:FILE"}});
+  k.push_back({"bed", "start", at<std::string>([](S& s, N) -> auto& { return s.bed.start; }), "the bed at time zero; layered: in the order of the species, the first at the bottom; settled: in equilibrium; for the DEM only: random: anywhere in the column, list: particles one by one, SI, columns species, x, y, z and if not zero vx, vy, vz, wx, wy, wz, y upward", {}, -infinity, infinity, false, "mixed", {"mixed", "layered", "settled", "random", "checkpoint:FILE", "list:FILE"}});
   k.push_back({"bed", "seed", at<std::uint64_t>([](S& s, N) -> auto& { return s.bed.seed; }), "of random numbers", {}, 0, 9.2e18, false, "1"});
 
   k.push_back({"inlet", "superficial_velocity", at<Points>([](S& s, N) -> auto& { return s.inlet.superficial_velocity; }), "a velocity, or a table [[time, velocity], ...]: linear between, constant beyond; two equal times make a jump", dimension::velocity, -1e3, 1e3});
@@ -100,6 +102,23 @@ std::vector<Key> make_keys() {
   k.push_back({"dem", "friction", at<double>([](S& s, N) -> auto& { return s.dem.friction; }), "likewise; the TFM's species exchange reads it too", {}, 0, 10, false, "0.3"});
   k.push_back({"dem", "restitution", at<double>([](S& s, N) -> auto& { return s.dem.restitution; }), "likewise; the TFM's species exchange reads it too", {}, 0, 1, true, "0.9"});
   k.push_back({"dem", "fluid_every", at<int>([](S& s, N) -> auto& { return s.dem.fluid_every; }), "solid steps per fluid step", {}, 1, 1e6, false, "16"});
+  k.push_back({"dem", "tangential", at<std::string>([](S& s, N) -> auto& { return s.dem.tangential; }), "tangential force with contact = hertz_mindlin: hdd after Di Renzo and Di Maio, mindlin incremental, mindlin_deresiewicz with partial slip; linear: a spring of tangential_ratio times k_n", {}, -infinity, infinity, false, "hdd", {"hdd", "mindlin", "mindlin_deresiewicz", "linear"}, false, "hdd: F_t = -(2/3) 8 G* a xi - c_t v_t"});
+  k.push_back({"dem", "tail", at<std::string>([](S& s, N) -> auto& { return s.dem.tail; }), "near separation the dashpot would pull: clip: F_n >= 0, with the damping that then realises the restitution; keep: it pulls", {}, -infinity, infinity, false, "clip", {"clip", "keep"}});
+  k.push_back({"dem", "integrator", at<std::string>([](S& s, N) -> auto& { return s.dem.integrator; }), "thesis: forces from half-step velocities; synchronised: velocities at the time of the positions; auto: synchronised with friction and a ratio of diameters of at least 3", {}, -infinity, infinity, false, "auto", {"auto", "thesis", "synchronised"}});
+  k.push_back({"dem", "normal_stiffness", at<std::optional<double>>([](S& s, N) -> auto& { return s.dem.normal_stiffness; }), "k_n of contact = linear", dimension::stiffness, 0, 1e12, true});
+  k.push_back({"dem", "tangential_ratio", at<double>([](S& s, N) -> auto& { return s.dem.tangential_ratio; }), "k_t/k_n of tangential = linear", {}, 0, 1, false, "2/7"});
+  k.push_back({"dem", "rolling_friction", at<double>([](S& s, N) -> auto& { return s.dem.rolling_friction; }), "mu_r, arm of the rolling moment over R*; 0 is off", {}, 0, 10, false, "0", {}, false, "M <= mu_r R* F_n"});
+  k.push_back({"dem", "rolling_damping", at<double>([](S& s, N) -> auto& { return s.dem.rolling_damping; }), "of the rolling spring, over its critical damping", {}, 0, 10, false, "0"});
+  k.push_back({"dem", "skin", at<std::optional<double>>([](S& s, N) -> auto& { return s.dem.skin; }), "of the list of neighbours; default: a tenth of the smallest diameter", dimension::length, 0, 1, true});
+  k.push_back({"dem", "max_overlap", at<double>([](S& s, N) -> auto& { return s.dem.max_overlap; }), "over the diameter of the smaller particle; above it the run stops", {}, 0, 1, true, "0.05"});
+  k.push_back({"dem", "fixed_step", at<std::optional<double>>([](S& s, N) -> auto& { return s.dem.fixed_step; }), "time step; default: from stiffness, sound and speed", dimension::time, 0, 1e3, true});
+  k.push_back({"dem", "greatest_speed", at<std::optional<double>>([](S& s, N) -> auto& { return s.dem.greatest_speed; }), "expected of any particle: sets the time step", dimension::velocity, 0, 1e5, true});
+  k.push_back({"dem", "start_speed", at<double>([](S& s, N) -> auto& { return s.dem.start_speed; }), "root mean square of each component of random velocities at the start", dimension::velocity, 0, 1e5, false, "0 m/s"});
+  k.push_back({"dem", "shear_rate", at<double>([](S& s, N) -> auto& { return s.dem.shear_rate; }), "dv_x/dy of a sheared box (Lees and Edwards): needs column.sides and column.ends periodic and no gravity", dimension::rate, -1e6, 1e6, false, "0 1/s"});
+  k.push_back({"dem", "ledger", at<bool>([](S& s, N) -> auto& { return s.dem.ledger; }), "account of the energy: kinetic, elastic, potential, dissipated, work", {}, -infinity, infinity, false, "true"});
+  k.push_back({"dem", "cohesion_energy", at<double>([](S& s, N) -> auto& { return s.dem.cohesion_energy; }), "W of cohesion of the kinds DMT and JKR, J/m2", dimension::surface_energy, 0, 1e6, false, "0 J/m2", {}, false, "pull-off: DMT 2 pi W R*, JKR 1.5 pi W R*"});
+  k.push_back({"dem", "hamaker_constant", at<double>([](S& s, N) -> auto& { return s.dem.hamaker_constant; }), "A of the van der Waals force", dimension::energy, 0, 1e-6, false, "0 J", {}, false, "F = A R*/(6 z^2)"});
+  k.push_back({"dem", "cohesion_gap", at<double>([](S& s, N) -> auto& { return s.dem.cohesion_gap; }), "z_0, cut-off of the van der Waals force: nearer than this it grows no more", dimension::length, 0, 1, true, "0.165 nm", {}, false, "F = A R*/(6 max(z, z_0)^2)"});
 
   k.push_back({"jet", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].from; }), "low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, depth) in three dimensions", dimension::length, 0, 1e3, false, {}, {}, true});
   k.push_back({"jet", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].to; }), "high corner", dimension::length, 0, 1e3, false, {}, {}, true});
@@ -113,10 +132,10 @@ std::vector<Key> make_keys() {
   k.push_back({"feed", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.feeds[n].to; }), "high corner", dimension::length, 0, 1e3});
 
   k.push_back({"contact_pair", "between", at<std::vector<std::string>>([](S& s, N n) -> auto& { return s.contact_pairs[n].between; }), "two species, or a species and \"wall\"", {}, -infinity, infinity, false, {}, {}, true});
-  k.push_back({"contact_pair", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].youngs_modulus; }), "of this pair", dimension::pressure, 0, 1e13, true});
-  k.push_back({"contact_pair", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].poisson_ratio; }), "of this pair", {}, 0, 0.5});
-  k.push_back({"contact_pair", "friction", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].friction; }), "of this pair", {}, 0, 10});
-  k.push_back({"contact_pair", "restitution", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].restitution; }), "of this pair", {}, 0, 1, true});
+  k.push_back({"contact_pair", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].youngs_modulus; }), "of both partners in this pair; default: each has its own, a wall that of [dem]", dimension::pressure, 0, 1e13, true});
+  k.push_back({"contact_pair", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].poisson_ratio; }), "of both partners in this pair; default: as the modulus", {}, 0, 0.5});
+  k.push_back({"contact_pair", "friction", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].friction; }), "of this pair; default: the smaller of both", {}, 0, 10});
+  k.push_back({"contact_pair", "restitution", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].restitution; }), "of this pair; default: the geometric mean of both", {}, 0, 1, true});
   return k;
 }
 // clang-format on

@@ -19,7 +19,10 @@ struct Column {
   std::array<double, 3> size{};           ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
   std::array<int, 3> cells{1, 1, 1};      ///< along x, y, z; 1 along z in 2-D
   std::string sides = "wall";             ///< wall | periodic
-  double gravity = 9.81;                  ///< m/s2, downward
+  std::string ends = "wall";              ///< wall | periodic: bottom and top; periodic for the DEM only
+  double gravity = 9.81;                  ///< m/s2, along `down`
+  std::vector<double> gravity_direction;  ///< as the case gives it, in the order of given_size; empty: down
+  std::array<double, 3> down{0, -1, 0};   ///< follows: its unit vector on the axes x, y, z
   std::string outlet = "screen";          ///< screen | open: whether solids leave at the top
   bool closed = false;                    ///< walls all round: no inlet, no outlet
 };
@@ -59,7 +62,7 @@ struct Bed {
   std::optional<double> start_fraction;  ///< as the case gives it
   double start_solids_fraction = 0;      ///< of the bed at the start; the mass is that of the settled bed
   std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
-  std::string start = "mixed";           ///< mixed | layered | settled | checkpoint:FILE | list:FILE
+  std::string start = "mixed";           ///< mixed | layered | settled | random | checkpoint:FILE | list:FILE
   std::uint64_t seed = 1;
 };
 
@@ -122,6 +125,23 @@ struct Dem {
   double steps_per_contact = 20;
   double youngs_modulus = 5e6, poisson_ratio = 0.25, friction = 0.3, restitution = 0.9;
   int fluid_every = 16;
+  std::string tangential = "hdd";          ///< hdd | mindlin | mindlin_deresiewicz | linear
+  std::string tail = "clip";               ///< clip | keep: whether a dashpot may pull
+  std::string integrator = "auto";         ///< auto | thesis | synchronised
+  std::optional<double> normal_stiffness;  ///< k_n of contact = linear, N/m
+  double tangential_ratio = 2.0 / 7;       ///< k_t/k_n of tangential = linear
+  double rolling_friction = 0;             ///< mu_r
+  double rolling_damping = 0;              ///< share of the critical damping of the rolling spring
+  std::optional<double> skin;              ///< reach of the neighbour list beyond contact, m
+  double max_overlap = 0.05;               ///< above it the run stops; over the smaller particle's diameter
+  std::optional<double> fixed_step;        ///< s
+  std::optional<double> greatest_speed;    ///< expected, sets the time step, m/s
+  double start_speed = 0;                  ///< rms of each component of random velocities at the start, m/s
+  double shear_rate = 0;                   ///< Lees-Edwards, dv_x/dy, 1/s
+  bool ledger = true;                      ///< account of the energy
+  double cohesion_energy = 0;              ///< W of DMT and JKR, J/m2
+  double hamaker_constant = 0;             ///< A, J
+  double cohesion_gap = 1.65e-10;          ///< z_0, least gap of the van der Waals force, m
 };
 
 struct ContactPair {

@@ -124,7 +124,9 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
 }
 
 std::string unit_name(const Dimension& d) {
-  constexpr std::array<std::pair<Dimension, std::string_view>, 4> named{{{dimension::pressure, "Pa"},
+  constexpr std::array<std::pair<Dimension, std::string_view>, 6> named{{{dimension::pressure, "Pa"},
+                                                                         {dimension::stiffness, "N/m"},
+                                                                         {dimension::energy, "J"},
                                                                          {dimension::viscosity, "Pa s"},
                                                                          {dimension::none, "1"},
                                                                          {dimension::density, "kg/m3"}}};

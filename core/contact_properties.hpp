@@ -1,0 +1,27 @@
+// What two touching bodies are made of, as the case says it: by species, by pair, by default.
+#pragma once
+
+#include <string>
+
+#include "core/scene.hpp"
+
+namespace polybed::core {
+
+struct ElasticProperties {
+  double youngs_modulus;  ///< Pa
+  double poisson_ratio;
+};
+
+struct ContactProperties {
+  ElasticProperties first, second;
+  double restitution, friction;
+};
+
+/// The properties of a contact of two species, or of a species and "wall".
+///
+/// A species has its own values, else those of [dem]; a wall has those of [dem]. Of two partners the smaller friction
+/// and the geometric mean of the restitutions hold. What [[contact_pair]] says of the pair, in either order, goes
+/// before; its modulus and its Poisson ratio are those of both partners. Throws CaseError at a name that is none.
+[[nodiscard]] ContactProperties contact_properties(const Scene& scene, const std::string& a, const std::string& b);
+
+}  // namespace polybed::core
