@@ -231,6 +231,9 @@ class Particles(SampleRun):
         self.assertEqual(particles.fastest([step]), (20, False))
         step.velocity[7] = [3, 4, 0]  # one of 300 is much faster: it is beyond the scale, and the scale says so
         self.assertEqual(particles.fastest([step]), (20, True))
+        step.velocity[:] = [0.0, 0.1234, 0.0]
+        self.assertEqual(particles.fastest([step]), (130, False), "rounded up: what is shown within the scale is")
+        self.assertEqual(particles.fastest([]), (1e-3, False))
 
     def test_joined_sides_show_the_rest_of_what_they_cut(self):
         self.sample.particles.periodic[0] = True

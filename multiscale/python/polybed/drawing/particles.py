@@ -75,13 +75,13 @@ def speed(step):
 
 
 def fastest(steps):
-    """Upper end of the scale of speeds, mm/s, and whether some are beyond it: the fastest 1 % may be, so that a few
-    of them do not make all others look alike."""
-    speeds = [speed(step) for step in steps if len(step)]
-    if not speeds:
-        return 1.0, False
-    end = float(f"{max(1e-3, max(float(np.quantile(v, 0.99)) for v in speeds)):.2g}")
-    return end, bool(max(float(v.max()) for v in speeds) > end * 1.005)
+    """Upper end of the scale of speeds, mm/s, of two digits, and whether some are beyond it: the fastest 1 % of a step
+    may be, so that a few of them do not make all others look alike."""
+    ends = [(float(np.quantile(values, 0.99)), float(values.max())) for values in (speed(s) for s in steps if len(s))]
+    most = max([1e-3] + [end for end, _ in ends])
+    digit = 10.0 ** (np.floor(np.log10(most)) - 1)
+    end = float(f"{np.ceil(most / digit - 1e-9) * digit:.3g}")
+    return end, any(greatest > end * (1 + 1e-9) for _, greatest in ends)
 
 
 def speed_colours(step, end):
@@ -112,7 +112,7 @@ class Views:
 
     def __init__(self, run, steps):
         self.run, self.top = run, shown_top(run, steps)
-        self.end, beyond = fastest([run.particles[n] for n in steps])
+        self.end, beyond = fastest(run.particles[n] for n in steps)
         width, height = map_size(run, self.top, HEIGHT)
         across = max(LEFT + 2 * width + GAP + RIGHT, 4.2)
         high = HEAD + height + BARS
