@@ -154,8 +154,9 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   PlotOptions plot;
   CLI::App* plot_command = app.add_subcommand("plot", "pictures of a finished or a running run");
   plot_command->add_option("RUN", plot.run, "run directory, or the case of a run in runs/")->required();
-  plot_command->add_option("--what", plot.what,
-                           "overview | fields | profiles | history | animation, several by commas; default all");
+  plot_command->add_option(
+      "--what", plot.what,
+      "overview | fields | particles | profiles | history | animation, several by commas; default all");
   plot_command->add_option("--time", plot.time, "the stored time nearest to it, e.g. \"5 s\"; default the last");
   plot_command->add_option("-o,--out,--output", plot.output, "folder of the pictures; default RUN/pictures");
   plot_command->add_option("--format", plot.format, "png | svg")->check(CLI::IsMember({"png", "svg"}));

@@ -27,7 +27,7 @@ struct RunOptions : CaseOptions {
 /// Options of the pictures of a run.
 struct PlotOptions {
   std::filesystem::path run;     ///< a run directory, or a case that has one in runs/
-  std::string what = "all";      ///< overview | fields | profiles | history | animation, by commas; or all
+  std::string what = "all";      ///< overview | fields | particles | profiles | history | animation, by commas; or all
   std::string time;              ///< empty: the last one stored
   std::filesystem::path output;  ///< empty: RUN/pictures
   std::string format = "png";    ///< png | svg

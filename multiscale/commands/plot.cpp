@@ -13,24 +13,26 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_run(const fs::path& directory) {
-  return fs::exists(directory / "run.json") || fs::exists(directory / "fields.h5");
+  return fs::exists(directory / "run.json") || fs::exists(directory / "fields.h5") ||
+         fs::exists(directory / "particles.h5");
 }
 
-/// The run that a path stands for: a run directory, or the run of a case file or a case's folder in runs/.
+/// The run that a path stands for: a run directory, or the run of a case file or a case's folder in runs/, that of the
+/// continuum if there are two.
 fs::path run_of(const fs::path& given) {
   if (!fs::exists(given)) throw core::FileError(fmt::format("{}: no such run directory or case", given.string()));
   if (is_run(given)) return given;
   const bool folder = fs::is_directory(given), with_case = folder && fs::exists(given / "case.toml");
   if (folder && !with_case)
-    throw core::FileError(
-        fmt::format("{}: not a run directory (it has neither run.json nor fields.h5)", given.string()));
+    throw core::FileError(fmt::format(
+        "{}: not a run directory (it has neither run.json nor fields.h5 nor particles.h5)", given.string()));
   if (!folder && given.extension() != ".toml")
     throw core::FileError(fmt::format("{}: neither a run directory nor a case file", given.string()));
   const fs::path file = folder ? given / "case.toml" : given, run = default_run_directory(file, "tfm");
-  if (!is_run(run))
-    throw core::FileError(
-        fmt::format("{}: no run of it in {}; polybed tfm {} makes one", given.string(), run.string(), file.string()));
-  return run;
+  for (const fs::path& directory : {run, default_run_directory(file, "dem")})
+    if (is_run(directory)) return directory;
+  throw core::FileError(
+      fmt::format("{}: no run of it in {}; polybed tfm {} makes one", given.string(), run.string(), file.string()));
 }
 
 double seconds_of(const std::string& text) {

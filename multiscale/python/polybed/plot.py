@@ -1,6 +1,6 @@
 """Draws a finished or a running run: what `polybed plot` and the end of `polybed tfm` hand over to.
 
-    python3 -m polybed.plot RUN [--what fields,profiles,history,animation] [--time T] [--out DIR] [--format png|svg]
+    python3 -m polybed.plot RUN [--what fields,particles,profiles,history,animation] [--time T] [--out DIR] [--format png|svg]
 
 Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing.
 """
@@ -13,8 +13,9 @@ from pathlib import Path
 
 try:
     import matplotlib.pyplot as plt
+    import numpy as np
 
-    from polybed.drawing import animation, fields, history, overview, profiles
+    from polybed.drawing import animation, fields, history, overview, particles, profiles
     from polybed.drawing.style import STYLE
     from polybed.read import FormatError, read
 except ImportError as missing:
@@ -26,7 +27,7 @@ except ImportError as missing:
         sys.exit(4)
     raise
 
-WHAT = ("overview", "fields", "profiles", "history", "animation")
+WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
 WRONG_COMMAND, NO_FILE, STOPPED = 2, 4, 130
 
 
@@ -43,16 +44,28 @@ def save(figure, path):
     return path
 
 
+def stored_times(run):
+    """Of the particles where there are some, else of the fields."""
+    return run.particles.time if len(run.particles) else run.time
+
+
 def step_of(run, time):
     """Number of the stored step nearest to a time, of the last if None; a time that is not covered is refused."""
-    if len(run.time) == 0:
-        raise FileNotFoundError(f"{run.directory} has no stored fields yet")
+    stored, what = stored_times(run), "particles" if len(run.particles) else "fields"
+    if len(stored) == 0:
+        raise FileNotFoundError(f"{run.directory} has no stored fields yet, and no particles")
     if time is None:
-        return len(run.time) - 1
-    first, last = run.time[0], run.time[-1]
+        return len(stored) - 1
+    first, last = stored[0], stored[-1]
     if not first <= time <= last * (1 + 1e-9):
-        raise CommandError(f"--time {time:g} s is not covered: fields are stored from {first:g} to {last:g} s")
-    return run.step_at(time)
+        raise CommandError(f"--time {time:g} s is not covered: {what} are stored from {first:g} to {last:g} s")
+    return int(np.argmin(np.abs(stored - time)))
+
+
+def kinds_of(run):
+    """What there is to draw of a run."""
+    stored = {"fields": run.fields, "particles": run.particles, "profiles": run.profiles, "history": run.history}
+    return tuple(what for what in WHAT if what not in stored or len(stored[what]))
 
 
 def picture(directory, time=None, output=None):
@@ -70,23 +83,28 @@ def film_path(folder):
 def draw_one(run, what, time, folder, ending, rate=None, progress=None):
     """Draws one kind of picture of an open run and returns its path."""
     step = step_of(run, time)
+    shown = stored_times(run)[step]
+    if what in ("fields", "particles") and what not in kinds_of(run):
+        raise CommandError(f"--what {what}: {run.directory} holds no {what}; there are {', '.join(kinds_of(run))}")
     if what == "animation":
         return animation.film(run, film_path(folder), rate, progress)
     if what == "overview":
         figure = overview.draw(run, step)
     elif what == "fields":
-        figure = fields.draw(run, step)
+        figure = fields.draw(run, run.step_at(shown))
+    elif what == "particles":
+        figure = particles.draw(run, step)
     elif what == "profiles":
-        figure = profiles.draw(run, run.time[step])
+        figure = profiles.draw(run, shown)
     else:
-        figure = history.draw(run, None if time is None else run.time[step])
+        figure = history.draw(run, None if time is None else shown)
     return save(figure, folder / f"{what}.{ending}")
 
 
-def pictures(directory, what=("fields", "profiles", "history", "animation"), time=None, out=None, ending="png",
-             rate=None, progress=None):
-    """Draws the chosen pictures of a run into a folder (RUN/pictures) and returns their paths."""
+def pictures(directory, what=None, time=None, out=None, ending="png", rate=None, progress=None):
+    """Draws the chosen pictures of a run (all that it holds) into a folder (RUN/pictures) and returns their paths."""
     run = read(directory)
+    what = kinds_of(run) if what is None else what
     step_of(run, time)
     folder = Path(out) if out else run.directory / "pictures"
     folder.mkdir(parents=True, exist_ok=True)
@@ -114,8 +132,8 @@ def parsed(arguments):
     parser.add_argument("--json", action="store_true", help="one JSON object: the files written")
     parser.add_argument("--picture", action="store_true", help="RUN/picture.png alone, as a run draws at its end")
     options = parser.parse_args(arguments)
-    options.what = WHAT if options.what == "all" else tuple(options.what.split(","))
-    unknown = [what for what in options.what if what not in WHAT]
+    options.what = None if options.what == "all" else tuple(options.what.split(","))
+    unknown = [what for what in options.what or () if what not in WHAT]
     if unknown:
         parser.error(f"--what {unknown[0]}: allowed are {', '.join(WHAT)}, all")
     return options

@@ -1,9 +1,11 @@
-"""A run directory as an object: fields, profiles and history by name, as numpy arrays.
+"""A run directory as an object: fields, particles, profiles and history by name, as numpy arrays.
 
     import polybed
     run = polybed.read("runs/bed-tfm")
     run.phi_fine[-1]                  # last stored field, [y][x]
     run.time, run.history["bed_height_m"], run.profiles["voidage"]
+    last = run.particles[-1]          # of a run of particles
+    last.position[last.of("fine")]    # [particle][x, y, z]
 
 Nothing is read before it is asked for, and a run that is still going on can be read: each file is whole.
 """
@@ -14,7 +16,14 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-VERSIONS = {"polybed fields": 1, "polybed fields step": 1, "polybed profiles": 1, "polybed run": 1}
+VERSIONS = {
+    "polybed fields": 1,
+    "polybed fields step": 1,
+    "polybed particles": 1,
+    "polybed particles step": 1,
+    "polybed profiles": 1,
+    "polybed run": 1,
+}
 
 
 class FormatError(Exception):
@@ -59,6 +68,68 @@ class Series:
         return (self[n] for n in range(len(self)))
 
 
+class ParticleStep:
+    """The particles at one stored time, in the order of their ids: step.id, .species (a number), .radius, .position,
+    .velocity, .spin; each is read when it is asked for first."""
+
+    NAMES = ("id", "species", "radius", "position", "velocity", "spin")
+
+    def __init__(self, path, time, count, species):
+        self.time, self.count = time, count
+        self._path, self._species = path, species
+
+    def __getattr__(self, name):
+        if name not in self.NAMES:
+            raise AttributeError(f"particles have no '{name}'; they have {', '.join(self.NAMES)}")
+        with open_hdf5(self._path) as file:
+            check_kind(file.attrs, "polybed particles step", self._path)
+            self.__dict__[name] = file["step"][name][...]
+        return self.__dict__[name]
+
+    def __len__(self):
+        return self.count
+
+    def of(self, name):
+        """Which particles are of a species, as a mask."""
+        if name not in self._species:
+            raise KeyError(f"there is no species {name}; there are {', '.join(self._species)}")
+        return self.species == self._species.index(name)
+
+
+class Particles:
+    """The particles of a run over all stored steps: particles[-1] is the last one. Empty if none are stored."""
+
+    def __init__(self, directory):
+        self._directory = Path(directory)
+        self.time, self.count = np.empty(0), np.empty(0, dtype=int)  # of each step: s, and how many there are
+        self.species = []  # names
+        self.size, self.periodic = np.zeros(3), np.zeros(3, dtype=bool)  # of the column along x, y, z, m
+        path = self._directory / "particles.h5"
+        if not path.exists():
+            return
+        with open_hdf5(path) as file:
+            check_kind(file.attrs, "polybed particles", path)
+            self.time, self.count = file["time_s"][:], file["particles"][:].astype(int)
+            self.species = list(file.attrs["species_names"])
+            self.size, self.periodic = file["column/size"][:], file["column/periodic"][:].astype(bool)
+
+    def __len__(self):
+        return len(self.time)
+
+    def __getitem__(self, step):
+        if not -len(self) <= step < len(self):
+            raise IndexError(f"{self._directory} has {len(self)} steps of particles, none numbered {step}")
+        step %= len(self)
+        path = self._directory / "particles" / f"{step + 1:06d}.h5"
+        return ParticleStep(path, self.time[step], self.count[step], self.species)
+
+    def step_at(self, time):
+        """Number of the stored step nearest to a time."""
+        if len(self) == 0:
+            raise IndexError(f"{self._directory} has no stored particles yet")
+        return int(np.argmin(np.abs(self.time - time)))
+
+
 class Run:
     """A run directory. Fields are attributes (run.voidage, run.u_fluid, run.phi_<name>) or run.field(name)."""
 
@@ -75,6 +146,7 @@ class Run:
                 self.time = file["time_s"][:]
                 self.faces = {axis: file["grid"][axis][:] for axis in "xyz"}
         self.fields = self._field_names()
+        self.particles = Particles(self.directory)
 
     def _step_path(self, step):
         return self.directory / "fields" / f"{step + 1:06d}.h5"
@@ -110,6 +182,13 @@ class Run:
         return self.field(self.fields[0])[0].ndim if self.fields and len(self.time) else 0
 
     @property
+    def size(self):
+        """Width and height of the column, m; of a run without anything stored yet, zeros."""
+        if self.faces:
+            return self.faces["x"][-1], self.faces["y"][-1]
+        return tuple(self.particles.size[:2])
+
+    @property
     def record(self):
         """run.json as a dictionary; empty if there is none yet."""
         path = self.directory / "run.json"
@@ -122,7 +201,7 @@ class Run:
     @property
     def species(self):
         """Names of the species, in the order of the case, which the columns of the history keep."""
-        stored = [name[len("phi_") :] for name in self.fields if name.startswith("phi_")]
+        stored = [name[len("phi_") :] for name in self.fields if name.startswith("phi_")] or self.particles.species
         columns = [column[len("centre_") : -len("_m")] for column in self.history if column.startswith("centre_")]
         return [name for name in columns if name in stored] + [name for name in stored if name not in columns]
 

@@ -18,20 +18,20 @@ sys.path.insert(0, PACKAGE)
 import matplotlib.pyplot as plt
 import polybed
 from polybed import plot
-from polybed.drawing import animation, fields, history, maps, overview, profiles, style
+from polybed.drawing import animation, fields, history, maps, overview, particles, profiles, style
 
 
 class SampleRun(unittest.TestCase):
     """Two species in a column of 60 mm by 200 mm, 18 x 60 cells, five times from 0 to 1 s; see write_sample_run.cpp."""
 
-    dimensions = 2
+    kind = 2  # dimensions of fields, or what else write_sample_run writes
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
         self.addCleanup(plt.close, "all")
         self.directory = Path(scratch.name) / "bed-tfm"
-        subprocess.run([WRITER, self.directory, str(self.dimensions)], check=True)
+        subprocess.run([WRITER, self.directory, str(self.kind)], check=True)
         self.sample = polybed.read(self.directory)
 
 
@@ -159,7 +159,7 @@ class Whole(SampleRun):
         self.assertEqual([plot.step_of(self.sample, t) for t in (None, 0, 0.6, 1)], [4, 0, 2, 4])
 
     def test_all_pictures_and_nothing_else(self):
-        paths = plot.pictures(self.directory, plot.WHAT[:-1], time=0.5)
+        paths = plot.pictures(self.directory, plot.kinds_of(self.sample)[:-1], time=0.5)
         self.assertEqual(sorted(p.name for p in (self.directory / "pictures").iterdir()), sorted(p.name for p in paths))
         for path in paths:
             self.assertEqual(path.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
@@ -178,7 +178,7 @@ class Whole(SampleRun):
 
 
 class Whole3D(Whole):
-    dimensions = 3
+    kind = 3
 
     def test_the_plane_at_half_depth_is_shown(self):
         phi = self.sample.phi_fine[4]
@@ -186,6 +186,129 @@ class Whole3D(Whole):
         self.assertEqual(style.vector_in_plane(self.sample.u_fluid[4]).shape, (60, 18, 3))
         self.assertIn("half depth", style.title_of(self.sample, 1, maps=True))
         self.assertTrue(overview.draw(self.sample, 4).axes)
+
+
+class Particles(SampleRun):
+    """300 particles of 2 and 4 mm diameter on a lattice, one fewer at each time; see write_sample_run.cpp."""
+
+    kind = "particles"
+
+    def test_circles_have_the_size_of_the_particles(self):
+        views = particles.Views(self.sample, [0])
+        views.show(0)
+        for axes, drawn in zip(views.views, views.drawn):
+            self.assertEqual(axes.get_aspect(), 1)
+            views.figure.canvas.draw()
+            transforms = drawn.get_transforms()
+            pixels = axes.transData.transform([[1, 0], [0, 0]])
+            millimetre = pixels[0, 0] - pixels[1, 0]
+            outline = drawn.get_paths()[0].get_extents().width
+            diameters = outline * transforms[:, 0, 0] * drawn.get_transform().get_matrix()[0, 0] / millimetre
+            order = particles.front(self.sample.particles[0])
+            # each circle's diameter in mm, within rounding of the figure's size in pixels
+            np.testing.assert_allclose(diameters, 2e3 * self.sample.particles[0].radius[order], rtol=1e-6)
+            self.assertEqual(drawn.get_offsets().tolist(), (1e3 * self.sample.particles[0].position[order, :2]).tolist())
+
+    def test_those_behind_come_first(self):
+        step = self.sample.particles[0]
+        depth = step.position[particles.front(step), 2]
+        self.assertTrue((np.diff(depth) >= 0).all())
+
+    def test_too_many_are_thinned_to_the_front_and_told(self):
+        step = self.sample.particles[0]
+        self.assertEqual(particles.thinned(self.sample, step), "")
+        chosen = particles.front(step, 150)
+        self.assertEqual(sorted(chosen), list(range(150, 300)))  # the front layer of two, at a depth of 6 of 8 mm
+        self.assertEqual(particles.thinned(self.sample, step, 150),
+                         "150 of 300 particles: those within 2 mm of the front")
+
+    def test_colours_tell_species_and_speed(self):
+        step = self.sample.particles[0]
+        colours = particles.species_colours(self.sample, step)
+        self.assertEqual(set(colours[step.of("fine")]), {style.COLOURS[0]})
+        self.assertEqual(set(colours[step.of("coarse")]), {style.COLOURS[1]})
+        np.testing.assert_allclose(particles.speed(step), 20)  # mm/s
+        self.assertEqual(particles.fastest([step]), (20, False))
+        step.velocity[7] = [3, 4, 0]  # one of 300 is much faster: it is beyond the scale, and the scale says so
+        self.assertEqual(particles.fastest([step]), (20, True))
+        step.velocity[:] = [0.0, 0.1234, 0.0]
+        self.assertEqual(particles.fastest([step]), (130, False), "rounded up: what is shown within the scale is")
+        self.assertEqual(particles.fastest([]), (1e-3, False))
+
+    def test_joined_sides_show_the_rest_of_what_they_cut(self):
+        self.sample.particles.periodic[0] = True
+        number, shift = particles.images(self.sample, np.array([0.0005, 0.03, 0.0595]), np.full(3, 0.001))
+        self.assertEqual(number.tolist(), [0, 0, 1, 2, 2])
+        np.testing.assert_array_equal(shift, [0, 0.06, 0, 0, -0.06])
+        self.sample.particles.periodic[0] = False
+        self.assertEqual(len(particles.images(self.sample, np.array([0.0005]), np.array([0.001]))[0]), 1)
+
+    def test_the_top_is_a_fifth_above_the_highest(self):
+        # at 1 s a fine one at 2 + 19 * 4 + 20 mm with a radius of 1 mm: 99 mm
+        self.assertAlmostEqual(particles.shown_top(self.sample, [4]), 1.2 * 0.099, places=12)
+
+    def test_the_ledger_shows_what_does_not_close(self):
+        figure, axes = plt.subplots()
+        history.draw_ledger(axes, self.sample)
+        lines = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
+        # the sample's numbers: kinetic falls by 2 J/s, elastic by 1 J/s, 3 J/s are dissipated
+        np.testing.assert_allclose(lines["stored"], -3 * self.sample.particles.time)
+        np.testing.assert_allclose(lines["does not close"], 0, atol=1e-14)
+        table = self.sample.history
+        table["dissipated_J"][-1] += 0.5
+        run = type("Run", (), {"history": table})
+        figure, axes = plt.subplots()
+        history.draw_ledger(axes, run)
+        self.assertAlmostEqual(axes.get_lines()[-1].get_ydata()[-1], 0.5, places=14)
+
+    def test_temperature_stands_where_there_is_no_pressure(self):
+        figure = profiles.draw(self.sample, 1)
+        labels = [axes.get_xlabel() for axes in figure.axes]
+        self.assertTrue(any(label.startswith("granular temperature") for label in labels))
+        self.assertFalse(any("pressure" in label for label in labels))
+
+    def test_every_stored_time_is_a_frame(self):
+        from PIL import Image
+
+        path = animation.film(self.sample, self.directory / "film.gif")
+        with Image.open(path) as image:
+            self.assertEqual(image.n_frames, 5)
+
+    def test_all_pictures_and_no_fields(self):
+        paths = plot.pictures(self.directory)
+        self.assertEqual([path.stem for path in paths], ["overview", "particles", "profiles", "history", "animation"])
+        for path in paths[:4]:
+            self.assertGreater(plt.imread(path)[..., :3].std(), 0.05, f"{path.name} is blank")
+        with contextlib.redirect_stderr(io.StringIO()) as err:
+            self.assertEqual(plot.main([str(self.directory), "--what", "fields"]), 2)
+        self.assertIn("holds no fields; there are overview, particles", err.getvalue())
+
+    def test_the_picture_at_the_end_needs_neither_profiles_nor_history(self):
+        for name in ("profiles.h5", "history.csv", "run.json"):
+            (self.directory / name).unlink()
+        self.assertTrue(plot.picture(self.directory).exists())
+
+    def test_a_step_without_particles_is_drawn(self):
+        import h5py
+
+        with h5py.File(self.directory / "particles/000005.h5", "r+") as file:
+            for name in list(file["step"]):
+                data = file["step"][name]
+                empty = data[:0]
+                del file["step"][name]
+                file["step"][name] = empty
+        with h5py.File(self.directory / "particles.h5", "r+") as file:
+            file["particles"][4] = 0
+        self.assertTrue(plot.picture(self.directory).exists())
+        self.assertEqual(len(plot.pictures(self.directory, ["particles", "animation"])), 2)
+
+
+class FieldsAndParticles(SampleRun):
+    kind = "coupled"
+
+    def test_all_pictures(self):
+        paths = plot.pictures(self.directory, plot.kinds_of(self.sample)[:-1], time=0.5)
+        self.assertEqual([path.stem for path in paths], ["overview", "fields", "particles", "profiles", "history"])
 
 
 if __name__ == "__main__":

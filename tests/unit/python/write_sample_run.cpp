@@ -8,6 +8,7 @@
 
 #include "core/files.hpp"
 #include "core/output.hpp"
+#include "fluid/particle_profile.hpp"
 
 namespace {
 
@@ -77,7 +78,7 @@ ProfileWriter profile_writer(const std::filesystem::path& directory, const Grid&
 
 /// Particles on a lattice of 4 mm, 15 wide, 20 high, 2 deep: in every second place a coarse one of 4 mm (even rows) or
 /// a fine one of 2 mm. All rise by 20 mm/s and turn by their id in rad/s; the first n have left at the n-th step.
-void write_particles(ParticleWriter& writer, int step, double time) {
+ParticleStep sample_particles(int step, double time) {
   ParticleStep p;
   for (int place = 0; place < 600; place += 2) {
     if (place / 2 < step) continue;
@@ -90,8 +91,29 @@ void write_particles(ParticleWriter& writer, int step, double time) {
     p.velocity.push_back({0, 0.02, 0});
     p.spin.push_back({0, 0, double(place / 2)});
   }
-  writer.write_step(time, {p.id, p.species, p.radius, p.position, p.velocity, p.spin});
+  return p;
 }
+
+/// Profiles of particles alone: their volume fractions, velocities and granular temperatures.
+struct ParticleProfiles {
+  polybed::fluid::Slabs slabs{0.06 * 0.008, 0.2, 60};
+  ProfileWriter writer;
+
+  explicit ParticleProfiles(const std::filesystem::path& directory)
+      : writer(directory, centres(), {"phi_fine", "phi_coarse", "u_fine", "u_coarse", "theta_fine", "theta_coarse"}) {}
+  [[nodiscard]] std::vector<double> centres() const {
+    std::vector<double> y;
+    for (std::size_t k = 0; k < slabs.count; ++k) y.push_back((double(k) + 0.5) * slabs.thickness());
+    return y;
+  }
+  void write(double time, const ParticleSnapshot& particles) {
+    const auto profile = polybed::fluid::particle_profile(particles, 2, slabs);
+    std::vector<std::vector<double>> rows = profile.solids.fraction;
+    rows.insert(rows.end(), profile.velocity.begin(), profile.velocity.end());
+    rows.insert(rows.end(), profile.temperature.begin(), profile.temperature.end());
+    writer.write_row(time, rows);
+  }
+};
 
 std::vector<std::string> history_columns(bool ledger) {
   std::vector<std::string> columns{"time_s", "bed_height_m", "centre_fine_m", "centre_coarse_m", "interface_m"};
@@ -117,16 +139,22 @@ void write_run(const std::filesystem::path& directory, const std::string& kind) 
   std::optional<FieldWriter> fields;
   std::optional<ParticleWriter> solids;
   std::optional<ProfileWriter> profiles;
+  std::optional<ParticleProfiles> particle_profiles;
   if (kind != "particles") {
     fields.emplace(field_writer(directory, grid));
     profiles.emplace(profile_writer(directory, grid));
+  } else {
+    particle_profiles.emplace(directory);
   }
   if (particles) solids.emplace(directory, ParticleScene{{0.06, 0.2, 0.008}, {false, false, true}, {"fine", "coarse"}});
   HistoryWriter history(directory, history_columns(particles));
   for (int n = 0; n <= 4; ++n) {
     const double time = 0.25 * n;
     if (fields) write_fields(*fields, *profiles, grid, time);
-    if (solids) write_particles(*solids, n, time);
+    const ParticleStep p = sample_particles(n, time);
+    const ParticleSnapshot snapshot{p.id, p.species, p.radius, p.position, p.velocity, p.spin};
+    if (solids) solids->write_step(time, snapshot);
+    if (particle_profiles) particle_profiles->write(time, snapshot);
     write_history(history, particles, time);
   }
   const std::string model = particles ? "dem" : "tfm";

@@ -1,4 +1,4 @@
-"""The volume fractions over the stored times, as MP4 where ffmpeg is there, else as GIF by Pillow."""
+"""The volume fractions, or the particles, over the stored times, as MP4 where ffmpeg is there, else as GIF by Pillow."""
 
 import os
 import shutil
@@ -9,6 +9,7 @@ from matplotlib import animation
 
 from polybed.drawing.fields import voidages
 from polybed.drawing.maps import Group, draw_maps
+from polybed.drawing.particles import Views
 from polybed.drawing.style import greatest_fraction, in_plane, shown_height, title_of
 
 LENGTH = 12  # s, about what a film lasts
@@ -39,11 +40,15 @@ def has_ffmpeg():
     return shutil.which("ffmpeg") is not None
 
 
-def film(run, path, rate=None, progress=None):
-    """Writes the film to a path that ends in .mp4 or .gif.
+def particle_frames(run):
+    """The figure, the number of frames, and what draws the frame of that number."""
+    digits = digits_of(run.particles.time)
+    views = Views(run, range(len(run.particles)))
+    return views.figure, len(run.particles), lambda step: views.show(step, digits)
 
-    progress: called with the number of frames done and in all.
-    """
+
+def field_frames(run):
+    """The same of the volume fractions of the species and of the fluid."""
     steps, digits = range(len(run.time)), digits_of(run.time)
     most = greatest_fraction(run, steps)
     maps = [(name, in_plane(run.field(f"phi_{name}")[0])) for name in run.species]
@@ -55,17 +60,30 @@ def film(run, path, rate=None, progress=None):
     names = [f"phi_{name}" for name in run.species] + ["voidage"]
     flat = [mesh for group in meshes for mesh in group]
     title = figure._suptitle
+
+    def show(step):
+        for mesh, name in zip(flat, names):
+            mesh.set_array(in_plane(run.field(name)[step]).ravel())
+        title.set_text(title_of(run, run.time[step], maps=True, digits=digits))
+
+    return figure, len(run.time), show
+
+
+def film(run, path, rate=None, progress=None):
+    """Writes the film to a path that ends in .mp4 or .gif.
+
+    progress: called with the number of frames done and in all.
+    """
+    figure, count, show = particle_frames(run) if len(run.particles) else field_frames(run)
     temporary = path.with_name("unfinished-" + path.name)
     try:
-        film_writer = writer(path, rate or rate_of(len(run.time)))
+        film_writer = writer(path, rate or rate_of(count))
         with film_writer.saving(figure, str(temporary), dpi=110):
-            for step in steps:
-                for mesh, name in zip(flat, names):
-                    mesh.set_array(in_plane(run.field(name)[step]).ravel())
-                title.set_text(title_of(run, run.time[step], maps=True, digits=digits))
+            for step in range(count):
+                show(step)
                 film_writer.grab_frame()
                 if progress:
-                    progress(step + 1, len(run.time))
+                    progress(step + 1, count)
         os.replace(temporary, path)
     finally:
         plt.close(figure)

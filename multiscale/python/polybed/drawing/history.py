@@ -1,4 +1,4 @@
-"""The run in time: heights, force balance, mixing, steps; and the worst of every invariant against its limit."""
+"""The run in time: heights, force balance, mixing, energies, contacts, steps; and the worst of every invariant against its limit."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -47,6 +47,47 @@ def draw_steps(axes, run):
     axes.set_ylabel("time step\n(ms)")
 
 
+LEDGER = ("kinetic_J", "rotational_J", "elastic_J", "potential_J", "dissipated_J", "work_J")
+
+
+def draw_energies(axes, run):
+    """What the particles store in motion and in contacts, on a logarithmic axis."""
+    t = run.history["time_s"]
+    for n, name in enumerate(("kinetic", "rotational", "elastic")):
+        values = run.history[name + "_J"]
+        axes.plot(t, np.where(values > 0, values, np.nan), label=name, linewidth=1, **species_line(n))
+    axes.set_yscale("log")
+    axes.set_ylabel("energy (J)")
+    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
+
+
+def draw_ledger(axes, run):
+    """What has become of the energy since the start: stored and dissipated, less the work done, is 0."""
+    history = run.history
+    since = {column: history[column] - history[column][0] for column in LEDGER}
+    stored = sum(since[column] for column in LEDGER[:4])
+    lines = {"stored": stored, "of it potential": since["potential_J"], "dissipated": since["dissipated_J"],
+             "work": since["work_J"]}
+    for n, (name, values) in enumerate(lines.items()):
+        axes.plot(history["time_s"], values, label=name, linewidth=1, **species_line(n))
+    left = stored + since["dissipated_J"] - since["work_J"]
+    axes.plot(history["time_s"], left, color="black", linewidth=0.8, label="does not close")
+    axes.set_ylabel("since the\nstart (J)")
+    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
+
+
+def draw_contacts(axes, run):
+    axes.plot(run.history["time_s"], run.history["contacts"], color=GREY, linewidth=0.8)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel("contacts")
+
+
+def draw_overlap(axes, run):
+    axes.plot(run.history["time_s"], run.history["max_overlap_m"] * 1e6, color=GREY, linewidth=0.8)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel("largest\noverlap (\u00b5m)")
+
+
 def draw_invariants(axes, run):
     """Worst value over limit on a logarithmic axis; a bar that ends before its mark at 1 has held."""
     entries = [i for i in run.record.get("invariants", []) if i["limit"] > 0]
@@ -73,6 +114,12 @@ def panels(run):
         chosen.append((1.2, lambda axes: draw_force_balance(axes, run)))
     if "mixing" in history and len(run.species) > 1:
         chosen.append((1, lambda axes: draw_mixing(axes, run)))
+    if set(LEDGER) <= history.keys():
+        chosen += [(1.4, lambda axes: draw_energies(axes, run)), (1.4, lambda axes: draw_ledger(axes, run))]
+    if "contacts" in history:
+        chosen.append((1, lambda axes: draw_contacts(axes, run)))
+    if "max_overlap_m" in history:
+        chosen.append((1, lambda axes: draw_overlap(axes, run)))
     if "dt_s" in history and (history["dt_s"] > 0).any():
         chosen.append((1, lambda axes: draw_steps(axes, run)))
     return chosen

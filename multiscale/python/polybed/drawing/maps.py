@@ -30,18 +30,18 @@ class Group:
 
 def map_size(run, top, most):
     """Width and height of one map, inches."""
-    aspect = run.faces["x"][-1] / top
+    aspect = run.size[0] / top
     width = float(np.clip(most * aspect, *WIDTHS))
     return width, min(most, width / aspect)
 
 
-def draw_map(axes, run, group, title, values, top, first):
-    """One map in the unit of the run, and its mesh."""
+def frame(axes, run, title, top, first):
+    """Axes that show the column up to a height, to scale, in the unit of the run."""
     factor, unit = length_unit(run)
-    mesh = axes.pcolormesh(run.faces["x"] * factor, run.faces["y"] * factor, values, rasterized=True, **group.mapping())
+    width = run.size[0] * factor
     axes.set_aspect("equal")
     axes.set_title(title)
-    width = run.faces["x"][-1] * factor
+    axes.set_xlim(0, width)
     axes.set_xticks([0, width], ["0", f"{width:g}"])
     axes.set_xlabel(f"x ({unit})")
     axes.set_ylim(0, top * factor)
@@ -50,6 +50,13 @@ def draw_map(axes, run, group, title, values, top, first):
         axes.set_ylabel(f"y ({unit})")
     else:
         axes.tick_params(labelleft=False)
+
+
+def draw_map(axes, run, group, title, values, top, first):
+    """One map in the unit of the run, and its mesh."""
+    factor = length_unit(run)[0]
+    mesh = axes.pcolormesh(run.faces["x"] * factor, run.faces["y"] * factor, values, rasterized=True, **group.mapping())
+    frame(axes, run, title, top, first)
     return mesh
 
 

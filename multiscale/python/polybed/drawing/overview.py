@@ -3,8 +3,9 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
+from polybed.drawing import particles
 from polybed.drawing.fields import fractions, voidages
-from polybed.drawing.maps import draw_map
+from polybed.drawing.maps import draw_map, frame
 from polybed.drawing.style import GREY, PALE, length_unit, shown_height, species_line, title_of
 
 MAP_HEIGHT = 5.2  # inches
@@ -90,21 +91,43 @@ class Layout:
         return self._axes(self.LEFT, 0.5, self.width - self.LEFT - self.LEGEND, self.HISTORY - 0.75)
 
 
-def draw(run, step):
-    """The figure of a run at a stored step."""
-    time = run.time[step]
-    maps = [(group, *entry) for group in (fractions(run, step), voidages(run, step)) for entry in group.maps]
-    top = shown_height(run, [step])
-    layout = Layout(len(maps), run.faces["x"][-1] / top)
-    for n, (group, name, values) in enumerate(maps):
-        title = f"$\\phi$ {name}" if n < len(maps) - 1 else "voidage $\\varepsilon$"
+def draw_fields(run, step, layout, top):
+    """Volume fractions of the species and of the fluid."""
+    groups = (fractions(run, step), voidages(run, step))
+    for n, (group, name, values) in enumerate((group, *entry) for group in groups for entry in group.maps):
+        title = f"$\\phi$ {name}" if group is groups[0] else "voidage $\\varepsilon$"
         mesh = draw_map(layout.map(n), run, group, title, values, top, first=n == 0)
         bar = layout.figure.colorbar(mesh, cax=layout.bar(n), orientation="horizontal")
         bar.set_ticks(group.limits, labels=[f"{limit:.2g}" for limit in group.limits])
         bar.outline.set_linewidth(0.5)
+
+
+def draw_particles(run, step, layout, top):
+    """The particles by species and by speed."""
+    shown = run.particles[step]
+    end, beyond = particles.fastest([shown])
+    colours = particles.species_colours(run, shown), particles.speed_colours(shown, end)
+    for n, title in enumerate(("species", "speed")):
+        axes = layout.map(n)
+        frame(axes, run, title, top, first=n == 0)
+        particles.circles(axes, run, shown, colours[n])
+    particles.name_species(layout.bar(0), run)
+    particles.speed_bar(layout.figure, layout.bar(1), end, beyond)
+    layout.figure.text(0.5, 1 - 0.36 / layout.height, particles.thinned(run, shown), ha="center", va="top", fontsize=7)
+
+
+def draw(run, step):
+    """The figure of a run at a stored step: of particles where there are some, else of fields."""
+    if len(run.particles):
+        time, top, count, draw_bed = run.particles.time[step], particles.shown_top(run, [step]), 2, draw_particles
+    else:
+        time, top, count, draw_bed = run.time[step], shown_height(run, [step]), len(run.species) + 1, draw_fields
+    layout = Layout(count, run.size[0] / top)
+    draw_bed(run, step, layout, top)
     profile = layout.profile()
     draw_profiles(profile, run, time, legend=layout.map_height > 2.5)
     profile.set_ylim(0, top * length_unit(run)[0])
     draw_history(layout.history(), run, time)
-    layout.figure.suptitle(title_of(run, time, maps=True), y=1 - 0.22 / layout.height, fontsize=11)
+    title = title_of(run, time, maps=draw_bed is draw_fields)
+    layout.figure.suptitle(title, y=1 - 0.22 / layout.height, fontsize=11)
     return layout.figure

@@ -25,13 +25,13 @@ def mark_levels(axes, run, time, factor, named):
 
 
 def draw_quantity(axes, run, row, kind, factor, scale=1.0):
-    """One quantity of every species; no velocity where the species is absent."""
+    """One quantity of every species; neither velocity nor temperature where the species is absent."""
     profiles, height = run.profiles, run.profiles["y_m"] * factor
     for n, name in enumerate(run.species):
         if f"{kind}_{name}" not in profiles:
             continue
         values = profiles[f"{kind}_{name}"][row] * scale
-        if kind == "u":
+        if kind != "phi":
             values = np.where(profiles[f"phi_{name}"][row] > FEW_SOLIDS, values, np.nan)
         axes.plot(values, height, label=name, **species_line(n))
 
@@ -60,6 +60,12 @@ def draw_pressure(axes, run, row, factor):
         axes.axvline(weight, color=GREY, linestyle="-.", linewidth=1, label="buoyant weight")
     axes.set_xlim(left=min(0, axes.get_xlim()[0]))
     axes.set_xlabel("net pressure (Pa)")
+
+
+def draw_temperature(axes, run, row, factor):
+    draw_quantity(axes, run, row, "theta", factor, 1e6)
+    axes.set_xlim(0, max(1e-3, axes.get_xlim()[1]))  # of particles that move as one there is only rounding
+    axes.set_xlabel("granular temperature (mm$^2$/s$^2$)")
 
 
 def edges(centres):
@@ -112,7 +118,9 @@ def draw(run, time):
     axes = [upper.add_subplot(grid[0])]
     axes += [upper.add_subplot(grid[n], sharey=axes[0]) for n in (1, 2)]
     time = profiles["time_s"][row]
-    for ax, draw_one in zip(axes, (draw_fractions, draw_velocities, draw_pressure)):
+    alone = "p" not in profiles and any(name.startswith("theta_") for name in profiles)  # particles without a fluid
+    third = draw_temperature if alone else draw_pressure
+    for ax, draw_one in zip(axes, (draw_fractions, draw_velocities, third)):
         draw_one(ax, run, row, factor)
         mark_levels(ax, run, time, factor, named=ax is axes[0])
     axes[0].set_ylabel(f"height y ({unit})")
@@ -121,8 +129,8 @@ def draw(run, time):
         ax.tick_params(labelleft=False)
     side = upper.add_subplot(grid[3])
     side.set_axis_off()
-    pressure_lines, fraction_lines = (ax.get_legend_handles_labels() for ax in (axes[2], axes[0]))
-    side.legend(fraction_lines[0] + pressure_lines[0], fraction_lines[1] + pressure_lines[1], loc="center left")
+    lines = {label: line for ax in (axes[0], axes[2]) for line, label in zip(*ax.get_legend_handles_labels())}
+    side.legend(lines.values(), lines.keys(), loc="center left")
     most = max(0.1, max(float(profiles[f"phi_{name}"].max()) for name in shown))
     below = lower.subplots(1, len(shown), sharey=True, squeeze=False)[0]
     for ax, name in zip(below, shown):

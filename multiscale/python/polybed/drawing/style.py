@@ -35,7 +35,7 @@ def species_line(n):
 
 def length_unit(run):
     """(factor, name) of the unit in which lengths of a run read well."""
-    return (1e3, "mm") if run.faces["y"][-1] < 2 else (1.0, "m")
+    return (1e3, "mm") if run.size[1] < 2 else (1.0, "m")
 
 
 def in_plane(field):
