@@ -1,46 +1,70 @@
-// Hertz's normal contact of elastic spheres.
+// Normal contact of elastic spheres, Hertz 1882, with the dashpot of Tsuji, Tanaka and Ishida (Powder Technol. 71,
+// 1992, 239). E* and R* as in contact_pair.hpp; overlap delta >= 0, m.
 #pragma once
 
 #include <cmath>
 
+#include "closures/contact_pair.hpp"
+
 namespace polybed::closures {
 
-/// a = sqrt(R* delta), m: radius of the area of contact.
-[[nodiscard]] inline double hertz_contact_radius(double reduced_radius, double overlap) {
-  return std::sqrt(reduced_radius * overlap);
+/// K = (4/3) E* sqrt(R*), N/m^1.5, of F = K delta^1.5.
+[[nodiscard]] inline double hertz_coefficient(double youngs_modulus, double radius) {
+  return 4.0 / 3 * youngs_modulus * std::sqrt(radius);
 }
 
-/// F = (4/3) E* a delta, N.
-[[nodiscard]] inline double hertz_force(double reduced_modulus, double contact_radius, double overlap) {
-  return 4.0 / 3 * reduced_modulus * contact_radius * overlap;
-}
+/// a = sqrt(R* delta), m: radius of the contact.
+[[nodiscard]] inline double contact_radius(double radius, double overlap) { return std::sqrt(radius * overlap); }
 
 /// S_n = dF/d(delta) = 2 E* a, N/m.
-[[nodiscard]] inline double hertz_stiffness(double reduced_modulus, double contact_radius) {
-  return 2 * reduced_modulus * contact_radius;
+[[nodiscard]] inline double hertz_stiffness(double youngs_modulus, double contact_radius) {
+  return 2 * youngs_modulus * contact_radius;
 }
 
-/// Energy stored, (8/15) E* sqrt(R*) delta^(5/2), J.
-[[nodiscard]] inline double hertz_energy(double reduced_modulus, double reduced_radius, double overlap) {
-  return 8.0 / 15 * reduced_modulus * std::sqrt(reduced_radius * overlap) * overlap * overlap;
+/// sqrt(5/6): damping ratio of the tangent spring over beta.
+inline constexpr double hertz_damping_share = 0.91287092917527685576;
+
+/// c_n = 2 sqrt(5/6) beta sqrt(S_n m*), kg/s. \param beta from restitution.hpp  \param mass m*
+[[nodiscard]] inline double hertz_damping(double beta, double stiffness, double mass) {
+  return 2 * hertz_damping_share * beta * std::sqrt(stiffness * mass);
 }
 
-/// c_n = 2 sqrt(5/6) beta sqrt(S_n m*), kg/s: gives a restitution that does not depend on the speed.
-[[nodiscard]] inline double hertz_dashpot(double reduced_modulus, double reduced_mass, double beta,
-                                          double contact_radius) {
-  return 2 * std::sqrt(5.0 / 6) * beta * std::sqrt(hertz_stiffness(reduced_modulus, contact_radius) * reduced_mass);
+/// (4/3) E* a delta and -c_n v_n.
+/// \param contact_radius   a of this overlap  \param damping c_n  \param normal_velocity v_n, negative on approach
+[[nodiscard]] inline NormalForce hertz_force(double youngs_modulus, double contact_radius, double overlap,
+                                             double damping, double normal_velocity) {
+  return {4.0 / 3 * youngs_modulus * contact_radius * overlap, -damping * normal_velocity};
 }
 
-/// Greatest overlap of an elastic impact at a speed V: delta_m = (5 m* V^2/(4 K))^(2/5), K = (4/3) E* sqrt(R*), m.
-[[nodiscard]] inline double hertz_impact_overlap(double reduced_modulus, double reduced_radius, double reduced_mass,
-                                                 double speed) {
-  return std::pow(5 * reduced_mass * speed * speed / (4 * (4.0 / 3) * reduced_modulus * std::sqrt(reduced_radius)),
-                  0.4);
+/// The same from R*, beta and m*; zero without overlap.
+[[nodiscard]] inline NormalForce hertz_force_of_pair(double youngs_modulus, double radius, double mass, double beta,
+                                                     double overlap, double normal_velocity) {
+  const double depth = overlap > 0 ? overlap : 0, a = contact_radius(radius, depth);
+  return hertz_force(youngs_modulus, a, depth, hertz_damping(beta, hertz_stiffness(youngs_modulus, a), mass),
+                     normal_velocity);
 }
 
-/// Duration of an elastic impact, 2.9432751843 delta_m/V, s.
-[[nodiscard]] inline double hertz_impact_time(double greatest_overlap, double speed) {
-  return 2.9432751843 * greatest_overlap / speed;
+/// (2/5) K delta^2.5, J.
+[[nodiscard]] inline double hertz_stored_energy(double coefficient, double overlap) {
+  return 0.4 * coefficient * overlap * overlap * std::sqrt(overlap);
+}
+
+/// delta_m = (5 m* V^2/(4 K))^(2/5), m, of an elastic impact at speed V. For set-up.
+[[nodiscard]] inline double hertz_greatest_overlap(double coefficient, double mass, double speed) {
+  return std::pow(1.25 * mass * speed * speed / coefficient, 0.4);
+}
+
+/// F_m = K delta_m^1.5, N.
+[[nodiscard]] inline double hertz_greatest_force(double coefficient, double greatest_overlap) {
+  return coefficient * greatest_overlap * std::sqrt(greatest_overlap);
+}
+
+/// t_c over delta_m/V: 2 int_0^1 dx/sqrt(1 - x^2.5) = (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
+inline constexpr double hertz_time_factor = 2.9432751843;
+
+/// t_c = 2.9432751843 delta_m/V, s, of an elastic impact. For set-up.
+[[nodiscard]] inline double hertz_contact_time(double greatest_overlap, double speed) {
+  return hertz_time_factor * greatest_overlap / speed;
 }
 
 }  // namespace polybed::closures

@@ -1,19 +1,43 @@
-// Linear spring and dashpot in contact.
+// Normal contact as a linear spring and dashpot, Cundall and Strack (Geotechnique 29, 1979, 47).
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "closures/contact_pair.hpp"
 
 namespace polybed::closures {
 
-/// c = 2 beta sqrt(k m*), kg/s.
-[[nodiscard]] inline double linear_dashpot(double stiffness, double reduced_mass, double beta) {
-  return 2 * beta * std::sqrt(stiffness * reduced_mass);
+/// c = 2 beta sqrt(k m*), kg/s. \param beta from restitution.hpp
+[[nodiscard]] inline double linear_damping(double beta, double stiffness, double mass) {
+  return 2 * beta * std::sqrt(stiffness * mass);
 }
 
-/// t_c = pi sqrt(m*/k)/sqrt(1 - beta^2), s, with the tail kept; beta below 1.
-[[nodiscard]] inline double linear_contact_time(double stiffness, double reduced_mass, double beta) {
-  return std::numbers::pi * std::sqrt(reduced_mass / stiffness) / std::sqrt(1 - beta * beta);
+/// k delta and -c v_n; v_n negative on approach. overlap >= 0.
+[[nodiscard]] inline NormalForce linear_force(double stiffness, double overlap, double damping,
+                                              double normal_velocity) {
+  return {stiffness * overlap, -damping * normal_velocity};
+}
+
+/// t_c = pi sqrt(m*/k)/sqrt(1 - beta^2), s, with the tail kept; infinite from beta = 1 on: it creeps apart.
+[[nodiscard]] inline double linear_contact_time(double stiffness, double mass, double beta) {
+  return beta < 1 ? std::numbers::pi * std::sqrt(mass / stiffness) / std::sqrt((1 - beta) * (1 + beta))
+                  : std::numeric_limits<double>::infinity();
+}
+
+/// k delta^2/2, J.
+[[nodiscard]] inline double linear_stored_energy(double stiffness, double overlap) {
+  return 0.5 * stiffness * overlap * overlap;
+}
+
+/// Tangential over normal stiffness where a case gives none, 2/7: equal periods of both springs for a solid sphere on a
+/// plane, m R^2/I = 5/2.
+inline constexpr double linear_tangential_share = 2.0 / 7;
+
+/// k_t = (2/7) k_n, N/m.
+[[nodiscard]] inline double linear_tangential_stiffness(double stiffness) {
+  return linear_tangential_share * stiffness;
 }
 
 }  // namespace polybed::closures

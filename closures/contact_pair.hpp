@@ -1,29 +1,60 @@
-// Two bodies in contact as one: reduced radius, mass and moduli.
+// What a contact knows of its two bodies: reduced radius, mass and moduli, lever arms, and the normal force that every
+// contact law returns. n points from j to i, the normal velocity v_n is negative on approach. A wall is a body of
+// infinite radius and mass. All SI.
 #pragma once
 
 namespace polybed::closures {
 
+/// Young's modulus E, Pa, > 0 (infinite: rigid), and Poisson ratio nu in (-1, 0.5].
 struct Elastic {
-  double youngs_modulus;  ///< E, Pa
-  double poisson_ratio;   ///< nu
+  double youngs_modulus, poisson_ratio;
 };
 
-/// R* = R_i R_j/(R_i + R_j), m; a wall has an infinite radius.
-[[nodiscard]] constexpr double reduced_radius(double ri, double rj) { return 1 / (1 / ri + 1 / rj); }
+/// Force along n on i, N, positive in repulsion: the spring, and the dashpot, which is -c v_n.
+struct NormalForce {
+  double elastic, dashpot;
+};
 
-/// m* likewise, kg.
-[[nodiscard]] constexpr double reduced_mass(double mi, double mj) { return 1 / (1 / mi + 1 / mj); }
+/// R* = R_i R_j/(R_i + R_j), m; infinity stands for a wall.
+[[nodiscard]] inline double reduced_radius(double radius_i, double radius_j) {
+  return 1 / (1 / radius_i + 1 / radius_j);
+}
 
-/// E* of 1/E* = sum (1 - nu^2)/E, Pa (Hertz).
-[[nodiscard]] constexpr double reduced_youngs_modulus(Elastic a, Elastic b) {
+/// m* = m_i m_j/(m_i + m_j), kg; infinity stands for a wall.
+[[nodiscard]] inline double reduced_mass(double mass_i, double mass_j) { return 1 / (1 / mass_i + 1 / mass_j); }
+
+/// 1/E* = sum (1 - nu^2)/E (Hertz 1882; Johnson, Contact Mechanics, 1985, eq. 4.1).
+[[nodiscard]] inline double reduced_youngs_modulus(const Elastic& a, const Elastic& b) {
   return 1 / ((1 - a.poisson_ratio * a.poisson_ratio) / a.youngs_modulus +
               (1 - b.poisson_ratio * b.poisson_ratio) / b.youngs_modulus);
 }
 
-/// G* of 1/G* = sum (2 - nu)/G with G = E/(2 (1 + nu)), Pa (Mindlin).
-[[nodiscard]] constexpr double reduced_shear_modulus(Elastic a, Elastic b) {
-  const auto part = [](Elastic e) { return (2 - e.poisson_ratio) * 2 * (1 + e.poisson_ratio) / e.youngs_modulus; };
-  return 1 / (part(a) + part(b));
+/// G = E/(2 (1 + nu)), Pa.
+[[nodiscard]] inline double shear_modulus(const Elastic& body) {
+  return body.youngs_modulus / (2 * (1 + body.poisson_ratio));
+}
+
+/// 1/G* = sum (2 - nu)/G (Mindlin, J. Appl. Mech. 16, 1949, 259).
+[[nodiscard]] inline double reduced_shear_modulus(const Elastic& a, const Elastic& b) {
+  return 1 / ((2 - a.poisson_ratio) / shear_modulus(a) + (2 - b.poisson_ratio) / shear_modulus(b));
+}
+
+/// l_i = (r^2 + R_i^2 - R_j^2)/(2 r), m: from the centre of i to the plane in which two overlapping spheres meet;
+/// l_j = r - l_i. Of a wall the lever arm is the distance of the centre to it. distance r > 0.
+[[nodiscard]] inline double lever_arm(double distance, double radius_i, double radius_j) {
+  return 0.5 * (distance + (radius_i - radius_j) * (radius_i + radius_j) / distance);
+}
+
+/// I = (2/5) m R^2 of a solid sphere, kg m2.
+[[nodiscard]] inline double moment_of_inertia(double mass, double radius) { return 0.4 * mass * radius * radius; }
+
+/// Spring and dashpot together; near separation the dashpot may attract.
+[[nodiscard]] inline double normal_kept(const NormalForce& force) { return force.elastic + force.dashpot; }
+
+/// Spring and dashpot together, never attractive.
+[[nodiscard]] inline double normal_clipped(const NormalForce& force) {
+  const double sum = force.elastic + force.dashpot;
+  return sum > 0 ? sum : 0;
 }
 
 }  // namespace polybed::closures

@@ -1,4 +1,4 @@
-// Limits of the time step of particles in contact.
+// Times and step limits of particle contact. For set-up.
 #pragma once
 
 #include <cmath>
@@ -6,21 +6,30 @@
 
 namespace polybed::closures {
 
-/// Time in which a Rayleigh wave crosses half a particle: pi R sqrt(rho/G)/(0.1631 nu + 0.8766), s, G = E/(2 (1 + nu)).
-[[nodiscard]] inline double rayleigh_time(double radius, double density, double youngs_modulus, double poisson_ratio) {
-  const double shear_modulus = youngs_modulus / (2 * (1 + poisson_ratio));
+/// dt_R = pi R sqrt(rho/G)/(0.1631 nu + 0.8766), s: a Rayleigh wave goes half around the sphere (Thornton and Randall,
+/// in Micromechanics of Granular Materials, 1988, 133). \param shear_modulus G, Pa
+[[nodiscard]] inline double rayleigh_time(double radius, double density, double shear_modulus, double poisson_ratio) {
   return std::numbers::pi * radius * std::sqrt(density / shear_modulus) / (0.1631 * poisson_ratio + 0.8766);
 }
 
-/// Greatest stable step of one damped contact, s, with the force at full-step positions and half-step velocities,
-/// T(2.11)-(2.13): dt omega < 2 (sqrt(1 + zeta^2) - zeta). \param omega  sqrt(S_n/m*), 1/s  \param zeta  damping ratio
-[[nodiscard]] inline double greatest_step_of_thesis(double omega, double zeta) {
-  return 2 * (std::sqrt(1 + zeta * zeta) - zeta) / omega;
+/// Greatest stable dt of the scheme of the thesis, U' = U + F dt/(2m), x += U' dt, F(x, U'), U = U' + F dt/(2m), on one
+/// damped spring: 2 (sqrt(1 + zeta^2) - zeta)/omega, from w^2 + 4 zeta w = 4 with w = dt omega.
+/// \param frequency omega = sqrt(S_n/m*), 1/s  \param damping_ratio zeta = c/(2 m* omega): beta of the linear law,
+/// sqrt(5/6) beta of Hertz'
+[[nodiscard]] inline double step_limit_thesis(double frequency, double damping_ratio) {
+  return 2 * (std::sqrt(1 + damping_ratio * damping_ratio) - damping_ratio) / frequency;
 }
 
-/// Likewise with velocities brought to the time of the positions: dt omega < 2 (sqrt(1 + 4 zeta^2) - 2 zeta).
-[[nodiscard]] inline double greatest_step_synchronised(double omega, double zeta) {
-  return 2 * (std::sqrt(1 + 4 * zeta * zeta) - 2 * zeta) / omega;
+/// The same with the force at velocities of the full step, U'' = U' + F_old dt/(2m): 2 (sqrt(1 + 4 zeta^2) - 2
+/// zeta)/omega.
+[[nodiscard]] inline double step_limit_synchronised(double frequency, double damping_ratio) {
+  return 2 * (std::sqrt(1 + 4 * damping_ratio * damping_ratio) - 2 * damping_ratio) / frequency;
+}
+
+/// 0.17 sqrt(m/k), s: dense linear contacts, least mass over greatest stiffness (O'Sullivan and Bray, Eng. Comput. 21,
+/// 2004, 278).
+[[nodiscard]] inline double dense_spring_step(double mass, double stiffness) {
+  return 0.17 * std::sqrt(mass / stiffness);
 }
 
 }  // namespace polybed::closures

@@ -1,0 +1,81 @@
+// Tangential force with partial slip in steps, after Mindlin and Deresiewicz (J. Appl. Mech. 20, 1953, 327) as reduced
+// by Thornton and Yin (Powder Technol. 65, 1991, 153) and Thornton, Cummins and Cleary (Powder Technol. 210, 2011,
+// 189): along one line,
+//   dF = 8 G* a theta dxi + (-1)^k mu (1 - theta) dF_n,
+//   theta^3 = 1 - (F + mu dF_n)/(mu F_n) loading (k = 0),
+//   theta^3 = 1 - [(-1)^k (F - F_k) + 2 mu dF_n]/(2 mu F_n) unloading (k = 1) and reloading (k = 2),
+// theta = 1 while |dF| < mu dF_n. F_k, the force at the last reversal, follows the normal force: F_k -= (-1)^k mu dF_n.
+//
+// F counts against the displacement: the force on i is -F. The law keeps one reversal to each side. Unloading past
+// minus its reversal is loading the other way; reloading up to the reversal from which it was unloaded is loading
+// again. Loops within loops deeper than that are not remembered.
+#pragma once
+
+#include "closures/cube_root.hpp"
+
+namespace polybed::closures {
+
+/// A contact starts with all zero and side 1.
+struct MindlinDeresiewicz {
+  double force = 0;        ///< F, N
+  double unloaded_at = 0;  ///< F_1 times side: where loading was last reversed
+  double reloaded_at = 0;  ///< F_2 times side
+  double branch = 0;       ///< k = 0, 1, 2
+  double side = 1;         ///< 1 or -1: the sense in which branch 0 loads
+};
+
+/// What a step needs. Radius a and F_n of this step, at the end; the change of F_n over it.
+struct MindlinDeresiewiczStep {
+  double stiffness;      ///< 8 G* a, N/m
+  double displacement;   ///< dxi, m
+  double friction;       ///< mu
+  double normal_force;   ///< F_n >= 0, N
+  double normal_change;  ///< dF_n, N
+};
+
+/// The branch on which this step goes on, from the sense of dxi: a reversal stores the present force.
+[[nodiscard]] inline MindlinDeresiewicz branch_of_step(MindlinDeresiewicz state, double displacement) {
+  // No force yet, or all of it gone on a loading branch: load the way it moves.
+  const bool fresh = state.branch == 0 && state.side * state.force <= 0;
+  state.side = fresh ? (displacement < 0 ? -1.0 : 1.0) : state.side;
+  const double force = state.side * state.force, move = state.side * displacement;
+  const bool unloads = !fresh && move < 0 && state.branch != 1, reloads = move > 0 && state.branch == 1;
+  state.unloaded_at = unloads ? force : state.unloaded_at;
+  state.reloaded_at = reloads ? force : state.reloaded_at;
+  state.branch = unloads ? 1.0 : reloads ? 2.0 : state.branch;
+  return state;
+}
+
+/// theta in [0, 1]: share of the contact's stiffness that has not slipped. Force, move and k seen from the state's
+/// side.
+[[nodiscard]] inline double stick_share(const MindlinDeresiewicz& state, const MindlinDeresiewiczStep& step) {
+  const double force = state.side * state.force, limit = step.friction * step.normal_force;
+  const double change = step.friction * step.normal_change;
+  const double used = state.branch == 0   ? force + change
+                      : state.branch == 1 ? 0.5 * (state.unloaded_at - force) + change
+                                          : 0.5 * (force - state.reloaded_at) + change;
+  const double theta = limit > 0 ? cube_root_of_share(1 - used / (limit > 0 ? limit : 1.0)) : 0;
+  const double stuck = step.stiffness * (step.displacement < 0 ? -step.displacement : step.displacement);
+  return stuck < change ? 1 : theta;
+}
+
+/// Force and state after one step, |F| <= mu F_n. Explicit: first order in the size of the step.
+[[nodiscard]] inline MindlinDeresiewicz mindlin_deresiewicz(const MindlinDeresiewicz& before,
+                                                            const MindlinDeresiewiczStep& step) {
+  MindlinDeresiewicz state = branch_of_step(before, step.displacement);
+  const double theta = stick_share(state, step), sense = state.branch == 1 ? -1.0 : 1.0;
+  const double change = step.friction * step.normal_change;
+  double force = state.side * (state.force + step.stiffness * theta * step.displacement) + sense * (1 - theta) * change;
+  const double bound = step.friction * step.normal_force, limit = bound > 0 ? bound : 0;
+  force = force > limit ? limit : force < -limit ? -limit : force;
+  state.unloaded_at += state.branch == 0 ? 0 : change;
+  state.reloaded_at -= state.branch == 2 ? change : 0;
+  const bool crossed = state.branch == 1 && force <= -state.unloaded_at;
+  const bool rejoined = state.branch == 2 && force >= state.unloaded_at;
+  state.force = state.side * force;
+  state.side = crossed ? -state.side : state.side;
+  state.branch = crossed || rejoined ? 0 : state.branch;
+  return state;
+}
+
+}  // namespace polybed::closures
