@@ -13,7 +13,8 @@ Materials::Materials(const core::Scene& scene) : stride_(std::int32_t(scene.spec
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const core::Species& s : scene.species) {
     const double mass = std::numbers::pi / 6 * s.diameter * s.diameter * s.diameter * s.density;
-    species_.push_back({s.name, 0.5 * s.diameter, mass, 0.1 * mass * s.diameter * s.diameter, s.density});
+    species_.push_back(
+        {s.name, 0.5 * s.diameter, mass, closures::moment_of_inertia(mass, 0.5 * s.diameter), s.density});
   }
   for (const Species& a : species_)
     for (std::size_t b = 0; b <= species_.size(); ++b) {

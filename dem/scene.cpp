@@ -37,11 +37,8 @@ Box box_of(const core::Scene& scene) {
 }
 
 Vector gravity_of(const core::Scene& scene) {
-  const std::vector<double>& direction = scene.column.gravity_direction;
-  double length = 0;
-  for (const double d : direction) length += d * d;
-  Vector g{0, direction.empty() ? -scene.column.gravity : 0, 0};
-  for (std::size_t k = 0; k < direction.size(); ++k) g[k] = scene.column.gravity * direction[k] / std::sqrt(length);
+  Vector g = scene.column.down;
+  for (double& component : g) component *= scene.column.gravity;
   return g;
 }
 

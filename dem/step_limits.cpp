@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "closures/contact_pair.hpp"
 #include "closures/dem_time_step.hpp"
 #include "core/contact_properties.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 /// Shares of the limits that a step takes; the first two from the specification of the product, which found that half
 /// the Rayleigh time suits one sphere, not dense contacts.
-constexpr double of_rayleigh = 0.2, of_oscillation = 0.17, of_stability = 0.2, of_diameter = 0.01;
+constexpr double of_rayleigh = 0.2, of_stability = 0.2, of_diameter = 0.01;
 
 /// Limits of one pair of materials.
 void add_pair(const core::Scene& scene, const Materials& materials, const PairLaws& laws, int kind,
@@ -24,11 +25,11 @@ void add_pair(const core::Scene& scene, const Materials& materials, const PairLa
   const NormalLaw& law = *laws.normal;
   const double overlap = law.overlap_of_impact(kind, speed), stiffness = law.stiffness_at(kind, overlap);
   all.push_back({fmt::format("contact time of {}", name), law.contact_time(kind, speed) / scene.dem.steps_per_contact});
-  all.push_back({fmt::format("oscillation of {}", name), of_oscillation * std::sqrt(least_mass / stiffness)});
+  all.push_back({fmt::format("oscillation of {}", name), closures::dense_spring_step(least_mass, stiffness)});
   const double omega = std::sqrt(stiffness / least_mass), damping = law.damping_ratio(kind);
   all.push_back({fmt::format("damping of {}", name),
-                 of_stability * (synchronised ? closures::greatest_step_synchronised(omega, damping)
-                                              : closures::greatest_step_of_thesis(omega, damping))});
+                 of_stability * (synchronised ? closures::step_limit_synchronised(omega, damping)
+                                              : closures::step_limit_thesis(omega, damping))});
 }
 
 }  // namespace

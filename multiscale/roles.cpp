@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "closures/size_classes.hpp"
+#include "dem/effects.hpp"
 #include "tfm/effects.hpp"
 
 namespace polybed::multiscale {
@@ -10,13 +11,7 @@ namespace polybed::multiscale {
 std::vector<core::Role> all_roles() {
   std::vector<core::Role> roles = tfm::roles();
   // One case file describes a scene for both models, so a case may say how its particles touch.
-  roles.push_back(
-      {"contact",
-       "dem",
-       "Pair",
-       "forces of touching particles",
-       "DEM only; reaches the TFM through the solids stress",
-       {{"hertz_mindlin", "Hertz and Mindlin"}, {"hertz", "normal force alone"}, {"linear", "linear springs"}}});
+  for (core::Role& role : dem::roles()) roles.push_back(std::move(role));
   return roles;
 }
 

@@ -10,17 +10,16 @@ namespace polybed::dem {
 
 namespace {
 
-POLYBED_ALL_VECTOR_WIDTHS void hertz(ContactBatch& b, const ContactBatch::Row& radius,
-                                     const ContactBatch::Row& stiffness, const ContactBatch::Row& dashpot,
-                                     double least_force) {
+POLYBED_ALL_VECTOR_WIDTHS void hertz(ContactBatch& b, const ContactBatch::Row& radius, const ContactBatch::Row& modulus,
+                                     const ContactBatch::Row& dashpot, double least_force) {
   const int n = b.padded();
   for (int c = 0; c < n; ++c) {
     const double overlap = b.overlap[c] > 0 ? b.overlap[c] : 0;
-    const double a = std::sqrt(radius[c] * overlap);
-    const double damping = dashpot[c] * std::sqrt(a), elastic = stiffness[c] * a * overlap;
-    const double force = elastic - damping * b.speed[c];
+    const double a = closures::contact_radius(radius[c], overlap), damping = dashpot[c] * std::sqrt(a);
+    const closures::NormalForce f = closures::hertz_force(modulus[c], a, overlap, damping, b.speed[c]);
+    const double force = closures::normal_kept(f);
     b.contact_radius[c] = a;
-    b.elastic[c] = elastic;
+    b.elastic[c] = f.elastic;
     b.dashpot[c] = damping;
     b.normal[c] = force > least_force ? force : least_force;
   }
@@ -33,44 +32,47 @@ HertzContact::HertzContact(const Materials& materials, const std::string& tail)
   for (const PairMaterial& m : materials.kinds()) {
     const double beta =
         tail == "clip" ? closures::damping_ratio_clipped(m.restitution) : closures::damping_ratio_kept(m.restitution);
-    constants_.push_back({m.radius, m.mass, m.youngs_modulus, closures::hertz_force(m.youngs_modulus, 1, 1),
-                          closures::hertz_dashpot(m.youngs_modulus, m.mass, beta, 1), beta});
+    const double damping = closures::hertz_damping(beta, closures::hertz_stiffness(m.youngs_modulus, 1), m.mass);
+    constants_.push_back(
+        {m.mass, m.radius, m.youngs_modulus, damping, closures::hertz_coefficient(m.youngs_modulus, m.radius), beta});
   }
 }
 
 void HertzContact::act(ContactBatch& batch) const {
-  alignas(64) ContactBatch::Row radius = {}, stiffness = {}, dashpot = {};
+  alignas(64) ContactBatch::Row radius = {}, modulus = {}, dashpot = {};
   for (int c = 0; c < batch.count; ++c) {
     const Constants& k = constants_[std::size_t(batch.kind[c])];
     radius[c] = k.radius;
-    stiffness[c] = k.stiffness;
+    modulus[c] = k.modulus;
     dashpot[c] = k.dashpot;
   }
-  hertz(batch, radius, stiffness, dashpot, least_force_);
+  hertz(batch, radius, modulus, dashpot, least_force_);
 }
 
 double HertzContact::energy(int kind, double overlap) const {
-  const Constants& k = constants_[std::size_t(kind)];
-  return closures::hertz_energy(k.modulus, k.radius, overlap);
+  return closures::hertz_stored_energy(constants_[std::size_t(kind)].coefficient, overlap);
 }
 
 double HertzContact::force_at(int kind, double overlap) const {
-  const Constants& k = constants_[std::size_t(kind)];
-  return closures::hertz_force(k.modulus, closures::hertz_contact_radius(k.radius, overlap), overlap);
+  return closures::hertz_greatest_force(constants_[std::size_t(kind)].coefficient, overlap);
 }
 
 double HertzContact::overlap_of_impact(int kind, double speed) const {
   const Constants& k = constants_[std::size_t(kind)];
-  return closures::hertz_impact_overlap(k.modulus, k.radius, k.mass, speed);
+  return closures::hertz_greatest_overlap(k.coefficient, k.mass, speed);
 }
 
 double HertzContact::contact_time(int kind, double speed) const {
-  return closures::hertz_impact_time(overlap_of_impact(kind, speed), speed);
+  return closures::hertz_contact_time(overlap_of_impact(kind, speed), speed);
 }
 
 double HertzContact::stiffness_at(int kind, double overlap) const {
   const Constants& k = constants_[std::size_t(kind)];
-  return closures::hertz_stiffness(k.modulus, closures::hertz_contact_radius(k.radius, overlap));
+  return closures::hertz_stiffness(k.modulus, closures::contact_radius(k.radius, overlap));
+}
+
+double HertzContact::damping_ratio(int kind) const {
+  return closures::hertz_damping_share * constants_[std::size_t(kind)].beta;
 }
 
 }  // namespace polybed::dem

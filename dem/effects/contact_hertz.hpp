@@ -17,14 +17,14 @@ class HertzContact final : public NormalLaw {
   [[nodiscard]] double contact_time(int kind, double speed) const override;
   [[nodiscard]] double overlap_of_impact(int kind, double speed) const override;
   [[nodiscard]] double stiffness_at(int kind, double overlap) const override;
-  [[nodiscard]] double damping_ratio(int kind) const override { return constants_[std::size_t(kind)].damping; }
+  [[nodiscard]] double damping_ratio(int kind) const override;
 
  private:
   struct Constants {
-    double radius, mass, modulus;  ///< R*, m*, E*
-    double stiffness;              ///< (4/3) E*, Pa
+    double mass, radius, modulus;  ///< m*, R*, E*
     double dashpot;                ///< c_n/sqrt(a)
-    double damping;                ///< beta
+    double coefficient;            ///< K of F = K overlap^1.5, N/m^1.5
+    double beta;
   };
   std::vector<Constants> constants_;
   double least_force_;  ///< N: 0, or none

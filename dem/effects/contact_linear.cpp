@@ -31,7 +31,7 @@ LinearContact::LinearContact(const Materials& materials, double stiffness, const
   for (const PairMaterial& m : materials.kinds()) {
     const double beta =
         tail == "clip" ? closures::damping_ratio_clipped(m.restitution) : closures::damping_ratio_kept(m.restitution);
-    constants_.push_back({m.mass, closures::linear_dashpot(stiffness, m.mass, beta), beta});
+    constants_.push_back({m.mass, closures::linear_damping(beta, stiffness, m.mass), beta});
   }
 }
 
