@@ -10,6 +10,7 @@
 #include "core/case_override.hpp"
 #include "core/case_values.hpp"
 #include "core/keys.hpp"
+#include "core/resolve_particles.hpp"
 
 namespace polybed::core {
 
@@ -201,14 +202,16 @@ void CaseReader::read(toml::table& root, std::span<const std::string> overrides)
 /// What must be given together, or not together.
 void CaseReader::check_given() {
   const auto given = [&](std::string_view path) { return contains(given_, path); };
-  const bool by_particles = given("bed.particles");
+  const bool by_particles = given("bed.particles"), list = is_list(scene_.bed);
   for (std::string_view key : {"bed.volume_share", "bed.static_height"}) {
     if (by_particles && given(key))
       values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
-    if (!by_particles && !given(key)) values_.add(fmt::format("{} is missing (or give bed.particles)", key));
+    if (!by_particles && !given(key) && !list) values_.add(fmt::format("{} is missing (or give bed.particles)", key));
   }
-  if (!given("bed.solids_fraction")) values_.add("bed.solids_fraction is missing: of the settled bed");
-  if (!scene_.column.closed && !given("inlet.superficial_velocity"))
+  // A feed is held against the packing of the settled bed, whatever the bed begins as.
+  if (!given("bed.solids_fraction") && (!list || !scene_.feeds.empty()))
+    values_.add("bed.solids_fraction is missing: of the settled bed");
+  if (!scene_.column.closed && !given("inlet.superficial_velocity") && scene_.fluid.name != "none")
     values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");
   if (scene_.column.closed && given("inlet.superficial_velocity"))
     values_.add("inlet.superficial_velocity cannot act: column.closed = true");

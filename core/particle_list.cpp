@@ -14,12 +14,12 @@
 
 #include "core/error.hpp"
 #include "core/keys.hpp"
+#include "core/resolve_particles.hpp"
 
 namespace polybed::core {
 
 namespace {
 
-constexpr std::string_view prefix = "list:";
 constexpr std::array<std::string_view, 10> column_names{"species", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"};
 constexpr std::size_t required_columns = 4;  ///< the first of them
 constexpr std::size_t most_problems = 100;   ///< told one by one; a wrong column of a million rows fills no screen
@@ -186,9 +186,9 @@ ParticleList ListReader::read(std::istream& in) {
 }  // namespace
 
 ParticleList read_particle_list(const Scene& scene) {
-  if (!scene.bed.start.starts_with(prefix))
+  if (!is_list(scene.bed))
     throw CaseError("bed.start = \"" + scene.bed.start + "\" names no list of particles: write \"list:FILE.csv\"");
-  const std::string file = scene.bed.start.substr(prefix.size());
+  const std::string file = scene.bed.start.substr(std::string_view("list:").size());
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(fmt::format("{}: cannot be read ({})", file, std::strerror(errno)));
   return ListReader(scene, file).read(in);

@@ -10,6 +10,7 @@
 
 #include "core/case_file.hpp"
 #include "core/keys.hpp"
+#include "core/resolve_particles.hpp"
 
 namespace polybed::core {
 
@@ -30,6 +31,7 @@ class Checker {
   Checker(Scene& scene, std::string name) : scene_(scene), name_(std::move(name)) {}
   void column();
   void species();
+  void contact_pairs();
   void bed(bool by_particles);
   void jets();
   void fluid();
@@ -60,6 +62,7 @@ void Checker::column() {
     largest = std::max(largest, s.diameter);
   }
   c.dimensions = int(n);
+  const double skin = scene_.dem.skin.value_or(0.1 * smallest);
   // Axes are x (width), y (height), z (depth): the height comes last in the case and second in the grid.
   const auto cells = [&](std::size_t k) { return int(c.given_cells[k]); };
   if (n == 3) {
@@ -67,7 +70,7 @@ void Checker::column() {
     c.size = {c.given_size[0], c.given_size[2], c.given_size[1]};
     c.cells = {cells(0), cells(2), cells(1)};
   } else {
-    c.size = {c.given_size[0], c.given_size[1], c.depth.value_or(2 * largest + 0.2 * smallest)};
+    c.size = {c.given_size[0], c.given_size[1], c.depth.value_or(2 * largest + 2 * skin)};
     c.cells = {cells(0), cells(1), 1};
   }
   constexpr double most_cells = 2147483647;  // hypre numbers them with 32 bits
@@ -90,7 +93,19 @@ void Checker::species() {
   for (const ContactPair& pair : scene_.contact_pairs) {
     if (pair.between.size() != 2) add("contact_pair.between takes two names");
     for (const std::string& name : pair.between)
-      if (!names.contains(name)) add("contact_pair.between: no species '{}'", name);
+      if (!names.contains(name) || name == "fluid") add("contact_pair.between: no species '{}'", name);
+  }
+  contact_pairs();
+}
+
+/// Each pair once, and no wall against a wall.
+void Checker::contact_pairs() {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const ContactPair& pair : scene_.contact_pairs) {
+    if (pair.between.size() != 2) continue;
+    const auto [first, second] = std::minmax(pair.between[0], pair.between[1]);
+    if (first == "wall" && second == "wall") add("contact_pair.between: a wall touches no wall; name a species");
+    if (!seen.emplace(first, second).second) add("two [[contact_pair]] of {} and {}: write one", first, second);
   }
 }
 
@@ -154,6 +169,7 @@ void Checker::feeds() {
 
 void Checker::bed(bool by_particles) {
   Bed& bed = scene_.bed;
+  if (is_list(bed)) return;  // which says itself how much there is
   const std::size_t species = scene_.species.size();
   const double area = scene_.column.size[0] * scene_.column.size[2];
   if (by_particles) {
@@ -186,7 +202,6 @@ void Checker::bed(bool by_particles) {
 void Checker::fluid() {
   const Fluid& fluid = scene_.fluid;
   const std::string& law = fluid.equation_of_state;
-  if (fluid.name == "none") add("fluid.name = \"none\" is a scene for the DEM, which is not in this version");
   if (law == "ideal_gas" && fluid.name == "water")
     add("fluid.equation_of_state = \"ideal_gas\": water is a liquid; \"tait\" is the law of a compressible liquid");
   if (law == "tait" && fluid.name == "air")
@@ -200,7 +215,7 @@ void Checker::numerics() {
     add("tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past "
         "packing",
         tfm.rtol);
-  if (scene_.effects.contains("solids_stress") && tfm.max_packing == "auto" &&
+  if (scene_.effects.contains("solids_stress") && tfm.max_packing == "auto" && scene_.bed.solids_fraction > 0 &&
       scene_.bed.solids_fraction <= tfm.frictional_onset)
     add("bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
         scene_.bed.solids_fraction, tfm.frictional_onset);
@@ -259,8 +274,9 @@ struct AsToml {
 void write_table(Scene& scene, std::string_view table, std::size_t index, std::string& out) {
   for (const Key& key : keys()) {
     if (key.table != table || key.replaced) continue;
-    const bool by_particles = !scene.bed.particles.empty();
-    if (by_particles && table == "bed" && (key.name == "volume_share" || key.name == "static_height")) continue;
+    const bool follows = !scene.bed.particles.empty() || is_list(scene.bed);
+    if (follows && table == "bed" && (key.name == "volume_share" || key.name == "static_height")) continue;
+    if (key.path() == "bed.solids_fraction" && !(scene.bed.solids_fraction > 0)) continue;  // of a list: not given
     std::string value = std::visit(AsToml{scene, index}, key.place);
     if (key.or_number && value.find_first_of("0123456789") == 1) value = value.substr(1, value.size() - 2);
     if (!value.empty()) out += fmt::format("{} = {}\n", key.name, value);
@@ -278,7 +294,9 @@ std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool by_
   checker.bed(by_particles);
   checker.fluid();
   checker.numerics();
-  return std::move(checker).problems();
+  Problems problems = std::move(checker).problems();
+  for (std::string& message : resolve_particles(scene, name)) problems.push_back({name, 0, 0, std::move(message)});
+  return problems;
 }
 
 std::string resolved_case(const Scene& given) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/resolve_particles.hpp"
+
 namespace polybed::core {
 
 namespace {
@@ -109,10 +111,8 @@ std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule
   }
   scene.feeds = expanded_feeds(scene.feeds, scene.size_classes);
   scene.contact_pairs = expanded_pairs(scene.contact_pairs, scene.size_classes);
-  if (shares_fit) {
-    scene.species = std::move(species);
-    bed.volume_share = std::move(shares);
-  }
+  if (shares_fit || is_list(bed)) scene.species = std::move(species);
+  if (shares_fit) bed.volume_share = std::move(shares);
   return problems;
 }
 

@@ -27,7 +27,8 @@ constexpr std::array known_units{
     Unit{"h", 0, 3600, {0, 0, 1, 0}},   Unit{"K", 0, 1, {0, 0, 0, 1}},     Unit{"Pa", 0, 1, {-1, 1, -2, 0}},
     Unit{"kPa", 3, 1, {-1, 1, -2, 0}},  Unit{"MPa", 6, 1, {-1, 1, -2, 0}}, Unit{"GPa", 9, 1, {-1, 1, -2, 0}},
     Unit{"mPa", -3, 1, {-1, 1, -2, 0}}, Unit{"bar", 5, 1, {-1, 1, -2, 0}}, Unit{"N", 0, 1, {1, 1, -2, 0}},
-    Unit{"J", 0, 1, {2, 1, -2, 0}},     Unit{"l", -3, 1, {3, 0, 0, 0}},    Unit{"%", -2, 1, {0, 0, 0, 0}},
+    Unit{"J", 0, 1, {2, 1, -2, 0}},     Unit{"mJ", -3, 1, {2, 1, -2, 0}},  Unit{"mN", -3, 1, {1, 1, -2, 0}},
+    Unit{"l", -3, 1, {3, 0, 0, 0}},     Unit{"%", -2, 1, {0, 0, 0, 0}},
 };
 
 const Unit* find_unit(std::string_view name) {
@@ -101,6 +102,7 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   const std::string_view number = text.substr(0, std::size_t(end - text.data()));
   std::string_view rest = trimmed(text.substr(number.size()));
   if (rest == "degC" || rest == "C") return Quantity{plain + 273.15, dimension::temperature, true};
+  if (rest.starts_with("1/")) rest.remove_prefix(1);  // "3 1/s", as unit_name() writes it
   Units units;
   int sign = 1;
   while (!rest.empty()) {

@@ -23,6 +23,7 @@ double water_density(const core::Fluid& fluid, double kelvin) {
 FluidConstants fluid_constants(const core::Fluid& fluid) {
   FluidConstants constants{fluid.density.value_or(0), fluid.viscosity.value_or(0)};
   if (fluid.density && fluid.viscosity) return constants;
+  if (fluid.name == "none") throw core::CaseError("fluid.name = \"none\": this needs a fluid");
   const bool water = fluid.name == "water", air = fluid.name == "air";
   if (!water && !air)
     throw core::CaseError("fluid '" + fluid.name +

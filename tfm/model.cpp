@@ -13,6 +13,7 @@
 #include "core/ranks.hpp"
 #include "fluid/properties.hpp"
 #include "tfm/initial.hpp"
+#include "tfm/particle_scene.hpp"
 
 namespace polybed::tfm {
 
@@ -32,6 +33,7 @@ core::Grid make_grid(const core::Column& column, const std::shared_ptr<const cor
 }
 
 Constants make_constants(const core::Scene& scene, const std::shared_ptr<const core::Ranks>& ranks) {
+  refuse_particle_scene(scene);
   Constants constants;
   constants.grid = make_grid(scene.column, ranks);
   constants.gravity = scene.column.gravity;

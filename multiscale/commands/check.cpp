@@ -16,6 +16,7 @@
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "tfm/model.hpp"
+#include "tfm/particle_scene.hpp"
 
 namespace polybed::multiscale {
 
@@ -151,10 +152,30 @@ void print_size_classes(const core::Scene& scene) {
   }
 }
 
+/// The case alone: what it will need is known of the two-fluid model only.
+void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons, bool as_json) {
+  const std::string text = core::resolved_case(scene);
+  if (as_json) {
+    core::Json json;
+    json.begin_object().member("case", text).member("hash", core::text_hash(text));
+    write_size_classes(json, scene);
+    json.key("notes").begin_array();
+    for (const std::string& reason : reasons) json.value(reason);
+    json.end_array().end_object();
+    fmt::print("{}\n", json.text());
+    return;
+  }
+  fmt::print("{}\n", text);
+  print_size_classes(scene);
+  for (const std::string& reason : reasons) fmt::print("# {}\n", reason);
+}
+
 }  // namespace
 
 void run_check(const CaseOptions& options) {
   const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
+  if (const auto reasons = tfm::only_for_particles(scene); !reasons.empty())
+    return check_particle_scene(scene, reasons, options.json);
   core::Timers timers;
   std::unique_ptr<tfm::Model> part;
   const Requirements need = requirements_of(scene, timers, part);

@@ -52,14 +52,17 @@ TEST(Units, DegreesAreShiftedAloneOnly) {
 }
 
 TEST(Units, NamesReadBack) {
-  for (const Dimension d : {dimension::length, dimension::density, dimension::viscosity, dimension::velocity,
-                            dimension::pressure, dimension::acceleration, dimension::per_pressure}) {
+  for (const Dimension d :
+       {dimension::length, dimension::density, dimension::viscosity, dimension::velocity, dimension::pressure,
+        dimension::acceleration, dimension::per_pressure, dimension::stiffness, dimension::energy, dimension::rate}) {
     const auto q = parse_quantity("1 " + unit_name(d));
     ASSERT_TRUE(q) << unit_name(d);
     EXPECT_EQ(q->dimension, d) << unit_name(d);
     EXPECT_EQ(q->value, 1.0) << unit_name(d);
   }
   EXPECT_EQ(unit_name(dimension::none), "1");
+  EXPECT_EQ(unit_name(dimension::stiffness), "N/m");
+  EXPECT_EQ(unit_name(dimension::energy), "J");
 }
 
 }  // namespace

@@ -1,0 +1,116 @@
+#include "core/resolve_particles.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+namespace polybed::core {
+
+namespace {
+
+constexpr std::string_view list_prefix = "list:";
+
+using Messages = std::vector<std::string>;
+
+void gravity(Column& column, Messages& wrong) {
+  const std::vector<double>& given = column.gravity_direction;
+  if (given.empty()) return;
+  if (given.size() != column.given_size.size()) {
+    wrong.push_back(
+        fmt::format("column.gravity_direction has {} numbers, column.size {}", given.size(), column.given_size.size()));
+    return;
+  }
+  // As column.size: the height comes last in the case and second on the axes.
+  const bool plane = given.size() == 2;
+  const std::array<double, 3> along{given[0], given.back(), plane ? 0 : given[1]};
+  const double length = std::hypot(along[0], along[1], along[2]);
+  if (!(length > 0)) {
+    wrong.push_back("column.gravity_direction has no direction: all its numbers are 0");
+    return;
+  }
+  for (std::size_t d = 0; d < 3; ++d) column.down[d] = along[d] / length;
+}
+
+void periodic_ends(const Scene& scene, Messages& wrong) {
+  const Column& column = scene.column;
+  if (column.ends != "periodic") return;
+  const auto contradicts = [&](bool set, const char* what) {
+    if (set) wrong.push_back(fmt::format("column.ends = \"periodic\" and {} contradict each other", what));
+  };
+  contradicts(column.closed, "column.closed = true");
+  contradicts(column.outlet == "open", "column.outlet = \"open\"");
+  contradicts(!scene.feeds.empty(), "[[feed]]");
+  if (scene.fluid.name != "none")
+    wrong.push_back("column.ends = \"periodic\" is for particles without a fluid: set fluid.name = \"none\"");
+}
+
+void shear(const Scene& scene, Messages& wrong) {
+  if (scene.dem.shear_rate == 0) return;
+  const auto needs = [&](bool met, const std::string& what) {
+    if (!met) wrong.push_back(fmt::format("dem.shear_rate = {:g} 1/s needs {}", scene.dem.shear_rate, what));
+  };
+  needs(scene.column.sides == "periodic", "column.sides = \"periodic\"");
+  needs(scene.column.ends == "periodic", "column.ends = \"periodic\"");
+  needs(scene.column.gravity == 0, fmt::format("column.gravity = 0, it is {:g} m/s2", scene.column.gravity));
+}
+
+void no_fluid(const Scene& scene, Messages& wrong) {
+  if (scene.fluid.name != "none") return;
+  const auto idle = [&](bool set, const char* what) {
+    if (set) wrong.push_back(fmt::format("{} cannot act: fluid.name = \"none\"", what));
+  };
+  idle(!scene.inlet.superficial_velocity.empty(), "inlet.superficial_velocity");
+  idle(!scene.jets.empty(), "[[jet]]");
+  idle(scene.fluid.temperature.has_value(), "fluid.temperature");
+  idle(scene.fluid.density.has_value(), "fluid.density");
+  idle(scene.fluid.viscosity.has_value(), "fluid.viscosity");
+  idle(scene.fluid.equation_of_state != "incompressible", "fluid.equation_of_state");
+}
+
+/// A path of a list is meant from the working directory or, if nothing is there, from the folder of the case.
+void place_of_list(Bed& bed, const std::string& case_name, Messages& wrong) {
+  namespace fs = std::filesystem;
+  const auto is_file = [](const fs::path& path) {
+    std::error_code error;
+    return fs::exists(path, error) && !fs::is_directory(path, error);
+  };
+  const fs::path given = bed.start.substr(list_prefix.size());
+  if (is_file(given)) return;
+  const fs::path beside = fs::path(case_name).parent_path() / given;
+  if (is_file(beside))
+    bed.start = std::string(list_prefix) + beside.string();
+  else
+    wrong.push_back(
+        fmt::format("bed.start = \"{}\": no such file in the working directory or beside the case file", bed.start));
+}
+
+void bed(Scene& scene, const std::string& case_name, Messages& wrong) {
+  Bed& bed = scene.bed;
+  const bool list = is_list(bed);
+  const auto idle = [&](bool set, const char* key) {
+    if (set) wrong.push_back(fmt::format("bed.{} cannot act: bed.start = \"{}\"", key, bed.start));
+  };
+  idle(bed.start_fraction && (list || bed.start == "random"), "start_solids_fraction");
+  idle(list && !bed.volume_share.empty(), "volume_share");
+  idle(list && bed.static_height > 0, "static_height");
+  idle(list && !bed.particles.empty(), "particles");
+  if (list) place_of_list(bed, case_name, wrong);
+}
+
+}  // namespace
+
+bool is_list(const Bed& bed) { return bed.start.starts_with(list_prefix); }
+
+std::vector<std::string> resolve_particles(Scene& scene, const std::string& case_name) {
+  Messages wrong;
+  gravity(scene.column, wrong);
+  periodic_ends(scene, wrong);
+  shear(scene, wrong);
+  no_fluid(scene, wrong);
+  bed(scene, case_name, wrong);
+  return wrong;
+}
+
+}  // namespace polybed::core

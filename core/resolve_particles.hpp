@@ -1,0 +1,18 @@
+// What the keys that the particle model reads say of each other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+
+namespace polybed::core {
+
+/// True if the bed is given particle by particle, in a file.
+[[nodiscard]] bool is_list(const Bed& bed);
+
+/// Direction of gravity, ends of the column, a scene without a fluid, shear, the place of a list of particles. Fills in
+/// Column::down and the path of the list. Returns what is wrong; column.size must have been read into the scene.
+[[nodiscard]] std::vector<std::string> resolve_particles(Scene& scene, const std::string& case_name);
+
+}  // namespace polybed::core

@@ -1,0 +1,50 @@
+// The two-fluid model refuses what only the particle model can run, naming the key.
+#include "tfm/particle_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "core/error.hpp"
+#include "tests/verification/scenes.hpp"
+
+namespace polybed::verification {
+namespace {
+
+using testing::HasSubstr;
+
+std::string refusal(const std::function<void(core::Scene&)>& change) {
+  core::Scene scene = uniform_bed(1e-3, 2500, 1000, 1e-3, 0.5, 8, 0.04);
+  change(scene);
+  core::Timers timers;
+  try {
+    const tfm::Model model(scene, timers);
+  } catch (const core::CaseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ParticleScene, IsRefusedByTheTwoFluidModel) {
+  EXPECT_EQ(refusal([](core::Scene&) {}), "");
+  EXPECT_THAT(refusal([](core::Scene& s) { s.fluid.name = "none"; }), HasSubstr("fluid.name = \"none\""));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.column.ends = "periodic"; }), HasSubstr("column.ends = \"periodic\""));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.column.down = {0.6, -0.8, 0}; }), HasSubstr("column.gravity_direction"));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.column.down = {0, 1, 0}; }), HasSubstr("column.gravity_direction"));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.dem.shear_rate = -1; }), HasSubstr("dem.shear_rate"));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.bed.start = "random"; }), HasSubstr("bed.start = \"random\""));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.bed.start = "list:a.csv"; }), HasSubstr("bed.start = \"list:a.csv\""));
+}
+
+TEST(ParticleScene, IsToldWithAllItsKeysAtOnce) {
+  const std::string message = refusal([](core::Scene& s) {
+    s.fluid.name = "none";
+    s.bed.start = "random";
+  });
+  EXPECT_THAT(message, HasSubstr("fluid.name"));
+  EXPECT_THAT(message, HasSubstr("bed.start"));
+}
+
+}  // namespace
+}  // namespace polybed::verification

@@ -1,0 +1,17 @@
+// Scenes that only the particle model can run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+
+namespace polybed::tfm {
+
+/// What in a scene is for the DEM only, one message each that names the key; empty: the two-fluid model can run it.
+[[nodiscard]] std::vector<std::string> only_for_particles(const core::Scene& scene);
+
+/// Throws core::CaseError with all of these messages.
+void refuse_particle_scene(const core::Scene& scene);
+
+}  // namespace polybed::tfm
