@@ -23,7 +23,7 @@ class Sum {
 
 /// Elastic energy, number and extremes of contacts that this rank counts.
 void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum& elastic, Totals& totals) {
-  const Images images(model.box(), model.time());
+  const Images images = model.images();
   ContactBatch batch;
   alignas(64) ContactBatch::Row stored = {};
   const Particles& particles = model.particles();

@@ -39,8 +39,9 @@ class Model : public core::Simulation {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
-  [[nodiscard]] double time() const override { return double(steps_) * limits_.dt; }
-  /// One step of dt; `stop` is passed by less than one step.
+  /// The nearest step to a time asked for counts as being there.
+  [[nodiscard]] double time() const override { return reported_; }
+  /// One step of dt, to the time nearest to `stop` that steps of one length meet.
   void step(double stop) override;
   /// The state is that of the last step: observers read times not more than a step old.
   void show(double) override {}
@@ -67,6 +68,8 @@ class Model : public core::Simulation {
   [[nodiscard]] Vector gravity() const { return gravity_; }
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
+  /// Where the images of the particles are now.
+  [[nodiscard]] Images images() const { return {box_, clock()}; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Collective.
   [[nodiscard]] Work work() const;
@@ -83,6 +86,8 @@ class Model : public core::Simulation {
   void list_pairs(std::vector<KeptContact>& kept);
   void refresh_ghosts();
   void find_forces(double dt);
+  /// Time that the state belongs to, s.
+  [[nodiscard]] double clock() const { return double(steps_) * limits_.dt; }
   void stop_if_troubled() const;
   void wrap();
 
@@ -102,6 +107,7 @@ class Model : public core::Simulation {
   Exchange exchange_;
   Particles particles_;
   Contacts pairs_, walls_;
+  double reported_ = 0;  ///< s
   std::int64_t steps_ = 0, count_ = 0, marked_at_ = 0;
   Work work_;
 };

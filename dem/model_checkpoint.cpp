@@ -68,6 +68,7 @@ core::Checkpoint Model::checkpoint() const {
   checkpoint.integers["steps"] = steps_;
   checkpoint.integers["memory_size"] = pairs_.memory_size;
   checkpoint.numbers["dt"] = limits_.dt;
+  checkpoint.numbers["time"] = reported_;
   std::array<std::int64_t, 1> dissipated{this->dissipated()};
   core::add_over_ranks(ranks_.get(), dissipated);
   checkpoint.integers["dissipated"] = dissipated[0];
@@ -76,12 +77,12 @@ core::Checkpoint Model::checkpoint() const {
 
 void Model::resume(const core::Checkpoint& checkpoint) {
   std::vector<double> particles, contacts;
-  std::array<double, 4> head{};
+  std::array<double, 5> head{};
   core::on_first(ranks_.get(), [&] {
     particles = checkpoint.arrays.at("particles");
     contacts = checkpoint.arrays.at("contacts");
     head = {double(particles.size()), double(contacts.size()), double(checkpoint.integers.at("steps")),
-            checkpoint.numbers.at("dt")};
+            checkpoint.numbers.at("dt"), checkpoint.numbers.at("time")};
     if (checkpoint.integers.at("memory_size") != pairs_.memory_size || head[3] != limits_.dt)
       throw core::FileError("the checkpoint is of another law of contact or another time step");
   });
@@ -92,6 +93,7 @@ void Model::resume(const core::Checkpoint& checkpoint) {
   core::take_from_first(ranks_.get(), particles);
   core::take_from_first(ranks_.get(), contacts);
   steps_ = std::int64_t(head[2]);
+  reported_ = head[4];
   particles_.resize(0);
   for (std::size_t n = 0; n < particles.size(); n += particle_width) {
     const Particle p = read_particle(particles.data() + n, materials_);
@@ -112,6 +114,7 @@ void Model::resume(const core::Checkpoint& checkpoint) {
 void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
   steps_ = marked_at_ = 0;
+  reported_ = 0;
 }
 
 }  // namespace polybed::dem
