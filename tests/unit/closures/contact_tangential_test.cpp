@@ -64,6 +64,13 @@ TEST(Coulomb, OfTheMindlinLawCapsTheSpring) {
   expect_near(coulomb_cap_of_force({3, -4, 0}, {2, -2, 0}, 6).history, {2, -2, 0}, 0);
 }
 
+TEST(Touch, TimeByHand) {
+  EXPECT_DOUBLE_EQ(time_since_touch(1e-6, -.5, 1e-5), 2e-6);  // 1 um at 0.5 m/s
+  EXPECT_EQ(time_since_touch(1e-5, -.5, 1e-5), 1e-5);         // deeper than one step: all of it
+  EXPECT_EQ(time_since_touch(1e-6, .5, 1e-5), 1e-5);
+  EXPECT_EQ(time_since_touch(1e-6, 0, 1e-5), 1e-5);
+}
+
 TEST(Transport, KeepsTheLengthInTheTangentialPlane) {
   // (3, 0, 4) on the plane of z: along x, of length 5.
   expect_near(transported({3, 0, 4}, {0, 0, 1}), {5, 0, 0}, 1e-15);
