@@ -8,12 +8,13 @@
 
 #include "closures/contact_hertz.hpp"
 #include "closures/contact_tangential.hpp"
+#include "closures/mindlin_deresiewicz.hpp"
 
 namespace polybed::closures::impact {
 
 /// hdd_full: without the factor 2/3; hdd_common: the history that is often used while it slides, xi = -(F_t + c_t
 /// v_t)/k_t.
-enum class Law { none, hdd, hdd_full, hdd_common, mindlin };
+enum class Law { none, hdd, hdd_full, hdd_common, mindlin, mindlin_deresiewicz };
 
 struct Sphere {
   double mass, radius, youngs_modulus, shear_modulus;  ///< m* or m, R* or R, E*, G*
@@ -37,12 +38,27 @@ struct Force {
   double normal, tangential;
 };
 
+/// What a contact remembers: xi, or for Law::mindlin the force of the spring; the state of law 3 and its normal force.
+struct History {
+  double spring = 0;
+  MindlinDeresiewicz slip = {};
+  double normal = 0;
+};
+
 inline double arm_of(const Sphere& s, const Motion& m) { return s.shortened_arm ? s.radius - m.overlap : s.radius; }
 
-/// Force at the velocities of the half step, and the history after it: xi, or for Law::mindlin the force of the spring.
-inline Force contact_force(const Sphere& s, const Motion& m, double dt, double overlap_old, double& history) {
+/// Law 3: force of the spring, and its state.
+inline double partial_slip(const Sphere& s, double full, double moved, double normal, History& history) {
+  const double change = normal - history.normal;
+  history.slip = mindlin_deresiewicz(history.slip, {full, moved, s.friction, normal, change});
+  history.normal = normal;
+  return -history.slip.force;
+}
+
+/// Force at the velocities of the half step, and the history after it.
+inline Force contact_force(const Sphere& s, const Motion& m, double dt, double overlap_old, History& history) {
   if (!(m.overlap > 0)) {
-    history = 0;
+    history = {};
     return {0, 0};
   }
   const double a = contact_radius(s.radius, m.overlap);
@@ -53,20 +69,22 @@ inline Force contact_force(const Sphere& s, const Motion& m, double dt, double o
   const double full = tangential_stiffness(s.shear_modulus, a), v_t = m.v_t + arm_of(s, m) * m.spin;
   const double c_t = damping * tangential_damping_ratio(s.shear_modulus, s.youngs_modulus);
   const bool touches = !(overlap_old > 0);
-  const double moved = v_t * (touches && !s.whole_first_step ? time_since_touch(m.overlap, m.v_n, dt) : dt);
+  const double moved = v_t * (s.whole_first_step ? dt : time_since_touch(m.overlap, m.v_n, dt));
+  if (s.law == Law::mindlin_deresiewicz)
+    return {normal, partial_slip(s, touches ? 2.0 / 3 * full : full, moved, normal, history)};
   TangentialForce force;
   if (s.law == Law::mindlin) {
-    const Vec3 spring =
-        touches ? Vec3{-2.0 / 3 * full * moved, 0, 0}
-                : mindlin_force({history, 0, 0}, contact_radius(s.radius, overlap_old), a, full, {v_t, 0, 0}, dt);
+    const Vec3 spring = touches ? Vec3{-2.0 / 3 * full * moved, 0, 0}
+                                : mindlin_force({history.spring, 0, 0}, contact_radius(s.radius, overlap_old), a, full,
+                                                {v_t, 0, 0}, dt);
     force = coulomb_cap_of_force({spring.x - c_t * v_t, 0, 0}, spring, s.friction * normal);
   } else {
     const double k = s.law == Law::hdd_full ? full : secant_stiffness_hdd(s.shear_modulus, a);
-    const Vec3 xi{history + moved, 0, 0};
+    const Vec3 xi{history.spring + moved, 0, 0};
     force = coulomb_cap(spring_force(k, xi, c_t, {v_t, 0, 0}), xi, k, s.friction * normal);
     if (s.law == Law::hdd_common && force.history.x != xi.x) force.history.x -= c_t * v_t / k;
   }
-  history = force.history.x;
+  history.spring = force.history.x;
   return {normal, force.force.x};
 }
 
@@ -81,7 +99,8 @@ inline Rebound collide(const Sphere& s, Motion m, double dt) {
   const double inertia = moment_of_inertia(s.mass, s.radius), push = 0.5 * dt / s.mass;
   Rebound out;
   Force force{0, 0};
-  double history = 0, time = 0, begin = m.overlap < 0 ? m.overlap / m.v_n : 0;
+  History history;
+  double time = 0, begin = m.overlap < 0 ? m.overlap / m.v_n : 0;
   double overlap[3] = {0, 0, 0}, forces[3] = {0, 0, 0};
   const auto kick = [&] {
     m.v_n += push * force.normal;

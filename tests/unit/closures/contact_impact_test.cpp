@@ -175,7 +175,7 @@ TEST(ObliqueImpact, DoesNotDependOnThePhaseOfTheFirstStep) {
 }
 
 TEST(ObliqueImpact, GrossSlidingIsExact) {
-  for (Law law : {Law::hdd, Law::hdd_full, Law::mindlin})
+  for (Law law : {Law::hdd, Law::hdd_full, Law::mindlin, Law::mindlin_deresiewicz})
     for (double angle : {40.0, 50.0, 60.0, 75.0}) {
       const Rebound out = oblique(law, angle, 200, true);
       const double impulse = .092 * 1.98 * 3.9 * std::cos(angle * degree);
@@ -185,6 +185,28 @@ TEST(ObliqueImpact, GrossSlidingIsExact) {
   // Printed in the source of the set-up.
   EXPECT_NEAR(oblique(Law::hdd, 40, 200, true).motion.v_t, .78291, 5e-5);
   EXPECT_NEAR(oblique(Law::hdd, 75, 200, true).motion.v_t, .95119, 5e-5);
+}
+
+TEST(ObliqueImpact, GivesNoEnergy) {
+  // Elastic in n: of the energy along the plane some is lost or none.
+  Sphere sphere = on_plane({380e9, .23}, 2.5e-3, 4000);
+  sphere.friction = .092;
+  sphere.shortened_arm = false;
+  for (Law law : {Law::hdd, Law::mindlin, Law::mindlin_deresiewicz})
+    for (double v_t : {.05, .2, .5, 1.0, 2.0, 4.0}) {
+      sphere.law = law;
+      const Motion out = collide(sphere, {0, -3.9, v_t}, elastic_time(sphere, 3.9) / 200).motion;
+      EXPECT_LT(out.v_t * out.v_t + .4 * 2.5e-3 * 2.5e-3 * out.spin * out.spin, v_t * v_t) << v_t;
+    }
+}
+
+TEST(ObliqueImpact, PartialSlipConvergesAndLiesBetweenTheOtherLaws) {
+  for (double angle : {5.0, 10.0, 15.0, 20.0, 25.0}) {
+    const double fine = oblique(Law::mindlin_deresiewicz, angle, 20000, false).motion.v_t;
+    EXPECT_NEAR(oblique(Law::mindlin_deresiewicz, angle, 200, false).motion.v_t, fine, 5e-3) << angle;
+    EXPECT_GT(fine, oblique(Law::hdd, angle, 20000, false).motion.v_t) << angle;
+    EXPECT_LT(fine, oblique(Law::mindlin, angle, 20000, false).motion.v_t) << angle;
+  }
 }
 
 TEST(ObliqueImpact, OfSteelWithoutDamping) {
