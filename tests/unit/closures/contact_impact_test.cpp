@@ -254,7 +254,7 @@ TEST(SpinningImpact, SlidesAndSticksAsTabled) {
 
 TEST(SpinningImpact, TheCommonHistoryLosesImpulse) {
   const double v_t = spinning(Law::hdd_common, -20, 200).motion.v_t;
-  EXPECT_GT(v_t, .07);  // 0.078 to 0.096 was found elsewhere, by spin; 0.12 is right
+  EXPECT_GT(v_t, .07);  // 0.097 here, 0.089 to 0.102 by spin; 0.078 to 0.096 was found elsewhere; 0.12 is right
   EXPECT_LT(v_t, .10);
 }
 
