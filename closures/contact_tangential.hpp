@@ -57,8 +57,8 @@ struct TangentialForce {
 }
 
 /// Coulomb's cap with history rescale: while it slides the spring holds the whole force, xi = -F_t/k_t; without sliding
-/// the history stays. (xi = -(F_t + c_t v_t)/k_t, often used, leaves too much on the spring: in an oblique impact with
-/// damping the sphere leaves with 15 to 25 % less tangential impulse at e 0.5.)
+/// the history stays. (xi = -(F_t + c_t v_t)/k_t, often used, leaves too little on the spring: in an oblique impact
+/// with damping the sphere leaves with 15 to 25 % less tangential impulse at e 0.5.)
 /// \param force -k_t xi - c_t v_t  \param stiffness k_t, the secant one, > 0  \param limit mu F_n
 [[nodiscard]] inline TangentialForce coulomb_cap(const Vec3& force, const Vec3& displacement, double stiffness,
                                                  double limit) {
