@@ -35,14 +35,16 @@ struct MindlinDeresiewiczStep {
 
 /// The branch on which this step goes on, from the sense of dxi: a reversal stores the present force.
 [[nodiscard]] inline MindlinDeresiewicz branch_of_step(MindlinDeresiewicz state, double displacement) {
-  // No force yet, or all of it gone on a loading branch: load the way it moves.
-  const bool fresh = state.branch == 0 && state.side * state.force <= 0;
-  state.side = fresh ? (displacement < 0 ? -1.0 : 1.0) : state.side;
+  // No force yet, or all of it gone on a loading branch: load the way it moves. Flags are numbers: g++ 12 vectorises no
+  // select between conditions.
+  const double loading = state.branch == 0 ? 1.0 : 0.0, unloading = state.branch == 1 ? 1.0 : 0.0;
+  const double fresh = state.side * state.force <= 0 ? loading : 0.0;
+  state.side = fresh > 0 ? (displacement < 0 ? -1.0 : 1.0) : state.side;
   const double force = state.side * state.force, move = state.side * displacement;
-  const bool unloads = !fresh && move < 0 && state.branch != 1, reloads = move > 0 && state.branch == 1;
-  state.unloaded_at = unloads ? force : state.unloaded_at;
-  state.reloaded_at = reloads ? force : state.reloaded_at;
-  state.branch = unloads ? 1.0 : reloads ? 2.0 : state.branch;
+  const double unloads = move < 0 ? (1 - fresh) * (1 - unloading) : 0.0, reloads = move > 0 ? unloading : 0.0;
+  state.unloaded_at += unloads * (force - state.unloaded_at);
+  state.reloaded_at += reloads * (force - state.reloaded_at);
+  state.branch += unloads * (1 - state.branch) + reloads;
   return state;
 }
 
@@ -70,11 +72,11 @@ struct MindlinDeresiewiczStep {
   force = force > limit ? limit : force < -limit ? -limit : force;
   state.unloaded_at += state.branch == 0 ? 0 : change;
   state.reloaded_at -= state.branch == 2 ? change : 0;
-  const bool crossed = state.branch == 1 && force <= -state.unloaded_at;
-  const bool rejoined = state.branch == 2 && force >= state.unloaded_at;
+  const double crossed = force <= -state.unloaded_at ? (state.branch == 1 ? 1.0 : 0.0) : 0.0;
+  const double rejoined = force >= state.unloaded_at ? (state.branch == 2 ? 1.0 : 0.0) : 0.0;
   state.force = state.side * force;
-  state.side = crossed ? -state.side : state.side;
-  state.branch = crossed || rejoined ? 0 : state.branch;
+  state.side -= 2 * crossed * state.side;
+  state.branch -= (crossed + rejoined) * state.branch;
   return state;
 }
 

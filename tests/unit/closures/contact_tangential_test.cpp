@@ -39,6 +39,26 @@ TEST(Tangential, MindlinSpringFallsWithTheContactAlone) {
   expect_near(mindlin_force({5, 0, -1}, 2, 1, 100, {2, 0, 0}, .01), {.5, 0, -.5}, 1e-15);
 }
 
+TEST(Tangential, MindlinSpringGivesNoEnergyOnAClosedPath) {
+  // Out by X where the contact is wide (S = 2), back where it is narrow (S = 1): put in S_wide X^2/2 = 1, given back
+  // S_narrow X^2/2 = 0.5; were the force kept while the contact shrinks, (S_wide - S_narrow/2) X^2 = 1.5.
+  constexpr int steps = 1000;
+  const auto given_back = [&](bool falls) {
+    Vec3 spring{0, 0, 0};
+    double work = 0;
+    for (int n = 0; n < steps; ++n) spring = mindlin_force(spring, 2, 2, 2, {1, 0, 0}, 1.0 / steps);
+    EXPECT_NEAR(spring.x, -2, 1e-12);
+    for (int n = 0; n < steps; ++n) {
+      const double before = n == 0 && falls ? 0.5 * spring.x : spring.x;
+      spring = mindlin_force(spring, n == 0 && falls ? 2 : 1, 1, 1, {-1, 0, 0}, 1.0 / steps);
+      work -= 0.5 * (before + spring.x) / steps;
+    }
+    return work;
+  };
+  EXPECT_NEAR(given_back(true), .5, 1e-12);  // the mean of both ends is exact on a straight line
+  EXPECT_NEAR(given_back(false), 1.5, 1e-12);
+}
+
 TEST(Coulomb, RescalesTheHistory) {
   // |F| = 5 against 2: the force keeps its direction, the spring holds all of it.
   const TangentialForce slides = coulomb_cap({3, -4, 0}, {1, 1, 1}, 10, 2);
@@ -62,6 +82,13 @@ TEST(Coulomb, OfALooseContactIsNothing) {
 TEST(Coulomb, OfTheMindlinLawCapsTheSpring) {
   expect_near(coulomb_cap_of_force({3, -4, 0}, {2, -2, 0}, 2).history, {1.2, -1.6, 0}, 1e-15);
   expect_near(coulomb_cap_of_force({3, -4, 0}, {2, -2, 0}, 6).history, {2, -2, 0}, 0);
+}
+
+TEST(Touch, TimeByHand) {
+  EXPECT_DOUBLE_EQ(time_since_touch(1e-6, -.5, 1e-5), 2e-6);  // 1 um at 0.5 m/s
+  EXPECT_EQ(time_since_touch(1e-5, -.5, 1e-5), 1e-5);         // deeper than one step: all of it
+  EXPECT_EQ(time_since_touch(1e-6, .5, 1e-5), 1e-5);
+  EXPECT_EQ(time_since_touch(1e-6, 0, 1e-5), 1e-5);
 }
 
 TEST(Transport, KeepsTheLengthInTheTangentialPlane) {
