@@ -1,4 +1,5 @@
 """What the runs of dem_peers.py are judged by."""
+import math
 import statistics
 
 MOST_SPREAD = 0.10  # of the CPU time over the runs; beyond it nothing is ranked
@@ -12,6 +13,9 @@ SPEED_UP = {3: 1.85}  # two ranks over one
 
 
 def spread(values):
+    """Of fewer than three runs nothing is known."""
+    if len(values) < 3:
+        return math.inf
     return (max(values) - min(values)) / statistics.median(values)
 
 

@@ -90,8 +90,9 @@ def measure(bed, found, steps, arguments):
         for name, ranks in (key for key in turns if key not in failed):
             try:
                 turns[name, ranks].append(turn(bed, found[name], steps, ranks, arguments))
-                print(f"  {bed['count']} particles, {name}, ranks {ranks}, run {repeat + 1}: "
-                      f"{turns[name, ranks][-1]['long']['cpu_s']:.2f} CPU s", file=sys.stderr, flush=True)
+                cpu = [f"{turns[name, ranks][-1][length]['cpu_s']:.2f}" for length in ("long", "short")]
+                print(f"  {bed['count']} particles, {name}, ranks {ranks}, run {repeat + 1}: CPU s "
+                      f"{' less '.join(cpu)}", file=sys.stderr, flush=True)
             except Failed as failure:
                 failed[name, ranks] = str(failure)
                 print(f"  {name}, ranks {ranks}: {failure}", file=sys.stderr, flush=True)

@@ -162,6 +162,7 @@ class DemPeers(unittest.TestCase):
         self.assertAlmostEqual(found["rate"], 1000 * 500 / 2)
         self.assertAlmostEqual(found["busy"], 2 / 4)
         self.assertAlmostEqual(found["spread"], 0.3 / 3)
+        self.assertEqual(dem_peers.summary(turns[:2], 1000, 500, 1)["spread"], math.inf)  # two runs tell nothing
 
     def test_goals(self):
         mine = {"rate": 2.6e6, "spread": 0.05}
