@@ -79,7 +79,7 @@ class Model : public core::Simulation {
   [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
 
  private:
-  void place(const std::vector<Particle>& all);
+  void place();
   [[nodiscard]] bool list_is_stale() const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
@@ -96,6 +96,7 @@ class Model : public core::Simulation {
   Box box_;
   Materials materials_;
   PairLaws laws_;
+  std::vector<Particle> start_;  ///< of all ranks; gone once they are at home
   StepLimits limits_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;

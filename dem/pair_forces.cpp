@@ -11,6 +11,7 @@ namespace {
 /// n, r and lever arms of pairs of particles; the distance becomes n, the velocity that of the surfaces.
 POLYBED_ALL_VECTOR_WIDTHS void shape_pairs(ContactBatch& b, const Images& images) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     double dx = b.distance[0][c], dy = b.distance[1][c], dz = b.distance[2][c];
     b.velocity[0][c] -= images.shorten(dx, dy, dz);
@@ -28,6 +29,7 @@ POLYBED_ALL_VECTOR_WIDTHS void shape_pairs(ContactBatch& b, const Images& images
 /// v_c = v_i - v_j - (l_i w_i + l_j w_j) x n, split into v_n and v_t.
 POLYBED_ALL_VECTOR_WIDTHS void split_velocity(ContactBatch& b) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const double nx = b.distance[0][c], ny = b.distance[1][c], nz = b.distance[2][c];
     const double li = b.arm_i[c], lj = b.arm_j[c];
@@ -45,30 +47,32 @@ POLYBED_ALL_VECTOR_WIDTHS void split_velocity(ContactBatch& b) {
   }
 }
 
-/// F = F_n n + F_t and n x F_t on both lever arms, in whole units.
+/// F = F_n n + F_t and n x F_t on both lever arms, in units.
 POLYBED_ALL_VECTOR_WIDTHS void count_units(ContactBatch& b, double per_force, double per_torque) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const double nx = b.distance[0][c], ny = b.distance[1][c], nz = b.distance[2][c];
     const double tx = b.tangential[0][c], ty = b.tangential[1][c], tz = b.tangential[2][c];
-    b.force[0][c] = std::int64_t((b.normal[c] * nx + tx) * per_force);
-    b.force[1][c] = std::int64_t((b.normal[c] * ny + ty) * per_force);
-    b.force[2][c] = std::int64_t((b.normal[c] * nz + tz) * per_force);
+    b.force[0][c] = (b.normal[c] * nx + tx) * per_force;
+    b.force[1][c] = (b.normal[c] * ny + ty) * per_force;
+    b.force[2][c] = (b.normal[c] * nz + tz) * per_force;
     const double qx = ny * tz - nz * ty, qy = nz * tx - nx * tz, qz = nx * ty - ny * tx;
     const double li = -b.arm_i[c] * per_torque, lj = -b.arm_j[c] * per_torque;
-    b.torque_i[0][c] = std::int64_t(li * qx);
-    b.torque_i[1][c] = std::int64_t(li * qy);
-    b.torque_i[2][c] = std::int64_t(li * qz);
-    b.torque_j[0][c] = std::int64_t(lj * qx);
-    b.torque_j[1][c] = std::int64_t(lj * qy);
-    b.torque_j[2][c] = std::int64_t(lj * qz);
+    b.torque_i[0][c] = li * qx;
+    b.torque_i[1][c] = li * qy;
+    b.torque_i[2][c] = li * qz;
+    b.torque_j[0][c] = lj * qx;
+    b.torque_j[1][c] = lj * qy;
+    b.torque_j[2][c] = lj * qz;
   }
 }
 
 POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
+  const int n = b.padded();
   for (int k = 0; k < 3; ++k)
-    for (int c = 0; c < b.padded(); ++c) {
-      const auto units = std::int64_t(b.moment[k][c] * per_torque);
+    for (int c = 0; c < n; ++c) {
+      const double units = b.moment[k][c] * per_torque;
       b.torque_i[k][c] += units;
       b.torque_j[k][c] -= units;
     }
@@ -217,10 +221,11 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, double time
       const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
       Load &i = particles.load[std::size_t(pair.first)], &j = particles.load[std::size_t(pair.second)];
       for (std::size_t k = 0; k < 3; ++k) {
-        i.force[k] += batch_.force[k][c];
-        j.force[k] -= batch_.force[k][c];
-        i.torque[k] += batch_.torque_i[k][c];
-        j.torque[k] += batch_.torque_j[k][c];
+        const auto force = std::int64_t(batch_.force[k][c]);
+        i.force[k] += force;
+        j.force[k] -= force;
+        i.torque[k] += std::int64_t(batch_.torque_i[k][c]);
+        j.torque[k] += std::int64_t(batch_.torque_j[k][c]);
       }
     }
   }
@@ -247,8 +252,8 @@ void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) 
       const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
       Load& i = particles.load[std::size_t(pair.first)];
       for (std::size_t k = 0; k < 3; ++k) {
-        i.force[k] += batch_.force[k][c];
-        i.torque[k] += batch_.torque_i[k][c];
+        i.force[k] += std::int64_t(batch_.force[k][c]);
+        i.torque[k] += std::int64_t(batch_.torque_i[k][c]);
       }
     }
   }

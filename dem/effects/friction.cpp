@@ -25,15 +25,17 @@ POLYBED_ALL_VECTOR_WIDTHS void spring(ContactBatch& b, const ContactBatch::Row& 
                                       const ContactBatch::Row& per_radius, const ContactBatch::Row& constant,
                                       const ContactBatch::Row& dashpot, double dt) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const Vec3 v = at(b.velocity, c);
     const Vec3 xi = closures::transported(at(b.memory, c), at(b.distance, c)) + dt * v;
     const double stiffness = per_radius[c] * b.contact_radius[c] + constant[c];
     const Vec3 force = closures::spring_force(stiffness, xi, dashpot[c] * b.dashpot[c], v);
     const double divisor = stiffness > tiny ? stiffness : tiny;
-    const closures::TangentialForce f = closures::coulomb_cap(force, xi, divisor, friction[c] * b.normal[c]);
-    put(b.memory, c, f.history);
-    put(b.tangential, c, f.force);
+    const double share = closures::coulomb_share(closures::dot(force, force), friction[c] * b.normal[c]);
+    const Vec3 capped = share * force;
+    put(b.memory, c, closures::select(share < 1, (-1 / divisor) * capped, xi));
+    put(b.tangential, c, capped);
   }
 }
 
@@ -41,16 +43,18 @@ POLYBED_ALL_VECTOR_WIDTHS void increment(ContactBatch& b, const ContactBatch::Ro
                                          const ContactBatch::Row& per_radius, const ContactBatch::Row& dashpot,
                                          double dt) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const Vec3 v = at(b.velocity, c);
     const Vec3 before = closures::transported(at(b.memory, c), at(b.distance, c));
     const double a = b.contact_radius[c], last = b.memory[3][c] > tiny ? b.memory[3][c] : tiny;
     const Vec3 held = closures::mindlin_force(before, last, a, per_radius[c] * a, v, dt);
     const Vec3 force = held - (dashpot[c] * b.dashpot[c]) * v;
-    const closures::TangentialForce f = closures::coulomb_cap_of_force(force, held, friction[c] * b.normal[c]);
-    put(b.memory, c, f.history);
+    const double share = closures::coulomb_share(closures::dot(force, force), friction[c] * b.normal[c]);
+    const Vec3 capped = share * force;
+    put(b.memory, c, closures::select(share < 1, capped, held));
     b.memory[3][c] = a;
-    put(b.tangential, c, f.force);
+    put(b.tangential, c, capped);
   }
 }
 
