@@ -78,23 +78,14 @@ POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
     }
 }
 
-/// Pairs of a list nearer than their reach, rising; where the answer is no, the place is overwritten by the next.
-POLYBED_ALL_VECTOR_WIDTHS void find_touching_pairs(const Particles& particles, Contacts& contacts, const Images& images,
-                                                   double reach) {
-  contacts.touching.resize(contacts.pairs.size() + 1);
-  std::int32_t* out = contacts.touching.data();
-  const Place* place = particles.place.data();
-  const auto count = std::int32_t(contacts.pairs.size());
-  for (std::int32_t p = 0; p < count; ++p) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
-    const Place &i = place[pair.first], &j = place[pair.second];
-    double dx = i.x[0] - j.x[0], dy = i.x[1] - j.x[1], dz = i.x[2] - j.x[2];
-    images.shorten(dx, dy, dz);
-    const double near = i.radius + j.radius + reach;
-    *out = p;
-    out += dx * dx + dy * dy + dz * dz < near * near ? 1 : 0;
+/// Whether a contact is deeper than allowed, or its overlap is not a number.
+POLYBED_ALL_VECTOR_WIDTHS bool any_deeper(const ContactBatch& b, double max_overlap) {
+  int deeper = 0;
+  for (int c = 0; c < b.count; ++c) {
+    const double least = b.radius_i[c] < b.radius_j[c] ? b.radius_i[c] : b.radius_j[c];
+    deeper |= b.overlap[c] <= 2 * max_overlap * least ? 0 : 1;
   }
-  contacts.touching.resize(std::size_t(out - contacts.touching.data()));
+  return deeper != 0;
 }
 
 /// Distance of a centre from a wall, positive inside the box, m.
@@ -103,17 +94,108 @@ double height_over(const Wall& wall, const Place& place) {
   return wall.side == 0 ? s : -s;
 }
 
-void gather_memory(const Contacts& contacts, std::size_t begin, ContactBatch& b) {
+void load_memory(const Contacts& contacts, ContactBatch& b) {
   for (int c = 0; c < b.count; ++c) {
-    const double* memory = contacts.memory_of(contacts.touching[begin + std::size_t(c)]);
+    const double* memory = contacts.memory_of(b.pair[c]);
     for (int m = 0; m < contacts.memory_size; ++m) b.memory[m][c] = memory[m];
   }
 }
 
-void scatter_memory(Contacts& contacts, std::size_t begin, const ContactBatch& b) {
+void store_memory(Contacts& contacts, const ContactBatch& b) {
   for (int c = 0; c < b.count; ++c) {
-    double* memory = contacts.memory_of(contacts.touching[begin + std::size_t(c)]);
+    double* memory = contacts.memory_of(b.pair[c]);
     for (int m = 0; m < contacts.memory_size; ++m) memory[m] = b.memory[m][c];
+  }
+}
+
+/// Fills a batch with the pairs nearer than their reach from place p of the list on; where the answer is no, the place
+/// in the batch is overwritten by the next. Returns where to go on.
+std::int32_t find_touching(const Particles& particles, const Contacts& contacts, const Images& images, double reach,
+                           std::int32_t p, ContactBatch& b) {
+  const auto end = std::int32_t(contacts.pairs.size());
+  int n = 0;
+  for (; p < end && n < ContactBatch::width; ++p) {
+    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
+    const Place &i = particles.place[std::size_t(pair.first)], &j = particles.place[std::size_t(pair.second)];
+    double dx = i.x[0] - j.x[0], dy = i.x[1] - j.x[1], dz = i.x[2] - j.x[2];
+    b.distance[0][n] = dx;
+    b.distance[1][n] = dy;
+    b.distance[2][n] = dz;
+    b.radius_i[n] = i.radius;
+    b.radius_j[n] = j.radius;
+    b.pair[n] = p;
+    b.first[n] = pair.first;
+    b.second[n] = pair.second;
+    images.shorten(dx, dy, dz);
+    const double near = i.radius + j.radius + reach;
+    n += dx * dx + dy * dy + dz * dz < near * near ? 1 : 0;
+  }
+  b.count = n;
+  return p;
+}
+
+/// The rest of what a contact of particles needs, once its pair is known.
+void load_pairs(const Particles& particles, const Contacts& contacts, const Materials& materials, const Images& images,
+                ContactBatch& b) {
+  for (int c = 0; c < b.count; ++c) {
+    const auto i = std::size_t(b.first[c]), j = std::size_t(b.second[c]);
+    const Motion &mi = particles.motion[i], &mj = particles.motion[j];
+    for (std::size_t k = 0; k < 3; ++k) {
+      b.velocity[k][c] = mi.v[k] - mj.v[k];
+      b.spin_i[k][c] = mi.w[k];
+      b.spin_j[k][c] = mj.w[k];
+    }
+    b.kind[c] = materials.kind(particles.species[i], particles.species[j]);
+  }
+  load_memory(contacts, b);
+  shape_pairs(b, images);
+  split_velocity(b);
+}
+
+/// Likewise of contacts with walls.
+void load_walls(const Particles& particles, const Contacts& contacts, const Materials& materials, const Box& box,
+                ContactBatch& b) {
+  for (int c = 0; c < b.count; ++c) {
+    const auto i = std::size_t(b.first[c]);
+    const Wall& wall = box.walls[std::size_t(b.second[c])];
+    const Place& place = particles.place[i];
+    for (int k = 0; k < 3; ++k) {
+      b.distance[k][c] = k != wall.axis ? 0.0 : (wall.side == 0 ? 1.0 : -1.0);
+      b.velocity[k][c] = particles.motion[i].v[std::size_t(k)];
+      b.spin_i[k][c] = particles.motion[i].w[std::size_t(k)];
+      b.spin_j[k][c] = 0;
+    }
+    b.radius_i[c] = b.radius_j[c] = place.radius;
+    b.arm_i[c] = height_over(wall, place);
+    b.arm_j[c] = 0;
+    b.overlap[c] = place.radius - b.arm_i[c];
+    b.kind[c] = materials.wall_kind(particles.species[i]);
+  }
+  load_memory(contacts, b);
+  split_velocity(b);
+}
+
+/// The next pairs of a list that touched at the last force.
+void take_touching(const Particles& particles, const Contacts& contacts, std::size_t begin, bool walls,
+                   ContactBatch& b) {
+  b.count = int(std::min(contacts.touching.size() - begin, std::size_t(ContactBatch::width)));
+  for (int c = 0; c < b.count; ++c) {
+    b.pair[c] = contacts.touching[begin + std::size_t(c)];
+    const Contacts::Pair pair = contacts.pairs[std::size_t(b.pair[c])];
+    b.first[c] = pair.first;
+    b.second[c] = pair.second;
+    if (walls) continue;
+    const Place &i = particles.place[std::size_t(pair.first)], &j = particles.place[std::size_t(pair.second)];
+    for (std::size_t k = 0; k < 3; ++k) b.distance[k][c] = i.x[k] - j.x[k];
+    b.radius_i[c] = i.radius;
+    b.radius_j[c] = j.radius;
+  }
+}
+
+void add_load(Load& load, const ContactBatch::Row* force, int sign, const ContactBatch::Row* torque, int c) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    load.force[k] += sign * std::int64_t(force[k][c]);
+    load.torque[k] += std::int64_t(torque[k][c]);
   }
 }
 
@@ -130,50 +212,14 @@ PairForces::PairForces(const Box& box, const Materials& materials, const PairLaw
 
 void PairForces::gather(const Particles& particles, const Contacts& contacts, const Images& images, std::size_t begin,
                         ContactBatch& b) const {
-  b.count = int(std::min(contacts.touching.size() - begin, std::size_t(ContactBatch::width)));
-  for (int c = 0; c < b.count; ++c) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-    const auto i = std::size_t(pair.first), j = std::size_t(pair.second);
-    const Place &pi = particles.place[i], &pj = particles.place[j];
-    const Motion &mi = particles.motion[i], &mj = particles.motion[j];
-    for (std::size_t k = 0; k < 3; ++k) {
-      b.distance[k][c] = pi.x[k] - pj.x[k];
-      b.velocity[k][c] = mi.v[k] - mj.v[k];
-      b.spin_i[k][c] = mi.w[k];
-      b.spin_j[k][c] = mj.w[k];
-    }
-    b.radius_i[c] = pi.radius;
-    b.radius_j[c] = pj.radius;
-    b.kind[c] = materials_.kind(particles.species[i], particles.species[j]);
-  }
-  gather_memory(contacts, begin, b);
-  shape_pairs(b, images);
-  split_velocity(b);
+  take_touching(particles, contacts, begin, false, b);
+  load_pairs(particles, contacts, materials_, images, b);
 }
 
 void PairForces::gather_walls(const Particles& particles, const Contacts& contacts, std::size_t begin,
                               ContactBatch& b) const {
-  b.count = int(std::min(contacts.touching.size() - begin, std::size_t(ContactBatch::width)));
-  for (int c = 0; c < b.count; ++c) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-    const auto i = std::size_t(pair.first);
-    const Wall& wall = box_.walls[std::size_t(pair.second)];
-    const double height = height_over(wall, particles.place[i]);
-    for (int k = 0; k < 3; ++k) {
-      b.distance[k][c] = k != wall.axis ? 0.0 : (wall.side == 0 ? 1.0 : -1.0);
-      b.velocity[k][c] = particles.motion[i].v[std::size_t(k)];
-      b.spin_i[k][c] = particles.motion[i].w[std::size_t(k)];
-      b.spin_j[k][c] = 0;
-    }
-    b.radius_i[c] = particles.place[i].radius;
-    b.radius_j[c] = particles.place[i].radius;
-    b.arm_i[c] = height;
-    b.arm_j[c] = 0;
-    b.overlap[c] = particles.place[i].radius - height;
-    b.kind[c] = materials_.wall_kind(particles.species[i]);
-  }
-  gather_memory(contacts, begin, b);
-  split_velocity(b);
+  take_touching(particles, contacts, begin, true, b);
+  load_walls(particles, contacts, materials_, box_, b);
 }
 
 void PairForces::act(double dt) {
@@ -188,75 +234,68 @@ void PairForces::act(double dt) {
 }
 
 /// A pair across ranks is computed on both, and counted where its first particle is at home.
-void PairForces::mark_counted(const Particles& particles, const Contacts& contacts, std::size_t begin) {
+void PairForces::mark_counted(std::size_t owned) {
+  for (int c = 0; c < batch_.count; ++c) counted_[c] = std::size_t(batch_.first[c]) < owned ? 1 : 0;
+}
+
+void PairForces::watch_overlap(bool wall) {
+  if (!any_deeper(batch_, max_overlap_)) return;
   for (int c = 0; c < batch_.count; ++c) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-    counted_[c] = std::size_t(pair.first) < particles.owned ? 1 : 0;
+    const double excess = batch_.overlap[c] - 2 * max_overlap_ * std::min(batch_.radius_i[c], batch_.radius_j[c]);
+    // Turned round, so that the distance of two centres at one place, whose n is not a number, is too small as well.
+    if (!(excess <= trouble_.excess))
+      trouble_ = {std::isnan(batch_.speed[c]) ? std::numeric_limits<double>::infinity() : excess, batch_.pair[c], wall};
   }
 }
 
-void PairForces::watch_overlap(const Contacts& contacts, std::size_t begin, bool wall) {
-  for (int c = 0; c < batch_.count; ++c) {
-    const double allowed = 2 * max_overlap_ * std::min(batch_.radius_i[c], batch_.radius_j[c]);
-    // Turned round, so that a distance of zero, whose overlap is not a number, is beyond what is allowed too.
-    if (!(batch_.overlap[c] - allowed <= trouble_.excess))
-      trouble_ = {std::isnan(batch_.speed[c]) ? std::numeric_limits<double>::infinity() : batch_.overlap[c] - allowed,
-                  contacts.touching[begin + std::size_t(c)], wall};
-  }
+/// What is done with a batch once it is full: laws, and the memory of its contacts.
+void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall, double dt) {
+  watch_overlap(wall);
+  if (ledger_ != nullptr) mark_counted(particles.owned);
+  act(dt);
+  store_memory(contacts, batch_);
+  contacts.touching.insert(contacts.touching.end(), batch_.pair, batch_.pair + batch_.count);
 }
 
 void PairForces::add_pairs(Particles& particles, Contacts& contacts, double time, double dt) {
   const Images images(box_, time);
+  const auto end = std::int32_t(contacts.pairs.size());
   std::swap(before_, contacts.touching);
-  find_touching_pairs(particles, contacts, images, laws_.reach());
-  contacts.forget_parted(before_);
-  pair_checks_ += contacts.pairs.size();
-  for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
-    gather(particles, contacts, images, begin, batch_);
-    watch_overlap(contacts, begin, false);
-    if (ledger_ != nullptr) mark_counted(particles, contacts, begin);
-    act(dt);
-    scatter_memory(contacts, begin, batch_);
+  contacts.touching.clear();
+  for (std::int32_t p = 0; p < end;) {
+    p = find_touching(particles, contacts, images, laws_.reach(), p, batch_);
+    load_pairs(particles, contacts, materials_, images, batch_);
+    treat(particles, contacts, false, dt);
     for (int c = 0; c < batch_.count; ++c) {
-      const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-      Load &i = particles.load[std::size_t(pair.first)], &j = particles.load[std::size_t(pair.second)];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto force = std::int64_t(batch_.force[k][c]);
-        i.force[k] += force;
-        j.force[k] -= force;
-        i.torque[k] += std::int64_t(batch_.torque_i[k][c]);
-        j.torque[k] += std::int64_t(batch_.torque_j[k][c]);
-      }
+      add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
+      add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
     }
   }
+  contacts.forget_parted(before_);
+  pair_checks_ += contacts.pairs.size();
 }
 
 void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) {
+  const auto end = std::int32_t(contacts.pairs.size());
   std::swap(before_, contacts.touching);
   contacts.touching.clear();
-  for (std::int32_t p = 0; p < std::int32_t(contacts.pairs.size()); ++p) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
-    const Place& place = particles.place[std::size_t(pair.first)];
-    if (height_over(box_.walls[std::size_t(pair.second)], place) < place.radius + laws_.reach())
-      contacts.touching.push_back(p);
+  for (std::int32_t p = 0; p < end;) {
+    batch_.count = 0;
+    for (; p < end && batch_.count < ContactBatch::width; ++p) {
+      const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
+      const Place& place = particles.place[std::size_t(pair.first)];
+      batch_.pair[batch_.count] = p;
+      batch_.first[batch_.count] = pair.first;
+      batch_.second[batch_.count] = pair.second;
+      if (height_over(box_.walls[std::size_t(pair.second)], place) < place.radius + laws_.reach()) ++batch_.count;
+    }
+    load_walls(particles, contacts, materials_, box_, batch_);
+    treat(particles, contacts, true, dt);
+    for (int c = 0; c < batch_.count; ++c)
+      add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
   }
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
-  for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
-    gather_walls(particles, contacts, begin, batch_);
-    watch_overlap(contacts, begin, true);
-    if (ledger_ != nullptr) mark_counted(particles, contacts, begin);
-    act(dt);
-    scatter_memory(contacts, begin, batch_);
-    for (int c = 0; c < batch_.count; ++c) {
-      const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-      Load& i = particles.load[std::size_t(pair.first)];
-      for (std::size_t k = 0; k < 3; ++k) {
-        i.force[k] += std::int64_t(batch_.force[k][c]);
-        i.torque[k] += std::int64_t(batch_.torque_i[k][c]);
-      }
-    }
-  }
 }
 
 }  // namespace polybed::dem

@@ -47,8 +47,9 @@ class PairForces {
 
  private:
   void act(double dt);
-  void mark_counted(const Particles& particles, const Contacts& contacts, std::size_t begin);
-  void watch_overlap(const Contacts& contacts, std::size_t begin, bool wall);
+  void treat(const Particles& particles, Contacts& contacts, bool wall, double dt);
+  void mark_counted(std::size_t owned);
+  void watch_overlap(bool wall);
 
   const Box& box_;
   const Materials& materials_;
