@@ -63,7 +63,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       torque_unit_(torque_unit(force_unit_, materials_)),
       skin_(skin_of(scene, materials_)),
       verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
-      search_(box_, skin_ + laws_.reach(), materials_.least_diameter(), materials_.greatest_diameter()),
+      search_(box_, materials_, skin_ + laws_.reach()),
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
@@ -190,7 +190,7 @@ void Model::refresh_ghosts() {
 void Model::find_forces(double dt) {
   {
     const auto scope = timers_.scope("pair forces");
-    pair_forces_.add_pairs(particles_, pairs_, clock(), dt);
+    pair_forces_.add_pairs(particles_, pairs_, images(), dt);
   }
   if (box_.walls.empty()) return;
   const auto scope = timers_.scope("walls");

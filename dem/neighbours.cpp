@@ -43,10 +43,11 @@ int NeighbourSearch::Level::place(double x, std::size_t axis) const {
   return wraps[axis] ? ((c % count[axis]) + count[axis]) % count[axis] : c;
 }
 
-NeighbourSearch::NeighbourSearch(const Box& box, double reach, double least, double greatest)
-    : box_(box), reach_(reach), least_(least) {
+NeighbourSearch::NeighbourSearch(const Box& box, const Materials& materials, double reach)
+    : box_(box), materials_(materials), reach_(reach), least_(materials.least_diameter()) {
+  const double greatest = materials.greatest_diameter();
   // Below a ratio of three one level costs less than two.
-  const bool one = greatest < 3 * least;
+  const bool one = greatest < 3 * least_;
   if (one) least_ = greatest;
   levels_.resize(one ? 1 : level_of(0.5 * greatest) + 1);
   for (std::size_t l = 0; l < levels_.size(); ++l) levels_[l].cell = std::ldexp(least_ + reach_, int(l));
@@ -125,26 +126,30 @@ void NeighbourSearch::search(const Particles& particles, std::size_t i, std::siz
     const int cy = height.cell[std::size_t(row)];
     // Across the joined faces of a sheared box the cells beside are those beside the image.
     double shifted = x[0];
-    if (box_.shear_rate != 0) shifted -= images.shift * (cy - at_y > 1 ? -1.0 : cy - at_y < -1 ? 1.0 : 0.0);
+    if (box_.shear_rate != 0)
+      shifted -= images.shift[Images::here + 3][0] * (cy - at_y > 1 ? -1.0 : cy - at_y < -1 ? 1.0 : 0.0);
     Span width = around(level.place(shifted, 0), level.count[0], level.wraps[0]);
-    for (int a = 0; a < depth.count; ++a)
-      for (int b = 0; b < width.count; ++b) {
-        const auto cell = std::size_t((depth.cell[std::size_t(a)] * level.count[1] + cy) * level.count[0] +
-                                      width.cell[std::size_t(b)]);
+    for (int k = 0; k < depth.count; ++k)
+      for (int n = 0; n < width.count; ++n) {
+        const auto cell = std::size_t((depth.cell[std::size_t(k)] * level.count[1] + cy) * level.count[0] +
+                                      width.cell[std::size_t(n)]);
         for (std::int32_t m = level.start[cell]; m < level.start[cell + 1]; ++m) {
           const auto j = std::size_t(level.member[std::size_t(m)]);
           ++candidates_;
           if (own && particles.id[j] <= particles.id[i]) continue;
           if (i >= particles.owned && j >= particles.owned) continue;
           const Place& there = particles.place[j];
-          double dx = here.x[0] - there.x[0], dy = here.x[1] - there.x[1], dz = here.x[2] - there.x[2];
-          images.shorten(dx, dy, dz);
+          const Vector d{here.x[0] - there.x[0], here.x[1] - there.x[1], here.x[2] - there.x[2]};
+          const int image = images.nearest(d);
+          const Vector seen = images.seen(d, image);
           const double near = here.radius + there.radius + reach_;
-          if (dx * dx + dy * dy + dz * dz >= near * near) continue;
+          if (seen[0] * seen[0] + seen[1] * seen[1] + seen[2] * seen[2] >= near * near) continue;
+          const auto a = std::int32_t(i), b = std::int32_t(j);
+          const std::int32_t si = particles.species[i], sj = particles.species[j];
           if (particles.id[i] < particles.id[j])
-            pairs.push_back({std::int32_t(i), std::int32_t(j)});
+            pairs.push_back({a, b, image, materials_.kind(si, sj)});
           else
-            pairs.push_back({std::int32_t(j), std::int32_t(i)});
+            pairs.push_back({b, a, Images::opposite(image), materials_.kind(sj, si)});
         }
       }
   }
@@ -162,7 +167,7 @@ void NeighbourSearch::find_pairs(const Particles& particles, double time, const 
     }
   lay_out(whole);
   sort_in(particles);
-  const Images images(box_, time);
+  const Images images(box_, time, 0);
   for (std::size_t i = 0; i < particles.size(); ++i)
     for (std::size_t l = level_of(particles.place[i].radius); l < levels_.size(); ++l)
       search(particles, i, l, images, pairs);
@@ -175,7 +180,7 @@ void NeighbourSearch::find_walls(const Particles& particles, std::vector<Contact
       const Wall& wall = box_.walls[w];
       const double s = particles.place[i].x[std::size_t(wall.axis)] - wall.place;
       if ((wall.side == 0 ? s : -s) < particles.place[i].radius + reach_)
-        pairs.push_back({std::int32_t(i), std::int32_t(w)});
+        pairs.push_back({std::int32_t(i), std::int32_t(w), Images::here, materials_.wall_kind(particles.species[i])});
     }
 }
 

@@ -7,15 +7,15 @@
 
 #include "dem/box.hpp"
 #include "dem/contacts.hpp"
+#include "dem/materials.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {
 
 class NeighbourSearch {
  public:
-  /// \param reach            skin and the longest pair effect, m: pairs nearer than this are listed
-  /// \param least, greatest  diameters, m
-  NeighbourSearch(const Box& box, double reach, double least, double greatest);
+  /// \param reach  skin and the longest pair effect, m: pairs nearer than this are listed
+  NeighbourSearch(const Box& box, const Materials& materials, double reach);
 
   /// Pairs with at least one owned particle whose surfaces are nearer than the reach; the first has the lower id.
   /// \param centre  of the space of these particles: of directions in which they do not fill the box, images are
@@ -48,6 +48,7 @@ class NeighbourSearch {
               std::vector<Contacts::Pair>& pairs);
 
   const Box& box_;
+  const Materials& materials_;
   double reach_, least_;
   std::vector<Level> levels_;
   std::vector<Vector> near_;  ///< positions with images taken near the centre
