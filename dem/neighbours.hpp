@@ -40,12 +40,21 @@ class NeighbourSearch {
     std::vector<std::int32_t> start, member;
 
     [[nodiscard]] int place(double x, std::size_t axis) const;
+    /// Whether no cell lies on both sides of another.
+    [[nodiscard]] bool roomy() const {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (wraps[k] && count[k] < 3) return false;
+      return true;
+    }
   };
   [[nodiscard]] std::size_t level_of(double radius) const;
   void lay_out(const std::array<bool, 3>& whole);
   void sort_in(const Particles& particles);
   void search(const Particles& particles, std::size_t i, std::size_t level, const Images& images,
               std::vector<Contacts::Pair>& pairs);
+
+  void add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Images& images,
+                   std::vector<Contacts::Pair>& pairs) const;
 
   const Box& box_;
   const Materials& materials_;
