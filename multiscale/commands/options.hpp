@@ -56,8 +56,4 @@ void run_list(bool json);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
 
-/// runs/<case name>-<model>, where a case.toml is called by its folder.
-[[nodiscard]] std::filesystem::path default_run_directory(const std::filesystem::path& case_path,
-                                                          const std::string& model);
-
 }  // namespace polybed::multiscale

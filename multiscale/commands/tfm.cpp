@@ -3,15 +3,14 @@
 
 #include <algorithm>
 
-#include "core/case_file.hpp"
 #include "core/interrupt.hpp"
 #include "core/progress.hpp"
 #include "core/ranks.hpp"
 #include "core/run.hpp"
 #include "multiscale/commands/options.hpp"
+#include "multiscale/commands/run_directory.hpp"
 #include "multiscale/picture.hpp"
 #include "multiscale/requirements.hpp"
-#include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "tfm/observers.hpp"
 
@@ -20,54 +19,6 @@ namespace polybed::multiscale {
 namespace {
 
 namespace fs = std::filesystem;
-
-core::Scene read_scene(const RunOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (!options.until.empty()) {
-    const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
-    overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
-  }
-  return core::read_case(options.case_path, overrides, all_roles(), size_classes);
-}
-
-void check_directory(const fs::path& directory, const RunOptions& options) {
-  const bool used = fs::exists(directory / "run.json");
-  const fs::path checkpoint = directory / "checkpoint.h5";
-  if (options.resume && !fs::exists(checkpoint) && !fs::exists(core::previous_checkpoint(checkpoint)))
-    throw core::FileError(
-        fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
-  if (used && !options.resume && !options.force)
-    throw core::CaseError(
-        fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
-                    directory.string()));
-  core::make_directories(directory);
-}
-
-/// The checkpoint to go on from. One that is damaged gives way to the one before it, under its name, so that
-/// the next one written does not push that out.
-core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
-  const fs::path path = directory / "checkpoint.h5", previous = core::previous_checkpoint(path);
-  try {
-    return core::read_checkpoint(path);
-  } catch (const core::FileError& error) {
-    core::Checkpoint checkpoint;
-    try {
-      checkpoint = core::read_checkpoint(previous);
-    } catch (const core::FileError&) {
-      throw core::FileError(fmt::format("{}; there is no whole one before it: --force begins anew", error.what()));
-    }
-    fs::rename(previous, path);
-    fmt::print(stderr, "{}\ngoing on from it\n", error.what());
-    return checkpoint;
-  }
-}
-
-/// What must be the same for a checkpoint to fit: the case without its end and its output times.
-std::string physics_hash(core::Scene scene) {
-  scene.run.until = 1;
-  scene.output = {};
-  return core::text_hash(core::resolved_case(scene));
-}
 
 /// One run from its scene to its record. On several ranks all of them compute; the first reads, writes and speaks.
 class TfmRun {
@@ -104,8 +55,7 @@ class TfmRun {
     core::Checkpoint checkpoint;
     if (options_.resume) {
       core::on_first(ranks_.get(), [&] {
-        checkpoint = read_newest_checkpoint(directory_);
-        check_case_of(checkpoint);
+        checkpoint = read_checkpoint_of(directory_, scene_);
         initial_mass = checkpoint.arrays.at("initial_mass");
       });
       model_.resume(checkpoint);
@@ -121,22 +71,8 @@ class TfmRun {
     }
     initial_mass_ = initial_mass;
     begin_ = model_.time();
-    if (!options_.resume) core::on_first(ranks_.get(), [&] { remove_checkpoints(); });
+    if (!options_.resume) core::on_first(ranks_.get(), [&] { remove_checkpoints(directory_); });
     observers_.emplace(model_, directory_, scene_.tfm.rtol, initial_mass, resume_time);
-  }
-
-  void check_case_of(const core::Checkpoint& checkpoint) const {
-    const auto hash = checkpoint.texts.find("physics_hash");
-    if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene_))
-      throw core::CaseError(fmt::format("{}: the checkpoint is of another case; only run and output times may change",
-                                        directory_.string()));
-  }
-
-  /// A run that begins anew and is killed at once must not be resumed from the run it replaces.
-  void remove_checkpoints() const {
-    const fs::path path = directory_ / "checkpoint.h5";
-    fs::remove(path);
-    fs::remove(core::previous_checkpoint(path));
   }
 
   void go() {
@@ -172,9 +108,8 @@ class TfmRun {
     const auto scope = timers_.scope("output");
     core::Checkpoint checkpoint = model_.checkpoint();
     checkpoint.arrays["initial_mass"] = initial_mass_;
-    checkpoint.texts["case"] = core::resolved_case(scene_);
-    checkpoint.texts["physics_hash"] = physics_hash(scene_);
-    core::on_first(ranks_.get(), [&] { core::write_checkpoint(directory_ / "checkpoint.h5", checkpoint); });
+    add_case(checkpoint, scene_);
+    core::on_first(ranks_.get(), [&] { core::write_checkpoint(checkpoint_path(directory_), checkpoint); });
     record("running");
   }
 
@@ -242,15 +177,9 @@ class TfmRun {
 
 }  // namespace
 
-fs::path default_run_directory(const fs::path& case_path, const std::string& model) {
-  const fs::path path = fs::absolute(case_path);
-  const std::string name = path.stem() == "case" ? path.parent_path().filename().string() : path.stem().string();
-  return fs::path("runs") / (name + "-" + model);
-}
-
 void run_tfm(const RunOptions& options) {
   core::Scene scene = read_scene(options);
-  const fs::path directory = options.output.empty() ? default_run_directory(options.case_path, "tfm") : options.output;
+  const fs::path directory = run_directory(options, "tfm");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::on_first(ranks.get(), [&] {
     require_memory(scene);
