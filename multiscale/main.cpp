@@ -121,6 +121,7 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   tfm_command->add_flag("--resume", tfm.resume, "go on from the checkpoint in the run directory");
   tfm_command->add_flag("--force", tfm.force, "replace a run directory that exists");
   tfm_command->add_flag("--quiet", tfm.quiet, "no progress");
+  tfm_command->add_flag("!--no-picture", tfm.picture, "no picture.png at the end, which takes a second");
 
   CaseOptions check;
   add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);

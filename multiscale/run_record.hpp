@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/json.hpp"
 #include "core/scene.hpp"
@@ -37,6 +38,9 @@ struct RunRecord {
 
 /// Writes "size_classes": what became of the species with a distribution; nothing if there is none.
 void write_size_classes(core::Json& json, const core::Scene& scene);
+
+/// One line for each height that still drifts.
+[[nodiscard]] std::vector<std::string> drift_lines(const fluid::Drifts& drifts);
 
 /// The record as one JSON object.
 [[nodiscard]] std::string run_record_text(const RunRecord& record);

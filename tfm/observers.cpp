@@ -37,6 +37,12 @@ std::vector<double> slab_centres(const core::Grid& grid) {
   return y;
 }
 
+std::vector<std::string> names_of_heights(const Constants& constants) {
+  std::vector<std::string> names{"bed_height"};
+  for (const std::string& name : constants.name) names.push_back("centre_" + name);
+  return names;
+}
+
 /// Whether the solids have granular temperatures to write.
 bool has_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
 
@@ -119,7 +125,8 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
                      std::vector<double> initial_mass, std::optional<double> resume_time)
     : model_(model),
       ranks_(model.constants().grid.ranks.get()),
-      invariants_(std::move(initial_mass), rtol, model.effects().compressible != nullptr) {
+      invariants_(std::move(initial_mass), rtol, model.effects().compressible != nullptr),
+      drifts_(names_of_heights(model.constants())) {
   const Constants& constants = model.constants();
   const bool compressible = model.effects().compressible != nullptr;
   core::on_first(ranks_, [&] {
@@ -155,6 +162,7 @@ void Observers::write_history(double time) {
                       time, passed, account ? account->error(fluid_mass) : 0);
   const auto height = fluid::bed_height(profile);
   bed_height_ = height.value_or(0);
+  watch(time, height, profile);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
   for (std::size_t j = 0; j < constants.species(); ++j) {
     row.push_back(fluid::centre(profile, j));
@@ -167,6 +175,19 @@ void Observers::write_history(double time) {
     for (std::size_t j = 0; j < constants.species(); ++j)
       row.insert(row.end(), {passed[j].in * constants.density[j], passed[j].out * constants.density[j]});
   core::on_first(ranks_, [&] { files_->history.write_row(row); });
+}
+
+void Observers::watch(double time, std::optional<double> height, const fluid::Profile& profile) {
+  std::vector<std::optional<double>> heights{height};
+  for (std::size_t j = 0; j < profile.fraction.size(); ++j) heights.push_back(fluid::centre(profile, j));
+  drifts_.see(time, heights);
+  const WellPosedness now = well_posedness(model_.constants(), model_.fields());
+  LeastWellPosed& least = least_well_posed_;
+  least.share_below_now = now.share_below;
+  if (now.lacks_more_than(least.cell)) {
+    least.cell = now;
+    least.time = time;
+  }
 }
 
 void Observers::write_fields(double time) {

@@ -22,6 +22,7 @@ struct RunOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-<model>
   std::string until;             ///< empty: as the case says
   bool resume = false, force = false, quiet = false;
+  bool picture = true;  ///< drawn at the end
 };
 
 /// Options of the pictures of a run.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/interrupt.hpp"
 #include "core/progress.hpp"
@@ -135,8 +136,12 @@ class TfmRun {
     const RunTotals totals = record(state);
     if (!first_) return;
     std::string message;
-    if (!draw_picture(directory_, message) && !options_.quiet) fmt::print(stderr, "no picture: {}\n", message);
-    if (!options_.quiet) print_summary(totals);
+    const bool drawn = options_.picture && draw_picture(directory_, message);
+    if (!options_.quiet) {
+      print_summary(totals);
+      if (drawn) fmt::print(stderr, "{}\n", message);
+      if (options_.picture && !drawn) fmt::print(stderr, "no picture: {}\n", message);
+    }
     if (options_.json)
       fmt::print("{}\n", run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals}));
   }
@@ -159,7 +164,21 @@ class TfmRun {
       fmt::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,
                  100.0 * double(use.guarded) / double(std::max<std::uint64_t>(use.evaluations, 1)),
                  double(use.evaluations));
-    fmt::print(stderr, "{}\n", (directory_ / "picture.png").string());
+    print_state_at_end();
+  }
+
+  void print_state_at_end() const {
+    const tfm::LeastWellPosed& least = observers_->least_well_posed();
+    std::string place;
+    for (int axis = 0; axis < model_.constants().grid.dimensions; ++axis)
+      place += fmt::format("{}{:.4g}", axis > 0 ? ", " : "", least.cell.place[std::size_t(axis)]);
+    if (std::isfinite(least.cell.least))
+      fmt::print(
+          stderr,
+          "well-posedness: least dp_s/dphi over its critical {:.2g} Pa is {:.3g}, at ({}) m, t = {:.4g} s; below "
+          "1 in {:.3g} % of the bed's cells at the end\n",
+          least.cell.critical_slope, least.cell.least, place, least.time, 100 * least.share_below_now);
+    for (const std::string& text : drift_lines(observers_->drifts())) fmt::print(stderr, "{}\n", text);
   }
 
   core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too

@@ -19,7 +19,7 @@ MOST_NOT_RUN = 6
 # What Open MPI needs in a container and as root.
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
        "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
-SHORT = ["--until", "0.1 s", "--quiet"]
+SHORT = ["--until", "0.1 s", "--quiet", "--no-picture"]
 
 
 def blocks(text):

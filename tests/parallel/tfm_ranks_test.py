@@ -67,6 +67,10 @@ class Ranks(Scratch):
         self.check_equal(*FLAT, *FIXED, *TIGHT)
         record = json.loads((self.folder / "on3/run.json").read_text())
         self.assertEqual(record["ranks"], 3)
+        alone = json.loads((self.folder / "on1/run.json").read_text())["well_posedness"]
+        self.assertEqual(record["well_posedness"]["share_below_1"], alone["share_below_1"])
+        self.assertEqual(record["well_posedness"]["least"], alone["least"])
+        self.assertAlmostEqual(record["well_posedness"]["critical_slope_Pa"] / alone["critical_slope_Pa"], 1, delta=SAME)
 
     def test_first_order_fluxes_are_the_same(self):
         """A bed that starts above its packing, with a stress too weak to throw it apart: cells on both sides of every cut
