@@ -43,8 +43,8 @@ std::vector<std::string> names_of_heights(const Constants& constants) {
   return names;
 }
 
-/// Whether the solids have granular temperatures to write.
-bool has_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
+/// Whether there are granular temperatures to write: unknowns, or found by a local balance.
+bool knows_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
 
 std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
   std::vector<std::string> names{"voidage", "p"};
@@ -133,8 +133,8 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
     const std::filesystem::path steps = directory / "steps.csv";
     files_.reset(new Files{
         {directory, history_columns(constants, compressible), resume_time},
-        {directory, slab_centres(constants.grid), profile_names(constants, has_temperature(model)), resume_time},
-        {directory, core::whole_column(constants.grid), field_names(constants, has_temperature(model), compressible),
+        {directory, slab_centres(constants.grid), profile_names(constants, knows_temperature(model)), resume_time},
+        {directory, core::whole_column(constants.grid), field_names(constants, knows_temperature(model), compressible),
          resume_time},
         steps,
         {open_steps(steps, resume_time), std::fclose}});
@@ -205,7 +205,7 @@ void Observers::write_fields(double time) {
     rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));
     whole.push_back(gathered(grid, {&fields.solids.fraction[j]}));
     whole.push_back(gathered(grid, components(grid, velocities[j + 1])));
-    if (!has_temperature(model_)) continue;
+    if (!knows_temperature(model_)) continue;
     rows.push_back(fluid::lateral_mean(grid, fields.solids.temperature[j]));
     whole.push_back(gathered(grid, {&fields.solids.temperature[j]}));
   }
