@@ -5,6 +5,7 @@
 
 #include "core/json.hpp"
 #include "dem/observers.hpp"
+#include "dem/settling.hpp"
 #include "multiscale/commands/case_run.hpp"
 #include "multiscale/run_record.hpp"
 
@@ -30,6 +31,10 @@ class DemRun final : public CaseRun {
           initial_energy = energy[0];
         },
         [&](core::Checkpoint& checkpoint) { model_.start_from(checkpoint); });
+    if (scene_.bed.start == "settled" && !options_.resume) {
+      if (!options_.quiet) fmt::print(stderr, "the bed settles first\n");
+      model_.start_from(dem::settled(scene_, model_.limits().dt, ranks_));
+    }
     const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
     observers_.emplace(model_, scene_, directory_, initial_energy, resume_time);
   }
