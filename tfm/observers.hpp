@@ -40,7 +40,6 @@ class Observers {
   struct Files {
     core::HistoryWriter history;
     core::ProfileWriter profiles;
-    core::FieldWriter fields;
     std::filesystem::path steps_path;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> steps;
   };
@@ -49,6 +48,7 @@ class Observers {
   const core::Ranks* ranks_;
   fluid::Invariants invariants_;
   std::unique_ptr<Files> files_;
+  std::optional<core::FieldWriter> fields_;  ///< every rank writes its block
   double bed_height_ = 0, force_balance_ = 0;
 };
 

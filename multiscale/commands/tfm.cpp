@@ -108,13 +108,14 @@ class TfmRun {
         check_case_of(checkpoint);
         initial_mass = checkpoint.arrays.at("initial_mass");
       });
+      read_fields(directory_ / "checkpoint.h5", checkpoint);
       model_.resume(checkpoint);
       core::take_from_first(ranks_.get(), initial_mass);
       resume_time = model_.time();
     } else if (scene_.bed.start.starts_with("checkpoint:")) {
-      core::on_first(ranks_.get(), [&] {
-        checkpoint = core::read_checkpoint(scene_.bed.start.substr(std::string("checkpoint:").size()));
-      });
+      const fs::path path = scene_.bed.start.substr(std::string("checkpoint:").size());
+      core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(path); });
+      read_fields(path, checkpoint);
       model_.start_from(checkpoint);
       model_.show(0);
       initial_mass = tfm::masses(model_);
@@ -123,6 +124,11 @@ class TfmRun {
     begin_ = model_.time();
     if (!options_.resume) core::on_first(ranks_.get(), [&] { remove_checkpoints(); });
     observers_.emplace(model_, directory_, scene_.tfm.rtol, initial_mass, resume_time);
+  }
+
+  /// Every rank reads its block.
+  void read_fields(const fs::path& path, core::Checkpoint& checkpoint) const {
+    core::on_all(ranks_.get(), [&] { core::read_parts(path, model_.checkpoint_parts(), checkpoint); });
   }
 
   void check_case_of(const core::Checkpoint& checkpoint) const {
@@ -174,7 +180,7 @@ class TfmRun {
     checkpoint.arrays["initial_mass"] = initial_mass_;
     checkpoint.texts["case"] = core::resolved_case(scene_);
     checkpoint.texts["physics_hash"] = physics_hash(scene_);
-    core::on_first(ranks_.get(), [&] { core::write_checkpoint(directory_ / "checkpoint.h5", checkpoint); });
+    core::write_checkpoint(directory_ / "checkpoint.h5", checkpoint, ranks_.get());
     record("running");
   }
 
