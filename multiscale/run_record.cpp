@@ -1,5 +1,6 @@
 #include "multiscale/run_record.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <thread>
 
@@ -45,6 +46,18 @@ void write_invariants(Json& json, const fluid::Invariants& invariants) {
   json.end_array();
 }
 
+/// G/G_crit where it is least; null where nothing slips.
+void write_posedness(Json& json, const tfm::PosednessMargin& margin) {
+  json.key("posedness").begin_object();
+  if (std::isfinite(margin.least))
+    json.member("least_slope_over_critical", margin.least);
+  else
+    json.key("least_slope_over_critical").null();
+  json.key("cell").begin_array();
+  for (const int index : margin.cell) json.value(std::int64_t(index));
+  json.end_array().member("share_of_cells_below", margin.share).end_object();
+}
+
 /// How often closures were asked outside their range.
 void write_guards(Json& json, const std::vector<tfm::ClosureUse>& closures) {
   json.key("guards").begin_array();
@@ -88,6 +101,7 @@ RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
   totals.cpu_seconds = core::sum_of_ranks(grid, cpu_seconds);
   totals.masses = tfm::masses(model);
   if (model.constants().openings.present()) totals.passed = model.passed();
+  totals.posedness = tfm::posedness_margin(model.constants(), model.fields());
   const tfm::Effects& effects = model.effects();
   if (effects.drag) totals.closures.push_back(effects.drag->use());
   if (effects.solids_stress)
@@ -150,6 +164,7 @@ std::string run_record_text(const RunRecord& record) {
   write_invariants(json, record.observers.invariants());
   write_ledger(json, model.constants(), record.totals, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
+  write_posedness(json, record.totals.posedness);
   write_guards(json, record.totals.closures);
   json.key("warnings").begin_array();
   for (const fluid::WorstInvariant& w : record.observers.invariants().worst())

@@ -8,6 +8,7 @@
 #include "core/scene.hpp"
 #include "core/timers.hpp"
 #include "tfm/observers.hpp"
+#include "tfm/posedness.hpp"
 
 namespace polybed::multiscale {
 
@@ -18,6 +19,7 @@ struct RunTotals {
   std::vector<tfm::ClosureUse> closures;
   std::vector<double> masses;         ///< of the species in the column, kg
   std::vector<fluid::Passed> passed;  ///< through open ends; empty if there are none
+  tfm::PosednessMargin posedness;     ///< of the fields last shown
 };
 
 /// Collective.

@@ -226,6 +226,7 @@ class TfmRun {
     for (const fluid::WorstInvariant& w : observers_->invariants().worst())
       fmt::print(stderr, "{}: worst {:.2e}, limit {:.0e}{}\n", w.name, w.value, w.limit,
                  w.value > w.limit ? "  <-- exceeded" : "");
+    fmt::print(stderr, "{}\n", tfm::sentence_of(totals.posedness, model_.constants().grid));
     for (const tfm::ClosureUse& use : totals.closures)
       fmt::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,
                  100.0 * double(use.guarded) / double(std::max<std::uint64_t>(use.evaluations, 1)),
