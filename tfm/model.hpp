@@ -44,15 +44,17 @@ class Model : public core::Simulation {
   void show(double t) override;
   void restart() override;
 
-  /// The whole column's state, to the bit, on the first rank; valid right after restart(). It does not depend on how
-  /// many ranks share the column.
+  /// The state of this rank's block, to the bit; valid right after restart(). What a file of it holds does not depend
+  /// on how many ranks share the column.
   [[nodiscard]] core::Checkpoint checkpoint() const;
+  /// How the arrays of a checkpoint that ranks share lie in those of the column.
+  [[nodiscard]] core::CheckpointParts checkpoint_parts() const;
   /// Keeps the state last accepted as the one that checkpoint() returns, after a step has failed.
   void keep_last_state();
   /// Begins at time 0 from the state of a checkpoint of the same species and grid.
   void start_from(const core::Checkpoint& checkpoint);
-  /// Takes a run up again from a checkpoint, of which only the first rank's is read, written by any number of ranks;
-  /// throws core::FileError if it is of another scene.
+  /// Takes a run up again from a checkpoint written by any number of ranks: each rank's own parts, the rest of the
+  /// first; throws core::FileError if it is of another scene.
   void resume(const core::Checkpoint& checkpoint);
 
   [[nodiscard]] const Constants& constants() const { return equations_.constants(); }

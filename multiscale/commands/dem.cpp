@@ -24,13 +24,13 @@ class DemRun final : public CaseRun {
       : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks)), model_(scene_, timers_, ranks_) {
     std::optional<double> initial_energy;
     prepare(
-        [&](core::Checkpoint& checkpoint) {
+        [&](core::Checkpoint& checkpoint, const fs::path&) {
           model_.resume(checkpoint);
           std::array<double, 1> energy{first_ ? checkpoint.numbers["initial_energy"] : 0.0};
           core::take_from_first(ranks_.get(), energy);
           initial_energy = energy[0];
         },
-        [&](core::Checkpoint& checkpoint) { model_.start_from(checkpoint); });
+        [&](core::Checkpoint& checkpoint, const fs::path&) { model_.start_from(checkpoint); });
     if (scene_.bed.start == "settled" && !options_.resume) {
       if (!options_.quiet) fmt::print(stderr, "the bed settles first\n");
       model_.start_from(dem::settled(scene_, model_.limits().dt, ranks_));
