@@ -10,6 +10,20 @@
 
 namespace polybed::tfm {
 
+namespace {
+
+/// What an integrator that is closed leaves behind; cells of first order are counted by the fallback, which goes on.
+constexpr std::array<std::pair<const char*, std::uint64_t Work::*>, 7> counts{
+    {{"steps", &Work::steps},
+     {"rejected_steps", &Work::rejected_steps},
+     {"right_hand_sides", &Work::right_hand_sides},
+     {"pressure_solves", &Work::pressure_solves},
+     {"pressure_iterations", &Work::pressure_iterations},
+     {"newton_iterations", &Work::newton_iterations},
+     {"krylov_iterations", &Work::krylov_iterations}}};
+
+}  // namespace
+
 StateLayout Model::layout_on(const core::Grid& grid) const {
   return {grid, int(constants().species()), layout_.with_pressure(), transports_temperature(),
           constants().openings.passages()};
@@ -62,13 +76,7 @@ core::Checkpoint Model::checkpoint() const {
     c.numbers["fluid_out_kg"] = account->out;
   }
   const Work done = work();
-  c.integers["steps"] = std::int64_t(done.steps);
-  c.integers["rejected_steps"] = std::int64_t(done.rejected_steps);
-  c.integers["right_hand_sides"] = std::int64_t(done.right_hand_sides);
-  c.integers["pressure_solves"] = std::int64_t(done.pressure_solves);
-  c.integers["pressure_iterations"] = std::int64_t(done.pressure_iterations);
-  c.integers["newton_iterations"] = std::int64_t(done.newton_iterations);
-  c.integers["krylov_iterations"] = std::int64_t(done.krylov_iterations);
+  for (const auto& [name, count] : counts) c.integers[name] = std::int64_t(done.*count);
   c.integers["first_order_cells"] = std::int64_t(done.first_order_cells);
   return c;
 }
@@ -129,18 +137,11 @@ void Model::resume(const core::Checkpoint& checkpoint) {
 /// Counts go on where they were; they are exact in a double up to 9e15.
 void Model::take_up_counts(const core::Checkpoint& checkpoint) {
   const core::Ranks* ranks = constants().grid.ranks.get();
-  const auto take = [&](std::uint64_t& count, const char* name) {
+  for (const auto& [name, count] : counts) {
     double value = core::is_first(ranks) ? double(checkpoint.integers.at(name)) : 0;
     core::take_from_first(ranks, std::span(&value, 1));
-    count = std::uint64_t(value);
-  };
-  take(before_.steps, "steps");
-  take(before_.rejected_steps, "rejected_steps");
-  take(before_.right_hand_sides, "right_hand_sides");
-  take(before_.pressure_solves, "pressure_solves");
-  take(before_.pressure_iterations, "pressure_iterations");
-  take(before_.newton_iterations, "newton_iterations");
-  take(before_.krylov_iterations, "krylov_iterations");
+    before_.*count = std::uint64_t(value);
+  }
 }
 
 }  // namespace polybed::tfm

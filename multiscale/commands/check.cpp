@@ -6,7 +6,6 @@
 
 #include "closures/drag.hpp"
 #include "closures/mixture.hpp"
-#include "closures/terminal_velocity.hpp"
 #include "core/case_file.hpp"
 #include "core/json.hpp"
 #include "core/progress.hpp"
@@ -17,6 +16,7 @@
 #include "multiscale/run_record.hpp"
 #include "tfm/model.hpp"
 #include "tfm/particle_scene.hpp"
+#include "tfm/step_estimate.hpp"
 
 namespace polybed::multiscale {
 
@@ -82,9 +82,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
     const double excess = constants.density[j] - constants.fluid.density;
     derived.weight +=
         scene.bed.volume_share[j] * scene.bed.static_height * scene.bed.solids_fraction * excess * constants.gravity;
-    derived.terminal.push_back(closures::terminal_velocity(
-        [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; }, constants.diameter[j], excess,
-        constants.fluid.density, constants.fluid.viscosity, constants.gravity));
+    derived.terminal.push_back(tfm::terminal_velocity(constants, j));
     derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] / constants.fluid.viscosity);
     for (const Inflow& inflow : inflows)
       if (inflow.velocity > derived.terminal[j])

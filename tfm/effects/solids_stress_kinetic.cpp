@@ -158,7 +158,7 @@ void KineticStress::add_wall_energy(Fields& fields) const {
   const core::Grid& grid = constants_.grid;
   for (int wall = 0; wall < grid.dimensions; ++wall)
     for (int side = 0; side < 2; ++side) {
-      if (!grid.ends(wall, side) || (wall == 1 && side == 1 && !boundaries_.closed())) continue;
+      if (!boundaries_.stops_solids(wall, side)) continue;
       core::Box box = core::owned_cells(grid);
       box.lo[std::size_t(wall)] = side == 0 ? 0 : grid.cells[std::size_t(wall)] - 1;
       box.hi[std::size_t(wall)] = box.lo[std::size_t(wall)] + 1;
