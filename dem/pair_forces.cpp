@@ -74,6 +74,13 @@ POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
     }
 }
 
+/// Empties the first rows of the memory of pairs within the reach of cohesion that do not touch: a new contact has
+/// none.
+POLYBED_ALL_VECTOR_WIDTHS void forget_open(ContactBatch& b, int rows) {
+  for (int m = 0; m < rows; ++m)
+    for (int c = 0; c < b.padded(); ++c) b.memory[m][c] = b.overlap[c] > 0 ? b.memory[m][c] : 0;
+}
+
 /// Pairs of a list nearer than their reach, rising; where the answer is no, the place is overwritten by the next.
 POLYBED_ALL_VECTOR_WIDTHS void find_touching_pairs(const Particles& particles, Contacts& contacts, const Images& images,
                                                    double reach) {
@@ -176,6 +183,7 @@ void PairForces::act(double dt) {
   laws_.normal->act(batch_);
   if (laws_.tangential) laws_.tangential->act(batch_, dt);
   if (laws_.rolling) laws_.rolling->act(batch_, dt);
+  if (laws_.reach() > 0) forget_open(batch_, laws_.contact_memory());
   if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
   if (laws_.cohesion) laws_.cohesion->act(batch_);
   count_units(batch_, force_.per_unit, torque_.per_unit);
