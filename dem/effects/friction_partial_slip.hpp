@@ -11,7 +11,9 @@ namespace polybed::dem {
 /// unloads and to which it reloads. e turns with the pair. A displacement is split: its part along e goes through the
 /// rule; the part across meets the whole stiffness 8 G* a and turns the force, and e with it; mu F_n bounds the sum. A
 /// contact without force on its loading branch takes the direction in which it moves. Along a line there is no part
-/// across, and the rule is left. No dashpot: what slips loses energy by itself.
+/// across, and the rule is left. Around a
+/// circle that does not slide as a whole it loses almost nothing after the first turn. No dashpot: what slips loses
+/// energy by itself.
 class PartialSlipFriction final : public TangentialLaw {
  public:
   PartialSlipFriction(const Materials& materials, int place);
