@@ -55,9 +55,10 @@ inline constexpr double first_step_share = 2.0 / 3;
 /// mu F_n/|F_t| where the force exceeds mu F_n, else 1; 0 for F_n <= 0 and a force.
 /// \param force_squared |F_t|^2  \param limit mu F_n, N
 [[nodiscard]] inline double coulomb_share(double force_squared, double limit) {
+  constexpr double least = 1e-300;  // N2: no force has no direction, and its share is that of a limit to nothing
   const double bound = limit > 0 ? limit : 0;
-  const bool slides = force_squared > bound * bound;
-  return slides ? bound / std::sqrt(slides ? force_squared : 1.0) : 1;
+  const double share = bound / std::sqrt(force_squared > least ? force_squared : least);
+  return share < 1 ? share : 1;
 }
 
 /// Coulomb's cap with history rescale: while it slides the spring holds the whole force, xi = -F_t/k_t; without sliding

@@ -15,6 +15,9 @@ namespace polybed::dem {
 #define POLYBED_ALL_VECTOR_WIDTHS __attribute__((target_clones("default", "avx2", "avx512f")))
 #endif
 
+// Contacts of a batch do not depend on each other, which the compiler cannot see from arrays that might overlap.
+#define POLYBED_INDEPENDENT _Pragma("GCC ivdep")
+
 struct ContactBatch {
   static constexpr int width = 64;  ///< contacts
   static constexpr int most_memory = 24;
@@ -23,6 +26,9 @@ struct ContactBatch {
   int count = 0;  ///< contacts; loops run to padded(), over finite values
   [[nodiscard]] int padded() const { return (count + 7) & ~7; }
 
+  std::int32_t pair[width] = {};   ///< its place in the list of pairs
+  std::int32_t first[width] = {};  ///< its particles, or a particle and a wall
+  std::int32_t second[width] = {};
   std::int32_t kind[width] = {};     ///< of the pair of materials
   alignas(64) Row distance[3] = {};  ///< x_i - x_j, then n of unit length
   alignas(64) Row velocity[3] = {};  ///< v_i - v_j, then v_t, of the surfaces at the contact
@@ -39,8 +45,7 @@ struct ContactBatch {
   alignas(64) Row tangential[3] = {};   ///< F_t
   alignas(64) Row moment[3] = {};       ///< on i, of rolling friction; on j its opposite
 
-  using Units = std::int64_t[width];  ///< in whole units of force and torque
-  alignas(64) Units force[3] = {}, torque_i[3] = {}, torque_j[3] = {};
+  alignas(64) Row force[3] = {}, torque_i[3] = {}, torque_j[3] = {};  ///< in units, not yet whole
 };
 
 }  // namespace polybed::dem

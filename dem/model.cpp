@@ -56,18 +56,19 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       box_(box_of(scene)),
       materials_(scene),
       laws_(make_pair_laws(scene, materials_)),
-      limits_(step_limits(scene, materials_, laws_, greatest_speed(scene, box_))),
+      start_(start_particles(scene, materials_, box_)),
+      limits_(step_limits(scene, materials_, laws_, greatest_speed(scene, box_, start_))),
       gravity_(gravity_of(scene)),
       force_unit_(force_unit(scene, materials_, laws_)),
       torque_unit_(torque_unit(force_unit_, materials_)),
       skin_(skin_of(scene, materials_)),
       verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
-      search_(box_, skin_ + laws_.reach(), materials_.least_diameter(), materials_.greatest_diameter()),
+      search_(box_, materials_, skin_ + laws_.reach()),
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
-  place(start_particles(scene, materials_, box_));
+  place();
   if (scene.dem.ledger) {
     ledger_.emplace(laws_, laws_.memory_size(), energy_unit_);
     pair_forces_.keep(*ledger_);
@@ -77,7 +78,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
 }
 
 /// Every rank makes all particles and keeps its own: the start is the same on any number of ranks.
-void Model::place(const std::vector<Particle>& all) {
+void Model::place() {
+  const std::vector<Particle> all = std::move(start_);
   count_ = std::int64_t(all.size());
   std::vector<Place> places;
   double mass = 0;
@@ -188,7 +190,7 @@ void Model::refresh_ghosts() {
 void Model::find_forces(double dt) {
   {
     const auto scope = timers_.scope("pair forces");
-    pair_forces_.add_pairs(particles_, pairs_, clock(), dt);
+    pair_forces_.add_pairs(particles_, pairs_, images(), dt);
   }
   if (box_.walls.empty()) return;
   const auto scope = timers_.scope("walls");

@@ -69,7 +69,7 @@ class Model : public core::Simulation {
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
   /// Where the images of the particles are now.
-  [[nodiscard]] Images images() const { return {box_, clock()}; }
+  [[nodiscard]] Images images() const { return {box_, clock(), double(steps_ - marked_at_) * limits_.dt}; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Collective.
   [[nodiscard]] Work work() const;
@@ -79,7 +79,7 @@ class Model : public core::Simulation {
   [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
 
  private:
-  void place(const std::vector<Particle>& all);
+  void place();
   [[nodiscard]] bool list_is_stale() const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
@@ -96,6 +96,7 @@ class Model : public core::Simulation {
   Box box_;
   Materials materials_;
   PairLaws laws_;
+  std::vector<Particle> start_;  ///< of all ranks; gone once they are at home
   StepLimits limits_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;

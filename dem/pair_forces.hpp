@@ -6,6 +6,7 @@
 
 #include "dem/box.hpp"
 #include "dem/contact_batch.hpp"
+#include "dem/contact_loader.hpp"
 #include "dem/contacts.hpp"
 #include "dem/effects.hpp"
 #include "dem/ledger.hpp"
@@ -30,9 +31,8 @@ class PairForces {
   void keep(Ledger& ledger) { ledger_ = &ledger; }
 
   /// Adds the forces and torques of all pairs of a list to the loads of its particles, and moves its memory on.
-  /// \param time  s, places the images of a sheared box
-  /// \param dt    s, since the last call
-  void add_pairs(Particles& particles, Contacts& contacts, double time, double dt);
+  /// \param images  now, by the numbers that the list gives  \param dt  s, since the last call
+  void add_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt);
   /// The same with the walls.
   void add_walls(Particles& particles, Contacts& contacts, double dt);
 
@@ -40,18 +40,16 @@ class PairForces {
   [[nodiscard]] std::uint64_t pair_checks() const { return pair_checks_; }
   [[nodiscard]] std::uint64_t contact_steps() const { return contact_steps_; }
 
-  /// Fills a batch with touching pairs from `begin` on, up to the forces; for those who look at single contacts.
-  void gather(const Particles& particles, const Contacts& contacts, const Images& images, std::size_t begin,
-              ContactBatch& batch) const;
-  void gather_walls(const Particles& particles, const Contacts& contacts, std::size_t begin, ContactBatch& batch) const;
+  /// Who fills batches; for those who look at single contacts.
+  [[nodiscard]] const ContactLoader& loader() const { return loader_; }
 
  private:
   void act(double dt);
-  void mark_counted(const Particles& particles, const Contacts& contacts, std::size_t begin);
-  void watch_overlap(const Contacts& contacts, std::size_t begin, bool wall);
+  void treat(const Particles& particles, Contacts& contacts, bool wall, double dt);
+  void mark_counted(std::size_t owned);
+  void watch_overlap(bool wall);
 
-  const Box& box_;
-  const Materials& materials_;
+  ContactLoader loader_;
   const PairLaws& laws_;
   FixedPoint force_, torque_;
   double max_overlap_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 
@@ -46,18 +47,22 @@ double skin_of(const core::Scene& scene, const Materials& materials) {
   return scene.dem.skin.value_or(0.1 * materials.least_diameter());
 }
 
-double greatest_speed(const core::Scene& scene, const Box& box) {
+double greatest_speed(const core::Scene& scene, const Box& box, const std::vector<Particle>& start) {
   if (scene.dem.greatest_speed) return *scene.dem.greatest_speed;
-  double height = 0;
+  double height = 0, least = std::numeric_limits<double>::infinity(), speed = std::abs(box.image_speed());
   for (std::size_t k = 0; k < 3; ++k)
     if (!box.periodic[k]) height = std::max(height, box.size[k]);
-  // Three standard deviations of each component: few particles are faster.
-  const double speed =
-      std::max({std::sqrt(2 * scene.column.gravity * height), 3 * scene.dem.start_speed, std::abs(box.image_speed())});
+  speed = std::max(speed, std::sqrt(2 * scene.column.gravity * height));
+  for (const Particle& p : start) {
+    speed = std::max(speed, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
+    least = std::min(least, 2 * p.place.radius);
+  }
+  if (!(speed > 0) && scene.dem.fixed_step) speed = 0.01 * least / *scene.dem.fixed_step;
   if (!(speed > 0))
     throw core::CaseError(
-        "dem.greatest_speed: without gravity, shear or dem.start_speed nothing tells how fast the particles will be; "
-        "give the greatest speed expected, which sets the time step");
+        "dem.greatest_speed: without gravity, shear or particles that move nothing tells how fast they will be; give "
+        "the "
+        "greatest speed expected, which sets the time step");
   return speed;
 }
 

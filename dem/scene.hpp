@@ -18,9 +18,10 @@ namespace polybed::dem {
 /// or a tenth of the least diameter.
 [[nodiscard]] double skin_of(const core::Scene& scene, const Materials& materials);
 
-/// m/s, that particles are expected to reach: as the case gives it, or that of a fall through the box, of the
-/// velocities at the start and of the shear. Throws core::CaseError if nothing tells it.
-[[nodiscard]] double greatest_speed(const core::Scene& scene, const Box& box);
+/// m/s, that particles are expected to reach: as the case gives it, or that of a fall through the box, of the particles
+/// at the start and of the shear; of particles at rest that nothing moves, what dem.fixed_step is made for. Throws
+/// core::CaseError if nothing tells it.
+[[nodiscard]] double greatest_speed(const core::Scene& scene, const Box& box, const std::vector<Particle>& start);
 
 /// Unit of forces: at the overlap allowed, on as many contacts as the largest particle has room for.
 [[nodiscard]] FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws);

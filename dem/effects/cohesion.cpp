@@ -14,6 +14,7 @@ using Row = ContactBatch::Row;
 
 POLYBED_ALL_VECTOR_WIDTHS void dmt(ContactBatch& b, const Row& pull) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) b.normal[c] += closures::dmt_force(pull[c], b.overlap[c]);
 }
 
@@ -22,6 +23,7 @@ double holds(double held, double overlap, double gap) { return overlap >= 0 ? 1.
 
 POLYBED_ALL_VECTOR_WIDTHS void jkr(ContactBatch& b, int place, const Row& force, const Row& gap) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const double held = holds(b.memory[place][c], b.overlap[c], gap[c]);
     const double whole = closures::jkr_force({force[c], 0, gap[c]}, b.overlap[c]);
@@ -32,6 +34,7 @@ POLYBED_ALL_VECTOR_WIDTHS void jkr(ContactBatch& b, int place, const Row& force,
 
 POLYBED_ALL_VECTOR_WIDTHS void van_der_waals(ContactBatch& b, const Row& radius, double hamaker, double least_gap) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c)
     b.normal[c] += closures::van_der_waals_force(hamaker, radius[c], least_gap, -b.overlap[c]);
 }

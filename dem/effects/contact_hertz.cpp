@@ -13,6 +13,7 @@ namespace {
 POLYBED_ALL_VECTOR_WIDTHS void hertz(ContactBatch& b, const ContactBatch::Row& radius, const ContactBatch::Row& modulus,
                                      const ContactBatch::Row& dashpot, double least_force) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const double overlap = b.overlap[c] > 0 ? b.overlap[c] : 0;
     const double a = closures::contact_radius(radius[c], overlap), damping = dashpot[c] * std::sqrt(a);

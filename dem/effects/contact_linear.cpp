@@ -14,6 +14,7 @@ namespace {
 POLYBED_ALL_VECTOR_WIDTHS void linear(ContactBatch& b, double stiffness, const ContactBatch::Row& dashpot,
                                       double least_force) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const double overlap = b.overlap[c] > 0 ? b.overlap[c] : 0;
     const double damping = b.overlap[c] > 0 ? dashpot[c] : 0, elastic = stiffness * overlap;

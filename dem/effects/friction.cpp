@@ -15,15 +15,17 @@ POLYBED_ALL_VECTOR_WIDTHS void spring(ContactBatch& b, int place, const ContactB
                                       const ContactBatch::Row& per_radius, const ContactBatch::Row& constant,
                                       const ContactBatch::Row& dashpot, double dt) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const Vec3 v = at(b.velocity, c);
     const Vec3 xi = closures::transported(at(b.memory + place, c), at(b.distance, c)) + time_of_contact(b, c, dt) * v;
     const double stiffness = per_radius[c] * b.contact_radius[c] + constant[c];
     const Vec3 force = closures::spring_force(stiffness, xi, dashpot[c] * b.dashpot[c], v);
     const double divisor = stiffness > tiny ? stiffness : tiny;
-    const closures::TangentialForce f = closures::coulomb_cap(force, xi, divisor, friction[c] * b.normal[c]);
-    put(b.memory + place, c, f.history);
-    put(b.tangential, c, f.force);
+    const double share = closures::coulomb_share(closures::dot(force, force), friction[c] * b.normal[c]);
+    const Vec3 capped = share * force;
+    put(b.memory + place, c, closures::select(share < 1, (-1 / divisor) * capped, xi));
+    put(b.tangential, c, capped);
   }
 }
 
@@ -31,17 +33,19 @@ POLYBED_ALL_VECTOR_WIDTHS void increment(ContactBatch& b, int place, const Conta
                                          const ContactBatch::Row& per_radius, const ContactBatch::Row& dashpot,
                                          double dt) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const Vec3 v = at(b.velocity, c);
     const Vec3 before = closures::transported(at(b.memory + place, c), at(b.distance, c));
     const double a = b.contact_radius[c], kept = b.memory[place + 3][c], last = kept > tiny ? kept : tiny;
-    const double share = kept > 0 ? 1 : closures::first_step_share;
-    const Vec3 held = closures::mindlin_force(before, last, a, share * per_radius[c] * a, v, time_of_contact(b, c, dt));
+    const double part = kept > 0 ? 1 : closures::first_step_share;
+    const Vec3 held = closures::mindlin_force(before, last, a, part * per_radius[c] * a, v, time_of_contact(b, c, dt));
     const Vec3 force = held - (dashpot[c] * b.dashpot[c]) * v;
-    const closures::TangentialForce f = closures::coulomb_cap_of_force(force, held, friction[c] * b.normal[c]);
-    put(b.memory + place, c, f.history);
+    const double share = closures::coulomb_share(closures::dot(force, force), friction[c] * b.normal[c]);
+    const Vec3 capped = share * force;
+    put(b.memory + place, c, closures::select(share < 1, capped, held));
     b.memory[place + 3][c] = a;
-    put(b.tangential, c, f.force);
+    put(b.tangential, c, capped);
   }
 }
 

@@ -24,6 +24,7 @@ double secant_stiffness(const ContactBatch& b, int c) {
 
 POLYBED_ALL_VECTOR_WIDTHS void constant(ContactBatch& b, const Row& arm) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const double limit = closures::rolling_limit(1, arm[c], b.normal[c]);
     put(b.moment, c, closures::rolling_cdt(limit, rolling_of(b, c)));
@@ -33,6 +34,7 @@ POLYBED_ALL_VECTOR_WIDTHS void constant(ContactBatch& b, const Row& arm) {
 POLYBED_ALL_VECTOR_WIDTHS void spring(ContactBatch& b, int place, const Row& arm, const Row& inertia, double damping,
                                       double dt) {
   const int n = b.padded();
+  POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const double stiffness = closures::rolling_stiffness(secant_stiffness(b, c), 1, arm[c]);
     const double dashpot = closures::rolling_damping(damping, inertia[c], stiffness);

@@ -90,7 +90,7 @@ def read(directory, settings):
     drift = json.loads((directory / "drift.json").read_text())["drift_J"]
     with open(directory / "run/history.csv", newline="") as stream:
         rows = [{"step": round(float(row["time_s"]) / dem_bed.STEP), "contacts": None,
-                 "kinetic_J": float(row["kinetic_energy_J"]) - drift} for row in csv.DictReader(stream)]
+                 "kinetic_J": float(row["kinetic_J"]) - drift} for row in csv.DictReader(stream)]
     if not rows or rows[-1]["step"] != settings["steps"] or work["steps"] != settings["steps"]:
         raise Failed(f"polybed has not done {settings['steps']} steps")
     if settings["ranks"] == 1:  # on more, contacts across ranks are counted by both
