@@ -15,10 +15,14 @@ namespace polybed::dem {
 /// Over a drift the work of a contact force is, to second order, (F_old + F_new)/2 . v_c dt with the half-step
 /// velocity. Of the normal force only the dashpot's part counts, found from its own law and not as what is missing, so
 /// that an error of the integration does not hide in it. Of the tangential force: the work less what the spring has
-/// stored.
+/// stored; of rolling friction likewise, with the relative spin. An attraction that is a function of the distance loses
+/// nothing; what a contact loses that jumps together is counted at the jump.
 class Ledger {
  public:
-  static constexpr int memory_size = 5;  ///< dashpot's force, F_t and the spring's energy of the last step
+  /// Of the last step: the dashpot's force; with friction F_t and its energy; with rolling the moment and its energy.
+  [[nodiscard]] static int memory_size(const PairLaws& laws) {
+    return 1 + (laws.tangential ? 4 : 0) + (laws.rolling ? 4 : 0);
+  }
 
   /// \param place  of its memory in a batch   \param unit  of the sum, J
   Ledger(const PairLaws& laws, int place, FixedPoint unit) : laws_(laws), place_(place), unit_(unit) {}

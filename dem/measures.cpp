@@ -21,11 +21,10 @@ class Sum {
   std::int64_t units_ = 0;
 };
 
-/// Elastic energy, number and extremes of contacts that this rank counts.
+/// Elastic energy and that of attraction, number and extremes of contacts that this rank counts.
 void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum& elastic, Totals& totals) {
   const Images images = model.images();
   ContactBatch batch;
-  alignas(64) ContactBatch::Row stored = {};
   const Particles& particles = model.particles();
   for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
     const ContactLoader& loader = model.pair_forces().loader();
@@ -33,12 +32,16 @@ void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum&
       loader.load_touching_walls(particles, contacts, begin, batch);
     else
       loader.load_touching_pairs(particles, contacts, images, begin, batch);
+    alignas(64) ContactBatch::Row stored = {};
     model.laws().normal->act(batch);
     if (model.laws().tangential) model.laws().tangential->energy(batch, stored);
+    if (model.laws().rolling) model.laws().rolling->add_energy(batch, stored);
+    if (model.laws().cohesion) model.laws().cohesion->add_energy(batch, stored);
     for (int c = 0; c < batch.count; ++c) {
       const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-      if (std::size_t(pair.first) >= particles.owned || batch.overlap[c] <= 0) continue;
-      elastic.add(model.laws().normal->energy(batch.kind[c], batch.overlap[c]) + stored[c]);
+      if (std::size_t(pair.first) >= particles.owned) continue;
+      elastic.add(model.laws().normal->energy(batch.kind[c], std::max(batch.overlap[c], 0.0)) + stored[c]);
+      if (batch.overlap[c] <= 0) continue;  // held by cohesion across a gap
       ++totals.contacts;
       totals.max_overlap = std::max(totals.max_overlap, batch.overlap[c]);
       totals.max_force = std::max(totals.max_force, batch.elastic[c]);

@@ -67,7 +67,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
-  pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size : 0);
+  pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
   place();
   if (scene.dem.ledger) {
     ledger_.emplace(laws_, laws_.memory_size(), energy_unit_);

@@ -39,6 +39,14 @@ POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
     }
 }
 
+/// Empties the first rows of the memory of pairs within the reach of cohesion that do not touch: a new contact has
+/// none.
+POLYBED_ALL_VECTOR_WIDTHS void forget_open(ContactBatch& b, int rows) {
+  const int n = b.padded();
+  for (int m = 0; m < rows; ++m)
+    for (int c = 0; c < n; ++c) b.memory[m][c] = b.overlap[c] > 0 ? b.memory[m][c] : 0;
+}
+
 /// Whether a contact is deeper than allowed, or its overlap is not a number.
 POLYBED_ALL_VECTOR_WIDTHS bool any_deeper(const ContactBatch& b, double max_overlap) {
   int deeper = 0;
@@ -78,6 +86,7 @@ void PairForces::act(double dt) {
   laws_.normal->act(batch_);
   if (laws_.tangential) laws_.tangential->act(batch_, dt);
   if (laws_.rolling) laws_.rolling->act(batch_, dt);
+  if (laws_.reach() > 0) forget_open(batch_, laws_.contact_memory());
   if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
   if (laws_.cohesion) laws_.cohesion->act(batch_);
   count_units(batch_, force_.per_unit, torque_.per_unit);

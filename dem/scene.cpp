@@ -72,6 +72,7 @@ FixedPoint force_unit(const core::Scene& scene, const Materials& materials, cons
     const double overlap = scene.dem.max_overlap * 2 * materials.kinds()[k].least_radius;
     most = std::max(most, laws.normal->force_at(int(k), overlap));
   }
+  if (laws.cohesion) most = std::max(most, laws.cohesion->pull_off());
   // The dashpot and friction add to the elastic force, hardly more than it.
   return FixedPoint::for_sums_of(4 * most, most_contacts(materials));
 }
