@@ -8,6 +8,11 @@ namespace polybed::dem {
 
 namespace {
 
+/// Greatest over mean work of the ranks that is borne, and how often a cut is tried at most. Neither has an effect on
+/// what particles do.
+constexpr double most_imbalance = 1.15;
+constexpr int calls_between_cuts = 10;
+
 /// Items for each rank, laid one after the other.
 template <class Item>
 std::vector<int> pack(const std::vector<std::vector<Item>>& to, std::vector<Item>& out) {
@@ -55,6 +60,15 @@ bool Exchange::near(const Place& place, const Part& part) const {
   }
   const double far = place.radius + greatest_radius_ + reach_;
   return square < far * far;
+}
+
+void Exchange::balance(const Particles& particles, std::span<const std::int32_t> work) {
+  if (!ranks_) return;
+  imbalance_ = decomposition_.imbalance(work);
+  if (++since_cut_ < calls_between_cuts || imbalance_ <= most_imbalance) return;
+  decomposition_.balance(std::span(particles.place).first(particles.owned), work);
+  since_cut_ = 0;
+  ++cuts_;
 }
 
 void Exchange::migrate(Particles& particles, std::vector<KeptContact>& kept) {
@@ -105,13 +119,17 @@ void Exchange::choose_ghosts(Particles& particles) {
   incoming_.resize(in.size());
 }
 
-void Exchange::refresh_ghosts(Particles& particles) {
+void Exchange::send_ghosts(const Particles& particles) {
   if (!ranks_) return;
   for (std::size_t n = 0; n < sent_.size(); ++n) {
     const auto i = std::size_t(sent_[n]);
     outgoing_[n] = {particles.place[i].x, particles.motion[i].v, particles.motion[i].w};
   }
   ghosts_->start(std::span<const Refresh>(outgoing_), std::span<Refresh>(incoming_));
+}
+
+void Exchange::receive_ghosts(Particles& particles) {
+  if (!ranks_) return;
   ghosts_->finish();
   for (std::size_t n = 0; n < incoming_.size(); ++n) {
     particles.place[particles.owned + n].x = incoming_[n].x;

@@ -78,14 +78,15 @@ POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
     }
 }
 
-/// Pairs of a list nearer than their reach, rising; where the answer is no, the place is overwritten by the next.
+/// Adds pairs of a part of a list nearer than their reach, rising; where the answer is no, the place is overwritten by
+/// the next.
 POLYBED_ALL_VECTOR_WIDTHS void find_touching_pairs(const Particles& particles, Contacts& contacts, const Images& images,
-                                                   double reach) {
-  contacts.touching.resize(contacts.pairs.size() + 1);
-  std::int32_t* out = contacts.touching.data();
+                                                   std::size_t begin, std::size_t end, double reach) {
+  const std::size_t before = contacts.touching.size();
+  contacts.touching.resize(before + (end - begin) + 1);
+  std::int32_t* out = contacts.touching.data() + before;
   const Place* place = particles.place.data();
-  const auto count = std::int32_t(contacts.pairs.size());
-  for (std::int32_t p = 0; p < count; ++p) {
+  for (auto p = std::int32_t(begin); p < std::int32_t(end); ++p) {
     const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
     const Place &i = place[pair.first], &j = place[pair.second];
     double dx = i.x[0] - j.x[0], dy = i.x[1] - j.x[1], dz = i.x[2] - j.x[2];
@@ -205,13 +206,27 @@ void PairForces::watch_overlap(const Contacts& contacts, std::size_t begin, bool
   }
 }
 
-void PairForces::add_pairs(Particles& particles, Contacts& contacts, double time, double dt) {
+void PairForces::add_inner_pairs(Particles& particles, Contacts& contacts, double time, double dt) {
   const Images images(box_, time);
   std::swap(before_, contacts.touching);
-  find_touching_pairs(particles, contacts, images, laws_.reach());
+  contacts.touching.clear();
+  find_touching_pairs(particles, contacts, images, 0, contacts.inner, laws_.reach());
+  add_pairs(particles, contacts, images, 0, dt);
+}
+
+void PairForces::add_outer_pairs(Particles& particles, Contacts& contacts, double time, double dt) {
+  const Images images(box_, time);
+  const std::size_t first = contacts.touching.size();
+  find_touching_pairs(particles, contacts, images, contacts.inner, contacts.pairs.size(), laws_.reach());
+  add_pairs(particles, contacts, images, first, dt);
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
-  for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
+}
+
+/// Of the touching pairs from one on.
+void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t first,
+                           double dt) {
+  for (std::size_t begin = first; begin < contacts.touching.size(); begin += ContactBatch::width) {
     gather(particles, contacts, images, begin, batch_);
     watch_overlap(contacts, begin, false);
     if (ledger_ != nullptr) mark_counted(particles, contacts, begin);

@@ -29,10 +29,12 @@ class PairForces {
   /// Counts energies in a ledger from now on, which must stay.
   void keep(Ledger& ledger) { ledger_ = &ledger; }
 
-  /// Adds the forces and torques of all pairs of a list to the loads of its particles, and moves its memory on.
+  // Forces and torques of all pairs of a list are added to the loads of its particles, and its memory moves on: first
+  // of the pairs that need no ghost, then, once the ghosts are there, of the others.
   /// \param time  s, places the images of a sheared box
   /// \param dt    s, since the last call
-  void add_pairs(Particles& particles, Contacts& contacts, double time, double dt);
+  void add_inner_pairs(Particles& particles, Contacts& contacts, double time, double dt);
+  void add_outer_pairs(Particles& particles, Contacts& contacts, double time, double dt);
   /// The same with the walls.
   void add_walls(Particles& particles, Contacts& contacts, double dt);
 
@@ -46,6 +48,7 @@ class PairForces {
   void gather_walls(const Particles& particles, const Contacts& contacts, std::size_t begin, ContactBatch& batch) const;
 
  private:
+  void add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t first, double dt);
   void act(double dt);
   void mark_counted(const Particles& particles, const Contacts& contacts, std::size_t begin);
   void watch_overlap(const Contacts& contacts, std::size_t begin, bool wall);
