@@ -209,7 +209,8 @@ void CaseReader::check_given() {
     if (!by_particles && !given(key) && !list) values_.add(fmt::format("{} is missing (or give bed.particles)", key));
   }
   // A feed is held against the packing of the settled bed, whatever the bed begins as.
-  if (!given("bed.solids_fraction") && (!list || !scene_.feeds.empty()))
+  const bool anywhere = scene_.bed.start == "random" && given("bed.particles");
+  if (!given("bed.solids_fraction") && ((!list && !anywhere) || !scene_.feeds.empty()))
     values_.add("bed.solids_fraction is missing: of the settled bed");
   if (!scene_.column.closed && !given("inlet.superficial_velocity") && scene_.fluid.name != "none")
     values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");

@@ -1,7 +1,6 @@
 #include "core/contact_properties.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 
@@ -17,7 +16,6 @@ struct Material {
 Material material_of(const Scene& scene, const std::string& name) {
   const Dem& dem = scene.dem;
   const Material common{{dem.youngs_modulus, dem.poisson_ratio}, dem.restitution, dem.friction};
-  if (name == "wall") return common;
   const auto found =
       std::find_if(scene.species.begin(), scene.species.end(), [&](const Species& s) { return s.name == name; });
   if (found == scene.species.end()) throw CaseError("no species '" + name + "'");
@@ -35,11 +33,9 @@ bool is_between(const ContactPair& pair, const std::string& a, const std::string
 }  // namespace
 
 ContactProperties contact_properties(const Scene& scene, const std::string& a, const std::string& b) {
-  const Material first = material_of(scene, a), second = material_of(scene, b);
-  ContactProperties contact{first.elastic, second.elastic, std::sqrt(first.restitution * second.restitution),
-                            std::min(first.friction, second.friction)};
-  // sqrt(e e) may miss e by a rounding; equal partners shall have what they are given.
-  if (first.restitution == second.restitution) contact.restitution = first.restitution;
+  const Material first = material_of(scene, a == "wall" ? b : a), second = material_of(scene, b == "wall" ? a : b);
+  ContactProperties contact{first.elastic, second.elastic, 0.5 * (first.restitution + second.restitution),
+                            0.5 * (first.friction + second.friction)};
   for (const ContactPair& pair : scene.contact_pairs) {
     if (!is_between(pair, a, b)) continue;
     for (ElasticProperties* partner : {&contact.first, &contact.second}) {

@@ -134,8 +134,8 @@ std::vector<Key> make_keys() {
   k.push_back({"contact_pair", "between", at<std::vector<std::string>>([](S& s, N n) -> auto& { return s.contact_pairs[n].between; }), "two species, or a species and \"wall\"", {}, -infinity, infinity, false, {}, {}, true});
   k.push_back({"contact_pair", "youngs_modulus", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].youngs_modulus; }), "of both partners in this pair; default: each has its own, a wall that of [dem]", dimension::pressure, 0, 1e13, true});
   k.push_back({"contact_pair", "poisson_ratio", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].poisson_ratio; }), "of both partners in this pair; default: as the modulus", {}, 0, 0.5});
-  k.push_back({"contact_pair", "friction", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].friction; }), "of this pair; default: the smaller of both", {}, 0, 10});
-  k.push_back({"contact_pair", "restitution", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].restitution; }), "of this pair; default: the geometric mean of both", {}, 0, 1, true});
+  k.push_back({"contact_pair", "friction", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].friction; }), "of this pair; default: the mean of both", {}, 0, 10});
+  k.push_back({"contact_pair", "restitution", at<std::optional<double>>([](S& s, N n) -> auto& { return s.contact_pairs[n].restitution; }), "of this pair; default: the mean of both", {}, 0, 1, true});
   return k;
 }
 // clang-format on

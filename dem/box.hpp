@@ -31,31 +31,47 @@ struct Box {
   [[nodiscard]] double image_speed() const { return shear_rate * size[1]; }
 };
 
-/// The images of one instant, as a kernel needs them: a distance beyond `half` is shortened by `period`.
+/// The images of one instant. An image is told by a number: how many boxes, -1, 0 or 1, it lies away along each axis.
 struct Images {
-  Vector period{}, half{};
-  double shift = 0, speed = 0;  ///< in x, of the image one box up
+  static constexpr int here = 13, count = 27;
+  std::array<Vector, count> shift{};  ///< what the image is moved by, m
+  std::array<double, count> speed{};  ///< how much faster it is along x, m/s
+  Vector period{}, half{};            ///< infinite half: no images along that axis
 
-  Images(const Box& box, double time) : shift(box.image_shift(time)), speed(box.image_speed()) {
+  /// \param time   s  \param since  s, from the time at which the numbers were given: a sheared box has moved on
+  Images(const Box& box, double time, double since) {
+    const double sheared = box.image_shift(time - since) + box.image_speed() * since;
     for (std::size_t k = 0; k < 3; ++k) {
       period[k] = box.periodic[k] ? box.size[k] : 0;
       half[k] = box.periodic[k] ? 0.5 * box.size[k] : std::numeric_limits<double>::infinity();
     }
+    for (int n = 0; n < count; ++n) {
+      const std::array<int, 3> boxes{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+      for (std::size_t k = 0; k < 3; ++k) shift[std::size_t(n)][k] = boxes[k] * period[k];
+      shift[std::size_t(n)][0] += boxes[1] * sheared;
+      speed[std::size_t(n)] = boxes[1] * box.image_speed();
+    }
   }
 
   /// How many boxes lie between two particles at a distance d along an axis: -1, 0 or 1.
-  [[nodiscard]] double boxes(double d, std::size_t axis) const {
-    return (d > half[axis] ? 1.0 : 0.0) - (d < -half[axis] ? 1.0 : 0.0);
+  [[nodiscard]] int boxes(double d, std::size_t axis) const {
+    return (d > half[axis] ? 1 : 0) - (d < -half[axis] ? 1 : 0);
   }
 
-  /// Shortens x_i - x_j to the nearest image of j. Returns what to subtract from v_i - v_j along x.
-  double shorten(double& dx, double& dy, double& dz) const {
-    const double up = boxes(dy, 1);
-    dy -= up * period[1];
-    dz -= boxes(dz, 2) * period[2];
-    dx -= up * shift;
-    dx -= boxes(dx, 0) * period[0];
-    return up * speed;
+  /// The image of j that is nearest to i. \param d  x_i - x_j
+  [[nodiscard]] int nearest(const Vector& d) const {
+    const int up = boxes(d[1], 1);
+    const int aside = boxes(d[0] - shift[std::size_t(here + 3 * up)][0], 0);
+    return here + aside + 3 * up + 9 * boxes(d[2], 2);
+  }
+
+  /// The image of i that is nearest to j, where that of j nearest to i is given.
+  [[nodiscard]] static constexpr int opposite(int image) { return 2 * here - image; }
+
+  /// x_i - x_j of an image of j.
+  [[nodiscard]] Vector seen(Vector d, int image) const {
+    for (std::size_t k = 0; k < 3; ++k) d[k] -= shift[std::size_t(image)][k];
+    return d;
   }
 };
 

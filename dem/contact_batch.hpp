@@ -26,6 +26,9 @@ struct ContactBatch {
   int count = 0;  ///< contacts; loops run to padded(), over finite values
   [[nodiscard]] int padded() const { return (count + 7) & ~7; }
 
+  std::int32_t pair[width] = {};   ///< its place in the list of pairs
+  std::int32_t first[width] = {};  ///< its particles, or a particle and a wall
+  std::int32_t second[width] = {};
   std::int32_t kind[width] = {};     ///< of the pair of materials
   alignas(64) Row distance[3] = {};  ///< x_i - x_j, then n of unit length
   alignas(64) Row velocity[3] = {};  ///< v_i - v_j, then v_t, of the surfaces at the contact

@@ -8,11 +8,13 @@
 
 namespace polybed::dem {
 
-/// Pairs of particles, or of a particle and a wall (then `second` counts walls). Of two particles the first has the
-/// lower id, on every rank, so that a pair has one orientation and one history.
+/// Pairs of particles, or of a particle and a wall. Of two particles the first has the lower id, on every rank, so that
+/// a pair has one orientation and one history.
 struct Contacts {
   struct Pair {
-    std::int32_t first, second;
+    std::int32_t first, second;  ///< particles; or a particle, and which wall
+    std::int32_t image;          ///< of the second, that the first may touch (see Images)
+    std::int32_t kind;           ///< of the two materials
   };
   std::vector<Pair> pairs;
   std::size_t inner = 0;               ///< pairs at the beginning of the list that need no ghost

@@ -28,10 +28,11 @@ void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum&
   alignas(64) ContactBatch::Row stored = {};
   const Particles& particles = model.particles();
   for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
+    const ContactLoader& loader = model.pair_forces().loader();
     if (walls)
-      model.pair_forces().gather_walls(particles, contacts, begin, batch);
+      loader.load_touching_walls(particles, contacts, begin, batch);
     else
-      model.pair_forces().gather(particles, contacts, images, begin, batch);
+      loader.load_touching_pairs(particles, contacts, images, begin, batch);
     model.laws().normal->act(batch);
     if (model.laws().tangential) model.laws().tangential->energy(batch, stored);
     for (int c = 0; c < batch.count; ++c) {

@@ -74,7 +74,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       torque_unit_(torque_unit(force_unit_, materials_)),
       skin_(skin_of(scene, materials_)),
       verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
-      search_(box_, skin_ + laws_.reach(), materials_.least_diameter(), materials_.greatest_diameter()),
+      search_(box_, materials_, skin_ + laws_.reach()),
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
@@ -208,6 +208,7 @@ void Model::list_pairs(std::vector<KeptContact>& kept) {
 
 /// Forces that need no ghost are found while the ghosts are on their way.
 void Model::find_forces(double dt) {
+  const Images now = images();
   const std::uint64_t ghosts_timed = ranks_ ? timed_ : 0;
   {
     const auto scope = timers_.scope("ghosts", ghosts_timed);
@@ -215,7 +216,7 @@ void Model::find_forces(double dt) {
   }
   {
     const auto scope = timers_.scope("pair forces", timed_);
-    pair_forces_.add_inner_pairs(particles_, pairs_, clock(), dt);
+    pair_forces_.add_inner_pairs(particles_, pairs_, now, dt);
   }
   if (!box_.walls.empty()) {
     const auto scope = timers_.scope("walls", timed_);
@@ -226,7 +227,7 @@ void Model::find_forces(double dt) {
     exchange_.receive_ghosts(particles_);
   }
   const auto scope = timers_.scope("pair forces", timed_);
-  pair_forces_.add_outer_pairs(particles_, pairs_, clock(), dt);
+  pair_forces_.add_outer_pairs(particles_, pairs_, now, dt);
 }
 
 /// Collective: tells the deepest overlap of all ranks.

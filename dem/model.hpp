@@ -71,7 +71,7 @@ class Model : public core::Simulation {
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
   /// Where the images of the particles are now.
-  [[nodiscard]] Images images() const { return {box_, clock()}; }
+  [[nodiscard]] Images images() const { return {box_, clock(), double(steps_ - marked_at_) * limits_.dt}; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Collective.
   [[nodiscard]] Work work() const;

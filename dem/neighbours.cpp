@@ -10,20 +10,22 @@ namespace {
 
 /// Cells on both sides of one: all there are at most once, none beyond an end that does not wrap.
 struct Span {
-  std::array<int, 3> cell{};
+  std::array<int, 3> cell{}, offset{};
   int count = 0;
-  void add(int c) {
-    if (std::find(cell.begin(), cell.begin() + count, c) == cell.begin() + count) cell[std::size_t(count++)] = c;
+  void add(int c, int from) {
+    if (std::find(cell.begin(), cell.begin() + count, c) != cell.begin() + count) return;
+    offset[std::size_t(count)] = from;
+    cell[std::size_t(count++)] = c;
   }
 };
 
 Span around(int c, int count, bool wraps) {
   Span span;
-  for (int k = c - 1; k <= c + 1; ++k) {
+  for (int k = -1; k <= 1; ++k) {
     if (wraps)
-      span.add(((k % count) + count) % count);
-    else if (k >= 0 && k < count)
-      span.add(k);
+      span.add(c + k < 0 ? c + k + count : (c + k >= count ? c + k - count : c + k), k);
+    else if (c + k >= 0 && c + k < count)
+      span.add(c + k, k);
   }
   return span;
 }
@@ -39,14 +41,16 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }  // namespace
 
 int NeighbourSearch::Level::place(double x, std::size_t axis) const {
-  const int c = int(std::floor((x - low[axis]) * inverse[axis]));
-  return wraps[axis] ? ((c % count[axis]) + count[axis]) % count[axis] : c;
+  const int c = int(std::floor((x - low[axis]) * inverse[axis])), n = count[axis];
+  if (!wraps[axis] || (c >= 0 && c < n)) return c;
+  return ((c % n) + n) % n;
 }
 
-NeighbourSearch::NeighbourSearch(const Box& box, double reach, double least, double greatest)
-    : box_(box), reach_(reach), least_(least) {
+NeighbourSearch::NeighbourSearch(const Box& box, const Materials& materials, double reach)
+    : box_(box), materials_(materials), reach_(reach), least_(materials.least_diameter()) {
+  const double greatest = materials.greatest_diameter();
   // Below a ratio of three one level costs less than two.
-  const bool one = greatest < 3 * least;
+  const bool one = greatest < 3 * least_;
   if (one) least_ = greatest;
   levels_.resize(one ? 1 : level_of(0.5 * greatest) + 1);
   for (std::size_t l = 0; l < levels_.size(); ++l) levels_[l].cell = std::ldexp(least_ + reach_, int(l));
@@ -111,43 +115,54 @@ void NeighbourSearch::sort_in(const Particles& particles) {
   }
 }
 
-/// Pairs of particle i with those of a level: of its own level those with a higher id, of coarser ones all.
+/// Pairs of particle i with those of a level: of coarser ones all, of its own each once: those in half of the cells
+/// around, and in its cell those with a higher number; with so few cells that one lies on both sides, by the ids.
 void NeighbourSearch::search(const Particles& particles, std::size_t i, std::size_t l, const Images& images,
                              std::vector<Contacts::Pair>& pairs) {
   const Level& level = levels_[l];
-  const bool own = level_of(particles.place[i].radius) == l;
-  const Place& here = particles.place[i];
+  const bool own = level_of(particles.place[i].radius) == l, half = own && level.roomy();
   const Vector& x = near_[i];
-  const int at_y = int(std::floor((x[1] - level.low[1]) * level.inverse[1]));
+  const int at_y = level.place(x[1], 1);
   const Span depth = around(level.place(x[2], 2), level.count[2], level.wraps[2]);
-  const Span height = around(level.place(x[1], 1), level.count[1], level.wraps[1]);
+  const Span height = around(at_y, level.count[1], level.wraps[1]);
   for (int row = 0; row < height.count; ++row) {
-    const int cy = height.cell[std::size_t(row)];
+    const int cy = height.cell[std::size_t(row)], oy = height.offset[std::size_t(row)];
     // Across the joined faces of a sheared box the cells beside are those beside the image.
-    double shifted = x[0];
-    if (box_.shear_rate != 0) shifted -= images.shift * (cy - at_y > 1 ? -1.0 : cy - at_y < -1 ? 1.0 : 0.0);
-    Span width = around(level.place(shifted, 0), level.count[0], level.wraps[0]);
-    for (int a = 0; a < depth.count; ++a)
-      for (int b = 0; b < width.count; ++b) {
-        const auto cell = std::size_t((depth.cell[std::size_t(a)] * level.count[1] + cy) * level.count[0] +
-                                      width.cell[std::size_t(b)]);
+    const int boxes = cy - at_y > 1 ? -1 : (cy - at_y < -1 ? 1 : 0);
+    const double shifted = box_.shear_rate == 0 ? x[0] : x[0] - boxes * images.shift[Images::here + 3][0];
+    const Span width = around(level.place(shifted, 0), level.count[0], level.wraps[0]);
+    for (int k = 0; k < depth.count; ++k)
+      for (int n = 0; n < width.count; ++n) {
+        const int oz = depth.offset[std::size_t(k)], ox = width.offset[std::size_t(n)];
+        if (half && (oz < 0 || (oz == 0 && (oy < 0 || (oy == 0 && ox < 0))))) continue;
+        const bool same = oz == 0 && oy == 0 && ox == 0;
+        const auto cell = std::size_t((depth.cell[std::size_t(k)] * level.count[1] + cy) * level.count[0] +
+                                      width.cell[std::size_t(n)]);
         for (std::int32_t m = level.start[cell]; m < level.start[cell + 1]; ++m) {
           const auto j = std::size_t(level.member[std::size_t(m)]);
           ++candidates_;
-          if (own && particles.id[j] <= particles.id[i]) continue;
-          if (i >= particles.owned && j >= particles.owned) continue;
-          const Place& there = particles.place[j];
-          double dx = here.x[0] - there.x[0], dy = here.x[1] - there.x[1], dz = here.x[2] - there.x[2];
-          images.shorten(dx, dy, dz);
-          const double near = here.radius + there.radius + reach_;
-          if (dx * dx + dy * dy + dz * dz >= near * near) continue;
-          if (particles.id[i] < particles.id[j])
-            pairs.push_back({std::int32_t(i), std::int32_t(j)});
-          else
-            pairs.push_back({std::int32_t(j), std::int32_t(i)});
+          if (half ? same && j <= i : own && particles.id[j] <= particles.id[i]) continue;
+          add_if_near(particles, i, j, images, pairs);
         }
       }
   }
+}
+
+void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Images& images,
+                                  std::vector<Contacts::Pair>& pairs) const {
+  if (i >= particles.owned && j >= particles.owned) return;
+  const Place &here = particles.place[i], &there = particles.place[j];
+  const Vector d{here.x[0] - there.x[0], here.x[1] - there.x[1], here.x[2] - there.x[2]};
+  const int image = images.nearest(d);
+  const Vector seen = images.seen(d, image);
+  const double near = here.radius + there.radius + reach_;
+  if (seen[0] * seen[0] + seen[1] * seen[1] + seen[2] * seen[2] >= near * near) return;
+  const auto a = std::int32_t(i), b = std::int32_t(j);
+  const std::int32_t si = particles.species[i], sj = particles.species[j];
+  if (particles.id[i] < particles.id[j])
+    pairs.push_back({a, b, image, materials_.kind(si, sj)});
+  else
+    pairs.push_back({b, a, Images::opposite(image), materials_.kind(sj, si)});
 }
 
 void NeighbourSearch::find_pairs(const Particles& particles, double time, const Vector& centre,
@@ -163,7 +178,7 @@ void NeighbourSearch::find_pairs(const Particles& particles, double time, const 
     }
   lay_out(whole);
   sort_in(particles);
-  const Images images(box_, time);
+  const Images images(box_, time, 0);
   for (std::size_t i = 0; i < particles.size(); ++i)
     for (std::size_t l = level_of(particles.place[i].radius); l < levels_.size(); ++l)
       search(particles, i, l, images, pairs);
@@ -180,7 +195,7 @@ void NeighbourSearch::find_walls(const Particles& particles, std::vector<Contact
       const Wall& wall = box_.walls[w];
       const double s = particles.place[i].x[std::size_t(wall.axis)] - wall.place;
       if ((wall.side == 0 ? s : -s) < particles.place[i].radius + reach_)
-        pairs.push_back({std::int32_t(i), std::int32_t(w)});
+        pairs.push_back({std::int32_t(i), std::int32_t(w), Images::here, materials_.wall_kind(particles.species[i])});
     }
 }
 

@@ -7,15 +7,15 @@
 
 #include "dem/box.hpp"
 #include "dem/contacts.hpp"
+#include "dem/materials.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {
 
 class NeighbourSearch {
  public:
-  /// \param reach            skin and the longest pair effect, m: pairs nearer than this are listed
-  /// \param least, greatest  diameters, m
-  NeighbourSearch(const Box& box, double reach, double least, double greatest);
+  /// \param reach  skin and the longest pair effect, m: pairs nearer than this are listed
+  NeighbourSearch(const Box& box, const Materials& materials, double reach);
 
   /// Pairs with at least one owned particle whose surfaces are nearer than the reach; the first has the lower id.
   /// Pairs that need no ghost come first.
@@ -41,6 +41,12 @@ class NeighbourSearch {
     std::vector<std::int32_t> start, member;
 
     [[nodiscard]] int place(double x, std::size_t axis) const;
+    /// Whether no cell lies on both sides of another.
+    [[nodiscard]] bool roomy() const {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (wraps[k] && count[k] < 3) return false;
+      return true;
+    }
   };
   [[nodiscard]] std::size_t level_of(double radius) const;
   void lay_out(const std::array<bool, 3>& whole);
@@ -48,7 +54,11 @@ class NeighbourSearch {
   void search(const Particles& particles, std::size_t i, std::size_t level, const Images& images,
               std::vector<Contacts::Pair>& pairs);
 
+  void add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Images& images,
+                   std::vector<Contacts::Pair>& pairs) const;
+
   const Box& box_;
+  const Materials& materials_;
   double reach_, least_;
   std::vector<Level> levels_;
   std::vector<Vector> near_;  ///< positions with images taken near the centre

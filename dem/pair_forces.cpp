@@ -8,45 +8,6 @@ namespace polybed::dem {
 
 namespace {
 
-/// n, r and lever arms of pairs of particles; the distance becomes n, the velocity that of the surfaces.
-POLYBED_ALL_VECTOR_WIDTHS void shape_pairs(ContactBatch& b, const Images& images) {
-  const int n = b.padded();
-  POLYBED_INDEPENDENT
-  for (int c = 0; c < n; ++c) {
-    double dx = b.distance[0][c], dy = b.distance[1][c], dz = b.distance[2][c];
-    b.velocity[0][c] -= images.shorten(dx, dy, dz);
-    const double r = std::sqrt(dx * dx + dy * dy + dz * dz), inverse = 1 / r;
-    const double ri = b.radius_i[c], rj = b.radius_j[c];
-    b.arm_i[c] = 0.5 * (r + (ri - rj) * (ri + rj) * inverse);
-    b.arm_j[c] = r - b.arm_i[c];
-    b.overlap[c] = ri + rj - r;
-    b.distance[0][c] = dx * inverse;
-    b.distance[1][c] = dy * inverse;
-    b.distance[2][c] = dz * inverse;
-  }
-}
-
-/// v_c = v_i - v_j - (l_i w_i + l_j w_j) x n, split into v_n and v_t.
-POLYBED_ALL_VECTOR_WIDTHS void split_velocity(ContactBatch& b) {
-  const int n = b.padded();
-  POLYBED_INDEPENDENT
-  for (int c = 0; c < n; ++c) {
-    const double nx = b.distance[0][c], ny = b.distance[1][c], nz = b.distance[2][c];
-    const double li = b.arm_i[c], lj = b.arm_j[c];
-    const double wx = li * b.spin_i[0][c] + lj * b.spin_j[0][c];
-    const double wy = li * b.spin_i[1][c] + lj * b.spin_j[1][c];
-    const double wz = li * b.spin_i[2][c] + lj * b.spin_j[2][c];
-    const double vx = b.velocity[0][c] - (wy * nz - wz * ny);
-    const double vy = b.velocity[1][c] - (wz * nx - wx * nz);
-    const double vz = b.velocity[2][c] - (wx * ny - wy * nx);
-    const double vn = vx * nx + vy * ny + vz * nz;
-    b.speed[c] = vn;
-    b.velocity[0][c] = vx - vn * nx;
-    b.velocity[1][c] = vy - vn * ny;
-    b.velocity[2][c] = vz - vn * nz;
-  }
-}
-
 /// F = F_n n + F_t and n x F_t on both lever arms, in units.
 POLYBED_ALL_VECTOR_WIDTHS void count_units(ContactBatch& b, double per_force, double per_torque) {
   const int n = b.padded();
@@ -78,43 +39,27 @@ POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
     }
 }
 
-/// Adds pairs of a part of a list nearer than their reach, rising; where the answer is no, the place is overwritten by
-/// the next.
-POLYBED_ALL_VECTOR_WIDTHS void find_touching_pairs(const Particles& particles, Contacts& contacts, const Images& images,
-                                                   std::size_t begin, std::size_t end, double reach) {
-  const std::size_t before = contacts.touching.size();
-  contacts.touching.resize(before + (end - begin) + 1);
-  std::int32_t* out = contacts.touching.data() + before;
-  const Place* place = particles.place.data();
-  for (auto p = std::int32_t(begin); p < std::int32_t(end); ++p) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
-    const Place &i = place[pair.first], &j = place[pair.second];
-    double dx = i.x[0] - j.x[0], dy = i.x[1] - j.x[1], dz = i.x[2] - j.x[2];
-    images.shorten(dx, dy, dz);
-    const double near = i.radius + j.radius + reach;
-    *out = p;
-    out += dx * dx + dy * dy + dz * dz < near * near ? 1 : 0;
-  }
-  contacts.touching.resize(std::size_t(out - contacts.touching.data()));
-}
-
-/// Distance of a centre from a wall, positive inside the box, m.
-double height_over(const Wall& wall, const Place& place) {
-  const double s = place.x[std::size_t(wall.axis)] - wall.place;
-  return wall.side == 0 ? s : -s;
-}
-
-void gather_memory(const Contacts& contacts, std::size_t begin, ContactBatch& b) {
+/// Whether a contact is deeper than allowed, or its overlap is not a number.
+POLYBED_ALL_VECTOR_WIDTHS bool any_deeper(const ContactBatch& b, double max_overlap) {
+  int deeper = 0;
   for (int c = 0; c < b.count; ++c) {
-    const double* memory = contacts.memory_of(contacts.touching[begin + std::size_t(c)]);
-    for (int m = 0; m < contacts.memory_size; ++m) b.memory[m][c] = memory[m];
+    const double least = b.radius_i[c] < b.radius_j[c] ? b.radius_i[c] : b.radius_j[c];
+    deeper |= b.overlap[c] <= 2 * max_overlap * least ? 0 : 1;
   }
+  return deeper != 0;
 }
 
-void scatter_memory(Contacts& contacts, std::size_t begin, const ContactBatch& b) {
+void store_memory(Contacts& contacts, const ContactBatch& b) {
   for (int c = 0; c < b.count; ++c) {
-    double* memory = contacts.memory_of(contacts.touching[begin + std::size_t(c)]);
+    double* memory = contacts.memory_of(b.pair[c]);
     for (int m = 0; m < contacts.memory_size; ++m) memory[m] = b.memory[m][c];
+  }
+}
+
+void add_load(Load& load, const ContactBatch::Row* force, int sign, const ContactBatch::Row* torque, int c) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    load.force[k] += sign * std::int64_t(force[k][c]);
+    load.torque[k] += std::int64_t(torque[k][c]);
   }
 }
 
@@ -122,59 +67,11 @@ void scatter_memory(Contacts& contacts, std::size_t begin, const ContactBatch& b
 
 PairForces::PairForces(const Box& box, const Materials& materials, const PairLaws& laws, FixedPoint force,
                        FixedPoint torque, double max_overlap)
-    : box_(box), materials_(materials), laws_(laws), force_(force), torque_(torque), max_overlap_(max_overlap) {
+    : loader_(box, materials, laws.reach()), laws_(laws), force_(force), torque_(torque), max_overlap_(max_overlap) {
   // Beyond the last contact of a batch its loops run over a pair that does nothing.
   std::fill_n(batch_.distance[0], ContactBatch::width, 1.0);
   std::fill_n(batch_.radius_i, ContactBatch::width, 0.25);
   std::fill_n(batch_.radius_j, ContactBatch::width, 0.25);
-}
-
-void PairForces::gather(const Particles& particles, const Contacts& contacts, const Images& images, std::size_t begin,
-                        ContactBatch& b) const {
-  b.count = int(std::min(contacts.touching.size() - begin, std::size_t(ContactBatch::width)));
-  for (int c = 0; c < b.count; ++c) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-    const auto i = std::size_t(pair.first), j = std::size_t(pair.second);
-    const Place &pi = particles.place[i], &pj = particles.place[j];
-    const Motion &mi = particles.motion[i], &mj = particles.motion[j];
-    for (std::size_t k = 0; k < 3; ++k) {
-      b.distance[k][c] = pi.x[k] - pj.x[k];
-      b.velocity[k][c] = mi.v[k] - mj.v[k];
-      b.spin_i[k][c] = mi.w[k];
-      b.spin_j[k][c] = mj.w[k];
-    }
-    b.radius_i[c] = pi.radius;
-    b.radius_j[c] = pj.radius;
-    b.kind[c] = materials_.kind(particles.species[i], particles.species[j]);
-  }
-  gather_memory(contacts, begin, b);
-  shape_pairs(b, images);
-  split_velocity(b);
-}
-
-void PairForces::gather_walls(const Particles& particles, const Contacts& contacts, std::size_t begin,
-                              ContactBatch& b) const {
-  b.count = int(std::min(contacts.touching.size() - begin, std::size_t(ContactBatch::width)));
-  for (int c = 0; c < b.count; ++c) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-    const auto i = std::size_t(pair.first);
-    const Wall& wall = box_.walls[std::size_t(pair.second)];
-    const double height = height_over(wall, particles.place[i]);
-    for (int k = 0; k < 3; ++k) {
-      b.distance[k][c] = k != wall.axis ? 0.0 : (wall.side == 0 ? 1.0 : -1.0);
-      b.velocity[k][c] = particles.motion[i].v[std::size_t(k)];
-      b.spin_i[k][c] = particles.motion[i].w[std::size_t(k)];
-      b.spin_j[k][c] = 0;
-    }
-    b.radius_i[c] = particles.place[i].radius;
-    b.radius_j[c] = particles.place[i].radius;
-    b.arm_i[c] = height;
-    b.arm_j[c] = 0;
-    b.overlap[c] = particles.place[i].radius - height;
-    b.kind[c] = materials_.wall_kind(particles.species[i]);
-  }
-  gather_memory(contacts, begin, b);
-  split_velocity(b);
 }
 
 void PairForces::act(double dt) {
@@ -189,89 +86,67 @@ void PairForces::act(double dt) {
 }
 
 /// A pair across ranks is computed on both, and counted where its first particle is at home.
-void PairForces::mark_counted(const Particles& particles, const Contacts& contacts, std::size_t begin) {
+void PairForces::mark_counted(std::size_t owned) {
+  for (int c = 0; c < batch_.count; ++c) counted_[c] = std::size_t(batch_.first[c]) < owned ? 1 : 0;
+}
+
+void PairForces::watch_overlap(bool wall) {
+  if (!any_deeper(batch_, max_overlap_)) return;
   for (int c = 0; c < batch_.count; ++c) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-    counted_[c] = std::size_t(pair.first) < particles.owned ? 1 : 0;
+    const double excess = batch_.overlap[c] - 2 * max_overlap_ * std::min(batch_.radius_i[c], batch_.radius_j[c]);
+    // Turned round, so that the distance of two centres at one place, whose n is not a number, is too small as well.
+    if (!(excess <= trouble_.excess))
+      trouble_ = {std::isnan(batch_.speed[c]) ? std::numeric_limits<double>::infinity() : excess, batch_.pair[c], wall};
   }
 }
 
-void PairForces::watch_overlap(const Contacts& contacts, std::size_t begin, bool wall) {
-  for (int c = 0; c < batch_.count; ++c) {
-    const double allowed = 2 * max_overlap_ * std::min(batch_.radius_i[c], batch_.radius_j[c]);
-    // Turned round, so that a distance of zero, whose overlap is not a number, is beyond what is allowed too.
-    if (!(batch_.overlap[c] - allowed <= trouble_.excess))
-      trouble_ = {std::isnan(batch_.speed[c]) ? std::numeric_limits<double>::infinity() : batch_.overlap[c] - allowed,
-                  contacts.touching[begin + std::size_t(c)], wall};
-  }
+/// What is done with a batch once it is full: laws, and the memory of its contacts.
+void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall, double dt) {
+  watch_overlap(wall);
+  if (ledger_ != nullptr) mark_counted(particles.owned);
+  act(dt);
+  store_memory(contacts, batch_);
+  contacts.touching.insert(contacts.touching.end(), batch_.pair, batch_.pair + batch_.count);
 }
 
-void PairForces::add_inner_pairs(Particles& particles, Contacts& contacts, double time, double dt) {
-  const Images images(box_, time);
+void PairForces::add_inner_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
   std::swap(before_, contacts.touching);
   contacts.touching.clear();
-  find_touching_pairs(particles, contacts, images, 0, contacts.inner, laws_.reach());
-  add_pairs(particles, contacts, images, 0, dt);
+  add_pairs(particles, contacts, images, 0, contacts.inner, dt);
 }
 
-void PairForces::add_outer_pairs(Particles& particles, Contacts& contacts, double time, double dt) {
-  const Images images(box_, time);
-  const std::size_t first = contacts.touching.size();
-  find_touching_pairs(particles, contacts, images, contacts.inner, contacts.pairs.size(), laws_.reach());
-  add_pairs(particles, contacts, images, first, dt);
+void PairForces::add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
+  add_pairs(particles, contacts, images, contacts.inner, contacts.pairs.size(), dt);
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
 }
 
-/// Of the touching pairs from one on.
-void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t first,
-                           double dt) {
-  for (std::size_t begin = first; begin < contacts.touching.size(); begin += ContactBatch::width) {
-    gather(particles, contacts, images, begin, batch_);
-    watch_overlap(contacts, begin, false);
-    if (ledger_ != nullptr) mark_counted(particles, contacts, begin);
-    act(dt);
-    scatter_memory(contacts, begin, batch_);
+void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t begin,
+                           std::size_t end, double dt) {
+  for (auto p = std::int32_t(begin); p < std::int32_t(end);) {
+    p = loader_.find_pairs(particles, contacts, images, p, std::int32_t(end), batch_);
+    loader_.load_pairs(particles, contacts, images, batch_);
+    treat(particles, contacts, false, dt);
     for (int c = 0; c < batch_.count; ++c) {
-      const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-      Load &i = particles.load[std::size_t(pair.first)], &j = particles.load[std::size_t(pair.second)];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto force = std::int64_t(batch_.force[k][c]);
-        i.force[k] += force;
-        j.force[k] -= force;
-        i.torque[k] += std::int64_t(batch_.torque_i[k][c]);
-        j.torque[k] += std::int64_t(batch_.torque_j[k][c]);
-      }
+      add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
+      add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
     }
   }
 }
 
 void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) {
+  const auto end = std::int32_t(contacts.pairs.size());
   std::swap(before_, contacts.touching);
   contacts.touching.clear();
-  for (std::int32_t p = 0; p < std::int32_t(contacts.pairs.size()); ++p) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
-    const Place& place = particles.place[std::size_t(pair.first)];
-    if (height_over(box_.walls[std::size_t(pair.second)], place) < place.radius + laws_.reach())
-      contacts.touching.push_back(p);
+  for (std::int32_t p = 0; p < end;) {
+    p = loader_.find_walls(particles, contacts, p, batch_);
+    loader_.load_walls(particles, contacts, batch_);
+    treat(particles, contacts, true, dt);
+    for (int c = 0; c < batch_.count; ++c)
+      add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
   }
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
-  for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
-    gather_walls(particles, contacts, begin, batch_);
-    watch_overlap(contacts, begin, true);
-    if (ledger_ != nullptr) mark_counted(particles, contacts, begin);
-    act(dt);
-    scatter_memory(contacts, begin, batch_);
-    for (int c = 0; c < batch_.count; ++c) {
-      const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-      Load& i = particles.load[std::size_t(pair.first)];
-      for (std::size_t k = 0; k < 3; ++k) {
-        i.force[k] += std::int64_t(batch_.force[k][c]);
-        i.torque[k] += std::int64_t(batch_.torque_i[k][c]);
-      }
-    }
-  }
 }
 
 }  // namespace polybed::dem

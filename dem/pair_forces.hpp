@@ -6,6 +6,7 @@
 
 #include "dem/box.hpp"
 #include "dem/contact_batch.hpp"
+#include "dem/contact_loader.hpp"
 #include "dem/contacts.hpp"
 #include "dem/effects.hpp"
 #include "dem/ledger.hpp"
@@ -31,10 +32,9 @@ class PairForces {
 
   // Forces and torques of all pairs of a list are added to the loads of its particles, and its memory moves on: first
   // of the pairs that need no ghost, then, once the ghosts are there, of the others.
-  /// \param time  s, places the images of a sheared box
-  /// \param dt    s, since the last call
-  void add_inner_pairs(Particles& particles, Contacts& contacts, double time, double dt);
-  void add_outer_pairs(Particles& particles, Contacts& contacts, double time, double dt);
+  /// \param images  now, by the numbers that the list gives  \param dt  s, since the last call
+  void add_inner_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt);
+  void add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt);
   /// The same with the walls.
   void add_walls(Particles& particles, Contacts& contacts, double dt);
 
@@ -42,19 +42,18 @@ class PairForces {
   [[nodiscard]] std::uint64_t pair_checks() const { return pair_checks_; }
   [[nodiscard]] std::uint64_t contact_steps() const { return contact_steps_; }
 
-  /// Fills a batch with touching pairs from `begin` on, up to the forces; for those who look at single contacts.
-  void gather(const Particles& particles, const Contacts& contacts, const Images& images, std::size_t begin,
-              ContactBatch& batch) const;
-  void gather_walls(const Particles& particles, const Contacts& contacts, std::size_t begin, ContactBatch& batch) const;
+  /// Who fills batches; for those who look at single contacts.
+  [[nodiscard]] const ContactLoader& loader() const { return loader_; }
 
  private:
-  void add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t first, double dt);
+  void add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t begin, std::size_t end,
+                 double dt);
   void act(double dt);
-  void mark_counted(const Particles& particles, const Contacts& contacts, std::size_t begin);
-  void watch_overlap(const Contacts& contacts, std::size_t begin, bool wall);
+  void treat(const Particles& particles, Contacts& contacts, bool wall, double dt);
+  void mark_counted(std::size_t owned);
+  void watch_overlap(bool wall);
 
-  const Box& box_;
-  const Materials& materials_;
+  ContactLoader loader_;
   const PairLaws& laws_;
   FixedPoint force_, torque_;
   double max_overlap_;

@@ -23,9 +23,9 @@ class Relaxation {
         low_(low),
         high_(high),
         box_(at_rest(box)),
-        images_(box_, 0),
+        images_(box_, 0, 0),
         skin_(0.3 * materials.least_diameter()),
-        search_(box_, skin_, materials.least_diameter(), materials.greatest_diameter()) {
+        search_(box_, materials, skin_) {
     for (const Particle& p : all_) particles_.add(p);
     particles_.owned = particles_.size();
   }
@@ -81,8 +81,8 @@ class Relaxation {
   /// \param most  greatest distance moved so far, m
   double part(std::size_t i, std::size_t j, double size, double& most) {
     Vector &a = particles_.place[i].x, &b = particles_.place[j].x;
-    Vector d{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    images_.shorten(d[0], d[1], d[2]);
+    const Vector away{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    const Vector d = images_.seen(away, images_.nearest(away));
     const double r = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double wanted = size * (particles_.place[i].radius + particles_.place[j].radius);
     if (r >= wanted) return 0;

@@ -114,7 +114,8 @@ std::optional<double> centre(const Profile& profile, std::size_t species) {
 std::optional<double> interface_height(const Profile& profile, double tolerance) {
   if (profile.fraction.size() < 2) return std::nullopt;
   const auto slices = slices_of(profile);
-  if (!slices) return std::nullopt;
+  const auto surface = bed_height(profile);
+  if (!slices || !surface) return std::nullopt;
   std::size_t first = 0;
   while (first + 1 < slice_count && largest_difference(slices->share[first + 1], slices->share[first]) > tolerance)
     ++first;
@@ -126,7 +127,7 @@ std::optional<double> interface_height(const Profile& profile, double tolerance)
       sum[j] += slices->share[n][j];
       mean[j] = sum[j] / double(n - first + 1);
     }
-    if (largest_difference(slices->share[n], mean) < tolerance) top = slices->top[n];
+    if (largest_difference(slices->share[n], mean) < tolerance) top = std::min(slices->top[n], *surface);
   }
   return top;
 }

@@ -20,7 +20,8 @@ namespace polybed::fluid {
 /// Top, m, of the lower layer of the thesis: the profile is cut from below into 50 slices of equal solids
 /// volume; slices are dropped from below while the next one differs from them by more than `tolerance` in the
 /// share of any species; the interface is the top of the last slice whose shares are within `tolerance` of
-/// those accumulated from the first kept slice. Empty for one species or where nothing is alike.
+/// those accumulated from the first kept slice, but no higher than the bed: the uppermost slices hold what drifts above
+/// it, up to the last trace in the freeboard. Empty for one species or where nothing is alike.
 [[nodiscard]] std::optional<double> interface_height(const Profile& profile, double tolerance = 0.05);
 
 /// 1 - mean over the 50 slices of (x - x_mean)^2 / (x_mean (1 - x_mean)), mean over species: 1 mixed, 0 separated.

@@ -1,5 +1,8 @@
 #include "multiscale/run_record.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <fstream>
 #include <thread>
 
@@ -57,6 +60,31 @@ void write_guards(Json& json, const std::vector<tfm::ClosureUse>& closures) {
   json.end_array();
 }
 
+/// The smallest G/G_crit of the run with its place; null if nothing ever slipped.
+void write_well_posedness(Json& json, const tfm::LeastWellPosed& least, int dimensions) {
+  json.key("well_posedness");
+  if (!std::isfinite(least.cell.least)) {
+    json.null();
+    return;
+  }
+  json.begin_object().member("least", least.cell.least).member("critical_slope_Pa", least.cell.critical_slope);
+  json.member("time_s", least.time).key("place_m").begin_array();
+  for (int axis = 0; axis < dimensions; ++axis) json.value(least.cell.place[std::size_t(axis)]);
+  json.end_array().member("share_below_1", least.share_below_now).end_object();
+}
+
+void write_drifts(Json& json, const fluid::Drifts& drifts) {
+  json.key("drift").begin_object().member("window_s", drifts.window()).key("measures").begin_array();
+  for (const fluid::DriftOfMeasure& d : drifts.judge())
+    json.begin_object()
+        .member("name", d.name)
+        .member("rate_m_per_s", d.drift.rate)
+        .member("error_m_per_s", d.drift.error)
+        .member("steady", d.steady)
+        .end_object();
+  json.end_array().end_object();
+}
+
 /// Mass of each species at the start, in, out and in the column, and how well they add up; nothing if no end is open.
 void write_ledger(Json& json, const tfm::Constants& constants, const RunTotals& totals,
                   const fluid::Invariants& invariants) {
@@ -80,6 +108,15 @@ void write_ledger(Json& json, const tfm::Constants& constants, const RunTotals& 
 }
 
 }  // namespace
+
+std::vector<std::string> drift_lines(const fluid::Drifts& drifts) {
+  std::vector<std::string> lines;
+  for (const fluid::DriftOfMeasure& d : drifts.judge())
+    if (!d.steady)
+      lines.push_back(fmt::format("not steady: drift of {} {:.3g} mm/s, within {:.2g}, over the last {:.3g} s", d.name,
+                                  1e3 * d.drift.rate, 1e3 * d.drift.error, drifts.window()));
+  return lines;
+}
 
 RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
   const core::Grid& grid = model.constants().grid;
@@ -158,10 +195,13 @@ std::string run_record_text(const RunRecord& record) {
   write_invariants(json, record.observers.invariants());
   write_ledger(json, model.constants(), record.totals, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
+  write_well_posedness(json, record.observers.least_well_posed(), model.constants().grid.dimensions);
+  write_drifts(json, record.observers.drifts());
   write_guards(json, record.totals.closures);
   json.key("warnings").begin_array();
   for (const fluid::WorstInvariant& w : record.observers.invariants().worst())
     if (w.value > w.limit) json.value(w.name + " exceeded its limit");
+  for (const std::string& line : drift_lines(record.observers.drifts())) json.value(line);
   json.end_array().end_object();
   return json.text();
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/json.hpp"
 #include "core/scene.hpp"
@@ -44,6 +45,9 @@ void begin_record(core::Json& json, const core::Scene& scene, const std::string&
 
 /// Writes "timers": seconds by term.
 void write_timers(core::Json& json, const core::Timers& timers);
+
+/// One line for each height that still drifts.
+[[nodiscard]] std::vector<std::string> drift_lines(const fluid::Drifts& drifts);
 
 /// The record as one JSON object.
 [[nodiscard]] std::string run_record_text(const RunRecord& record);

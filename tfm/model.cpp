@@ -81,7 +81,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
   layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible(),
-                        has_temperature(), constants.openings.passages());
+                        transports_temperature(), constants.openings.passages());
   column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
   velocity_scale_ = std::max(

@@ -96,7 +96,8 @@ class Model : public core::Simulation {
   void use_fallback();
   void restore_fallback(const core::Checkpoint& checkpoint);
   [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }
-  [[nodiscard]] bool has_temperature() const { return !fields().solids.temperature_rate.empty(); }
+  /// Whether theta_j is an unknown; where a local balance gives it, it is none.
+  [[nodiscard]] bool transports_temperature() const { return !fields().solids.temperature_rate.empty(); }
   void start_compressible();
   void open_account();
   void take_up_account(const core::Checkpoint& checkpoint);

@@ -11,7 +11,7 @@
 namespace polybed::tfm {
 
 StateLayout Model::layout_on(const core::Grid& grid) const {
-  return {grid, int(constants().species()), layout_.with_pressure(), has_temperature(),
+  return {grid, int(constants().species()), layout_.with_pressure(), transports_temperature(),
           constants().openings.passages()};
 }
 

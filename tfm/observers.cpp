@@ -37,8 +37,14 @@ std::vector<double> slab_centres(const core::Grid& grid) {
   return y;
 }
 
-/// Whether the solids have granular temperatures to write.
-bool has_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
+std::vector<std::string> names_of_heights(const Constants& constants) {
+  std::vector<std::string> names{"bed_height"};
+  for (const std::string& name : constants.name) names.push_back("centre_" + name);
+  return names;
+}
+
+/// Whether there are granular temperatures to write: unknowns, or found by a local balance.
+bool knows_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
 
 std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
   std::vector<std::string> names{"voidage", "p"};
@@ -119,15 +125,16 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
                      std::vector<double> initial_mass, std::optional<double> resume_time)
     : model_(model),
       ranks_(model.constants().grid.ranks.get()),
-      invariants_(std::move(initial_mass), rtol, model.effects().compressible != nullptr) {
+      invariants_(std::move(initial_mass), rtol, model.effects().compressible != nullptr),
+      drifts_(names_of_heights(model.constants())) {
   const Constants& constants = model.constants();
   const bool compressible = model.effects().compressible != nullptr;
   core::on_first(ranks_, [&] {
     const std::filesystem::path steps = directory / "steps.csv";
     files_.reset(new Files{
         {directory, history_columns(constants, compressible), resume_time},
-        {directory, slab_centres(constants.grid), profile_names(constants, has_temperature(model)), resume_time},
-        {directory, core::whole_column(constants.grid), field_names(constants, has_temperature(model), compressible),
+        {directory, slab_centres(constants.grid), profile_names(constants, knows_temperature(model)), resume_time},
+        {directory, core::whole_column(constants.grid), field_names(constants, knows_temperature(model), compressible),
          resume_time},
         steps,
         {open_steps(steps, resume_time), std::fclose}});
@@ -155,6 +162,7 @@ void Observers::write_history(double time) {
                       time, passed, account ? account->error(fluid_mass) : 0);
   const auto height = fluid::bed_height(profile);
   bed_height_ = height.value_or(0);
+  watch(time, height, profile);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
   for (std::size_t j = 0; j < constants.species(); ++j) {
     row.push_back(fluid::centre(profile, j));
@@ -167,6 +175,19 @@ void Observers::write_history(double time) {
     for (std::size_t j = 0; j < constants.species(); ++j)
       row.insert(row.end(), {passed[j].in * constants.density[j], passed[j].out * constants.density[j]});
   core::on_first(ranks_, [&] { files_->history.write_row(row); });
+}
+
+void Observers::watch(double time, std::optional<double> height, const fluid::Profile& profile) {
+  std::vector<std::optional<double>> heights{height};
+  for (std::size_t j = 0; j < profile.fraction.size(); ++j) heights.push_back(fluid::centre(profile, j));
+  drifts_.see(time, heights);
+  const WellPosedness now = well_posedness(model_.constants(), model_.fields());
+  LeastWellPosed& least = least_well_posed_;
+  least.share_below_now = now.share_below;
+  if (now.lacks_more_than(least.cell)) {
+    least.cell = now;
+    least.time = time;
+  }
 }
 
 void Observers::write_fields(double time) {
@@ -184,7 +205,7 @@ void Observers::write_fields(double time) {
     rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));
     whole.push_back(gathered(grid, {&fields.solids.fraction[j]}));
     whole.push_back(gathered(grid, components(grid, velocities[j + 1])));
-    if (!has_temperature(model_)) continue;
+    if (!knows_temperature(model_)) continue;
     rows.push_back(fluid::lateral_mean(grid, fields.solids.temperature[j]));
     whole.push_back(gathered(grid, {&fields.solids.temperature[j]}));
   }

@@ -5,14 +5,22 @@
 #include <optional>
 
 #include "core/output.hpp"
+#include "fluid/drift.hpp"
 #include "fluid/invariants.hpp"
 #include "fluid/measures.hpp"
 #include "tfm/model.hpp"
+#include "tfm/well_posedness.hpp"
 
 namespace polybed::tfm {
 
 /// The vertical profile of the fields last shown. Collective.
 [[nodiscard]] fluid::Profile profile_of(const Model& model);
+
+/// The smallest margin to ill-posedness that a run has had in a row of its history, and the share of cells in the last.
+struct LeastWellPosed {
+  WellPosedness cell;
+  double time = 0, share_below_now = 0;
+};
 
 /// All ranks measure, the first one writes: every function is collective.
 class Observers {
@@ -34,6 +42,9 @@ class Observers {
   [[nodiscard]] double bed_height() const { return bed_height_; }
   /// Pressure drop over buoyant weight in the last row of the history.
   [[nodiscard]] double force_balance() const { return force_balance_; }
+  [[nodiscard]] const LeastWellPosed& least_well_posed() const { return least_well_posed_; }
+  /// Of the heights of bed and species, since this process began.
+  [[nodiscard]] const fluid::Drifts& drifts() const { return drifts_; }
 
  private:
   /// What the first rank has open.
@@ -45,9 +56,14 @@ class Observers {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> steps;
   };
 
+  /// What does not go into a row: the drift of its heights, and how well-posed the equations are.
+  void watch(double time, std::optional<double> height, const fluid::Profile& profile);
+
   const Model& model_;
   const core::Ranks* ranks_;
   fluid::Invariants invariants_;
+  fluid::Drifts drifts_;
+  LeastWellPosed least_well_posed_;
   std::unique_ptr<Files> files_;
   double bed_height_ = 0, force_balance_ = 0;
 };

@@ -45,17 +45,18 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       const auto at = std::size_t(c);
-      double on_fluid = 0, solids_density = 0;
+      double on_fluid = 0, on_solids = 0, solids_density = 0;
       convection.see(courant_rate(grid, fields.fluid.velocity, c), c);
       for (std::size_t j = 0; j < constants.species(); ++j) {
         const double b = fields.solids.exchange[j][at], phi = std::max(fields.solids.fraction[j][at], 0.0);
         convection.see(courant_rate(grid, fields.solids.velocity[j], c), c);
         on_fluid += phi * b / (std::max(fields.fluid.voidage[at], fluid::voidage_floor) * constants.fluid.density);
         solids_density += fields.share[j][at] * constants.density[j];
-        drag.see(b / constants.density[j] + on_fluid, c);
+        on_solids = std::max(on_solids, b / constants.density[j]);
         if (fields.stress.viscous())
           viscous.see(4 * grid.dimensions * fields.stress.viscosity[at] / (constants.density[j] * h * h), c);
       }
+      drag.see(on_solids + on_fluid, c);
       for (const core::Field& decay : fields.granular.decay) temperature.see(decay[at], c);
       if (!fields.stress.present()) continue;
       acoustics.see(std::sqrt(std::max(fields.stress.slope[at], 0.0) / solids_density) / h, c);

@@ -18,8 +18,9 @@ struct TimeScale {
 };
 
 /// Convection (h/|U| of any phase), acoustics of the packed bed (h/c_s), its bulk viscosity (h2 rho_s/lambda), drag
-/// (phi rho_j relaxing with the fluid), viscosity (h2/nu), that of the solids (h2 phi rho_j/mu_s) and decay of the
-/// granular temperature, each where it is present, from fields of a finished evaluation.
+/// (the fastest of the species, relaxing with the fluid that all of them drag along), viscosity (h2/nu), that of the
+/// solids (h2 phi rho_j/mu_s) and decay of the granular temperature, each where it is present, from fields of a
+/// finished evaluation.
 /// \param kinematic_viscosity  nu, m2/s, of the fluid's stress; 0: absent
 std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity);
 

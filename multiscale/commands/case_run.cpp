@@ -24,10 +24,7 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&)>& resume,
   core::Checkpoint checkpoint;
   const std::string word = "checkpoint:";
   if (options_.resume) {
-    core::on_first(ranks_.get(), [&] {
-      checkpoint = read_newest_checkpoint(directory_);
-      require_same_case(checkpoint, scene_, directory_);
-    });
+    core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, scene_); });
     resume(checkpoint);
   } else if (scene_.bed.start.starts_with(word)) {
     core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(scene_.bed.start.substr(word.size())); });
@@ -66,9 +63,8 @@ bool CaseRun::after_step() { return !core::on_any_rank(ranks_.get(), interrupt_.
 void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
-  state.texts["case"] = core::resolved_case(scene_);
-  state.texts["physics_hash"] = physics_hash(scene_);
-  core::on_first(ranks_.get(), [&] { core::write_checkpoint(directory_ / "checkpoint.h5", state); });
+  add_case(state, scene_);
+  core::on_first(ranks_.get(), [&] { core::write_checkpoint(checkpoint_path(directory_), state); });
   record("running");
 }
 
@@ -90,12 +86,12 @@ void CaseRun::finish(const std::string& state) {
   core::on_first(ranks_.get(), [&] { core::write_atomically(directory_ / "run.json", text + "\n"); });
   if (!first_) return;
   std::string message;
-  const bool drawn = draw_picture(directory_, message);
-  if (!drawn && !options_.quiet) fmt::print(stderr, "no picture: {}\n", message);
+  const bool drawn = options_.picture && draw_picture(directory_, message);
   if (!options_.quiet) {
     print_timers(timers_);
     print_summary();
-    if (drawn) fmt::print(stderr, "{}\n", (directory_ / "picture.png").string());
+    if (drawn) fmt::print(stderr, "{}\n", message);
+    if (options_.picture && !drawn) fmt::print(stderr, "no picture: {}\n", message);
   }
   if (options_.json) fmt::print("{}\n", text);
 }

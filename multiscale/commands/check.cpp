@@ -45,6 +45,28 @@ void note_drag(const core::Scene& scene, Derived& derived) {
                               "T(3.45): the pressure drop is not exact");
 }
 
+/// What flows in: its greatest speed, m/s, and what becomes of particles that fall more slowly.
+struct Inflow {
+  std::string name;
+  double velocity = 0;
+  std::string fate;
+};
+
+std::vector<Inflow> inflows_of(const core::Scene& scene) {
+  const auto greatest = [](const auto& points) {
+    double most = 0;
+    for (const auto& point : points) most = std::max(most, std::abs(point.second));
+    return most;
+  };
+  std::vector<Inflow> inflows{
+      {"the inlet", greatest(scene.inlet.superficial_velocity),
+       std::string("it will be carried to the top") + (scene.column.outlet == "open" ? ", and out" : "")}};
+  for (std::size_t n = 0; n < scene.jets.size(); ++n)
+    inflows.push_back({fmt::format("jet {}", n + 1), greatest(scene.jets[n].superficial_velocity),
+                       "it will be carried up as far as the jet keeps together"});
+  return inflows;
+}
+
 Derived derive(const core::Scene& scene, const tfm::Model& model) {
   const tfm::Constants& constants = model.constants();
   Derived derived;
@@ -53,9 +75,9 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
     derived.sound = fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, constants.fluid.density),
                                           scene.fluid.outlet_pressure);
   if (model.effects().solids_stress) derived.max_packing = model.effects().solids_stress->max_packing();
-  const char* outlet = scene.column.outlet == "open" ? ", and out" : "";
+  const std::vector<Inflow> inflows = inflows_of(scene);
   double fastest = 0;
-  for (const auto& point : scene.inlet.superficial_velocity) fastest = std::max(fastest, std::abs(point.second));
+  for (const Inflow& inflow : inflows) fastest = std::max(fastest, inflow.velocity);
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const double excess = constants.density[j] - constants.fluid.density;
     derived.weight +=
@@ -64,11 +86,11 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
         [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; }, constants.diameter[j], excess,
         constants.fluid.density, constants.fluid.viscosity, constants.gravity));
     derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] / constants.fluid.viscosity);
-    if (fastest > derived.terminal[j])
-      derived.notes.push_back(
-          fmt::format("the inlet's {:.4g} m/s is above the terminal velocity of {}, {:.4g} m/s: it will be "
-                      "carried to the top{}",
-                      fastest, constants.name[j], derived.terminal[j], outlet));
+    for (const Inflow& inflow : inflows)
+      if (inflow.velocity > derived.terminal[j])
+        derived.notes.push_back(fmt::format("{}'s {:.4g} m/s is above the terminal velocity of {}, {:.4g} m/s: {}",
+                                            inflow.name, inflow.velocity, constants.name[j], derived.terminal[j],
+                                            inflow.fate));
   }
   note_drag(scene, derived);
   for (const core::Role& role : all_roles())

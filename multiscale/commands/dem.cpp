@@ -141,7 +141,7 @@ class DemRun final : public CaseRun {
 
 void run_dem(const RunOptions& options) {
   core::Scene scene = read_scene(options);
-  const fs::path directory = options.output.empty() ? default_run_directory(options.case_path, "dem") : options.output;
+  const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::on_first(ranks.get(), [&] { check_directory(directory, options); });
   DemRun run(options, std::move(scene), directory, ranks);

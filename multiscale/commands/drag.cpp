@@ -3,7 +3,8 @@
 
 #include <cmath>
 #include <fstream>
-#include <iostream>
+#include <numeric>
+#include <optional>
 #include <sstream>
 
 #include "closures/drag.hpp"
@@ -81,33 +82,48 @@ std::vector<std::string> split(const std::string& line) {
   return cells;
 }
 
-/// A mixture row: means and, per species, f_j, n_j, alpha_j, Omega_j.
-std::string mixture_columns(const DragLaw& law, double eps, double re, const std::vector<double>& share,
-                            const std::vector<double>& diameter, const std::string& where) {
-  const std::size_t n = share.size();
-  const double mean = closures::sauter_diameter(share, diameter);
+/// What a row of a table asks: a voidage, a Reynolds number, and of a mixture its shares and diameters.
+struct Row {
+  std::string text;            ///< as the file has it
+  std::string where;           ///< file and line
+  std::vector<double> values;  ///< all of them, in the order of the header
+  std::vector<double> share, diameter;
+};
+
+/// The names of the answers to a row.
+std::vector<std::string> answer_names(std::size_t species) {
+  if (species == 0) return {"f", "n"};
+  std::vector<std::string> names{"f_mean", "n_mean"};
+  for (std::size_t j = 1; j <= species; ++j)
+    for (const char* name : {"f", "n", "alpha", "Omega"}) names.push_back(fmt::format("{}_{}", name, j));
+  return names;
+}
+
+/// f and n; of a mixture their means and, per species, f_j, n_j, alpha_j, Omega_j.
+std::vector<double> answer(const DragLaw& law, const Row& row) {
+  const double eps = row.values[0], re = row.values[1];
+  const std::size_t n = row.share.size();
+  if (n == 0) {
+    closures::GuardCount count;
+    const double f = at_point(law, eps, re, count, row.where);
+    return {f, f / eps};
+  }
+  const double mean = closures::sauter_diameter(row.share, row.diameter);
   std::vector<double> f(n), slope(n), slip(n, re / mean);  // density and viscosity 1: Re = slip D
   double f_mean = 0;
   try {
-    closures::drag_of_mixture(law, eps, share, diameter, slip, 1, 1, f, slope);
-    f_mean = closures::drag_of_mean(law, eps, re, share, diameter, f);
+    closures::drag_of_mixture(law, eps, row.share, row.diameter, slip, 1, 1, f, slope);
+    f_mean = closures::drag_of_mean(law, eps, re, row.share, row.diameter, f);
   } catch (const std::domain_error& error) {
-    throw core::CaseError(where + error.what());
+    throw core::CaseError(row.where + error.what());
   }
-  finite(f_mean / eps, eps, re, where);
-  std::string text = fmt::format(",{},{}", f_mean, f_mean / eps);
+  std::vector<double> values{f_mean, finite(f_mean / eps, eps, re, row.where)};
   for (std::size_t j = 0; j < n; ++j) {
-    const double y = diameter[j] / mean, omega = f[j] / f_mean, net = f[j] + (1 - eps) * y * y * f_mean / eps;
+    const double y = row.diameter[j] / mean, omega = f[j] / f_mean, net = f[j] + (1 - eps) * y * y * f_mean / eps;
     const double alpha = closures::alpha_of_omega(eps, omega, y);
-    for (const double value : {f[j], net, alpha, omega}) text += fmt::format(",{}", finite(value, eps, re, where));
+    for (const double value : {f[j], net, alpha, omega}) values.push_back(finite(value, eps, re, row.where));
   }
-  return text;
-}
-
-void print_header(std::size_t species, const std::string& header) {
-  std::string names = species == 0 ? ",f,n" : ",f_mean,n_mean";
-  for (std::size_t j = 1; j <= species; ++j) names += fmt::format(",f_{0},n_{0},alpha_{0},Omega_{0}", j);
-  fmt::print("{}{}\n", header, names);
+  return values;
 }
 
 double number_in(const std::string& cell, const std::string& where) {
@@ -120,60 +136,85 @@ double number_in(const std::string& cell, const std::string& where) {
   throw core::CaseError(where + "'" + cell + "' is no number");
 }
 
-void print_csv(const DragOptions& options, const DragLaw& law) {
-  std::ifstream file(options.csv);
-  if (!file) throw core::FileError(options.csv + ": cannot be read");
-  std::string line, header;
-  std::size_t number = 0, columns = 0;
-  while (std::getline(file, line)) {
-    ++number;
+void check_header(const std::vector<std::string>& columns, const std::string& where) {
+  bool fits = columns.size() >= 2 && columns.size() % 2 == 0 && columns[0] == "eps" && columns[1] == "Re";
+  for (std::size_t j = 1; fits && 2 * j < columns.size(); ++j)
+    fits = columns[2 * j] == fmt::format("x{}", j) && columns[2 * j + 1] == fmt::format("D{}", j);
+  if (!fits) throw core::CaseError(where + "columns must be eps,Re or eps,Re,x1,D1,x2,D2,...");
+}
+
+Row row_of(const std::string& line, std::size_t columns, const std::string& where) {
+  Row row{line, where, {}, {}, {}};
+  const std::vector<std::string> cells = split(line);
+  if (cells.size() != columns)
+    throw core::CaseError(fmt::format("{}{} cells, the header has {}", where, cells.size(), columns));
+  for (const std::string& c : cells) row.values.push_back(number_in(c, where));
+  check_point(row.values[0], row.values[1], where);
+  for (std::size_t c = 2; c < columns; c += 2) {
+    row.share.push_back(row.values[c]);
+    row.diameter.push_back(row.values[c + 1]);
+    if (!(row.share.back() >= 0 && row.diameter.back() > 0))
+      throw core::CaseError(where + "shares must be >= 0, diameters > 0");
+  }
+  const double sum = std::accumulate(row.share.begin(), row.share.end(), 0.0);
+  if (!row.share.empty() && std::abs(sum - 1) > 1e-6)
+    throw core::CaseError(fmt::format("{}shares sum to {}, not to 1", where, sum));
+  return row;
+}
+
+/// Calls see(header, row) for every row of a file of points.
+template <class See>
+void read_points(const std::string& path, See&& see) {
+  std::ifstream file(path);
+  if (!file) throw core::FileError(path + ": cannot be read");
+  std::vector<std::string> header;
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
     while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
     if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string> cells = split(line);
+    const std::string where = fmt::format("{}:{}: ", path, number);
     if (header.empty()) {
-      header = line;
-      columns = cells.size();
-      bool fits = columns >= 2 && columns % 2 == 0 && cells[0] == "eps" && cells[1] == "Re";
-      for (std::size_t j = 1; fits && 2 * j < columns; ++j)
-        fits = cells[2 * j] == fmt::format("x{}", j) && cells[2 * j + 1] == fmt::format("D{}", j);
-      if (!fits)
-        throw core::CaseError(
-            fmt::format("{}:{}: columns must be eps,Re or eps,Re,x1,D1,x2,D2,...", options.csv, number));
-      print_header((columns - 2) / 2, header);
-      continue;
-    }
-    const std::string where = fmt::format("{}:{}: ", options.csv, number);
-    if (cells.size() != columns)
-      throw core::CaseError(fmt::format("{}{} cells, the header has {}", where, cells.size(), columns));
-    std::vector<double> values, share, diameter;
-    for (const std::string& c : cells) values.push_back(number_in(c, where));
-    check_point(values[0], values[1], where);
-    double sum = 0;
-    for (std::size_t c = 2; c < columns; c += 2) {
-      share.push_back(values[c]);
-      diameter.push_back(values[c + 1]);
-      sum += values[c];
-      if (!(values[c] >= 0 && values[c + 1] > 0)) throw core::CaseError(where + "shares must be >= 0, diameters > 0");
-    }
-    if (!share.empty() && std::abs(sum - 1) > 1e-6)
-      throw core::CaseError(fmt::format("{}shares sum to {}, not to 1", where, sum));
-    closures::GuardCount count;
-    if (share.empty()) {
-      const double f = at_point(law, values[0], values[1], count, where);
-      fmt::print("{},{},{}\n", line, f, f / values[0]);
+      header = split(line);
+      check_header(header, where);
+      see(header, std::optional<Row>());
     } else {
-      fmt::print("{}{}\n", line, mixture_columns(law, values[0], values[1], share, diameter, where));
+      see(header, std::optional<Row>(row_of(line, header.size(), where)));
     }
   }
-  if (file.bad()) throw core::FileError(options.csv + ": cannot be read");
-  if (header.empty()) throw core::CaseError(options.csv + ": no header and no rows");
+  if (file.bad()) throw core::FileError(path + ": cannot be read");
+  if (header.empty()) throw core::CaseError(path + ": no header and no rows");
+}
+
+void print_csv(const DragOptions& options, const DragLaw& law) {
+  read_points(options.csv, [&](const std::vector<std::string>& header, const std::optional<Row>& row) {
+    if (row)
+      fmt::print("{},{}\n", row->text, fmt::join(answer(law, *row), ","));
+    else
+      fmt::print("{},{}\n", fmt::join(header, ","), fmt::join(answer_names((header.size() - 2) / 2), ","));
+  });
+}
+
+void print_json(const DragOptions& options, const DragLaw& law) {
+  core::Json json;
+  json.begin_object().member("law", options.law).key("rows").begin_array();
+  read_points(options.csv, [&](const std::vector<std::string>& header, const std::optional<Row>& row) {
+    if (!row) return;
+    json.begin_object();
+    for (std::size_t c = 0; c < header.size(); ++c) json.member(header[c], row->values[c]);
+    const std::vector<std::string> names = answer_names(row->share.size());
+    const std::vector<double> answers = answer(law, *row);
+    for (std::size_t c = 0; c < names.size(); ++c) json.member(names[c], answers[c]);
+    json.end_object();
+  });
+  json.end_array().end_object();
+  fmt::print("{}\n", json.text());
 }
 
 }  // namespace
 
 void run_drag(const DragOptions& options) {
   const DragLaw law = law_of(options);
-  if (!options.csv.empty()) return print_csv(options, law);
+  if (!options.csv.empty()) return options.json ? print_json(options, law) : print_csv(options, law);
   if (!options.voidage || !options.reynolds) throw core::CaseError("give --voidage and --re, or --csv FILE");
   print_point(options, law);
 }

@@ -22,6 +22,7 @@ struct RunOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-<model>
   std::string until;             ///< empty: as the case says
   bool resume = false, force = false, quiet = false;
+  bool picture = true;  ///< drawn at the end
 };
 
 /// Options of the pictures of a run.
@@ -56,9 +57,5 @@ void run_explain(const std::string& key, bool json);
 void run_list(bool json);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
-
-/// runs/<case name>-<model>, where a case.toml is called by its folder.
-[[nodiscard]] std::filesystem::path default_run_directory(const std::filesystem::path& case_path,
-                                                          const std::string& model);
 
 }  // namespace polybed::multiscale

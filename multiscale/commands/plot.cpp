@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "multiscale/commands/options.hpp"
+#include "multiscale/commands/run_directory.hpp"
 #include "multiscale/python_module.hpp"
 
 namespace polybed::multiscale {

@@ -9,32 +9,12 @@
 
 namespace polybed::multiscale {
 
+namespace {
+
 namespace fs = std::filesystem;
 
-core::Scene read_scene(const RunOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (!options.until.empty()) {
-    const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
-    overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
-  }
-  return core::read_case(options.case_path, overrides, all_roles(), size_classes);
-}
-
-void check_directory(const fs::path& directory, const RunOptions& options) {
-  const bool used = fs::exists(directory / "run.json");
-  const fs::path checkpoint = directory / "checkpoint.h5";
-  if (options.resume && !fs::exists(checkpoint) && !fs::exists(core::previous_checkpoint(checkpoint)))
-    throw core::FileError(
-        fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
-  if (used && !options.resume && !options.force)
-    throw core::CaseError(
-        fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
-                    directory.string()));
-  core::make_directories(directory);
-}
-
 core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
-  const fs::path path = directory / "checkpoint.h5", previous = core::previous_checkpoint(path);
+  const fs::path path = checkpoint_path(directory), previous = core::previous_checkpoint(path);
   try {
     return core::read_checkpoint(path);
   } catch (const core::FileError& error) {
@@ -50,29 +30,67 @@ core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
   }
 }
 
+/// What must be the same for a checkpoint to fit: the case without its end and its output times.
 std::string physics_hash(core::Scene scene) {
   scene.run.until = 1;
   scene.output = {};
   return core::text_hash(core::resolved_case(scene));
 }
 
-void remove_checkpoints(const fs::path& directory) {
-  const fs::path path = directory / "checkpoint.h5";
-  fs::remove(path);
-  fs::remove(core::previous_checkpoint(path));
-}
+}  // namespace
 
-void require_same_case(const core::Checkpoint& checkpoint, const core::Scene& scene, const fs::path& directory) {
-  const auto hash = checkpoint.texts.find("physics_hash");
-  if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene))
-    throw core::CaseError(
-        fmt::format("{}: the checkpoint is of another case; only run and output times may change", directory.string()));
+core::Scene read_scene(const RunOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.until.empty()) {
+    const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
+    overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
+  }
+  return core::read_case(options.case_path, overrides, all_roles(), size_classes);
 }
 
 fs::path default_run_directory(const fs::path& case_path, const std::string& model) {
   const fs::path path = fs::absolute(case_path);
   const std::string name = path.stem() == "case" ? path.parent_path().filename().string() : path.stem().string();
   return fs::path("runs") / (name + "-" + model);
+}
+
+fs::path run_directory(const RunOptions& options, const std::string& model) {
+  return options.output.empty() ? default_run_directory(options.case_path, model) : options.output;
+}
+
+void check_directory(const fs::path& directory, const RunOptions& options) {
+  const bool used = fs::exists(directory / "run.json");
+  const fs::path checkpoint = checkpoint_path(directory);
+  if (options.resume && !fs::exists(checkpoint) && !fs::exists(core::previous_checkpoint(checkpoint)))
+    throw core::FileError(
+        fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
+  if (used && !options.resume && !options.force)
+    throw core::CaseError(
+        fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
+                    directory.string()));
+  core::make_directories(directory);
+}
+
+fs::path checkpoint_path(const fs::path& directory) { return directory / "checkpoint.h5"; }
+
+core::Checkpoint read_checkpoint_of(const fs::path& directory, const core::Scene& scene) {
+  core::Checkpoint checkpoint = read_newest_checkpoint(directory);
+  const auto hash = checkpoint.texts.find("physics_hash");
+  if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene))
+    throw core::CaseError(
+        fmt::format("{}: the checkpoint is of another case; only run and output times may change", directory.string()));
+  return checkpoint;
+}
+
+void add_case(core::Checkpoint& checkpoint, const core::Scene& scene) {
+  checkpoint.texts["case"] = core::resolved_case(scene);
+  checkpoint.texts["physics_hash"] = physics_hash(scene);
+}
+
+void remove_checkpoints(const fs::path& directory) {
+  const fs::path path = checkpoint_path(directory);
+  fs::remove(path);
+  fs::remove(core::previous_checkpoint(path));
 }
 
 }  // namespace polybed::multiscale

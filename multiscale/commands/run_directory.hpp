@@ -1,4 +1,5 @@
-// What a run of either model does with its case and its directory.
+// The run directory as the commands that run a case treat it, whatever the model: which it is, whether it may be
+// written, and which checkpoint in it a run goes on from.
 #pragma once
 
 #include <filesystem>
@@ -10,25 +11,29 @@
 
 namespace polybed::multiscale {
 
-/// The case of a run, with what its command line overrides.
+/// The case of the command line, with --set and --until taken into it.
 [[nodiscard]] core::Scene read_scene(const RunOptions& options);
 
-/// Makes the run directory; throws core::CaseError if it holds a run that is neither to be resumed nor replaced,
-/// core::FileError if there is nothing to resume from.
+/// runs/<case name>-<model>, where a case.toml is called by its folder.
+[[nodiscard]] std::filesystem::path default_run_directory(const std::filesystem::path& case_path,
+                                                          const std::string& model);
+
+/// Where a run of this model writes: -o DIR, or else the default.
+[[nodiscard]] std::filesystem::path run_directory(const RunOptions& options, const std::string& model);
+
+/// Makes the directory; throws if it holds a run that is neither resumed nor replaced, or nothing to resume from.
 void check_directory(const std::filesystem::path& directory, const RunOptions& options);
 
-/// The checkpoint to go on from. One that is damaged gives way to the one before it, under its name, so that the next
-/// one written does not push that out.
-[[nodiscard]] core::Checkpoint read_newest_checkpoint(const std::filesystem::path& directory);
+[[nodiscard]] std::filesystem::path checkpoint_path(const std::filesystem::path& directory);
+
+/// The checkpoint to go on from. One that is damaged gives way to the one before it, under its name, so that
+/// the next one written does not push that out. Throws if it is of another case.
+[[nodiscard]] core::Checkpoint read_checkpoint_of(const std::filesystem::path& directory, const core::Scene& scene);
+
+/// Says in a checkpoint of which case it is.
+void add_case(core::Checkpoint& checkpoint, const core::Scene& scene);
 
 /// A run that begins anew and is killed at once must not be resumed from the run it replaces.
 void remove_checkpoints(const std::filesystem::path& directory);
-
-/// What must be the same for a checkpoint to fit: the case without its end and its output times.
-[[nodiscard]] std::string physics_hash(core::Scene scene);
-
-/// Throws core::CaseError if a checkpoint is of another case.
-void require_same_case(const core::Checkpoint& checkpoint, const core::Scene& scene,
-                       const std::filesystem::path& directory);
 
 }  // namespace polybed::multiscale

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "multiscale/commands/case_run.hpp"
 #include "multiscale/requirements.hpp"
@@ -97,6 +98,21 @@ class TfmRun final : public CaseRun {
       fmt::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,
                  100.0 * double(use.guarded) / double(std::max<std::uint64_t>(use.evaluations, 1)),
                  double(use.evaluations));
+    print_state_at_end();
+  }
+
+  void print_state_at_end() const {
+    const tfm::LeastWellPosed& least = observers_->least_well_posed();
+    std::string place;
+    for (int axis = 0; axis < model_.constants().grid.dimensions; ++axis)
+      place += fmt::format("{}{:.4g}", axis > 0 ? ", " : "", least.cell.place[std::size_t(axis)]);
+    if (std::isfinite(least.cell.least))
+      fmt::print(
+          stderr,
+          "well-posedness: least dp_s/dphi over its critical {:.2g} Pa is {:.3g}, at ({}) m, t = {:.4g} s; below "
+          "1 in {:.3g} % of the bed's cells at the end\n",
+          least.cell.critical_slope, least.cell.least, place, least.time, 100 * least.share_below_now);
+    for (const std::string& text : drift_lines(observers_->drifts())) fmt::print(stderr, "{}\n", text);
   }
 
   tfm::Model model_;
@@ -109,7 +125,7 @@ class TfmRun final : public CaseRun {
 
 void run_tfm(const RunOptions& options) {
   core::Scene scene = read_scene(options);
-  const fs::path directory = options.output.empty() ? default_run_directory(options.case_path, "tfm") : options.output;
+  const fs::path directory = run_directory(options, "tfm");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::on_first(ranks.get(), [&] {
     require_memory(scene);

@@ -14,12 +14,12 @@ import tempfile
 
 from sources import ROOT, report, tracked
 
+sys.path.insert(0, str(ROOT / "tests"))
+import open_mpi  # noqa: E402
+
 PYTHON = "/usr/bin/python3"
 MOST_NOT_RUN = 6
-# What Open MPI needs in a container and as root.
-MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-       "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
-SHORT = ["--until", "0.1 s", "--quiet"]
+SHORT = ["--until", "0.1 s", "--quiet", "--no-picture"]
 
 
 def blocks(text):
@@ -48,7 +48,7 @@ def shortened(command, program):
 
 
 def run(command, program, scratch):
-    environment = os.environ | MPI | {"PYTHONPATH": str(ROOT / "multiscale/python")}
+    environment = os.environ | open_mpi.SETTINGS | {"PYTHONPATH": str(ROOT / "multiscale/python")}
     done = subprocess.run(shortened(command, program), cwd=scratch, env=environment, capture_output=True, text=True,
                           timeout=300)
     return [] if done.returncode == 0 else [f"{command}\n  ended with {done.returncode}: {done.stderr[-500:]}"]

@@ -33,6 +33,22 @@ class Needs(Scratch):
         # 3.1313 mm is the smaller side of a cell: h/(U/eps) = 3.1313e-3 * 0.38/0.03 by hand; nothing falls faster
         self.assertAlmostEqual(rest["convection_s"], 3.1313e-3 * 0.38 / 0.03, delta=1e-5)
 
+    def test_what_carries_a_species_away_is_named(self):
+        """The fine fall at 47, the coarse at 67 mm/s: 1 m/s is above both, 1 mm/s
+        above none."""
+        jet = '\n[[jet]]\nfrom = [0.02]\nto = [0.04]\nsuperficial_velocity = %s\n'
+
+        def notes(*words, jets=()):
+            path = self.write("case.toml", CASE.read_text() + "".join(jet % j for j in jets))
+            return [n for n in strict_json(self.ends(DONE, "check", path, "--json", *words).stdout)["notes"] if "carried" in n]
+        self.assertEqual(notes(), [])
+        self.assertEqual(notes(jets=["0.001"]), [])
+        for species, note in zip(("fine", "coarse"), notes(jets=["1.0"])):
+            self.assertRegex(note, f"^jet 1's 1 m/s is above the terminal velocity of {species}, .* as the jet keeps together")
+        self.assertEqual(len(notes(jets=["1.0"])), 2)
+        both = notes(*setting(inlet__superficial_velocity="1.0"), jets=["1.0"])
+        self.assertEqual([n.split("'")[0] for n in both], ["the inlet", "jet 1"] * 2)
+
     def test_memory_is_that_of_a_run(self):
         """On three sizes with either integrator: 10 % was seen; twice that for what other versions of the libraries take."""
         if "sanitizers" in run("--version").stdout:

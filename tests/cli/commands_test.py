@@ -170,6 +170,13 @@ class Drag(Scratch):
         # T(3.45): the drag of the species adds up to that of the bed; the rest is rounding
         self.assertAlmostEqual(total, values["f_mean"], delta=1e-12 * values["f_mean"])
 
+    def test_a_table_as_json_has_the_numbers_of_the_csv(self):
+        for text in ("eps,Re\n0.5,20\n0.6,3\n", "eps,Re,x1,D1,x2,D2\n0.6,30,0.5,1e-3,0.5,2e-3\n"):
+            rows = [{name: float(value) for name, value in row.items()} for row in self.table(text, "--law", "vbk")]
+            path = self.write("points.csv", text)
+            answer = strict_json(self.ends(DONE, "drag", "--law", "vbk", "--csv", path, "--json").stdout)
+            self.assertEqual(answer, {"law": "vbk", "rows": rows})
+
     def test_a_bad_row_is_told_with_its_line(self):
         bad = {"0.5,x": "'x' is no number", "0.5": "1 cells, the header has 2", "1.5,1": "voidage 1.5 is outside",
                "nan,1": "is no number", "0.5,-1": "Reynolds number -1 is outside", "0.5,": "'' is no number",
@@ -178,6 +185,7 @@ class Drag(Scratch):
             path = self.write(f"bad{n}.csv", f"eps,Re\n# a comment\n0.5,1\n{row}\n")
             self.assertIn(f"{path}:4: ", self.ends(WRONG_CASE, "drag", "--csv", path).stderr)
             self.assertIn(message, run("drag", "--csv", path).stderr)
+            self.assertEqual(self.ends(WRONG_CASE, "drag", "--csv", path, "--json").stdout, "")
         path = self.write("refused.csv", "eps,Re,x1,D1\n0.5,3,1,1\n")
         self.assertIn(f"{path}:2: fand", self.ends(WRONG_CASE, "drag", "--law", "fand", "--guard", "off", "--csv", path).stderr)
         for text in ("", "\n\n", "a,b\n", "eps,Re,x1\n1,2,3\n"):

@@ -24,7 +24,7 @@ class Plot(Scratch):
         cls.directory = cls.place / "runs/matsuura-akehata-tfm"
 
     def plot(self, code, *words, **options):
-        return self.ends(code, "plot", *words, picture=True, **options)
+        return self.ends(code, "plot", *words, **options)
 
     def test_everything_by_default(self):
         done = self.plot(DONE, self.directory, "--out", self.folder, "--json")
@@ -45,7 +45,7 @@ class Plot(Scratch):
     def test_a_gif_where_there_is_no_ffmpeg(self):
         path = self.folder / "bin"
         path.mkdir()
-        environment = dict(program.environment(str(self.folder), picture=True), PATH=str(path))
+        environment = dict(program.environment(str(self.folder)), PATH=str(path))
         done = subprocess.run([program.PROGRAM, "plot", self.directory, "--what", "animation", "--out", self.folder],
                               env=environment, capture_output=True, text=True)
         self.assertEqual(done.returncode, DONE, done.stderr)
@@ -53,7 +53,7 @@ class Plot(Scratch):
 
     def test_a_bar_on_a_terminal(self):
         leader, follower = pty.openpty()
-        done = run("plot", self.directory, "--what", "animation", "--out", self.folder, picture=True, stderr=follower)
+        done = run("plot", self.directory, "--what", "animation", "--out", self.folder, stderr=follower)
         self.assertEqual(done.returncode, DONE)
         os.close(follower)
         shown = os.read(leader, 10000).decode()
@@ -94,7 +94,7 @@ class Plot(Scratch):
     def test_a_missing_package_is_told_with_the_line_that_installs_it(self):
         """A module of that name in front of the search path stands for a machine without it."""
         (self.folder / "matplotlib.py").write_text("raise ModuleNotFoundError(\"No module named 'matplotlib'\", name='matplotlib')")
-        environment = dict(program.environment(str(self.folder), picture=True))
+        environment = program.environment(str(self.folder))
         done = subprocess.run([program.PROGRAM, "plot", self.directory], cwd=self.folder, env=environment, capture_output=True, text=True)
         self.assertEqual(done.returncode, FILE, done.stderr)
         self.assertIn("matplotlib is missing", done.stderr)
@@ -102,8 +102,14 @@ class Plot(Scratch):
         self.assertNotIn("Traceback", done.stderr)
 
     def test_no_python_at_all(self):
-        done = run("plot", self.directory)  # with a Python that does not start
-        self.assertEqual(done.returncode, FILE)
+        """One that does not start stands for it: there is nothing to plot with, but a run is complete without its picture."""
+        environment = dict(program.environment(str(self.folder)), PYTHONHOME="/nowhere")
+        run_words = ["tfm", CASE, *SMALL, "--until", "0.01 s", "-o", self.folder / "run"]
+        for words, code in ((["plot", self.directory], FILE), (run_words, DONE)):
+            done = subprocess.run(list(map(str, [program.PROGRAM, *words])), env=environment, capture_output=True, text=True)
+            self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn("no picture: ", done.stderr)
+        self.assertNotIn("picture.png", done.stderr)
 
 
 if __name__ == "__main__":

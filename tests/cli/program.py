@@ -26,27 +26,29 @@ SMALL = ["--set", "column.cells=[6,60]", "--set", "output.every=0.1", "--set", "
          "--set", "output.checkpoint_every=0.1"]
 
 
-def environment(scratch, picture=False):
+def environment(scratch):
     """One rank needs neither network nor daemon: without them MPI starts in a sixth of the time, if each process has a
-    folder of its own. A Python that does not start saves drawing, which takes longer than the runs here."""
-    settings = dict(os.environ, OMPI_MCA_btl="self", OMPI_MCA_pml="ob1", OMPI_MCA_ess_singleton_isolated="1",
-                    OMPI_MCA_orte_tmpdir_base=scratch, PYTHONHOME="/nowhere")
-    if picture:
-        del settings["PYTHONHOME"]
-    return settings
+    folder of its own."""
+    return dict(os.environ, OMPI_MCA_btl="self", OMPI_MCA_pml="ob1", OMPI_MCA_ess_singleton_isolated="1",
+                OMPI_MCA_orte_tmpdir_base=scratch)
+
+
+def command(words, picture=False):
+    """A run draws no picture unless asked to: that takes longer than the runs here."""
+    return [PROGRAM, *map(str, words), *(["--no-picture"] if words and words[0] == "tfm" and not picture else [])]
 
 
 def run(*words, picture=False, **options):
     """The finished command; its texts are decoded strictly, since the program speaks UTF-8."""
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "encoding": "utf-8", "timeout": LONGEST, **options}
     with tempfile.TemporaryDirectory() as scratch:
-        return subprocess.run([PROGRAM, *map(str, words)], env=environment(scratch, picture), **options)
+        return subprocess.run(command(words, picture), env=environment(scratch), **options)
 
 
 def peak_memory(*words):
     """Bytes that a command held at most; it has to end well."""
     with tempfile.TemporaryDirectory() as scratch:
-        process = subprocess.Popen([PROGRAM, *map(str, words)], env=environment(scratch), stdout=subprocess.DEVNULL)
+        process = subprocess.Popen(command(words), env=environment(scratch), stdout=subprocess.DEVNULL)
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
     assert process.returncode == DONE, (words, process.returncode)
@@ -119,7 +121,7 @@ class Scratch(unittest.TestCase):
         return path
 
     def start(self, *words):
-        return subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        return subprocess.Popen(command(words), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 encoding="utf-8", env=environment(tempfile.mkdtemp(dir=self.folder)))
 
     def ends(self, code, *words, **options):

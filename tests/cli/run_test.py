@@ -70,6 +70,28 @@ class Run(Scratch):
                 self.assertEqual(profiles[name].shape, (4, 60), name)
             np.testing.assert_allclose(profiles["voidage"][3], last["voidage"][()].mean(axis=1), atol=1e-12)  # a mean
 
+    def test_what_still_drifts_and_how_well_posed_the_bed_was_is_told(self):
+        directory = self.folder / "run"
+        done = self.ends(DONE, "tfm", CASE, *SMALL, "--until", "1 s", "-o", directory, "--no-picture", picture=True)
+        self.assertFalse((directory / "picture.png").exists())
+        self.assertNotIn("picture", done.stderr)
+        record, columns = strict_json((directory / "run.json").read_text()), history(directory)
+        measures = {m["name"]: m for m in record["drift"]["measures"]}
+        self.assertEqual(list(measures), ["bed_height", "centre_fine", "centre_coarse"])
+        self.assertAlmostEqual(record["drift"]["window_s"], 0.25, delta=1e-12)
+        for name, m in measures.items():
+            # the line through all 26 rows of the window in place of the means of its parts: the same within two intervals
+            slope = np.polyfit(columns["time_s"][-26:], columns[f"{name}_m"][-26:], 1)[0]
+            self.assertLess(abs(m["rate_m_per_s"] - slope), 2 * m["error_m_per_s"], name)
+        self.assertFalse(measures["bed_height"]["steady"], "the packed bed rises at the fluid's 30 mm/s")
+        line = next(w for w in record["warnings"] if w.startswith("not steady: drift of bed_height"))
+        self.assertIn(line + "\n", done.stderr)
+        posed = record["well_posedness"]
+        self.assertRegex(done.stderr, r"well-posedness: least dp_s/dphi over its critical .* below 1 in .* % of the bed's cells")
+        self.assertEqual((posed["least"], len(posed["place_m"])), (0, 2), "lifted, no stress reaches some cells of the bed")
+        self.assertGreater(posed["critical_slope_Pa"], 0)
+        self.assertTrue(0 < posed["share_below_1"] <= 1)
+
     def test_directories(self):
         short = [CASE, *SMALL, "--until", "0.01 s", "--quiet"]
         first = self.folder / "deep/down"

@@ -18,24 +18,25 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests"))
+import open_mpi  # noqa: E402
+
 CASE = ROOT / "cases/matsuura-akehata/case.toml"
 STEPS, STEP = 50, 2e-4
 # Assumptions of the projection, of a present cluster: time of a message, of a byte, and of one stage of a reduction.
 LATENCY, PER_BYTE, STAGE = 1.5e-6, 1 / 10e9, 2e-6
-MPI = dict(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-           OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_btl_vader_single_copy_mechanism="none", PYTHONHOME="/nowhere")
 
 
 def run(polybed, ranks, cells, steps=STEPS, library=None):
     """The record of a run with steps of one length, and the counts of each rank if a library counts them."""
     with tempfile.TemporaryDirectory() as folder:
-        settings = dict(os.environ, **MPI, OMPI_MCA_orte_tmpdir_base=folder)
+        settings = os.environ | open_mpi.SETTINGS | {"OMPI_MCA_orte_tmpdir_base": folder}
         command = ["mpirun", "-q", "-n", str(ranks)]
         if library:
-            settings.update(MPI_COUNTS=f"{folder}/counts", OMPI_MCA_mpi_yield_when_idle="1")
+            settings |= open_mpi.MORE_THAN_CORES | {"MPI_COUNTS": f"{folder}/counts"}
             command += ["-x", "MPI_COUNTS", "-x", f"LD_PRELOAD={library}"]
         width, height = 0.6 * cells[0] / 1000, 0.62 * cells[1] / 500  # m: the shape of a cell does not change
-        command += [polybed, "tfm", CASE, "--quiet", "-o", f"{folder}/run", "--until", str(steps * STEP)]
+        command += [polybed, "tfm", CASE, "--quiet", "--no-picture", "-o", f"{folder}/run", "--until", str(steps * STEP)]
         for key, value in (("column.cells", list(cells)), ("column.size", [width, height]), ("tfm.fixed_step", STEP),
                            ("tfm.integrator", '"explicit"'), ("output.every", 100), ("output.history_every", 100),
                            ("output.checkpoint_every", 100), ("bed.static_height", 0.1 * height)):

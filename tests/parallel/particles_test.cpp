@@ -13,6 +13,7 @@
 #include "core/random.hpp"
 #include "dem/exchange.hpp"
 #include "dem/gathered.hpp"
+#include "dem/materials.hpp"
 #include "dem/neighbours.hpp"
 
 namespace polybed::dem {
@@ -39,6 +40,17 @@ std::vector<Box> boxes() {
 
 constexpr double least = 0.08, reach = 0.04;  // m: diameter of the largest particle, and skin
 constexpr std::int64_t all = 600;
+
+core::Scene two_sizes() {
+  core::Scene scene;
+  scene.species.resize(2);
+  scene.species[0].name = "large";
+  scene.species[0].diameter = least;
+  scene.species[1].name = "small";
+  scene.species[1].diameter = 0.4 * least;
+  for (core::Species& species : scene.species) species.density = 1000;
+  return scene;
+}
 
 /// Of two sizes, anywhere in a share of the box (in its low corner), the same on every rank.
 Particle particle(const Box& box, std::int64_t id, double share, std::uint64_t seed) {
@@ -246,7 +258,8 @@ TEST(Exchange, NoPairIsMissed) {
       parts.balance(std::span(heap.place).first(heap.owned), std::vector<std::int32_t>(heap.owned, 1));
       Particles particles = own_particles(box, parts, 1, 4);
       exchange.choose_ghosts(particles);
-      NeighbourSearch search(box, reach, 0.4 * least, least);
+      const Materials materials(two_sizes());
+      NeighbourSearch search(box, materials, reach);
       Contacts contacts;
       search.find_pairs(particles, 0, parts.centre(), parts.whole(least + reach), contacts);
       std::multiset<std::pair<std::int64_t, std::int64_t>> found;

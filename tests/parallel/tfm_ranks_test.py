@@ -10,7 +10,9 @@ import unittest
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
+import open_mpi  # noqa: E402
 import program  # noqa: E402
 from program import CASE, Scratch, datasets, history, main, same_bits  # noqa: E402
 
@@ -34,14 +36,11 @@ def case_without(key):
 class Ranks(Scratch):
     def on(self, ranks, *words, code=0):
         """`polybed tfm` on a number of ranks; its standard error and output."""
-        settings = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                        OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_hwloc_base_binding_policy="none",
-                        OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_mpi_yield_when_idle="1",
-                        PYTHONHOME="/nowhere")
+        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
         with tempfile.TemporaryDirectory() as scratch:
             settings["OMPI_MCA_orte_tmpdir_base"] = scratch
-            done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "tfm", *map(str, words)],
-                                  env=settings, capture_output=True, encoding="utf-8", timeout=120)
+            done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "tfm", *map(str, words),
+                                   "--no-picture"], env=settings, capture_output=True, encoding="utf-8", timeout=120)
         self.assertEqual(done.returncode, code, f"{ranks} ranks: {words}\n{done.stdout[-500:]}\n{done.stderr[-1500:]}")
         return done
 
@@ -67,6 +66,10 @@ class Ranks(Scratch):
         self.check_equal(*FLAT, *FIXED, *TIGHT)
         record = json.loads((self.folder / "on3/run.json").read_text())
         self.assertEqual(record["ranks"], 3)
+        alone = json.loads((self.folder / "on1/run.json").read_text())["well_posedness"]
+        self.assertEqual(record["well_posedness"]["share_below_1"], alone["share_below_1"])
+        self.assertEqual(record["well_posedness"]["least"], alone["least"])
+        self.assertAlmostEqual(record["well_posedness"]["critical_slope_Pa"] / alone["critical_slope_Pa"], 1, delta=SAME)
 
     def test_first_order_fluxes_are_the_same(self):
         """A bed that starts above its packing, with a stress too weak to throw it apart: cells on both sides of every cut

@@ -139,21 +139,10 @@ TEST_P(CompressibleRestart, ResumedRunGivesTheSameBits) {
   core::Scene scene = gas_bed("ideal_gas");
   scene.tfm.integrator = GetParam();
   scene.inlet.superficial_velocity = {{0.0, 0.4}, {0.001, 0.4}, {0.001, 0.5}};  // a jump at the checkpoint
-  core::Timers timers;
-  tfm::Model through(scene, timers);
-  while (through.time() < 0.001) through.step(0.001);
-  through.restart();
-  const core::Checkpoint middle = through.checkpoint();
-  tfm::Model resumed(scene, timers);
-  resumed.resume(middle);
-  for (tfm::Model* model : {&through, &resumed}) {
-    while (model->time() < 0.002) model->step(0.002);
-    model->restart();
-  }
-  const core::Checkpoint one = through.checkpoint(), other = resumed.checkpoint();
-  EXPECT_EQ(one.arrays, other.arrays);
-  EXPECT_EQ(one.numbers, other.numbers);  // the account of the fluid among them
-  EXPECT_EQ(one.integers, other.integers);
+  const TwoEnds ends = through_and_resumed(scene, 0.001, 0.002);
+  EXPECT_EQ(ends.through.arrays, ends.resumed.arrays);
+  EXPECT_EQ(ends.through.numbers, ends.resumed.numbers);  // the account of the fluid among them
+  EXPECT_EQ(ends.through.integers, ends.resumed.integers);
 }
 
 // The pressure that implicit steps carry is what a compressible fluid needs to begin with.

@@ -44,19 +44,9 @@ TEST_P(Conservation, ResumedRunGivesTheSameBits) {
   core::Scene scene = binary_bed(6, 40, 0.018, 0.12);
   scene.tfm.integrator = GetParam();
   scene.tfm.rtol = 1e-3;
-  core::Timers timers;
-  tfm::Model through(scene, timers);
-  while (through.time() < 0.2) through.step(0.2);
-  through.restart();
-  const core::Checkpoint middle = through.checkpoint();
-  tfm::Model resumed(scene, timers);
-  resumed.resume(middle);
-  for (tfm::Model* model : {&through, &resumed}) {
-    while (model->time() < 0.4) model->step(0.4);
-    model->restart();
-  }
-  EXPECT_EQ(through.checkpoint().arrays.at("state"), resumed.checkpoint().arrays.at("state"));
-  EXPECT_EQ(through.work().steps, resumed.work().steps);
+  const TwoEnds ends = through_and_resumed(scene, 0.2, 0.4);
+  EXPECT_EQ(ends.through.arrays.at("state"), ends.resumed.arrays.at("state"));
+  EXPECT_EQ(ends.work_through.steps, ends.work_resumed.steps);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Conservation, testing::Values("explicit", "implicit"));

@@ -87,17 +87,8 @@ TEST_P(GasBed, ResumedRunGivesTheSameBits) {
     core::Scene scene = gas_bed(GetParam());
     scene.tfm.integrator = integrator;
     scene.tfm.rtol = 1e-3;
-    core::Timers timers;
-    tfm::Model through(scene, timers);
-    while (through.time() < 5e-3) through.step(5e-3);
-    through.restart();
-    tfm::Model resumed(scene, timers);
-    resumed.resume(through.checkpoint());
-    for (tfm::Model* model : {&through, &resumed}) {
-      while (model->time() < 0.01) model->step(0.01);
-      model->restart();
-    }
-    EXPECT_EQ(through.checkpoint().arrays.at("state"), resumed.checkpoint().arrays.at("state")) << integrator;
+    const TwoEnds ends = through_and_resumed(scene, 5e-3, 0.01);
+    EXPECT_EQ(ends.through.arrays.at("state"), ends.resumed.arrays.at("state")) << integrator;
   }
 }
 

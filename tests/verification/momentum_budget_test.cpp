@@ -11,25 +11,11 @@
 namespace polybed::verification {
 namespace {
 
-/// Two species, 2500 and 1500 kg/m3, in a liquid, every exchange and stress on; the second species is thin, but nowhere
-/// below the floors.
+/// The second species is thin, but nowhere below the floors.
 core::Scene joined(int dimensions, int cells) {
-  core::Scene scene = uniform_bed(1e-3, 2500, 1000, 1e-3, 0.32, cells, 0.05);
-  scene.column.dimensions = dimensions;
-  scene.column.size = {0.05, 0.05, 0.05};
-  scene.column.cells = {cells, cells, dimensions == 3 ? cells : 1};
+  core::Scene scene = two_species_box(dimensions, cells, 0.05, 1e-3, 1e-3);
   scene.column.gravity = 0;
-  scene.species.push_back(scene.species[0]);
-  scene.species[1].name = "second";
-  scene.species[1].diameter = 2e-3;
-  scene.species[1].density = 1500;
   scene.bed.volume_share = {0.75, 0.25};
-  scene.effects = {{"drag", "cello"},
-                   {"solids_stress", "frictional"},
-                   {"species_exchange", "syamlal"},
-                   {"fluid_stress", "newtonian"}};
-  scene.tfm.frictional_onset = 0.1;
-  scene.tfm.max_packing = "0.64";
   return scene;
 }
 

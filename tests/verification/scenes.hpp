@@ -65,10 +65,51 @@ inline core::Scene uniform_bed(double diameter, double density, double fluid_den
   return scene;
 }
 
+/// Solids of 2500 and 1500 kg/m3, the second twice as large, in a liquid of 1000 kg/m3 in a box of equal sides, with
+/// every exchange and stress on. They press on each other from 0.1 on, so that the stress is smooth and acts
+/// everywhere.
+inline core::Scene two_species_box(int dimensions, int cells, double length, double diameter, double viscosity) {
+  core::Scene scene = uniform_bed(diameter, 2500, 1000, viscosity, 0.32, cells, length);
+  scene.column.dimensions = dimensions;
+  scene.column.size = {length, length, length};
+  scene.column.cells = {cells, cells, dimensions == 3 ? cells : 1};
+  scene.species.push_back(scene.species[0]);
+  scene.species[1].name = "second";
+  scene.species[1].diameter = 2 * diameter;
+  scene.species[1].density = 1500;
+  scene.effects = {{"drag", "cello"},
+                   {"solids_stress", "frictional"},
+                   {"species_exchange", "syamlal"},
+                   {"fluid_stress", "newtonian"}};
+  scene.tfm.frictional_onset = 0.1;
+  scene.tfm.max_packing = "0.64";
+  return scene;
+}
+
 /// Advances to a time, step by step, and shows the state there.
 inline void advance(tfm::Model& model, double until) {
   while (model.time() < until) model.step(until);
   model.show(until);
+}
+
+/// The checkpoints at `end` of a run that went through and of one taken up again from that of `middle`.
+struct TwoEnds {
+  core::Checkpoint through, resumed;
+  tfm::Work work_through, work_resumed;
+};
+
+inline TwoEnds through_and_resumed(const core::Scene& scene, double middle, double end) {
+  core::Timers timers;
+  const auto go_to = [](tfm::Model& model, double until) {
+    while (model.time() < until) model.step(until);
+    model.restart();
+  };
+  tfm::Model through(scene, timers), resumed(scene, timers);
+  go_to(through, middle);
+  resumed.resume(through.checkpoint());
+  go_to(through, end);
+  go_to(resumed, end);
+  return {through.checkpoint(), resumed.checkpoint(), through.work(), resumed.work()};
 }
 
 /// Multiplies the fractions of the first species at the start by factor(i, j, k): an uneven bed, same for any test.

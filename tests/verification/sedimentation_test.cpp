@@ -26,29 +26,50 @@ core::Scene suspension(double solids_fraction) {
   return scene;
 }
 
-/// Height, m, at which phi falls through a level, seen from above; linear between cell centres.
+/// phi of layer j.
+double fraction_of_layer(const tfm::Model& model, int j) {
+  return model.fields().solids_fraction[std::size_t(model.constants().grid.index(0, j))];
+}
+
+/// Height, m, at which phi passes a level between layers j - 1 and j; linear between their centres.
+double crossing(const tfm::Model& model, int j, double level) {
+  const double below = fraction_of_layer(model, j - 1), above = fraction_of_layer(model, j);
+  return (j - 0.5 + (below - level) / (below - above)) * cell;
+}
+
+/// Height, m, at which phi falls through a level, seen from above.
 double front(const tfm::Model& model, double level) {
-  for (int j = cells - 1; j > 0; --j) {
-    const auto at = std::size_t(model.constants().grid.index(0, j));
-    const double above = model.fields().solids_fraction[at],
-                 below = model.fields().solids_fraction[at - std::size_t(model.constants().grid.stride(1))];
-    if (above < level && below >= level) return (j - 0.5 + (below - level) / (below - above)) * cell;
-  }
+  for (int j = cells - 1; j > 0; --j)
+    if (fraction_of_layer(model, j) < level && fraction_of_layer(model, j - 1) >= level)
+      return crossing(model, j, level);
+  return 0;
+}
+
+/// Height, m, at which phi first rises to a level, seen from below.
+double rise(const tfm::Model& model, double level) {
+  for (int j = 1; j < cells; ++j)
+    if (fraction_of_layer(model, j - 1) < level && fraction_of_layer(model, j) >= level)
+      return crossing(model, j, level);
   return 0;
 }
 
 /// Speed of a level in the fan at 1.2 mm/s, m/s: U - q'(phi), q' = u_t (1 - phi)^(n - 1) (1 - (n + 1) phi).
 double fan_speed(double phi) { return 1.2e-3 - 2.79282e-3 * std::pow(1 - phi, 3.65) * (1 - 5.65 * phi); }
 
-/// Height, m, at which phi first rises to a level, seen from below; linear between cell centres.
-double rise(const tfm::Model& model, double level) {
-  for (int j = 1; j < cells; ++j) {
-    const auto at = std::size_t(model.constants().grid.index(0, j));
-    const double above = model.fields().solids_fraction[at],
-                 below = model.fields().solids_fraction[at - std::size_t(model.constants().grid.stride(1))];
-    if (below < level && above >= level) return (j - 0.5 + (level - below) / (above - below)) * cell;
-  }
-  return 0;
+/// The same particles fluidised to a fraction, a bed of a given height, at a velocity that jumps to another one at 1 s.
+core::Scene stepped_bed(double solids_fraction, double bed_height, double before, double after) {
+  core::Scene scene = suspension(solids_fraction);
+  scene.column.closed = false;
+  scene.bed.static_height = bed_height * solids_fraction / 0.62;
+  scene.inlet.superficial_velocity = {{0.0, before}, {1.0, before}, {1.0, after}};
+  return scene;
+}
+
+/// 20 s beyond the jump.
+void advance_through_the_jump(tfm::Model& model) {
+  advance(model, 1.0);
+  model.restart();  // as the run does where the inlet jumps
+  advance(model, 21.0);
 }
 
 TEST(Sedimentation, ADiluteSuspensionSettlesWithTwoShocks) {
@@ -82,15 +103,9 @@ TEST(Sedimentation, ADenseSuspensionSettlesWithAFan) {
 // The same particles fluidised: a bed of 60 mm at 1.2 mm/s, phi 0.16612. When the velocity jumps to 0.6 mm/s the top
 // falls by the difference and a shock to 0.28160 rises at 0.86309 mm/s from the distributor.
 TEST(Sedimentation, ABedAnswersAStepOfTheVelocityWithAShock) {
-  core::Scene scene = suspension(0.16612);
-  scene.column.closed = false;
-  scene.bed.static_height = 0.060 * 0.16612 / 0.62;
-  scene.inlet.superficial_velocity = {{0.0, 1.2e-3}, {1.0, 1.2e-3}, {1.0, 0.6e-3}};
   core::Timers timers;
-  tfm::Model model(scene, timers);
-  advance(model, 1.0);
-  model.restart();  // as the run does where the inlet jumps
-  advance(model, 21.0);
+  tfm::Model model(stepped_bed(0.16612, 0.060, 1.2e-3, 0.6e-3), timers);
+  advance_through_the_jump(model);
   const double top = front(model, 0.08306), shock = front(model, 0.22386);
   record("top, mm", top * 1e3);
   record("shock, mm", shock * 1e3);
@@ -104,15 +119,9 @@ TEST(Sedimentation, ABedAnswersAStepOfTheVelocityWithAShock) {
 // way, 0.22386: 1.49326 mm/s by hand. Its corners are rounded over some cells, so that its width is taken between
 // levels inside.
 TEST(Sedimentation, ABedAnswersAStepBackWithAFan) {
-  core::Scene scene = suspension(0.28160);
-  scene.column.closed = false;
-  scene.bed.static_height = 0.035394 * 0.28160 / 0.62;
-  scene.inlet.superficial_velocity = {{0.0, 0.6e-3}, {1.0, 0.6e-3}, {1.0, 1.2e-3}};
   core::Timers timers;
-  tfm::Model model(scene, timers);
-  advance(model, 1.0);
-  model.restart();
-  advance(model, 21.0);
+  tfm::Model model(stepped_bed(0.28160, 0.035394, 0.6e-3, 1.2e-3), timers);
+  advance_through_the_jump(model);
   const double top = front(model, 0.14080), middle = rise(model, 0.22386);
   const double ends = rise(model, 0.25) - rise(model, 0.20);
   record("top, mm", top * 1e3);

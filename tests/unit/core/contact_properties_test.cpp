@@ -1,4 +1,4 @@
-// Expected values by hand from the rule: pair before species before [dem]; smaller friction, geometric mean.
+// Expected values by hand from the rule: pair before species before [dem]; means of friction and restitution.
 #include "core/contact_properties.hpp"
 
 #include <gtest/gtest.h>
@@ -30,8 +30,8 @@ TEST(ContactProperties, OfSpeciesAreTheirOwnElseThoseOfDem) {
   EXPECT_EQ(contact.first.poisson_ratio, 0.25);
   EXPECT_EQ(contact.second.youngs_modulus, 5e6);
   EXPECT_EQ(contact.second.poisson_ratio, 0.33);
-  EXPECT_EQ(contact.friction, 0.2);
-  EXPECT_DOUBLE_EQ(contact.restitution, 0.6);  // sqrt(0.4 0.9) = sqrt(0.36)
+  EXPECT_DOUBLE_EQ(contact.friction, 0.25);      // (0.2 + 0.3)/2
+  EXPECT_DOUBLE_EQ(contact.restitution, 0.65);  // (0.4 + 0.9)/2
 }
 
 TEST(ContactProperties, OfEqualsAreTheirOwnToTheBit) {
@@ -42,13 +42,13 @@ TEST(ContactProperties, OfEqualsAreTheirOwnToTheBit) {
   }
 }
 
-TEST(ContactProperties, OfAWallAreThoseOfDem) {
+TEST(ContactProperties, OfAWallAreThoseOfWhatTouchesIt) {
   const ContactProperties contact = contact_properties(two_species(), "glass", "wall");
   EXPECT_EQ(contact.first.youngs_modulus, 7e6);
-  EXPECT_EQ(contact.second.youngs_modulus, 5e6);
+  EXPECT_EQ(contact.second.youngs_modulus, 7e6);
   EXPECT_EQ(contact.second.poisson_ratio, 0.25);
   EXPECT_EQ(contact.friction, 0.2);
-  EXPECT_DOUBLE_EQ(contact.restitution, 0.6);
+  EXPECT_EQ(contact.restitution, 0.4);
 }
 
 TEST(ContactProperties, OfAPairGoBeforeAndHoldInEitherOrder) {
@@ -64,7 +64,7 @@ TEST(ContactProperties, OfAPairGoBeforeAndHoldInEitherOrder) {
     EXPECT_EQ(glass.poisson_ratio, 0.25);
     EXPECT_EQ(steel.poisson_ratio, 0.33);
     EXPECT_EQ(contact.friction, 0.8);
-    EXPECT_DOUBLE_EQ(contact.restitution, 0.6);  // the pair leaves it open
+    EXPECT_DOUBLE_EQ(contact.restitution, 0.65);  // the pair leaves it open
   }
   const ContactProperties wall = contact_properties(scene, "steel", "wall");
   EXPECT_EQ(wall.first.poisson_ratio, 0.1);

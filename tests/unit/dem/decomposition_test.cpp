@@ -8,6 +8,7 @@
 
 #include "dem/exchange.hpp"
 #include "dem/gathered.hpp"
+#include "dem/materials.hpp"
 #include "dem/neighbours.hpp"
 #include "dem/verlet.hpp"
 
@@ -59,7 +60,12 @@ TEST(OneRank, HasNoGhostsAndEveryPairIsInner) {
   EXPECT_EQ(particles.size(), 2);
   EXPECT_EQ(exchange.cuts(), 0);
   EXPECT_EQ(kept.size(), 1);
-  NeighbourSearch search(box, 0.01, 0.1, 0.1);
+  core::Scene scene;
+  scene.species.resize(1);
+  scene.species[0].diameter = 0.1;
+  scene.species[0].density = 1000;
+  const Materials materials(scene);
+  NeighbourSearch search(box, materials, 0.01);
   Contacts contacts;
   search.find_pairs(particles, 0, exchange.decomposition().centre(), exchange.decomposition().whole(0.11), contacts);
   ASSERT_EQ(contacts.pairs.size(), 1);

@@ -61,6 +61,14 @@ TEST(Measures, AMixedBedIsMixed) {
   EXPECT_NEAR(*interface_height(p), 0.1, 1e-12);  // one layer: its top is the bed's
 }
 
+// A mixed bed of 0.1 m below a trace of both species that reaches 0.18 m: 1e-4 * 0.08 of 0.05, less than a slice.
+TEST(Measures, ATraceInTheFreeboardLiftsNoInterfaceOutOfTheBed) {
+  const auto phi = [](double z) { return step(z, 0, 0.1, 0.25) + step(z, 0.1, 0.18, 1e-4); };
+  const Profile p = profile_of(phi, phi);
+  EXPECT_GT(*volume_quantile(p, 1.0), 0.17);
+  EXPECT_NEAR(*interface_height(p), 0.1, 1e-6);  // of the step between two centres, which the trace moves by 0.4 um
+}
+
 TEST(Measures, OfAnEmptyBedAreEmpty) {
   const Profile p = profile_of([](double) { return 0.0; }, [](double) { return 0.0; });
   EXPECT_FALSE(bed_height(p));

@@ -1,0 +1,88 @@
+#include "fluid/drift.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace polybed::fluid {
+
+namespace {
+
+constexpr std::size_t parts = 10;
+constexpr double student = 2.306;      // 97.5 % quantile, eight degrees of freedom
+constexpr double window_share = 0.25;  // of the time seen
+constexpr double matters = 1e-3;       // of the bed's height
+
+struct Means {
+  std::array<double, parts> time{}, value{};
+};
+
+std::optional<Means> means_of_parts(std::span<const double> time, std::span<const double> value) {
+  Means sum;
+  std::array<double, parts> count{};
+  const double begin = time.front(), length = time.back() - begin;
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    const auto part = std::min(std::size_t(double(parts) * (time[n] - begin) / length), parts - 1);
+    sum.time[part] += time[n];
+    sum.value[part] += value[n];
+    ++count[part];
+  }
+  for (std::size_t part = 0; part < parts; ++part) {
+    if (count[part] == 0) return std::nullopt;
+    sum.time[part] /= count[part];
+    sum.value[part] /= count[part];
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<Drift> drift_of(std::span<const double> time, std::span<const double> value) {
+  if (time.empty() || !(time.back() > time.front())) return std::nullopt;
+  const auto means = means_of_parts(time, value);
+  if (!means) return std::nullopt;
+  double t_mean = 0, y_mean = 0, tt = 0, ty = 0, left = 0;
+  for (std::size_t n = 0; n < parts; ++n) {
+    t_mean += means->time[n] / parts;
+    y_mean += means->value[n] / parts;
+  }
+  for (std::size_t n = 0; n < parts; ++n) {
+    tt += (means->time[n] - t_mean) * (means->time[n] - t_mean);
+    ty += (means->time[n] - t_mean) * (means->value[n] - y_mean);
+  }
+  Drift drift{ty / tt, 0};
+  for (std::size_t n = 0; n < parts; ++n) {
+    const double residual = means->value[n] - y_mean - drift.rate * (means->time[n] - t_mean);
+    left += residual * residual;
+  }
+  drift.error = student * std::sqrt(left / (parts - 2) / tt);
+  return drift;
+}
+
+void Drifts::see(double time, std::span<const std::optional<double>> heights) {
+  time_.push_back(time);
+  for (std::size_t n = 0; n < names_.size(); ++n)
+    values_[n].push_back(heights[n].value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+double Drifts::window() const { return time_.empty() ? 0 : window_share * (time_.back() - time_.front()); }
+
+std::vector<DriftOfMeasure> Drifts::judge() const {
+  std::vector<DriftOfMeasure> found;
+  if (time_.empty()) return found;
+  const auto first = std::lower_bound(time_.begin(), time_.end(), time_.back() - window()) - time_.begin();
+  const auto in_window = [&](const std::vector<double>& all) {
+    return std::span<const double>(all).subspan(std::size_t(first));
+  };
+  for (std::size_t n = 0; n < names_.size(); ++n) {
+    const auto drift = drift_of(in_window(time_), in_window(values_[n]));
+    if (!drift || !std::isfinite(drift->rate)) continue;
+    const double until_doubled = std::abs(drift->rate) * (time_.back() - time_.front());
+    const bool steady = std::abs(drift->rate) <= drift->error || until_doubled <= matters * values_[0].back();
+    found.push_back({names_[n], *drift, steady});
+  }
+  return found;
+}
+
+}  // namespace polybed::fluid

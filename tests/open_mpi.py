@@ -1,0 +1,8 @@
+"""What Open MPI needs in a container and as root, for the scripts that start the program on ranks. The launcher
+`polybed` sets the same, and tests/CMakeLists.txt for test programs that it starts itself."""
+
+SETTINGS = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+            "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
+            "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+# For more ranks than cores: one that waits lets another compute.
+MORE_THAN_CORES = {"OMPI_MCA_mpi_yield_when_idle": "1"}
