@@ -62,6 +62,21 @@ bool Exchange::near(const Place& place, const Part& part) const {
   return square < far * far;
 }
 
+/// Whether particles in two parts may touch: so that most of the ranks need not be asked particle by particle.
+bool Exchange::near(const Part& one, const Part& other) const {
+  double square = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double length = box_.size[k];
+    double away = std::max({one.low[k] - other.high[k], other.low[k] - one.high[k], 0.0});
+    if (box_.periodic[k])
+      away = std::min({away, std::max(one.low[k] + length - other.high[k], 0.0),
+                       std::max(other.low[k] + length - one.high[k], 0.0)});
+    square += away * away;
+  }
+  const double far = (2 * greatest_radius_ + reach_) * (1 + 1e-9);  // more than round-off of the places
+  return square < far * far;
+}
+
 void Exchange::balance(const Particles& particles, std::span<const std::int32_t> work) {
   if (!ranks_) return;
   imbalance_ = decomposition_.imbalance(work);
@@ -106,7 +121,7 @@ void Exchange::choose_ghosts(Particles& particles) {
   const std::vector<Part>& parts = decomposition_.parts();
   std::vector<std::vector<std::int32_t>> to(ranks);
   for (std::size_t r = 0; r < ranks; ++r)
-    if (int(r) != ranks_->rank())
+    if (int(r) != ranks_->rank() && near(decomposition_.own(), parts[r]))
       for (std::size_t i = 0; i < particles.owned; ++i)
         if (near(particles.place[i], parts[r])) to[r].push_back(std::int32_t(i));
   ghosts_ = std::make_unique<core::Messages>(ranks_, pack(to, sent_));

@@ -56,6 +56,7 @@ class Exchange {
     Vector x, v, w;
   };
   [[nodiscard]] bool near(const Place& place, const Part& part) const;
+  [[nodiscard]] bool near(const Part& one, const Part& other) const;
 
   const Box& box_;
   std::shared_ptr<const core::Ranks> ranks_;
