@@ -1,5 +1,6 @@
 #include "core/messages.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/mpi.hpp"
@@ -21,24 +22,25 @@ Messages::~Messages() = default;
 
 void Messages::start_bytes(const std::byte* out, std::byte* in, std::size_t size) {
   constexpr int tag = 17;
-  for (std::size_t r = 0; r < to_.size(); ++r) {
-    if (from_[r] > 0) {
-      const int bytes = int(std::size_t(from_[r]) * size);
+  constexpr std::size_t longest = std::size_t(1) << 30;  // MPI counts bytes in an int: longer ones go in several parts
+  for (std::size_t r = 0; r < to_.size(); ++r)
+    for (std::size_t left = std::size_t(from_[r]) * size; left > 0;) {
+      const std::size_t bytes = std::min(left, longest);
       check_mpi(
-          MPI_Irecv(in, bytes, MPI_BYTE, int(r), tag, communicator(ranks_.get()), &requests_->open.emplace_back()),
+          MPI_Irecv(in, int(bytes), MPI_BYTE, int(r), tag, communicator(ranks_.get()), &requests_->open.emplace_back()),
           "MPI_Irecv");
       in += bytes;
+      left -= bytes;
     }
-  }
-  for (std::size_t r = 0; r < to_.size(); ++r) {
-    if (to_[r] > 0) {
-      const int bytes = int(std::size_t(to_[r]) * size);
-      check_mpi(
-          MPI_Isend(out, bytes, MPI_BYTE, int(r), tag, communicator(ranks_.get()), &requests_->open.emplace_back()),
-          "MPI_Isend");
+  for (std::size_t r = 0; r < to_.size(); ++r)
+    for (std::size_t left = std::size_t(to_[r]) * size; left > 0;) {
+      const std::size_t bytes = std::min(left, longest);
+      check_mpi(MPI_Isend(out, int(bytes), MPI_BYTE, int(r), tag, communicator(ranks_.get()),
+                          &requests_->open.emplace_back()),
+                "MPI_Isend");
       out += bytes;
+      left -= bytes;
     }
-  }
 }
 
 void Messages::finish() {

@@ -74,15 +74,16 @@ double greatest_of_ranks(const Ranks* ranks, double value) {
 
 void add_over_ranks(const Grid& grid, std::span<double> values) { add_over_ranks(grid.ranks.get(), values); }
 
-int rank_of_greatest(const Grid& grid, double value) {
-  if (!grid.ranks) return 0;
+int rank_of_greatest(const Ranks* ranks, double value) {
+  if (ranks == nullptr) return 0;
   struct {
     double value;
     int rank;
-  } here{value, grid.ranks->rank()}, result{};
-  check_mpi(MPI_Allreduce(&here, &result, 1, MPI_DOUBLE_INT, MPI_MAXLOC, communicator(grid)), "MPI_Allreduce");
+  } here{value, ranks->rank()}, result{};
+  check_mpi(MPI_Allreduce(&here, &result, 1, MPI_DOUBLE_INT, MPI_MAXLOC, communicator(ranks)), "MPI_Allreduce");
   return result.rank;
 }
+int rank_of_greatest(const Grid& grid, double value) { return rank_of_greatest(grid.ranks.get(), value); }
 
 namespace {
 
@@ -96,8 +97,11 @@ std::string broadcast(MPI_Comm all, int from, int rank, const std::string& text)
 
 }  // namespace
 
+std::string said_by(const Ranks* ranks, int rank, const std::string& text) {
+  return ranks != nullptr ? broadcast(communicator(ranks), rank, ranks->rank(), text) : text;
+}
 std::string said_by(const Grid& grid, int rank, const std::string& text) {
-  return grid.ranks ? broadcast(communicator(grid), rank, grid.ranks->rank(), text) : text;
+  return said_by(grid.ranks.get(), rank, text);
 }
 
 void take_from_first(const Ranks* ranks, std::span<double> values) {

@@ -47,8 +47,10 @@ void add_over_ranks(const Grid& grid, std::span<double> values);
 [[nodiscard]] bool on_any_rank(const Ranks* ranks, bool holds);
 /// The lowest rank with the greatest value.
 [[nodiscard]] int rank_of_greatest(const Grid& grid, double value);
+[[nodiscard]] int rank_of_greatest(const Ranks* ranks, double value);
 /// What a rank says.
 [[nodiscard]] std::string said_by(const Grid& grid, int rank, const std::string& text);
+[[nodiscard]] std::string said_by(const Ranks* ranks, int rank, const std::string& text);
 /// Numbers of the first rank for all; all give the same length.
 void take_from_first(const Ranks* ranks, std::span<double> values);
 

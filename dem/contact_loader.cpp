@@ -88,8 +88,7 @@ double ContactLoader::height_over(std::int32_t wall, const Place& place) const {
 
 /// Where the answer is no, the place in the batch is overwritten by the next.
 std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
-                                       std::int32_t p, ContactBatch& b) const {
-  const auto end = std::int32_t(contacts.pairs.size());
+                                       std::int32_t p, std::int32_t end, ContactBatch& b) const {
   const Place* place = particles.place.data();
   int n = 0;
   for (; p < end && n < ContactBatch::width; ++p) {

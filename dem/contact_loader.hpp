@@ -17,9 +17,10 @@ class ContactLoader {
   /// \param reach  of the longest pair effect beyond contact, m
   ContactLoader(const Box& box, const Materials& materials, double reach);
 
-  /// Fills a batch with pairs nearer than their reach, from place p of the list on. Returns where to go on.
+  /// Fills a batch with pairs nearer than their reach, from place p of the list on and before another. Returns where to
+  /// go on.
   std::int32_t find_pairs(const Particles& particles, const Contacts& contacts, const Images& images, std::int32_t p,
-                          ContactBatch& batch) const;
+                          std::int32_t end, ContactBatch& batch) const;
   std::int32_t find_walls(const Particles& particles, const Contacts& contacts, std::int32_t p,
                           ContactBatch& batch) const;
 

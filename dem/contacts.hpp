@@ -17,6 +17,7 @@ struct Contacts {
     std::int32_t kind;           ///< of the two materials
   };
   std::vector<Pair> pairs;
+  std::size_t inner = 0;               ///< pairs at the beginning of the list that need no ghost
   std::vector<std::int32_t> touching;  ///< pairs in contact (or within the reach of cohesion), rising
   std::vector<double> memory;          ///< memory_size numbers of each pair; zero of pairs that do not touch
   int memory_size = 0;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -18,16 +20,30 @@ std::size_t longest(const Part& part) {
   return axis;
 }
 
-bool holds(const Part& part, const Vector& x) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (x[k] < part.low[k] || x[k] >= part.high[k]) return false;
-  return true;
+std::pair<Part, Part> halves(const Part& part, std::size_t axis, double at) {
+  std::pair<Part, Part> halves{part, part};
+  halves.first.high[axis] = halves.second.low[axis] = at;
+  return halves;
+}
+
+double even_place(const Part& part, std::size_t axis, int below, int count) {
+  return part.low[axis] + (part.high[axis] - part.low[axis]) * below / count;
+}
+
+/// Thickness of the thinnest part that even cuts leave, m; infinite without a cut.
+double thinnest(const Part& part, int count) {
+  if (count == 1) return std::numeric_limits<double>::infinity();
+  const std::size_t axis = longest(part);
+  const int below = count / 2;
+  const auto [one, other] = halves(part, axis, even_place(part, axis, below, count));
+  return std::min({one.high[axis] - one.low[axis], other.high[axis] - other.low[axis], thinnest(one, below),
+                   thinnest(other, count - below)});
 }
 
 }  // namespace
 
 Decomposition::Decomposition(const Box& box, std::shared_ptr<const core::Ranks> ranks, double least)
-    : box_(box), ranks_(std::move(ranks)), least_(least) {
+    : box_(box), ranks_(std::move(ranks)), least_(least * (1 - 1e-9)) {
   if (ranks_) {
     rank_ = ranks_->rank();
     count_ = ranks_->count();
@@ -35,6 +51,11 @@ Decomposition::Decomposition(const Box& box, std::shared_ptr<const core::Ranks> 
   if (box.shear_rate != 0 && count_ > 1)
     throw core::CaseError("dem.shear_rate: a sheared box runs on one rank; run several boxes at once instead");
   parts_.resize(std::size_t(count_));
+  const double thickness = thinnest({{0, 0, 0}, box.size}, count_);
+  if (thickness < least_)
+    throw core::CaseError(
+        fmt::format("{} ranks would own parts of {:.3g} m, thinner than the largest particle, {:.3g} m: use fewer",
+                    count_, thickness, least));
   balance({}, {});
 }
 
@@ -47,10 +68,31 @@ int Decomposition::owner(const Vector& x) const {
   return -1 - node;
 }
 
-std::array<bool, 3> Decomposition::whole() const {
+std::array<bool, 3> Decomposition::whole(double reach) const {
   std::array<bool, 3> whole;
-  for (std::size_t k = 0; k < 3; ++k) whole[k] = own().low[k] <= 0 && own().high[k] >= box_.size[k];
+  for (std::size_t k = 0; k < 3; ++k) whole[k] = own().high[k] - own().low[k] > box_.size[k] - 2 * reach;
   return whole;
+}
+
+/// Whether a place is in a part; the outer parts hold what lies beyond the box, too.
+bool Decomposition::holds(const Part& part, const Vector& x) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    if ((x[k] < part.low[k] && part.low[k] > 0) || (x[k] >= part.high[k] && part.high[k] < box_.size[k])) return false;
+  return true;
+}
+
+/// The place nearest to the one wanted (to a 64th of the way) whose two sides have room for their ranks.
+double Decomposition::cut_near(double wanted, const Part& part, std::size_t axis, int below, int count) const {
+  const double even = even_place(part, axis, below, count);
+  constexpr int tries = 64;
+  for (int n = 0; n < tries; ++n) {
+    const double at = wanted + (even - wanted) * n / tries;
+    const auto [one, other] = halves(part, axis, at);
+    if (at - part.low[axis] >= least_ && part.high[axis] - at >= least_ && thinnest(one, below) >= least_ &&
+        thinnest(other, count - below) >= least_)
+      return at;
+  }
+  return even;  // every part that is cut has room for even cuts
 }
 
 Vector Decomposition::centre() const {
@@ -112,15 +154,10 @@ void Decomposition::balance(std::span<const Place> place, std::span<const std::i
     const std::size_t axis = longest(now.part);
     const int below = now.count / 2;
     for (std::size_t i = 0; i < place.size(); ++i) inside[i] = holds(now.part, place[i].x) ? 1 : 0;
-    const double low = now.part.low[axis], high = now.part.high[axis];
-    const double at = quantile(place, work, inside, now.part, axis, double(below) / now.count);
-    if (high - low < 2 * least_)
-      throw core::CaseError(
-          fmt::format("{} ranks would own parts of {:.3g} m, thinner than the largest particle, {:.3g} m: use fewer",
-                      count_, 0.5 * (high - low), least_));
-    Part one = now.part, other = now.part;
-    one.high[axis] = other.low[axis] = std::clamp(at, low + least_, high - least_);
-    cuts_.push_back({axis, one.high[axis], 0, 0});
+    const double wanted = quantile(place, work, inside, now.part, axis, double(below) / now.count);
+    const double at = cut_near(wanted, now.part, axis, below, now.count);
+    const auto [one, other] = halves(now.part, axis, at);
+    cuts_.push_back({axis, at, 0, 0});
     open.push_back({other, now.first + below, now.count - below, node, true});
     open.push_back({one, now.first, below, node, false});
   }

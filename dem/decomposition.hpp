@@ -18,7 +18,8 @@ struct Part {
 
 class Decomposition {
  public:
-  /// All of the box in equal parts. \param least  thickness of a part, m: less is refused with core::CaseError
+  /// All of the box in equal parts. \param least  thickness of a part, m: less is refused with core::CaseError here,
+  /// and never come about later
   Decomposition(const Box& box, std::shared_ptr<const core::Ranks> ranks, double least);
 
   /// Collective. Cuts anew so that each rank has the same work. \param place  of this rank's particles
@@ -30,11 +31,14 @@ class Decomposition {
   [[nodiscard]] int owner(const Vector& x) const;
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
   [[nodiscard]] const Part& own() const { return parts_[std::size_t(rank_)]; }
-  /// Directions in which this rank's part is the whole box.
-  [[nodiscard]] std::array<bool, 3> whole() const;
+  /// Directions in which this rank's part is the whole box, or so much of it that a ghost may be near both of its
+  /// faces. \param reach  between centres, m, up to which ghosts are near
+  [[nodiscard]] std::array<bool, 3> whole(double reach) const;
   [[nodiscard]] Vector centre() const;
 
  private:
+  [[nodiscard]] bool holds(const Part& part, const Vector& x) const;
+  [[nodiscard]] double cut_near(double wanted, const Part& part, std::size_t axis, int below, int count) const;
   struct Cut {
     std::size_t axis;
     double at;      ///< m

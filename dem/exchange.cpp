@@ -8,6 +8,11 @@ namespace polybed::dem {
 
 namespace {
 
+/// Greatest over mean work of the ranks that is borne, and how often a cut is tried at most. Neither has an effect on
+/// what particles do.
+constexpr double most_imbalance = 1.15;
+constexpr int calls_between_cuts = 10;
+
 /// Items for each rank, laid one after the other.
 template <class Item>
 std::vector<int> pack(const std::vector<std::vector<Item>>& to, std::vector<Item>& out) {
@@ -57,6 +62,30 @@ bool Exchange::near(const Place& place, const Part& part) const {
   return square < far * far;
 }
 
+/// Whether particles in two parts may touch: so that most of the ranks need not be asked particle by particle.
+bool Exchange::near(const Part& one, const Part& other) const {
+  double square = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double length = box_.size[k];
+    double away = std::max({one.low[k] - other.high[k], other.low[k] - one.high[k], 0.0});
+    if (box_.periodic[k])
+      away = std::min({away, std::max(one.low[k] + length - other.high[k], 0.0),
+                       std::max(other.low[k] + length - one.high[k], 0.0)});
+    square += away * away;
+  }
+  const double far = (2 * greatest_radius_ + reach_) * (1 + 1e-9);  // more than round-off of the places
+  return square < far * far;
+}
+
+void Exchange::balance(const Particles& particles, std::span<const std::int32_t> work) {
+  if (!ranks_) return;
+  imbalance_ = decomposition_.imbalance(work);
+  if (++since_cut_ < calls_between_cuts || imbalance_ <= most_imbalance) return;
+  decomposition_.balance(std::span(particles.place).first(particles.owned), work);
+  since_cut_ = 0;
+  ++cuts_;
+}
+
 void Exchange::migrate(Particles& particles, std::vector<KeptContact>& kept) {
   if (!ranks_) return;
   const auto ranks = std::size_t(ranks_->count());
@@ -92,7 +121,7 @@ void Exchange::choose_ghosts(Particles& particles) {
   const std::vector<Part>& parts = decomposition_.parts();
   std::vector<std::vector<std::int32_t>> to(ranks);
   for (std::size_t r = 0; r < ranks; ++r)
-    if (int(r) != ranks_->rank())
+    if (int(r) != ranks_->rank() && near(decomposition_.own(), parts[r]))
       for (std::size_t i = 0; i < particles.owned; ++i)
         if (near(particles.place[i], parts[r])) to[r].push_back(std::int32_t(i));
   ghosts_ = std::make_unique<core::Messages>(ranks_, pack(to, sent_));
@@ -105,13 +134,17 @@ void Exchange::choose_ghosts(Particles& particles) {
   incoming_.resize(in.size());
 }
 
-void Exchange::refresh_ghosts(Particles& particles) {
+void Exchange::send_ghosts(const Particles& particles) {
   if (!ranks_) return;
   for (std::size_t n = 0; n < sent_.size(); ++n) {
     const auto i = std::size_t(sent_[n]);
     outgoing_[n] = {particles.place[i].x, particles.motion[i].v, particles.motion[i].w};
   }
   ghosts_->start(std::span<const Refresh>(outgoing_), std::span<Refresh>(incoming_));
+}
+
+void Exchange::receive_ghosts(Particles& particles) {
+  if (!ranks_) return;
   ghosts_->finish();
   for (std::size_t n = 0; n < incoming_.size(); ++n) {
     particles.place[particles.owned + n].x = incoming_[n].x;

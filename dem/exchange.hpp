@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/messages.hpp"
@@ -34,8 +35,18 @@ class Exchange {
   void migrate(Particles& particles, std::vector<KeptContact>& kept);
   /// Sends copies of particles to ranks whose parts they are near, and adds those received as ghosts.
   void choose_ghosts(Particles& particles);
-  /// Places and motions of the ghosts as their owners have them now.
-  void refresh_ghosts(Particles& particles);
+  /// Begins to tell the other ranks where their ghosts are now and how they move; between both calls the owned
+  /// particles may be read and their loads changed, ghosts must wait.
+  void send_ghosts(const Particles& particles);
+  /// Places and motions of the ghosts as their owners have them.
+  void receive_ghosts(Particles& particles);
+  /// Cuts the box anew if the ranks' work differs too much; particles then have to migrate. At most at every tenth
+  /// call, since there is work that no cut can share. \param work  of each owned particle
+  void balance(const Particles& particles, std::span<const std::int32_t> work);
+
+  /// Cuts since the start, and the greatest over the mean work of the ranks at the last call of balance().
+  [[nodiscard]] std::uint64_t cuts() const { return cuts_; }
+  [[nodiscard]] double imbalance() const { return imbalance_; }
 
   [[nodiscard]] Decomposition& decomposition() { return decomposition_; }
   [[nodiscard]] const Decomposition& decomposition() const { return decomposition_; }
@@ -45,11 +56,15 @@ class Exchange {
     Vector x, v, w;
   };
   [[nodiscard]] bool near(const Place& place, const Part& part) const;
+  [[nodiscard]] bool near(const Part& one, const Part& other) const;
 
   const Box& box_;
   std::shared_ptr<const core::Ranks> ranks_;
   double reach_, greatest_radius_;
   Decomposition decomposition_;
+  std::uint64_t cuts_ = 0;
+  double imbalance_ = 1;
+  int since_cut_ = 0;               ///< calls of balance()
   std::vector<std::int32_t> sent_;  ///< owned particles that are ghosts elsewhere, in the order of ranks
   std::unique_ptr<core::Messages> ghosts_;
   std::vector<Refresh> outgoing_, incoming_;

@@ -38,6 +38,7 @@ using Memories = std::unordered_map<std::pair<std::int64_t, std::int64_t>, const
 void recall(Contacts& contacts, const Particles& particles, bool walls, const Memories& memories) {
   contacts.memory.assign(contacts.pairs.size() * std::size_t(contacts.memory_size), 0.0);
   contacts.touching.clear();
+  contacts.touching.reserve(contacts.pairs.size() + 2);  // all that the steps until the next list can need
   for (std::int32_t p = 0; p < std::int32_t(contacts.pairs.size()); ++p) {
     const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
     const auto found = memories.find({particles.id[std::size_t(pair.first)],
@@ -46,6 +47,16 @@ void recall(Contacts& contacts, const Particles& particles, bool walls, const Me
     std::copy_n(found->second->memory.begin(), contacts.memory_size, contacts.memory_of(p));
     contacts.touching.push_back(p);
   }
+}
+
+/// What each owned particle costs: itself and its contacts.
+std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pairs, const Contacts& walls) {
+  std::vector<std::int32_t> work(particles.owned, 1);
+  for (const std::int32_t p : pairs.touching)
+    for (const std::int32_t i : {pairs.pairs[std::size_t(p)].first, pairs.pairs[std::size_t(p)].second})
+      if (std::size_t(i) < particles.owned) ++work[std::size_t(i)];
+  for (const std::int32_t p : walls.touching) ++work[std::size_t(walls.pairs[std::size_t(p)].first)];
+  return work;
 }
 
 }  // namespace
@@ -68,7 +79,9 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
-  place();
+  const std::vector<Particle> all = std::move(start_);
+  measure(all);
+  place(all, std::vector<std::int32_t>(all.size(), 1));
   if (scene.dem.ledger) {
     ledger_.emplace(laws_, laws_.memory_size(), energy_unit_);
     pair_forces_.keep(*ledger_);
@@ -77,25 +90,27 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   find_forces(0);
 }
 
-/// Every rank makes all particles and keeps its own: the start is the same on any number of ranks.
-void Model::place() {
-  const std::vector<Particle> all = std::move(start_);
-  count_ = std::int64_t(all.size());
-  std::vector<Place> places;
+/// Units of the sums over all particles.
+void Model::measure(const std::vector<Particle>& all) {
   double mass = 0;
-  for (const Particle& p : all) {
-    places.push_back(p.place);
-    mass += 1 / p.motion.inverse_mass;
-  }
+  for (const Particle& p : all) mass += 1 / p.motion.inverse_mass;
   const double length = std::max({box_.size[0], box_.size[1], box_.size[2]});
   const double weight = std::hypot(gravity_[0], gravity_[1], gravity_[2]) * length;
   const double speed = limits_.greatest_speed;
   // What the sums may grow to: the energy of all at the greatest speed, and a reserve for what is dissipated meanwhile.
   energy_unit_ = FixedPoint::for_sums_of(mass * (speed * speed + weight), 1024);
   momentum_unit_ = FixedPoint::for_sums_of(mass * speed, 1024);
+}
+
+/// Every rank knows all particles and keeps its own: the start is the same on any number of ranks.
+void Model::place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work) {
+  count_ = std::int64_t(all.size());
+  particles_.resize(0);
   if (ranks_) {
-    const std::vector<std::int32_t> work(ranks_->rank() > 0 ? 0 : all.size(), 1);
-    exchange_.decomposition().balance(std::span(places).first(work.size()), work);
+    std::vector<Place> places;
+    if (core::is_first(ranks_.get()))
+      for (const Particle& p : all) places.push_back(p.place);
+    exchange_.decomposition().balance(places, std::span(work).first(places.size()));
   }
   for (const Particle& p : all)
     if (!ranks_ || exchange_.decomposition().owner(p.place.x) == ranks_->rank()) particles_.add(p);
@@ -103,31 +118,39 @@ void Model::place() {
 }
 
 void Model::step(double stop) {
-  if (list_is_stale()) {
+  if (stale_) {
     const auto scope = timers_.scope("neighbours");
     rebuild();
   }
+  timed_ = steps_ < 64 ? 1 : (steps_ % 16 == 0 ? 16 : 0);
   {
-    const auto scope = timers_.scope("motion");
+    const auto scope = timers_.scope("motion", timed_);
     verlet_.begin(particles_);
   }
-  refresh_ghosts();
   ++steps_;
   find_forces(limits_.dt);
+  bool stale_here = false;
   {
-    const auto scope = timers_.scope("motion");
+    const auto scope = timers_.scope("motion", timed_);
     verlet_.end(particles_);
+    stale_here = list_goes_stale();
   }
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
-  stop_if_troubled();
+  // All that the ranks have to agree on in a step.
+  constexpr double none = 0, stale = 1, trouble = 2;
+  const double here = pair_forces_.trouble().pair >= 0 ? trouble : (stale_here ? stale : none);
+  const double anywhere = core::greatest_of_ranks(ranks_.get(), here);
+  stale_ = anywhere == stale;
+  if (anywhere == trouble) stop_in_trouble();
 }
 
-bool Model::list_is_stale() const {
+/// Whether the next step takes an owned particle too far for the list.
+bool Model::list_goes_stale() const {
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
   // Two particles may approach from both sides, and a sheared box moves the one faster than the other.
   const double flow = std::abs(box_.shear_rate) * since * (materials_.greatest_diameter() + skin_ + laws_.reach());
   const double moved = 2 * verlet_.next_moved(particles_, since) + flow;
-  return core::on_any_rank(ranks_.get(), !(moved <= skin_));
+  return !(moved <= skin_);
 }
 
 void Model::wrap() {
@@ -156,6 +179,7 @@ std::vector<KeptContact> Model::kept_contacts() const {
 void Model::rebuild() {
   std::vector<KeptContact> kept = kept_contacts();
   wrap();
+  exchange_.balance(particles_, work_of(particles_, pairs_, walls_));
   list_pairs(kept);
 }
 
@@ -167,8 +191,8 @@ void Model::list_pairs(std::vector<KeptContact>& kept) {
   const Particles before = particles_;
   for (std::size_t n = 0; n < order.size(); ++n) particles_.set(n, before.at(std::size_t(order[n])));
   exchange_.choose_ghosts(particles_);
-  search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(), exchange_.decomposition().whole(),
-                     pairs_.pairs);
+  search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(),
+                     exchange_.decomposition().whole(materials_.greatest_diameter() + skin_ + laws_.reach()), pairs_);
   search_.find_walls(particles_, walls_.pairs);
   Memories memories;
   memories.reserve(kept.size());
@@ -177,30 +201,39 @@ void Model::list_pairs(std::vector<KeptContact>& kept) {
   recall(walls_, particles_, true, memories);
   verlet_.mark(particles_);
   marked_at_ = steps_;
+  stale_ = false;
   ++work_.rebuilds;
   work_.candidates += search_.candidates();
 }
 
-void Model::refresh_ghosts() {
-  if (!ranks_) return;
-  const auto scope = timers_.scope("ghosts");
-  exchange_.refresh_ghosts(particles_);
-}
-
+/// Forces that need no ghost are found while the ghosts are on their way.
 void Model::find_forces(double dt) {
+  const Images now = images();
+  const std::uint64_t ghosts_timed = ranks_ ? timed_ : 0;
   {
-    const auto scope = timers_.scope("pair forces");
-    pair_forces_.add_pairs(particles_, pairs_, images(), dt);
+    const auto scope = timers_.scope("ghosts", ghosts_timed);
+    exchange_.send_ghosts(particles_);
   }
-  if (box_.walls.empty()) return;
-  const auto scope = timers_.scope("walls");
-  pair_forces_.add_walls(particles_, walls_, dt);
+  {
+    const auto scope = timers_.scope("pair forces", timed_);
+    pair_forces_.add_inner_pairs(particles_, pairs_, now, dt);
+  }
+  if (!box_.walls.empty()) {
+    const auto scope = timers_.scope("walls", timed_);
+    pair_forces_.add_walls(particles_, walls_, dt);
+  }
+  {
+    const auto scope = timers_.scope("ghosts", ghosts_timed);
+    exchange_.receive_ghosts(particles_);
+  }
+  const auto scope = timers_.scope("pair forces", timed_);
+  pair_forces_.add_outer_pairs(particles_, pairs_, now, dt);
 }
 
-void Model::stop_if_troubled() const {
+/// Collective: tells the deepest overlap of all ranks.
+void Model::stop_in_trouble() const {
   const PairTrouble& t = pair_forces_.trouble();
-  if (!core::on_any_rank(ranks_.get(), t.pair >= 0)) return;
-  std::string text = "another rank met it";
+  std::string text;
   if (t.pair >= 0) {
     const Contacts::Pair pair = (t.wall ? walls_ : pairs_).pairs[std::size_t(t.pair)];
     const Place& at = particles_.place[std::size_t(pair.first)];
@@ -211,7 +244,7 @@ void Model::stop_if_troubled() const {
         "{:.6g}) m; raise dem.youngs_modulus, state a higher dem.greatest_speed, or look at the start",
         time(), particles_.id[std::size_t(pair.first)], other, t.excess, at.x[0], at.x[1], at.x[2]);
   }
-  throw core::NumericsError(text);
+  throw core::NumericsError(core::said_by(ranks_.get(), core::rank_of_greatest(ranks_.get(), t.excess), text));
 }
 
 Work Model::work() const {
@@ -224,6 +257,8 @@ Work Model::work() const {
   work.pair_checks = std::uint64_t(sums[0]);
   work.contact_steps = std::uint64_t(sums[1]);
   work.candidates = std::uint64_t(sums[2]);
+  work.cuts = exchange_.cuts();
+  work.imbalance = exchange_.imbalance();
   return work;
 }
 

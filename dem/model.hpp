@@ -25,9 +25,11 @@
 namespace polybed::dem {
 
 /// What the model has done so far on all ranks; repeats exactly from run to run and on any number of ranks, but for
-/// what pairs across ranks add.
+/// what pairs across ranks add and how the box was cut.
 struct Work {
   std::uint64_t steps = 0, particle_steps = 0, pair_checks = 0, contact_steps = 0, rebuilds = 0, candidates = 0;
+  std::uint64_t cuts = 0;  ///< of the box among the ranks, after the first
+  double imbalance = 1;    ///< greatest over mean work of the ranks when the list was last made
 };
 
 class Model : public core::Simulation {
@@ -79,16 +81,16 @@ class Model : public core::Simulation {
   [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
 
  private:
-  void place();
-  [[nodiscard]] bool list_is_stale() const;
+  void measure(const std::vector<Particle>& all);
+  void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
+  [[nodiscard]] bool list_goes_stale() const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
   void list_pairs(std::vector<KeptContact>& kept);
-  void refresh_ghosts();
   void find_forces(double dt);
   /// Time that the state belongs to, s.
   [[nodiscard]] double clock() const { return double(steps_) * limits_.dt; }
-  void stop_if_troubled() const;
+  [[noreturn]] void stop_in_trouble() const;
   void wrap();
 
   std::shared_ptr<const core::Ranks> ranks_;
@@ -110,6 +112,8 @@ class Model : public core::Simulation {
   Contacts pairs_, walls_;
   double reported_ = 0;  ///< s
   std::int64_t steps_ = 0, count_ = 0, marked_at_ = 0;
+  bool stale_ = false;       ///< the list would not do for the next step
+  std::uint64_t timed_ = 1;  ///< steps that the clock's answer in this one stands for: it costs a system call
   Work work_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <unordered_map>
 
 #include "core/error.hpp"
 #include "dem/gathered.hpp"
@@ -94,20 +95,23 @@ void Model::resume(const core::Checkpoint& checkpoint) {
   core::take_from_first(ranks_.get(), contacts);
   steps_ = std::int64_t(head[2]);
   reported_ = head[4];
-  particles_.resize(0);
+  std::vector<Particle> all;
+  std::unordered_map<std::int64_t, std::size_t> where;
   for (std::size_t n = 0; n < particles.size(); n += particle_width) {
-    const Particle p = read_particle(particles.data() + n, materials_);
-    if (!ranks_ || exchange_.decomposition().owner(p.place.x) == ranks_->rank()) particles_.add(p);
+    all.push_back(read_particle(particles.data() + n, materials_));
+    where[all.back().id] = all.size() - 1;
   }
-  particles_.owned = particles_.size();
-  count_ = std::int64_t(particles.size() / particle_width);
+  std::vector<std::int32_t> work(all.size(), 1);
   std::vector<KeptContact> kept;
   const auto width = std::size_t(pairs_.memory_size) + 2;
   for (std::size_t n = 0; n < contacts.size(); n += width) {
     KeptContact c{std::int64_t(contacts[n]), std::int64_t(contacts[n + 1]), {}};
     std::copy_n(contacts.data() + n + 2, pairs_.memory_size, c.memory.begin());
     kept.push_back(c);
+    ++work.at(where.at(c.low));
+    if (c.high >= 0) ++work.at(where.at(c.high));
   }
+  place(all, work);
   list_pairs(kept);
 }
 

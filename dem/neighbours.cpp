@@ -166,7 +166,8 @@ void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std
 }
 
 void NeighbourSearch::find_pairs(const Particles& particles, double time, const Vector& centre,
-                                 const std::array<bool, 3>& whole, std::vector<Contacts::Pair>& pairs) {
+                                 const std::array<bool, 3>& whole, Contacts& contacts) {
+  std::vector<Contacts::Pair>& pairs = contacts.pairs;
   pairs.clear();
   candidates_ = 0;
   near_.resize(particles.size());
@@ -181,6 +182,10 @@ void NeighbourSearch::find_pairs(const Particles& particles, double time, const 
   for (std::size_t i = 0; i < particles.size(); ++i)
     for (std::size_t l = level_of(particles.place[i].radius); l < levels_.size(); ++l)
       search(particles, i, l, images, pairs);
+  const auto here = std::int32_t(particles.owned);
+  const auto outer = std::stable_partition(
+      pairs.begin(), pairs.end(), [&](const Contacts::Pair& pair) { return pair.first < here && pair.second < here; });
+  contacts.inner = std::size_t(outer - pairs.begin());
 }
 
 void NeighbourSearch::find_walls(const Particles& particles, std::vector<Contacts::Pair>& pairs) const {

@@ -18,10 +18,11 @@ class NeighbourSearch {
   NeighbourSearch(const Box& box, const Materials& materials, double reach);
 
   /// Pairs with at least one owned particle whose surfaces are nearer than the reach; the first has the lower id.
+  /// Pairs that need no ghost come first.
   /// \param centre  of the space of these particles: of directions in which they do not fill the box, images are
   ///                taken near it   \param whole  directions in which they do
   void find_pairs(const Particles& particles, double time, const Vector& centre, const std::array<bool, 3>& whole,
-                  std::vector<Contacts::Pair>& pairs);
+                  Contacts& contacts);
   /// Owned particles and walls likewise.
   void find_walls(const Particles& particles, std::vector<Contacts::Pair>& pairs) const;
 

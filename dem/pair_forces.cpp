@@ -118,12 +118,22 @@ void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall
   contacts.touching.insert(contacts.touching.end(), batch_.pair, batch_.pair + batch_.count);
 }
 
-void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
-  const auto end = std::int32_t(contacts.pairs.size());
+void PairForces::add_inner_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
   std::swap(before_, contacts.touching);
   contacts.touching.clear();
-  for (std::int32_t p = 0; p < end;) {
-    p = loader_.find_pairs(particles, contacts, images, p, batch_);
+  add_pairs(particles, contacts, images, 0, contacts.inner, dt);
+}
+
+void PairForces::add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
+  add_pairs(particles, contacts, images, contacts.inner, contacts.pairs.size(), dt);
+  contacts.forget_parted(before_);
+  pair_checks_ += contacts.pairs.size();
+}
+
+void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t begin,
+                           std::size_t end, double dt) {
+  for (auto p = std::int32_t(begin); p < std::int32_t(end);) {
+    p = loader_.find_pairs(particles, contacts, images, p, std::int32_t(end), batch_);
     loader_.load_pairs(particles, contacts, images, batch_);
     treat(particles, contacts, false, dt);
     for (int c = 0; c < batch_.count; ++c) {
@@ -131,8 +141,6 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Image
       add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
     }
   }
-  contacts.forget_parted(before_);
-  pair_checks_ += contacts.pairs.size();
 }
 
 void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) {

@@ -30,9 +30,11 @@ class PairForces {
   /// Counts energies in a ledger from now on, which must stay.
   void keep(Ledger& ledger) { ledger_ = &ledger; }
 
-  /// Adds the forces and torques of all pairs of a list to the loads of its particles, and moves its memory on.
+  // Forces and torques of all pairs of a list are added to the loads of its particles, and its memory moves on: first
+  // of the pairs that need no ghost, then, once the ghosts are there, of the others.
   /// \param images  now, by the numbers that the list gives  \param dt  s, since the last call
-  void add_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt);
+  void add_inner_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt);
+  void add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt);
   /// The same with the walls.
   void add_walls(Particles& particles, Contacts& contacts, double dt);
 
@@ -44,6 +46,8 @@ class PairForces {
   [[nodiscard]] const ContactLoader& loader() const { return loader_; }
 
  private:
+  void add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t begin, std::size_t end,
+                 double dt);
   void act(double dt);
   void treat(const Particles& particles, Contacts& contacts, bool wall, double dt);
   void mark_counted(std::size_t owned);

@@ -37,7 +37,7 @@ class Relaxation {
       if (moved_ > 0.1 * skin_ || round == 0) list();
       worst = 0;
       double most = 0;
-      for (const Contacts::Pair& pair : pairs_) {
+      for (const Contacts::Pair& pair : near_.pairs) {
         const double overlap = part(std::size_t(pair.first), std::size_t(pair.second), size, most);
         const double radius = std::min(particles_.place[std::size_t(pair.first)].radius,
                                        particles_.place[std::size_t(pair.second)].radius);
@@ -73,7 +73,7 @@ class Relaxation {
 
   void list() {
     for (std::size_t i = 0; i < particles_.size(); ++i) particles_.place[i].x = wrapped(particles_.place[i].x);
-    search_.find_pairs(particles_, 0, {}, {true, true, true}, pairs_);
+    search_.find_pairs(particles_, 0, {}, {true, true, true}, near_);
     moved_ = 0;
   }
 
@@ -114,7 +114,7 @@ class Relaxation {
   double skin_, moved_ = 0;
   NeighbourSearch search_;
   Particles particles_;
-  std::vector<Contacts::Pair> pairs_;
+  Contacts near_;
 };
 
 }  // namespace

@@ -66,8 +66,8 @@ double Verlet::next_moved(const Particles& particles, double time) const {
     const double dx = x[0] - from[0] + v[0] * dt_ - shear_rate_ * from[1] * time;
     const double dy = x[1] - from[1] + v[1] * dt_, dz = x[2] - from[2] + v[2] * dt_;
     const double square = dx * dx + dy * dy + dz * dz;
-    // Turned round, so that what is not a number counts as too far.
-    most = square <= most ? most : square;
+    // Turned round, so that what is not a number counts as too far, and stays.
+    most = square <= most || std::isnan(most) ? most : square;
   }
   return std::sqrt(most);
 }

@@ -106,7 +106,8 @@ class DemRun final : public CaseRun {
   void write_work(core::Json& json) const {
     json.key("work").begin_object().member("steps", work_.steps).member("particle_steps", work_.particle_steps);
     json.member("pair_checks", work_.pair_checks).member("contact_steps", work_.contact_steps);
-    json.member("rebuilds", work_.rebuilds).member("candidates", work_.candidates).end_object();
+    json.member("rebuilds", work_.rebuilds).member("candidates", work_.candidates);
+    json.member("cuts", work_.cuts).member("imbalance", work_.imbalance).end_object();
   }
 
   void write_ledger(core::Json& json) const {

@@ -29,6 +29,11 @@ int MPI_Allreduce(const void* in, void* out, int number, MPI_Datatype type, MPI_
   return PMPI_Allreduce(in, out, number, type, op, comm);
 }
 
+int MPI_Alltoall(const void* out, int n_out, MPI_Datatype t_out, void* in, int n_in, MPI_Datatype t_in, MPI_Comm comm) {
+  ++collectives;
+  return PMPI_Alltoall(out, n_out, t_out, in, n_in, t_in, comm);
+}
+
 int MPI_Bcast(void* data, int number, MPI_Datatype type, int root, MPI_Comm comm) {
   ++collectives;
   return PMPI_Bcast(data, number, type, root, comm);

@@ -1,0 +1,271 @@
+#!/usr/bin/python3
+"""Particles on 1, 2, 3, 4 and 8 ranks: the same bits of every place, velocity, spin and contact history, with and without a
+restart on another number of ranks."""
+import hashlib
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import program  # noqa: E402
+from program import Scratch, main  # noqa: E402
+
+RANKS = (1, 2, 3, 4, 8)
+STEPS = 2000  # of 4 us each; a restart is in the middle
+
+# dense, in motion, with friction: particles are pushed apart from random places, so that every contact is sheared
+DENSE = """
+[column]
+size = ["10 mm", "8 mm", "7 mm"]
+cells = [5, 4, 4]
+sides = "periodic"
+ends = "periodic"
+gravity = 0
+[[species]]
+name = "a"
+diameter = "1 mm"
+density = 2500
+[bed]
+particles = [560]
+start = "random"
+solids_fraction = 0.6
+[dem]
+start_speed = "0.3 m/s"
+friction = 0.5
+greatest_speed = "2 m/s"
+fixed_step = "4 us"
+youngs_modulus = "20 MPa"
+"""
+
+# all in one corner of a column with walls, falling and running off to the other end
+CORNER = """
+[column]
+size = ["40 mm", "30 mm"]
+cells = [10, 10]
+[[species]]
+name = "a"
+diameter = "1 mm"
+density = 2500
+[bed]
+start = "list:particles.csv"
+[dem]
+friction = 0.3
+greatest_speed = "3 m/s"
+fixed_step = "4 us"
+youngs_modulus = "20 MPa"
+"""
+
+# sizes of ratio 4: several levels of the search, the synchronised integrator
+UNEQUAL = """
+[column]
+size = ["12 mm", "12 mm", "12 mm"]
+cells = [3, 3, 3]
+sides = "periodic"
+[[species]]
+name = "large"
+diameter = "4 mm"
+density = 1500
+[[species]]
+name = "small"
+diameter = "1 mm"
+density = 2500
+[bed]
+particles = [9, 500]
+start = "random"
+solids_fraction = 0.6
+[dem]
+start_speed = "0.1 m/s"
+friction = 0.4
+tangential = "mindlin_deresiewicz"
+rolling_friction = 0.02
+greatest_speed = "2 m/s"
+fixed_step = "4 us"
+youngs_modulus = "20 MPa"
+"""
+
+# a crowd that drifts through all faces and the corner of a periodic box
+CROSSING = """
+[column]
+size = ["5.5 mm", "5.5 mm", "5.5 mm"]
+cells = [3, 3, 3]
+sides = "periodic"
+ends = "periodic"
+gravity = 0
+[[species]]
+name = "a"
+diameter = "1 mm"
+density = 2500
+[bed]
+start = "list:particles.csv"
+[dem]
+friction = 0.5
+greatest_speed = "4 m/s"
+fixed_step = "4 us"
+youngs_modulus = "20 MPa"
+"""
+
+COMMON = """
+[fluid]
+name = "none"
+[effects]
+contact = "hertz_mindlin"
+[run]
+until = "8 ms"
+[output]
+every = "8 ms"
+history_every = "8 ms"
+checkpoint_every = "4 ms"
+"""
+
+
+def in_corner():
+    """A block of 12 by 24 particles that all fly towards the other end of the column."""
+    spread = random.Random(1)
+    rows = [f"a,{(1.02 * i + 0.6) * 1e-3},{(1.02 * j + 0.6) * 1e-3},{0.0011 + spread.uniform(-2e-4, 2e-4)},"
+            f"{spread.uniform(0.5, 1.5)},{spread.uniform(-0.5, 0.5)},{spread.uniform(-0.1, 0.1)},0,0,0"
+            for i in range(12) for j in range(24)]
+    return rows
+
+
+def crossing():
+    """A crowd that drifts along the diagonal once around the box, in motion and spinning."""
+    spread = random.Random(2)
+    rows = []
+    for n in range(125):
+        place = [(1.1 * k + 0.3) * 1e-3 for k in (n % 5, n // 5 % 5, n // 25)]
+        velocity = [0.8 + spread.uniform(-0.4, 0.4) for _ in range(3)]
+        rows.append(",".join(map(str, ["a", *place, *velocity, *(spread.uniform(-300, 300) for _ in range(3))])))
+    return rows
+
+
+def hash_of(checkpoint):
+    """SHA-256 of places, velocities and spins by id, and of the histories of all contacts."""
+    with h5py.File(checkpoint) as file:
+        particles = file["arrays/particles"][()].reshape(-1, 23)
+        contacts = file["arrays/contacts"][()]
+    assert list(particles[:, 0]) == list(range(len(particles)))
+    assert np.isfinite(particles).all() and np.isfinite(contacts).all()
+    return hashlib.sha256(particles[:, :11].tobytes() + contacts.tobytes()).hexdigest(), len(particles), len(contacts)
+
+
+def ulps_up(value, count=1):
+    for _ in range(count):
+        value = np.nextafter(value, np.inf)
+    return repr(float(value))
+
+
+class DemRanks(Scratch):
+    def start_on(self, ranks, *words):
+        """`polybed dem` on a number of ranks, begun."""
+        settings = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                        OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_hwloc_base_binding_policy="none",
+                        OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_mpi_yield_when_idle="1",
+                        OMPI_MCA_orte_tmpdir_base=tempfile.mkdtemp(dir=self.folder), PYTHONHOME="/nowhere")
+        return subprocess.Popen(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "dem", *map(str, words), "--quiet"],
+                                env=settings, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+
+    def on(self, ranks, *words, code=0):
+        """The same, ended; what it said."""
+        process = self.start_on(ranks, *words)
+        out, err = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, code, f"{ranks} ranks: {words}\n{out[-500:]}\n{err[-1500:]}")
+        return err
+
+    def scene(self, text, rows=None):
+        if rows is not None:
+            self.write("particles.csv", "\n".join(["species,x,y,z,vx,vy,vz,wx,wy,wz", *rows]) + "\n")
+        return self.write("case.toml", text + COMMON)
+
+    def check_same(self, case, restart, touching=True):
+        """One hash on all numbers of ranks, and with a restart on another number; the records of the runs.
+        :param touching: whether contacts have to be there at the end, so that histories are compared"""
+        hashes, records = {}, {}
+        for ranks in RANKS:
+            run = self.folder / f"on{ranks}"
+            self.on(ranks, case, "-o", run)
+            hashes[f"{ranks} ranks"], *sizes = hash_of(run / "checkpoint.h5")
+            records[ranks] = json.loads((run / "run.json").read_text())
+            self.assertEqual(records[ranks]["work"]["steps"], STEPS)
+            self.assertGreater(sizes[1], 0 if touching else -1)
+        cut = self.folder / "cut"
+        self.on(restart[0], case, "--until", "4 ms", "-o", cut)
+        middle, *_ = hash_of(cut / "checkpoint.h5")
+        self.on(restart[1], case, "--resume", "-o", cut)
+        hashes[f"restarted, {restart}"], *_ = hash_of(cut / "checkpoint.h5")
+        self.assertEqual(len(set(hashes.values())), 1, hashes)
+        self.assertNotIn(middle, hashes.values())
+        return records
+
+    def test_dense_box(self):
+        records = self.check_same(self.scene(DENSE), restart=(8, 3))
+        self.assertGreater(records[1]["work"]["contact_steps"], 100 * STEPS)
+        self.assertGreater(records[1]["work"]["rebuilds"], 20)
+
+    def test_all_from_one_corner(self):
+        records = self.check_same(self.scene(CORNER, in_corner()), restart=(1, 4))
+        for ranks in RANKS[1:]:  # what is cut for the corner does not do for the column
+            self.assertGreater(records[ranks]["work"]["cuts"], 0, ranks)
+        self.assertEqual(records[1]["work"]["cuts"], 0)
+
+    def test_unequal_sizes(self):
+        records = self.check_same(self.scene(UNEQUAL), restart=(2, 4))
+        self.assertEqual(records[1]["integrator"], "synchronised")
+
+    def test_contacts_across_faces_and_corners(self):
+        records = self.check_same(self.scene(CROSSING, crossing()), restart=(4, 8))
+        self.assertGreater(records[1]["work"]["contact_steps"], STEPS)
+
+    def test_fewer_particles_than_ranks(self):
+        rows = [f"a,{x * 1e-3},0.004,0.004,{v},{v},0,30,0,10" for x, v in ((1, 2.0), (3, 0.5), (4.5, -1.0))]
+        self.check_same(self.scene(CROSSING, rows), restart=(8, 1), touching=False)
+
+    def test_one_bit_at_the_start_tells(self):
+        """The hash sees the least there is to see: one unit in the last place of one velocity of one particle."""
+        rows = crossing()
+        case = self.scene(CROSSING, rows)
+        self.on(2, case, "-o", self.folder / "one")
+        entries = rows[5].split(",")
+        entries[4] = ulps_up(float(entries[4]))
+        self.scene(CROSSING, [*rows[:5], ",".join(entries), *rows[6:]])
+        self.on(2, case, "-o", self.folder / "other")
+        self.assertNotEqual(hash_of(self.folder / "one/checkpoint.h5"), hash_of(self.folder / "other/checkpoint.h5"))
+
+    def test_a_killed_run_goes_on_elsewhere(self):
+        case = self.scene(CORNER, in_corner())
+        often = ["--set", 'output.checkpoint_every="1 ms"']
+        self.on(1, case, *often, "-o", self.folder / "whole")
+        process = self.start_on(3, case, *often, "-o", self.folder / "killed")
+        program.wait_until(process, (self.folder / "killed/checkpoint.h5").exists)
+        process.send_signal(signal.SIGKILL)  # mpirun's own ranks end when it is gone
+        process.communicate(timeout=60)
+        middle = hash_of(self.folder / "killed/checkpoint.h5")
+        self.on(2, case, *often, "--resume", "-o", self.folder / "killed")
+        end = hash_of(self.folder / "killed/checkpoint.h5")
+        self.assertNotEqual(middle, end)
+        self.assertEqual(end, hash_of(self.folder / "whole/checkpoint.h5"))
+
+    def test_ranks_thinner_than_a_particle_are_refused(self):
+        narrow = CROSSING.replace('"5.5 mm", "5.5 mm", "5.5 mm"', '"3 mm", "3 mm", "3 mm"')
+        rows = ["a,0.001,0.001,0.001,1,0,0,0,0,0"]
+        error = self.on(32, self.scene(narrow, rows), "-o", self.folder / "a", code=2)
+        self.assertEqual(error.count("32 ranks would own parts of 0.00075 m, thinner than the largest particle, 0.001 m"),
+                         1, error)
+        self.on(8, self.scene(narrow, rows), "-o", self.folder / "b")
+
+    def test_too_deep_an_overlap_is_told_with_its_ids(self):
+        """By the rank that met it, once, through the first."""
+        rows = ["a,0.001,0.001,0.001,0,0,0,0,0,0", "a,0.004,0.004,0.004,0,0,0,0,0,0", "a,0.0048,0.004,0.004,0,0,0,0,0,0"]
+        error = self.on(4, self.scene(CROSSING, rows), "-o", self.folder / "a", code=3)
+        self.assertEqual(error.count("particle 1 and particle 2 overlap"), 1, error)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,101 @@
+// Parts, ghosts and gathering where one rank has it all. On several ranks: tests/parallel/particles_test.cpp.
+#include "dem/decomposition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "dem/exchange.hpp"
+#include "dem/gathered.hpp"
+#include "dem/materials.hpp"
+#include "dem/neighbours.hpp"
+#include "dem/verlet.hpp"
+
+namespace polybed::dem {
+namespace {
+
+Box unit_box() {
+  Box box;
+  box.size = {1, 1, 1};
+  box.periodic = {true, true, true};
+  return box;
+}
+
+Particles two_apart(double distance) {
+  Particles particles;
+  for (std::int64_t id = 0; id < 2; ++id) {
+    Particle p{};
+    p.id = 1 - id;  // not in the order in which they lie
+    p.place = {{0.5 + distance * double(id), 0.5, 0.5}, 0.05};
+    p.motion.inverse_mass = 1;
+    particles.add(p);
+  }
+  particles.owned = 2;
+  return particles;
+}
+
+TEST(OneRank, OwnsTheBoxWhateverTheWork) {
+  const Box box = unit_box();
+  Decomposition parts(box, nullptr, 5);  // nothing is cut, so that nothing is too thin
+  const Particles particles = two_apart(0.1);
+  parts.balance(particles.place, std::vector<std::int32_t>{1, 7});
+  EXPECT_EQ(parts.owner({0.2, 0.9, 7}), 0);
+  EXPECT_EQ(parts.own().high, box.size);
+  EXPECT_EQ(parts.centre(), (Vector{0.5, 0.5, 0.5}));
+  EXPECT_EQ(parts.whole(0.01), (std::array<bool, 3>{true, true, true}));
+  EXPECT_EQ(parts.imbalance(std::vector<std::int32_t>{1, 7}), 1);
+}
+
+TEST(OneRank, HasNoGhostsAndEveryPairIsInner) {
+  const Box box = unit_box();
+  Exchange exchange(box, nullptr, 0.01, 0.05);
+  Particles particles = two_apart(0.105);
+  std::vector<KeptContact> kept{{0, 1, {3.0}}};
+  exchange.balance(particles, std::vector<std::int32_t>{1, 1});
+  exchange.migrate(particles, kept);
+  exchange.choose_ghosts(particles);
+  exchange.send_ghosts(particles);
+  exchange.receive_ghosts(particles);
+  EXPECT_EQ(particles.size(), 2);
+  EXPECT_EQ(exchange.cuts(), 0);
+  EXPECT_EQ(kept.size(), 1);
+  core::Scene scene;
+  scene.species.resize(1);
+  scene.species[0].diameter = 0.1;
+  scene.species[0].density = 1000;
+  const Materials materials(scene);
+  NeighbourSearch search(box, materials, 0.01);
+  Contacts contacts;
+  search.find_pairs(particles, 0, exchange.decomposition().centre(), exchange.decomposition().whole(0.11), contacts);
+  ASSERT_EQ(contacts.pairs.size(), 1);
+  EXPECT_EQ(contacts.inner, 1);
+  EXPECT_EQ(particles.id[std::size_t(contacts.pairs[0].first)], 0);  // the lower id comes first
+}
+
+TEST(OneRank, GathersById) {
+  const std::vector<Particle> all = gathered_particles(two_apart(0.1), nullptr);
+  ASSERT_EQ(all.size(), 2);
+  EXPECT_EQ(all[0].id, 0);
+  EXPECT_EQ(all[0].place.x[0], 0.6);
+  // A pair across ranks is kept on both and comes out once.
+  const std::vector<KeptContact> once = gathered_contacts({{2, 5, {}}, {1, -3, {}}, {2, 5, {}}, {1, 4, {}}}, nullptr);
+  ASSERT_EQ(once.size(), 3);
+  EXPECT_EQ(once[0].high, -3);
+  EXPECT_EQ(once[1].high, 4);
+  EXPECT_EQ(once[2].low, 2);
+}
+
+/// The list is made again if a place is not a number, also where particles behind it in the order are fine.
+TEST(Verlet, WhatIsNotANumberHasMovedTooFar) {
+  Verlet verlet(false, 0.1, {0, 0, 0}, FixedPoint{}, FixedPoint{}, 0);
+  Particles particles = two_apart(0.1);
+  verlet.mark(particles);
+  particles.motion[1].v[1] = 2;
+  EXPECT_DOUBLE_EQ(verlet.next_moved(particles, 0.1), 0.2);  // 2 m/s for 0.1 s
+  particles.place[0].x[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(verlet.next_moved(particles, 0.1)));
+}
+
+}  // namespace
+}  // namespace polybed::dem
