@@ -73,6 +73,9 @@ class Model : public core::Simulation {
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Collective.
   [[nodiscard]] Work work() const;
+  /// Units of the loads of a particle.
+  [[nodiscard]] FixedPoint unit_of_force() const { return force_unit_; }
+  [[nodiscard]] FixedPoint unit_of_torque() const { return torque_unit_; }
   /// Units of the energies and momenta of all particles together, and what this rank's contacts have dissipated.
   [[nodiscard]] FixedPoint energy_unit() const { return energy_unit_; }
   [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
