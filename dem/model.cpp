@@ -69,7 +69,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size : 0);
   place(start_particles(scene, materials_, box_));
   if (scene.dem.ledger) {
-    ledger_.emplace(laws_, laws_.memory_size(), energy_unit_);
+    ledger_.emplace(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
     pair_forces_.keep(*ledger_);
   }
   rebuild();

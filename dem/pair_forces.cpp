@@ -205,6 +205,7 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, double time
   const Images images(box_, time);
   std::swap(before_, contacts.touching);
   find_touching_pairs(particles, contacts, images, laws_.reach());
+  if (ledger_ != nullptr) ledger_->part(contacts, before_, particles.owned);
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
   for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
@@ -235,6 +236,7 @@ void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) 
     if (height_over(box_.walls[std::size_t(pair.second)], place) < place.radius + laws_.reach())
       contacts.touching.push_back(p);
   }
+  if (ledger_ != nullptr) ledger_->part(contacts, before_, particles.owned);
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
   for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
