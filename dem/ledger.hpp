@@ -15,19 +15,20 @@ namespace polybed::dem {
 /// What contacts have taken from motion for good, step by step.
 ///
 /// A force acts for half a step before the drift that follows it and for half a step after the one that leads to it.
-/// The thesis scheme knows the velocity of a drift, v_h: the work over it is (F_old + F_new)/2 . v_h dt, exactly that of
-/// the kicks. The synchronised scheme knows the velocity at the time of the force, and the work is F . v dt, half of it
-/// now and half in the next step; with v_h in place of v, or the other way round, the account errs by first order in dt.
+/// The thesis scheme knows the velocity of a drift, v_h: the work over it is (F_old + F_new)/2 . v_h dt, exactly that
+/// of the kicks. The synchronised scheme knows the velocity at the time of the force, and the work is F . v dt, half of
+/// it now and half in the next step; with v_h in place of v, or the other way round, the account errs by first order in
+/// dt.
 ///
 /// Of the normal force only the dashpot's part counts, found from its own law and not as what is missing, so that an
 /// error of the integration does not hide in it. Of the tangential force: the work less what the spring has stored.
 ///
-/// A contact that parts is counted once more: for the half step that its last force still acts, and for what its springs
-/// held. Where a clipped tail has ended the force early, that is the elastic energy left in the overlap.
+/// A contact that parts is counted once more: for the half step that its last force still acts, and for what its
+/// springs held. Where a clipped tail has ended the force early, that is the elastic energy left in the overlap.
 class Ledger {
  public:
-  /// Dashpot's force and F_t of the last step, or in their place the synchronised scheme's work still due; energy of the
-  /// tangential spring; what is lost if the contact parts.
+  /// Dashpot's force and F_t of the last step, or in their place the synchronised scheme's work still due; energy of
+  /// the tangential spring; what is lost if the contact parts.
   static constexpr int memory_size = 6;
 
   /// \param place  of its memory in a batch   \param synchronised  velocities of the batch are those at the time of the

@@ -83,7 +83,7 @@ class Model : public core::Simulation {
 
  private:
   void place(const std::vector<Particle>& all);
-  [[nodiscard]] bool list_is_stale() const;
+  [[nodiscard]] bool list_is_stale(double drift) const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
   void list_pairs(std::vector<KeptContact>& kept);
@@ -91,7 +91,9 @@ class Model : public core::Simulation {
   void find_forces(double dt);
   /// Time that the state belongs to, s.
   [[nodiscard]] double clock() const { return double(steps_) * limits_.dt; }
-  void stop_if_troubled() const;
+  void stop_if_troubled(std::int64_t hasty) const;
+  [[nodiscard]] std::string trouble_of_pair() const;
+  [[nodiscard]] std::string trouble_of_haste(std::int64_t id) const;
   void wrap();
 
   std::shared_ptr<const core::Ranks> ranks_;
