@@ -70,7 +70,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size : 0);
   place();
   if (scene.dem.ledger) {
-    ledger_.emplace(laws_, laws_.memory_size(), energy_unit_);
+    ledger_.emplace(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
     pair_forces_.keep(*ledger_);
   }
   rebuild();
@@ -103,7 +103,8 @@ void Model::place() {
 }
 
 void Model::step(double stop) {
-  if (list_is_stale()) {
+  const Verlet::Drift drift = verlet_.next_drift(particles_, double(steps_ + 1 - marked_at_) * limits_.dt);
+  if (list_is_stale(drift.distance)) {
     const auto scope = timers_.scope("neighbours");
     rebuild();
   }
@@ -119,14 +120,14 @@ void Model::step(double stop) {
     verlet_.end(particles_);
   }
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
-  stop_if_troubled();
+  stop_if_troubled(drift.hasty);
 }
 
-bool Model::list_is_stale() const {
+bool Model::list_is_stale(double drift) const {
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
   // Two particles may approach from both sides, and a sheared box moves the one faster than the other.
   const double flow = std::abs(box_.shear_rate) * since * (materials_.greatest_diameter() + skin_ + laws_.reach());
-  const double moved = 2 * verlet_.next_moved(particles_, since) + flow;
+  const double moved = 2 * drift + flow;
   return core::on_any_rank(ranks_.get(), !(moved <= skin_));
 }
 
@@ -197,21 +198,34 @@ void Model::find_forces(double dt) {
   pair_forces_.add_walls(particles_, walls_, dt);
 }
 
-void Model::stop_if_troubled() const {
+/// \param hasty  particle that moved too far in this step, or -1
+void Model::stop_if_troubled(std::int64_t hasty) const {
+  const bool pair = pair_forces_.trouble().pair >= 0;
+  if (!core::on_any_rank(ranks_.get(), pair || hasty >= 0)) return;
+  throw core::NumericsError(pair ? trouble_of_pair() : (hasty >= 0 ? trouble_of_haste(hasty) : "another rank met it"));
+}
+
+std::string Model::trouble_of_pair() const {
   const PairTrouble& t = pair_forces_.trouble();
-  if (!core::on_any_rank(ranks_.get(), t.pair >= 0)) return;
-  std::string text = "another rank met it";
-  if (t.pair >= 0) {
-    const Contacts::Pair pair = (t.wall ? walls_ : pairs_).pairs[std::size_t(t.pair)];
-    const Place& at = particles_.place[std::size_t(pair.first)];
-    const std::string other = t.wall ? fmt::format("wall {}", pair.second)
-                                     : fmt::format("particle {}", particles_.id[std::size_t(pair.second)]);
-    text = fmt::format(
-        "t = {:.6g} s: particle {} and {} overlap by {:.3g} m more than dem.max_overlap allows, near ({:.6g}, {:.6g}, "
-        "{:.6g}) m; raise dem.youngs_modulus, state a higher dem.greatest_speed, or look at the start",
-        time(), particles_.id[std::size_t(pair.first)], other, t.excess, at.x[0], at.x[1], at.x[2]);
-  }
-  throw core::NumericsError(text);
+  const Contacts::Pair pair = (t.wall ? walls_ : pairs_).pairs[std::size_t(t.pair)];
+  const Place& at = particles_.place[std::size_t(pair.first)];
+  const std::string other = t.wall ? fmt::format("wall {}", pair.second)
+                                   : fmt::format("particle {}", particles_.id[std::size_t(pair.second)]);
+  return fmt::format(
+      "t = {:.6g} s: particle {} and {} overlap by {:.3g} m more than dem.max_overlap allows, near ({:.6g}, {:.6g}, "
+      "{:.6g}) m; raise dem.youngs_modulus, state a higher dem.greatest_speed, or look at the start",
+      time(), particles_.id[std::size_t(pair.first)], other, t.excess, at.x[0], at.x[1], at.x[2]);
+}
+
+std::string Model::trouble_of_haste(std::int64_t id) const {
+  const auto found = std::find(particles_.id.begin(), particles_.id.end(), id);
+  const auto i = std::size_t(found - particles_.id.begin());
+  const Vector &x = particles_.place[i].x, &v = particles_.motion[i].v;
+  return fmt::format(
+      "t = {:.6g} s: particle {} moved by more than a tenth of its diameter in one step of {:.3g} s, at {:.4g} m/s "
+      "near "
+      "({:.6g}, {:.6g}, {:.6g}) m; state a higher dem.greatest_speed, or look at the start",
+      time(), id, limits_.dt, std::hypot(v[0], v[1], v[2]), x[0], x[1], x[2]);
 }
 
 Work Model::work() const {

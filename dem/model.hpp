@@ -73,6 +73,9 @@ class Model : public core::Simulation {
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Collective.
   [[nodiscard]] Work work() const;
+  /// Units of the loads of a particle.
+  [[nodiscard]] FixedPoint unit_of_force() const { return force_unit_; }
+  [[nodiscard]] FixedPoint unit_of_torque() const { return torque_unit_; }
   /// Units of the energies and momenta of all particles together, and what this rank's contacts have dissipated.
   [[nodiscard]] FixedPoint energy_unit() const { return energy_unit_; }
   [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
@@ -80,7 +83,7 @@ class Model : public core::Simulation {
 
  private:
   void place();
-  [[nodiscard]] bool list_is_stale() const;
+  [[nodiscard]] bool list_is_stale(double drift) const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
   void list_pairs(std::vector<KeptContact>& kept);
@@ -88,7 +91,9 @@ class Model : public core::Simulation {
   void find_forces(double dt);
   /// Time that the state belongs to, s.
   [[nodiscard]] double clock() const { return double(steps_) * limits_.dt; }
-  void stop_if_troubled() const;
+  void stop_if_troubled(std::int64_t hasty) const;
+  [[nodiscard]] std::string trouble_of_pair() const;
+  [[nodiscard]] std::string trouble_of_haste(std::int64_t id) const;
   void wrap();
 
   std::shared_ptr<const core::Ranks> ranks_;

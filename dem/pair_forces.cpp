@@ -122,6 +122,7 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Image
       add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
     }
   }
+  if (ledger_ != nullptr) ledger_->part(contacts, before_, particles.owned);
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
 }
@@ -137,6 +138,7 @@ void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) 
     for (int c = 0; c < batch_.count; ++c)
       add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
   }
+  if (ledger_ != nullptr) ledger_->part(contacts, before_, particles.owned);
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
 }
