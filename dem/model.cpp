@@ -73,8 +73,13 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
     ledger_.emplace(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
     pair_forces_.keep(*ledger_);
   }
+  if (scene.dem.ledger && box_.shear_rate != 0) {
+    flow_work_.emplace(force_unit_, energy_unit_, limits_.dt);
+    pair_forces_.keep(*flow_work_);
+  }
   rebuild();
   find_forces(0);
+  if (flow_work_) flow_work_->begin();
 }
 
 /// Every rank makes all particles and keeps its own: the start is the same on any number of ranks.
@@ -115,6 +120,7 @@ void Model::step(double stop) {
   refresh_ghosts();
   ++steps_;
   find_forces(limits_.dt);
+  if (flow_work_) flow_work_->end_step();
   {
     const auto scope = timers_.scope("motion");
     verlet_.end(particles_);
@@ -137,7 +143,10 @@ void Model::wrap() {
     if (box_.periodic[1] && (x[1] < 0 || x[1] >= box_.size[1])) {
       const double boxes = std::floor(x[1] / box_.size[1]);
       x[0] -= boxes * box_.image_shift(clock());
-      particles_.motion[i].v[0] -= boxes * box_.image_speed();
+      Motion& m = particles_.motion[i];
+      const double from = m.v[0];
+      m.v[0] -= boxes * box_.image_speed();
+      if (flow_work_) flow_work_->wrapped(1 / m.inverse_mass, from, m.v[0]);
     }
     for (std::size_t k = 0; k < 3; ++k)
       if (box_.periodic[k]) {

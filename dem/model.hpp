@@ -80,6 +80,8 @@ class Model : public core::Simulation {
   [[nodiscard]] FixedPoint energy_unit() const { return energy_unit_; }
   [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
   [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
+  /// In the same unit, what this rank's part of a sheared box has done on the particles.
+  [[nodiscard]] std::int64_t flow_work() const { return flow_work_ ? flow_work_->units() : 0; }
 
  private:
   void place();
@@ -105,7 +107,8 @@ class Model : public core::Simulation {
   StepLimits limits_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
-  std::optional<Ledger> ledger_;  ///< absent: energies lost are not counted
+  std::optional<Ledger> ledger_;       ///< absent: energies lost are not counted
+  std::optional<FlowWork> flow_work_;  ///< absent: the box is not sheared, or there is no ledger
   double skin_;
   Verlet verlet_;
   NeighbourSearch search_;

@@ -117,6 +117,7 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Image
     p = loader_.find_pairs(particles, contacts, images, p, batch_);
     loader_.load_pairs(particles, contacts, images, batch_);
     treat(particles, contacts, false, dt);
+    if (flow_work_ != nullptr) flow_work_->act(batch_, counted_, contacts, images);
     for (int c = 0; c < batch_.count; ++c) {
       add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
       add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
