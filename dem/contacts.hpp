@@ -27,14 +27,20 @@ struct Contacts {
     return memory.data() + std::ptrdiff_t(pair) * memory_size;
   }
 
-  /// Forgets the memory of pairs that touched (`before`, rising) and do so no longer.
-  void forget_parted(std::span<const std::int32_t> before) {
-    if (memory_size == 0) return;
+  /// Calls for each of the pairs that touched (`before`, rising) and do so no longer.
+  template <class Act>
+  void each_parted(std::span<const std::int32_t> before, Act&& act) const {
     auto now = touching.begin();
     for (const std::int32_t pair : before) {
       while (now != touching.end() && *now < pair) ++now;
-      if (now == touching.end() || *now != pair) std::fill_n(memory_of(pair), memory_size, 0.0);
+      if (now == touching.end() || *now != pair) act(pair);
     }
+  }
+
+  /// Forgets the memory of pairs that have parted.
+  void forget_parted(std::span<const std::int32_t> before) {
+    if (memory_size == 0) return;
+    each_parted(before, [&](std::int32_t pair) { std::fill_n(memory_of(pair), memory_size, 0.0); });
   }
 };
 

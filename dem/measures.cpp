@@ -71,9 +71,9 @@ Totals totals_of(const Model& model) {
   }
   add_contacts(model, model.pairs(), false, elastic, totals);
   add_contacts(model, model.walls(), true, elastic, totals);
-  std::array<std::int64_t, 9> sums{kinetic.units(),     rotational.units(),  potential.units(),
-                                   elastic.units(),     model.dissipated(),  totals.contacts,
-                                   momentum[0].units(), momentum[1].units(), momentum[2].units()};
+  std::array<std::int64_t, 10> sums{kinetic.units(),     rotational.units(), potential.units(),   elastic.units(),
+                                    model.dissipated(),  totals.contacts,    momentum[0].units(), momentum[1].units(),
+                                    momentum[2].units(), model.flow_work()};
   core::add_over_ranks(model.ranks(), sums);
   totals.kinetic = double(sums[0]) * unit.unit;
   totals.rotational = double(sums[1]) * unit.unit;
@@ -81,6 +81,7 @@ Totals totals_of(const Model& model) {
   totals.elastic = double(sums[3]) * unit.unit;
   totals.dissipated = double(sums[4]) * unit.unit;
   totals.contacts = sums[5];
+  totals.work = double(sums[9]) * unit.unit;
   for (std::size_t k = 0; k < 3; ++k) totals.momentum[k] = double(sums[6 + k]) * momentum_unit.unit;
   totals.max_overlap = core::greatest_of_ranks(model.ranks(), totals.max_overlap);
   totals.max_force = core::greatest_of_ranks(model.ranks(), totals.max_force);

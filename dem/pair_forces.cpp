@@ -126,6 +126,7 @@ void PairForces::add_inner_pairs(Particles& particles, Contacts& contacts, const
 
 void PairForces::add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
   add_pairs(particles, contacts, images, contacts.inner, contacts.pairs.size(), dt);
+  if (ledger_ != nullptr) ledger_->part(contacts, before_, particles.owned);
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
 }
@@ -136,6 +137,7 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Image
     p = loader_.find_pairs(particles, contacts, images, p, std::int32_t(end), batch_);
     loader_.load_pairs(particles, contacts, images, batch_);
     treat(particles, contacts, false, dt);
+    if (flow_work_ != nullptr) flow_work_->act(batch_, counted_, contacts, images);
     for (int c = 0; c < batch_.count; ++c) {
       add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
       add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
@@ -154,6 +156,7 @@ void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) 
     for (int c = 0; c < batch_.count; ++c)
       add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
   }
+  if (ledger_ != nullptr) ledger_->part(contacts, before_, particles.owned);
   contacts.forget_parted(before_);
   pair_checks_ += contacts.pairs.size();
 }

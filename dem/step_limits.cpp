@@ -64,9 +64,11 @@ StepLimits step_limits(const core::Scene& scene, const Materials& materials, con
                speed, limits.synchronised, limits.all);
     }
     const core::ContactProperties own = core::contact_properties(scene, species[a].name, species[a].name);
-    limits.all.push_back({fmt::format("Rayleigh time of {}", species[a].name),
-                          of_rayleigh * closures::rayleigh_time(species[a].radius, species[a].density,
-                                                                own.first.youngs_modulus, own.first.poisson_ratio)});
+    const closures::Elastic material{own.first.youngs_modulus, own.first.poisson_ratio};
+    limits.all.push_back(
+        {fmt::format("Rayleigh time of {}", species[a].name),
+         of_rayleigh * closures::rayleigh_time(species[a].radius, species[a].density, closures::shear_modulus(material),
+                                               material.poisson_ratio)});
     limits.all.push_back({fmt::format("speed of {}", species[a].name), of_diameter * 2 * species[a].radius / speed});
   }
   std::stable_sort(limits.all.begin(), limits.all.end(),
