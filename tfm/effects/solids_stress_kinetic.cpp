@@ -15,8 +15,9 @@ using core::Index;
 namespace {
 
 /// Least solids fraction at which collisions are evaluated: the mean free path is 12 diameters there, and what it makes
-/// of shear and compression would grow as 1/phi^2. Below, what collisions do to a grain fades with phi, so that a cell
-/// without solids has the temperature that slip and drag give a lone grain.
+/// of shear and compression would grow as 1/phi^2. Below, all that collisions do fades with phi, so that a cell
+/// without solids has the temperature that slip and drag give a lone grain: the stress and its work on the temperature
+/// alike, or thin solids that fly apart would be driven by what they do not lose.
 constexpr double collision_fraction_floor = 0.01;
 
 /// theta, m2/s2, that rounds off 1/sqrt(theta) of the slip production at 0: (0.1 mm/s)^2.
@@ -112,6 +113,7 @@ void KineticStress::balance_terms(const Fields& fields, Index cell, double phi, 
 void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialValue& radial) const {
   const auto c = std::size_t(cell);
   const double solids = std::max(fields.solids_fraction[c], 0.0), phi = std::max(solids, collision_fraction_floor);
+  const double fade = collision_share(solids);
   std::array<Local, most_species> local;
   radial_distributions(fields, c, phi, {local.data(), constants_.species()});
   double wall = 0;
@@ -127,7 +129,7 @@ void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialV
       theta = s * s;
     }
     const double share = fields.share[j][c], rho = constants_.density[j];
-    const double energy = share * rho * s * s;
+    const double energy = fade * share * rho * s * s;
     fields.stress.pressure[c] += solids * energy * (1 + here.collisions);
     fields.stress.slope[c] += energy * (1 + here.collisions * (2 + phi * radial.slope / radial.value));
     fields.stress.viscosity[c] += share * here.viscosity * s;

@@ -15,7 +15,8 @@ namespace polybed::tfm {
 /// W/m3:
 ///   (3/2) rho_j (dtheta_j/dt + U_j.grad theta_j) = mu_j/phi 2 D'_j:D'_j - p_j/phi_j div U_j - Gamma_j/phi_j
 ///     - 3 b_j theta_j + slip production + div(k_j grad theta_j)/(phi_j + 1e-4 X_j).
-/// Algebraic: the left side and the last term are left out.
+/// Algebraic: the left side and the last term are left out. Below a solids fraction of 0.01 p, mu_j and k_j, here and
+/// there, fade to 0 together.
 class KineticStress : public CollisionalStress {
  public:
   KineticStress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
