@@ -189,6 +189,7 @@ Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std
   model = std::make_unique<tfm::Model>(part, timers);
   need.integrator = model->integrator_name();
   need.reason = model->integrator_reason();
+  need.momentum = model->momentum();
   need.unknowns = unknowns_of(scene, *model);
   estimate_steps(scene, *model, need);
   const std::optional<double> per_step = time_of_step(*model, scene.run.until, sample_steps);

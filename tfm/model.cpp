@@ -61,10 +61,10 @@ double drag_over_crossing_time(const Constants& constants, double velocity) {
 /// Absolute tolerance of the fractions.
 double fraction_tolerance(double rtol) { return 0.1 * rtol; }
 
-Discretisation make_discretisation(const core::Tfm& options) {
+Discretisation make_discretisation(const core::Tfm& options, const std::string& momentum) {
   const auto scheme = [](const std::string& name) { return name == "limited" ? Scheme::limited : Scheme::upwind; };
-  const bool conservative = options.momentum.rfind("conservative", 0) == 0;
-  const bool limited = options.momentum == "limited" || options.momentum == "conservative_limited";
+  const bool conservative = momentum.rfind("conservative", 0) == 0;
+  const bool limited = momentum == "limited" || momentum == "conservative_limited";
   return {scheme(options.flux), limited ? Scheme::limited : Scheme::upwind,
           options.solids_wall == "no_slip" ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip, conservative};
 }
@@ -74,9 +74,11 @@ Discretisation make_discretisation(const core::Tfm& options) {
 Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks)
     : timers_(timers),
       options_(scene.tfm),
+      momentum_(momentum_form(scene)),
       equations_(scene, make_constants(scene, ranks),
                  fluid::Boundaries(make_grid(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
-                 fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm), timers) {
+                 fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_.name),
+                 timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
   layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible(),

@@ -15,6 +15,7 @@
 #include "tfm/compressible_problem.hpp"
 #include "tfm/explicit_problem.hpp"
 #include "tfm/implicit_problem.hpp"
+#include "tfm/momentum_form.hpp"
 #include "tfm/step_limits.hpp"
 
 namespace polybed::tfm {
@@ -69,6 +70,7 @@ class Model : public core::Simulation {
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   [[nodiscard]] const std::string& integrator_name() const { return integrator_name_; }
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_reason_; }
+  [[nodiscard]] const MomentumForm& momentum() const { return momentum_; }
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
   [[nodiscard]] Work work() const;
   /// Of the whole column.
@@ -108,6 +110,7 @@ class Model : public core::Simulation {
 
   core::Timers& timers_;
   core::Tfm options_;
+  MomentumForm momentum_;
   RightHandSide equations_;
   std::string integrator_name_, integrator_reason_;
   StateLayout layout_;

@@ -106,7 +106,9 @@ void write_state(core::Json& json, const char* name, const BedState& bed) {
 
 void write_requirements(core::Json& json, const Requirements& need) {
   constexpr double mega = 1e-6;
-  json.member("integrator", need.integrator).member("unknowns", std::uint64_t(need.unknowns));
+  json.member("integrator", need.integrator)
+      .member("momentum", need.momentum.name)
+      .member("unknowns", std::uint64_t(need.unknowns));
   json.member("cells", std::uint64_t(need.cells)).member("memory_MB", mega * need.memory.total());
   json.key("memory").begin_object().member("state_MB", mega * need.memory.state);
   json.member("fields_MB", mega * need.memory.fields).member("solver_MB", mega * need.memory.solver);
@@ -143,6 +145,7 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
   constexpr double mega = 1e-6;
   const MemoryNeed& m = need.memory;
   fmt::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, need.integrator, need.reason);
+  fmt::print("# convection of momentum {} ({})\n", need.momentum.name, need.momentum.reason);
   fmt::print("# memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
              mega * m.total(), mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
   fmt::print("# time scales of the bed, from the case alone:\n");

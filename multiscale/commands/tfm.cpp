@@ -98,6 +98,7 @@ class TfmRun final : public CaseRun {
                work.krylov_iterations);
     fmt::print(stderr, "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
                simulated, simulated > 0 ? cpu / simulated : 0.0, model_.integrator_name(), model_.integrator_reason());
+    fmt::print(stderr, "convection of momentum: {} ({})\n", model_.momentum().name, model_.momentum().reason);
     for (const fluid::WorstInvariant& w : observers_->invariants().worst())
       fmt::print(stderr, "{}: worst {:.2e}, limit {:.0e}{}\n", w.name, w.value, w.limit,
                  w.value > w.limit ? "  <-- exceeded" : "");
