@@ -11,6 +11,7 @@
 #include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "multiscale/commands/options.hpp"
+#include "multiscale/particle_requirements.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
@@ -175,12 +176,14 @@ void print_size_classes(const core::Scene& scene) {
   }
 }
 
-/// The case alone: what it will need is known of the two-fluid model only.
+/// A case that only the particle model runs: what it will need there, and what keeps it from the continuum.
 void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons, bool as_json) {
   const std::string text = core::resolved_case(scene);
+  const ParticleRequirements need = particle_requirements_of(scene);
   if (as_json) {
     core::Json json;
     json.begin_object().member("case", text).member("hash", core::text_hash(text));
+    write_particle_requirements(json, scene, need);
     write_size_classes(json, scene);
     json.key("notes").begin_array();
     for (const std::string& reason : reasons) json.value(reason);
@@ -190,6 +193,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   }
   fmt::print("{}\n", text);
   print_size_classes(scene);
+  print_particle_requirements(scene, need);
   for (const std::string& reason : reasons) fmt::print("# {}\n", reason);
 }
 
