@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace polybed::dem {
@@ -19,6 +19,7 @@ struct Contacts {
   std::vector<Pair> pairs;
   std::size_t inner = 0;               ///< pairs at the beginning of the list that need no ghost
   std::vector<std::int32_t> touching;  ///< pairs in contact (or within the reach of cohesion), rising
+  std::vector<std::int32_t> touched;   ///< those that did at the force before
   std::vector<double> memory;          ///< memory_size numbers of each pair; zero of pairs that do not touch
   int memory_size = 0;
 
@@ -27,11 +28,16 @@ struct Contacts {
     return memory.data() + std::ptrdiff_t(pair) * memory_size;
   }
 
-  /// Forgets the memory of pairs that touched (`before`, rising) and do so no longer.
-  void forget_parted(std::span<const std::int32_t> before) {
+  /// Before a force finds what touches: nothing yet.
+  void begin_touching() {
+    std::swap(touched, touching);
+    touching.clear();
+  }
+  /// After it: forgets the memory of pairs that have parted.
+  void forget_parted() {
     if (memory_size == 0) return;
     auto now = touching.begin();
-    for (const std::int32_t pair : before) {
+    for (const std::int32_t pair : touched) {
       while (now != touching.end() && *now < pair) ++now;
       if (now == touching.end() || *now != pair) std::fill_n(memory_of(pair), memory_size, 0.0);
     }

@@ -60,7 +60,6 @@ class PairForces {
   Ledger* ledger_ = nullptr;  ///< absent: energies are not counted
   ContactBatch batch_;
   alignas(64) ContactBatch::Row counted_ = {};  ///< by the ledger: 1, or 0 of pairs that another rank counts
-  std::vector<std::int32_t> before_;
   PairTrouble trouble_;
   std::uint64_t pair_checks_ = 0, contact_steps_ = 0;
 };
