@@ -15,6 +15,11 @@ namespace polybed::closures {
 /// -2 pi W R* in contact (overlap >= 0), else 0.
 [[nodiscard]] inline double dmt_force(double pull_off, double overlap) { return overlap >= 0 ? -pull_off : 0; }
 
+/// -2 pi W R* delta, J, in contact: potential energy of the pull, 0 at the touch and before.
+[[nodiscard]] inline double dmt_energy(double pull_off, double overlap) {
+  return overlap >= 0 ? -pull_off * overlap : 0;
+}
+
 /// W of a contact softened from E to E_soft that keeps the sticking speed: W (E_soft/E)^(2/5) (Gu, Ozel and Sundaresan,
 /// Powder Technol. 296, 2016, 17). For set-up; for JKR.
 [[nodiscard]] inline double softened_work_of_adhesion(double work_of_adhesion, double youngs_modulus,

@@ -46,6 +46,14 @@ struct JkrScales {
   return scales.force * cube * (cube / 6 - 1);
 }
 
+/// Integral of F over delta from where the neck breaks, J: (4/3) pi W R* delta_s [u^10/60 - u^7/6 + u^4/4 - 1/10]. At
+/// overlap 0 it is -1.4033 pi W R* delta_s = -7.09 (W^5 R*^4/E*^2)^(1/3), what it takes to part two surfaces that touch
+/// (Thornton and Ning, Powder Technol. 99, 1998, 154).
+[[nodiscard]] inline double jkr_energy(const JkrScales& scales, double overlap) {
+  const double u = jkr_size(overlap / scales.gap), cube = u * u * u, fourth = u * cube;
+  return 4.0 / 3 * scales.force * scales.gap * (fourth * (cube * (cube / 60 - 1.0 / 6) + 0.25) - 0.1);
+}
+
 /// a, m: radius of the contact.
 [[nodiscard]] inline double jkr_contact_radius(const JkrScales& scales, double overlap) {
   const double u = jkr_size(overlap / scales.gap);

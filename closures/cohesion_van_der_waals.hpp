@@ -13,6 +13,12 @@ namespace polybed::closures {
   return -hamaker * reduced_radius / (6 * z * z);
 }
 
+/// -A R*/(6 z), J: energy of the pull, 0 far apart; linear below the least gap, where the pull is constant.
+[[nodiscard]] inline double van_der_waals_energy(double hamaker, double reduced_radius, double least_gap, double gap) {
+  const double z = gap > least_gap ? gap : least_gap, within = gap > least_gap ? 0 : least_gap - gap;
+  return -hamaker * reduced_radius / (6 * z) * (1 + within / z);
+}
+
 /// A R*/(6 z_0^2), N: greatest pull.
 [[nodiscard]] inline double van_der_waals_pull_off(double hamaker, double reduced_radius, double least_gap) {
   return hamaker * reduced_radius / (6 * least_gap * least_gap);

@@ -38,6 +38,10 @@ struct TangentialForce {
           -stiffness * displacement.z - damping * velocity.z};
 }
 
+/// Share of S_t that acts in the first step of a contact in the laws that add up steps: the
+/// mean of a over it along xi proportional to the overlap, over a at its end.
+inline constexpr double first_step_share = 2.0 / 3;
+
 /// Force of the spring after one step of the law "mindlin", without dashpot: F - S_t v_t dt; when the contact shrinks F
 /// first falls by a_new/a_old, else a closed path of xi and overlap would give energy. Radii > 0; the first step of a
 /// contact is -(2/3) S_t v_t time_since_touch, the integral over it.

@@ -26,39 +26,6 @@ double surface(const Grid& column, const std::array<int, 3>& blocks) {
 /// First cell of block n when cells are dealt out evenly, the first blocks taking what is left over.
 int first_cell(int cells, int blocks, int n) { return n * (cells / blocks) + std::min(n, cells % blocks); }
 
-Box shifted(const Grid& block, int axis) {
-  Box box = axis < 0 ? owned_cells(block) : owned_faces(block, axis);
-  for (std::size_t d = 0; d < 3; ++d) {
-    box.lo[d] += block.before[d];
-    box.hi[d] += block.before[d];
-  }
-  return box;
-}
-
-std::vector<double> packed(const Grid& grid, const Box& box, const Field& field) {
-  std::vector<double> values;
-  for_each_row(grid, box, [&](Index b, Index e) { values.insert(values.end(), field.begin() + b, field.begin() + e); });
-  return values;
-}
-
-void unpack(const Grid& grid, const Box& box, const std::vector<double>& values, Field& field) {
-  const double* from = values.data();
-  for_each_row(grid, box, [&](Index b, Index e) {
-    std::copy(from, from + (e - b), field.begin() + b);
-    from += e - b;
-  });
-}
-
-/// The boxes of all ranks in the column, on the first.
-std::vector<Box> boxes_of_ranks(const Grid& block, int axis) {
-  const Box mine = shifted(block, axis);
-  std::vector<Box> all(is_first(block.ranks.get()) ? std::size_t(block.ranks->count()) : 0);
-  check_mpi(MPI_Gather(&mine, 6, MPI_INT, all.data(), 6, MPI_INT, 0, communicator(block)), "MPI_Gather");
-  return all;
-}
-
-int volume(const Box& box) { return (box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1]) * (box.hi[2] - box.lo[2]); }
-
 }  // namespace
 
 std::array<int, 3> choose_blocks(const Grid& column, int count) {
@@ -116,49 +83,6 @@ int neighbour_rank(const Grid& block, int axis, int side) {
   std::array<int, 3> there = block.block;
   there[a] = (there[a] + (side == 0 ? -1 : 1) + block.blocks[a]) % block.blocks[a];
   return there[0] + block.blocks[0] * (there[1] + block.blocks[1] * there[2]);
-}
-
-Field gather(const Grid& block, const Field& field, int axis) {
-  if (!block.ranks) return field;
-  const Grid column = whole_column(block);
-  const std::vector<double> mine = packed(block, axis < 0 ? owned_cells(block) : owned_faces(block, axis), field);
-  const std::vector<Box> boxes = boxes_of_ranks(block, axis);
-  if (!is_first(block.ranks.get())) {
-    check_mpi(MPI_Send(mine.data(), int(mine.size()), MPI_DOUBLE, 0, 0, communicator(block)), "MPI_Send");
-    return {};
-  }
-  Field whole = make_field(column);
-  unpack(column, boxes[0], mine, whole);
-  for (int rank = 1; rank < block.ranks->count(); ++rank) {
-    const Box& box = boxes[std::size_t(rank)];
-    std::vector<double> theirs(std::size_t(volume(box)));
-    check_mpi(MPI_Recv(theirs.data(), int(theirs.size()), MPI_DOUBLE, rank, 0, communicator(block), MPI_STATUS_IGNORE),
-              "MPI_Recv");
-    unpack(column, box, theirs, whole);
-  }
-  return whole;
-}
-
-void scatter(const Grid& block, const Field& whole, int axis, Field& field) {
-  const Box mine = axis < 0 ? owned_cells(block) : owned_faces(block, axis);
-  if (!block.ranks) {
-    unpack(block, mine, packed(block, mine, whole), field);
-    return;
-  }
-  const std::vector<Box> boxes = boxes_of_ranks(block, axis);
-  if (is_first(block.ranks.get())) {
-    const Grid column = whole_column(block);
-    unpack(block, mine, packed(column, boxes[0], whole), field);
-    for (int rank = 1; rank < block.ranks->count(); ++rank) {
-      const std::vector<double> theirs = packed(column, boxes[std::size_t(rank)], whole);
-      check_mpi(MPI_Send(theirs.data(), int(theirs.size()), MPI_DOUBLE, rank, 0, communicator(block)), "MPI_Send");
-    }
-    return;
-  }
-  std::vector<double> values(std::size_t(volume(mine)));
-  check_mpi(MPI_Recv(values.data(), int(values.size()), MPI_DOUBLE, 0, 0, communicator(block), MPI_STATUS_IGNORE),
-            "MPI_Recv");
-  unpack(block, mine, values, field);
 }
 
 Field cell_numbers(const Grid& block) {

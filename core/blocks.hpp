@@ -1,4 +1,4 @@
-// A column cut into blocks of cells, one for each rank: who owns what, and the whole put together again.
+// A column cut into blocks of cells, one for each rank: who owns what.
 #pragma once
 
 #include <array>
@@ -22,13 +22,6 @@ constexpr int least_block_cells = 4;
 
 /// The rank that owns the block next to this one, across joined sides too; -1 where the column ends.
 [[nodiscard]] int neighbour_rank(const Grid& block, int axis, int side);
-
-/// What the blocks own of a field on cells (axis -1) or on the faces of an axis, as a field of the whole column on the
-/// first rank; empty on the others. Collective.
-[[nodiscard]] Field gather(const Grid& block, const Field& field, int axis);
-
-/// The other way: each block's owned entries from the first rank's field of the whole column. Collective.
-void scatter(const Grid& block, const Field& whole, int axis, Field& field);
 
 /// Cells numbered from 0, rank by rank and row by row: the numbers of the owned cells, and of those next to them across
 /// block and joined sides; -1 beyond the column's ends. Collective.

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -91,21 +92,60 @@ void write_atomically(const fs::path& path, std::string_view text) {
   write_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-Bytes read_whole_file(const fs::path& path) {
+void put_in_place(const fs::path& written, const fs::path& path) {
+  Descriptor file(::open(written.c_str(), O_RDWR | O_CLOEXEC));
+  int reason = file.number() < 0 || ::fsync(file.number()) != 0 ? errno : file.close();
+  if (reason == 0 && std::rename(written.c_str(), path.c_str()) != 0) reason = errno;
+  if (reason != 0) {
+    ::unlink(written.c_str());
+    fail("write", path, reason);
+  }
+  flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void claim_file(const fs::path& path, std::span<const std::byte> bytes, std::size_t size) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.number() < 0) fail("write", path, errno);
+  int reason = ::posix_fallocate(file.number(), 0, off_t(std::max(size, bytes.size())));
+  if (reason == 0) reason = write_and_flush(file, bytes);
+  if (reason == 0) return;
+  ::unlink(path.c_str());
+  fail("write", path, reason);
+}
+
+void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+  const int reason = file.number() < 0 ? errno : write_and_flush(file, bytes);
+  if (reason != 0) fail("write", path, reason);
+}
+
+std::size_t bytes_of_file(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) fail("read", path, errno);
+  return std::size_t(status.st_size);
+}
+
+void read_pieces(const fs::path& path, std::size_t begin, std::size_t end,
+                 const std::function<void(std::span<const std::byte>)>& see) {
+  constexpr std::size_t piece = 1 << 20;
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0) fail("read", path, errno);
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0) fail("read", path, errno);
-  Bytes bytes(std::size_t(status.st_size));
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t count = ::read(file.number(), bytes.data() + done, bytes.size() - done);
+  Bytes bytes(std::min(piece, end - begin));
+  while (begin < end) {
+    const ssize_t count = ::pread(file.number(), bytes.data(), std::min(piece, end - begin), off_t(begin));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail("read", path, errno);
-    if (count == 0) break;
-    done += std::size_t(count);
+    if (count == 0) return;
+    see(std::span(bytes).first(std::size_t(count)));
+    begin += std::size_t(count);
   }
-  bytes.resize(done);
+}
+
+Bytes read_whole_file(const fs::path& path) {
+  Bytes bytes;
+  const std::size_t size = bytes_of_file(path);
+  bytes.reserve(size);
+  read_pieces(path, 0, size, [&](auto piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
   return bytes;
 }
 
@@ -115,9 +155,9 @@ void make_directories(const fs::path& path) {
   if (error) fail("make the directory", path, error.value());
 }
 
-std::uint64_t crc64(std::span<const std::byte> bytes) {
+std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before) {
   static constexpr auto table = crc_table();
-  std::uint64_t crc = ~std::uint64_t(0);
+  std::uint64_t crc = ~before;
   for (const std::byte b : bytes) crc = table[(crc ^ std::uint64_t(b)) & 0xFF] ^ (crc >> 8);
   return ~crc;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,24 @@ using Bytes = std::vector<std::byte>;
 void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_atomically(const std::filesystem::path& path, std::string_view text);
 
+/// Puts a file that lies complete under another name of the same directory in place: flushed to the disk, renamed. On
+/// failure the other name is removed and FileError thrown.
+void put_in_place(const std::filesystem::path& written, const std::filesystem::path& path);
+
+/// Makes a file of a size, its blocks on the disk claimed, that begins with `bytes`; the rest is zero. Throws
+/// FileError.
+void claim_file(const std::filesystem::path& path, std::span<const std::byte> bytes, std::size_t size);
+
+/// Appends to a file; throws FileError.
+void append_to_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// Bytes of a file; throws FileError if there is none.
+[[nodiscard]] std::size_t bytes_of_file(const std::filesystem::path& path);
+
+/// Calls `see` with the bytes of a file from `begin` to `end`, piece by piece: no memory for the whole is needed.
+void read_pieces(const std::filesystem::path& path, std::size_t begin, std::size_t end,
+                 const std::function<void(std::span<const std::byte>)>& see);
+
 /// All bytes of a file; throws FileError if it cannot be read.
 [[nodiscard]] Bytes read_whole_file(const std::filesystem::path& path);
 
@@ -27,6 +46,7 @@ void make_directories(const std::filesystem::path& path);
 
 /// CRC-64 (ECMA-182 polynomial, reflected, as in xz): differs for any two inputs of one length that differ in
 /// one run of up to 64 bits, and for others with probability 1 - 2^-64.
-[[nodiscard]] std::uint64_t crc64(std::span<const std::byte> bytes);
+/// \param before  the sum of what stands before these bytes
+[[nodiscard]] std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before = 0);
 
 }  // namespace polybed::core

@@ -6,6 +6,7 @@
 // the column ends, also the high ones.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -63,6 +64,10 @@ struct Grid {
   }
   /// Owned faces of an axis along that axis: one more than cells where the column ends.
   [[nodiscard]] int faces(int axis) const { return cells[std::size_t(axis)] + (ends(axis, 1) ? 1 : 0); }
+  /// The shortest side of a cell along an active axis, m.
+  [[nodiscard]] double smallest_spacing() const {
+    return *std::min_element(spacing.begin(), spacing.begin() + dimensions);
+  }
   [[nodiscard]] double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }
   /// Centre of cell i of an axis, m; the column begins at 0.
   [[nodiscard]] double centre(int axis, int i) const {

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/blocks.hpp"
 #include "core/error.hpp"
+#include "core/output_blocks.hpp"
 #include "core/output_xdmf.hpp"
+#include "core/ranks.hpp"
 
 namespace polybed::core {
 
@@ -24,11 +27,19 @@ std::vector<double> face_positions(const Grid& grid, int axis) {
   return faces;
 }
 
-/// Shape of a cell field in the file, slowest axis first.
-std::vector<std::size_t> cell_shape(const Grid& grid) {
-  std::vector<std::size_t> shape;
-  for (int axis = grid.dimensions - 1; axis >= 0; --axis) shape.push_back(std::size_t(grid.cells[std::size_t(axis)]));
-  return shape;
+/// A cell field of the column in the file, with as many components if there are any, and the block's place in it.
+Slab cell_slab(const Grid& grid, int components) {
+  Slab slab;
+  for (int axis = grid.dimensions - 1; axis >= 0; --axis) {
+    slab.shape.push_back(std::size_t(grid.column_cells(axis)));
+    slab.start.push_back(std::size_t(grid.before[std::size_t(axis)]));
+    slab.count.push_back(std::size_t(grid.cells[std::size_t(axis)]));
+  }
+  if (components == 0) return slab;
+  slab.shape.push_back(std::size_t(components));
+  slab.start.push_back(0);
+  slab.count.push_back(std::size_t(components));
+  return slab;
 }
 
 [[noreturn]] void refuse(const std::string& name, int component, std::array<int, 3> cell, double value, double time) {
@@ -36,9 +47,20 @@ std::vector<std::size_t> cell_shape(const Grid& grid) {
                                   component, value, cell[0], cell[1], cell[2], time));
 }
 
+/// Throws NumericsError if a value of an owned cell is not finite.
+void check_finite(const Grid& grid, const FieldName& field, const FieldValues& values, double time) {
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        for (std::size_t a = 0; a < values.size(); ++a) {
+          const double value = values[a][std::size_t(grid.index(i, j, k))];
+          if (!std::isfinite(value))
+            refuse(field.name, int(a), {i + grid.before[0], j + grid.before[1], k + grid.before[2]}, value, time);
+        }
+}
+
 /// The owned cells of padded components, component fastest; `components` of them, those missing are zero.
-std::vector<double> packed(const Grid& grid, const FieldName& field, const FieldValues& values, int components,
-                           double time) {
+std::vector<double> packed(const Grid& grid, const FieldValues& values, int components) {
   std::vector<double> out;
   out.reserve(grid.cell_count() * std::size_t(components));
   for (int k = 0; k < grid.cells[2]; ++k)
@@ -46,11 +68,18 @@ std::vector<double> packed(const Grid& grid, const FieldName& field, const Field
       for (int i = 0; i < grid.cells[0]; ++i)
         for (int a = 0; a < components; ++a) {
           const bool given = std::size_t(a) < values.size();
-          const double value = given ? values[std::size_t(a)][std::size_t(grid.index(i, j, k))] : 0;
-          if (!std::isfinite(value)) refuse(field.name, a, {i, j, k}, value, time);
-          out.push_back(value);
+          out.push_back(given ? values[std::size_t(a)][std::size_t(grid.index(i, j, k))] : 0);
         }
   return out;
+}
+
+BlockData cell_data(const Grid& grid, const std::string& name, const FieldValues& values, int components,
+                    Packing packing) {
+  BlockData data{name, cell_slab(grid, components), packing,
+                 [&grid, &values, components] { return packed(grid, values, std::max(components, 1)); },
+                 greatest_block(grid)};
+  if (components > 0) data.chunk.push_back(std::size_t(components));
+  return data;
 }
 
 void check_sizes(const Grid& grid, const FieldName& field, const FieldValues& values) {
@@ -60,23 +89,17 @@ void check_sizes(const Grid& grid, const FieldName& field, const FieldValues& va
   if (!fits) throw std::invalid_argument("the values of " + field.name + " do not fit the grid");
 }
 
-OutputFile step_content(const Grid& grid, std::span<const FieldName> names, std::span<const FieldValues> values,
-                        double time) {
-  OutputFile file(step_kind);
-  file.make_group("step");
-  file.set_attribute("step", "time_s", time);
+std::vector<BlockData> step_data(const Grid& grid, std::span<const FieldName> names,
+                                 std::span<const FieldValues> values) {
+  std::vector<BlockData> data;
   for (std::size_t n = 0; n < names.size(); ++n) {
     const FieldName& field = names[n];
-    check_sizes(grid, field, values[n]);
-    std::vector<std::size_t> shape = cell_shape(grid);
-    const int components = field.vector ? grid.dimensions : 1;
-    if (field.vector) shape.push_back(std::size_t(components));
-    file.write("step/" + field.name, shape, packed(grid, field, values[n], components, time), Packing::small);
-    if (!field.vector || grid.dimensions == 3) continue;
-    shape.back() = 3;
-    file.write("paraview/" + field.name, shape, packed(grid, field, values[n], 3, time), Packing::small_single);
+    data.push_back(
+        cell_data(grid, "step/" + field.name, values[n], field.vector ? grid.dimensions : 0, Packing::small));
+    if (field.vector && grid.dimensions == 2)
+      data.push_back(cell_data(grid, "paraview/" + field.name, values[n], 3, Packing::small_single));
   }
-  return file;
+  return data;
 }
 
 void write_grid(const Grid& grid, OutputFile& file) {
@@ -126,12 +149,47 @@ FaceField cell_means(const Grid& grid, const FaceField& faces) {
 
 FieldWriter::FieldWriter(const fs::path& run_directory, const Grid& grid, std::vector<FieldName> names,
                          std::optional<double> resume_time)
-    : grid_(grid), names_(std::move(names)), steps_(run_directory, fields_series(grid_, names_), resume_time) {}
+    : directory_(run_directory), grid_(grid), names_(std::move(names)) {
+  on_first(grid_.ranks.get(), [&] {
+    steps_.emplace(run_directory, fields_series(whole_column(grid_), names_), resume_time);
+    times_ = steps_->times();
+  });
+  double steps = double(times_.size());
+  take_from_first(grid_.ranks.get(), std::span(&steps, 1));
+  times_.resize(std::size_t(steps));
+  take_from_first(grid_.ranks.get(), times_);
+}
 
 void FieldWriter::write_step(double time_s, std::span<const FieldValues> values) {
   if (values.size() != names_.size())
     throw std::invalid_argument(fmt::format("{} fields for {} names", values.size(), names_.size()));
-  steps_.add(step_content(grid_, names_, values, time_s), time_s);
+  on_all(grid_.ranks.get(), [&] {
+    for (std::size_t n = 0; n < names_.size(); ++n) {
+      check_sizes(grid_, names_[n], values[n]);
+      check_finite(grid_, names_[n], values[n], time_s);
+    }
+  });
+  write_file(step_path(directory_, "fields", times_.size()), time_s, values);
+  times_.push_back(time_s);
+  on_first(grid_.ranks.get(), [&] { steps_->add_written(time_s); });
+}
+
+void FieldWriter::write_file(const fs::path& path, double time_s, std::span<const FieldValues> values) const {
+  const std::vector<BlockData> data = step_data(grid_, names_, values);
+  std::optional<OutputFile> file;
+  on_first(grid_.ranks.get(), [&] {
+    file.emplace(step_kind);
+    file->make_group("step");
+    file->set_attribute("step", "time_s", time_s);
+  });
+  if (!grid_.ranks) {
+    write_blocks(*file, data);
+    file->save(path);
+    return;
+  }
+  const fs::path temporary = path.string() + ".temporary";
+  write_blocks(temporary, file ? &*file : nullptr, data, *grid_.ranks);
+  on_first(grid_.ranks.get(), [&] { put_in_place(temporary, path); });
 }
 
 FieldReader::FieldReader(fs::path run_directory)

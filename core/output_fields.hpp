@@ -29,6 +29,7 @@ using FieldValues = std::vector<std::span<const double>>;
 /// zero. Across joined sides the first face stands for the last one; a block's last face must have been fetched.
 [[nodiscard]] FaceField cell_means(const Grid& grid, const FaceField& faces);
 
+/// On a grid that is a block of a column every rank has one and every function is collective: each writes its block.
 class FieldWriter {
  public:
   /// Starts fields.h5 in a run directory that exists, or goes on with it.
@@ -38,15 +39,19 @@ class FieldWriter {
               std::optional<double> resume_time = std::nullopt);
 
   /// Stores all fields at a time, in the order of the names; complete on the disk when it returns.
-  /// Throws NumericsError, and writes nothing, if a value is not finite: field and cell are in the text.
+  /// Throws NumericsError, and writes nothing, if a value is not finite: field and cell of the column are in the text.
   void write_step(double time_s, std::span<const FieldValues> values);
 
-  [[nodiscard]] const std::vector<double>& times() const { return steps_.times(); }
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
  private:
+  void write_file(const std::filesystem::path& path, double time_s, std::span<const FieldValues> values) const;
+
+  std::filesystem::path directory_;
   Grid grid_;
   std::vector<FieldName> names_;
-  StepWriter steps_;
+  std::optional<StepWriter> steps_;  ///< the first rank's
+  std::vector<double> times_;
 };
 
 /// Reads fields.h5 back.

@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/error.hpp"
 #include "core/output_hdf5.hpp"
@@ -69,7 +70,22 @@ struct OutputFile::State {
   }
 };
 
-OutputFile::OutputFile(const FileKind& kind) : state_(std::make_unique<State>()) {
+namespace {
+
+hid_t stored_type(Packing packing) { return packing == Packing::small_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
+
+/// Says which file it is that HDF5 cannot read.
+void readable(const std::filesystem::path& path, const std::function<void()>& reading) {
+  try {
+    reading();
+  } catch (const FileError& error) {
+    throw FileError(fmt::format("{} is damaged or no file of polybed: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const FileKind& kind) : OutputFile() {
   state_->open({});
   set_attribute("/", "filetype", kind.filetype);
   set_attribute("/", "version", std::int64_t(kind.version));
@@ -80,17 +96,30 @@ OutputFile::OutputFile(const std::filesystem::path& path, const FileKind& kind)
     : OutputFile(read_whole_file(path), path, kind) {}
 
 OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::path& path, const FileKind& kind)
-    : state_(std::make_unique<State>()) {
+    : OutputFile() {
   if (bytes.empty()) throw FileError(fmt::format("{} is empty", path.string()));
+  readable(path, [&] { state_->open(bytes); });
+  check_kind(path, kind);
+}
+
+OutputFile OutputFile::on_disk(const std::filesystem::path& path, const FileKind& kind) {
+  OutputFile file;
+  readable(path, [&] {
+    file.state_->file = checked("the file", [&] { return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT); });
+  });
+  file.check_kind(path, kind);
+  return file;
+}
+
+OutputFile::OutputFile() : state_(std::make_unique<State>()) {}
+
+void OutputFile::check_kind(const std::filesystem::path& path, const FileKind& kind) const {
   std::string filetype;
   double version = 0;
-  try {
-    state_->open(bytes);
+  readable(path, [&] {
     filetype = text_attribute("/", "filetype");
     version = attribute("/", "version");
-  } catch (const FileError& error) {
-    throw FileError(fmt::format("{} is damaged or no file of polybed: {}", path.string(), error.what()));
-  }
+  });
   if (filetype != kind.filetype || version != kind.version)
     throw FileError(fmt::format("{} is '{}' version {}; this program reads '{}' version {}", path.string(), filetype,
                                 version, kind.filetype, kind.version));
@@ -119,6 +148,13 @@ void OutputFile::write(const std::string& name, const std::vector<std::size_t>& 
 void OutputFile::write(const std::string& name, const std::vector<std::size_t>& shape,
                        std::span<const std::int32_t> values, Packing packing) {
   state_->write_data(name, shape, values, packing, H5T_STD_I32LE, H5T_NATIVE_INT32);
+}
+
+void OutputFile::make(const std::string& name, const std::vector<std::size_t>& shape, Packing packing,
+                      const std::vector<std::size_t>& chunk) {
+  const Handle space = simple_space(shape), properties = dataset_properties();
+  if (packing != Packing::plain) set_packing(properties, chunk_shape(chunk));
+  const Handle data = state_->make_dataset(name, stored_type(packing), space, properties);
 }
 
 void OutputFile::write(const std::string& name, std::int64_t value) {
@@ -229,6 +265,18 @@ std::vector<std::int64_t> OutputFile::read_integers(const std::string& name) con
   std::vector<std::int64_t> values(product(shape_of(data, name)));
   if (!values.empty())
     checked(name, [&] { return H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+  return values;
+}
+
+std::vector<std::size_t> OutputFile::shape(const std::string& name) const {
+  const Handle data = state_->dataset(name);
+  return shape_of(data, name);
+}
+
+std::vector<double> OutputFile::read(const std::string& name, const Slab& slab) const {
+  const Handle data = state_->dataset(name), source = simple_space(slab.count), place = place_of(slab, name);
+  std::vector<double> values(product(slab.count));
+  checked(name, [&] { return H5Dread(data, H5T_NATIVE_DOUBLE, source, place, H5P_DEFAULT, values.data()); });
   return values;
 }
 

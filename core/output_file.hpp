@@ -34,6 +34,14 @@ enum class Packing {
   small_single  ///< the same in single precision, for pictures
 };
 
+/// What one rank has of a dataset, slowest axis first.
+struct Slab {
+  std::vector<std::size_t> shape;         ///< of the dataset
+  std::vector<std::size_t> start, count;  ///< of the rank's part in it
+
+  bool operator==(const Slab&) const = default;
+};
+
 class OutputFile {
  public:
   /// A new, empty file that carries filetype, version and git_commit.
@@ -42,6 +50,8 @@ class OutputFile {
   OutputFile(const std::filesystem::path& path, const FileKind& kind);
   /// The same from bytes that have been read; `path` is for messages.
   OutputFile(std::span<const std::byte> bytes, const std::filesystem::path& path, const FileKind& kind);
+  /// Reads a file where it lies, without memory for the whole of it.
+  [[nodiscard]] static OutputFile on_disk(const std::filesystem::path& path, const FileKind& kind);
   ~OutputFile();
   OutputFile(OutputFile&&) noexcept;
   OutputFile& operator=(OutputFile&&) noexcept;
@@ -54,6 +64,10 @@ class OutputFile {
              Packing packing = Packing::plain);
   void write(const std::string& name, const std::vector<std::size_t>& shape, std::span<const std::int32_t> values,
              Packing packing = Packing::plain);
+  /// A dataset whose numbers are written later: core/output_blocks.hpp.
+  /// \param chunk  greatest piece that is packed as one
+  void make(const std::string& name, const std::vector<std::size_t>& shape, Packing packing,
+            const std::vector<std::size_t>& chunk);
   void write(const std::string& name, std::int64_t value);
   void write(const std::string& name, const std::string& text);
   void set_attribute(const std::string& object, const std::string& name, double value);
@@ -74,6 +88,9 @@ class OutputFile {
   [[nodiscard]] std::vector<std::string> names(const std::string& group) const;
   [[nodiscard]] DataSet read(const std::string& name) const;
   [[nodiscard]] std::vector<std::int64_t> read_integers(const std::string& name) const;
+  [[nodiscard]] std::vector<std::size_t> shape(const std::string& name) const;
+  /// A part of a dataset.
+  [[nodiscard]] std::vector<double> read(const std::string& name, const Slab& slab) const;
   [[nodiscard]] std::int64_t read_integer(const std::string& name) const;
   [[nodiscard]] std::string read_text(const std::string& name) const;
   [[nodiscard]] double attribute(const std::string& object, const std::string& name) const;
@@ -86,6 +103,9 @@ class OutputFile {
   void save(const std::filesystem::path& path) const;
 
  private:
+  OutputFile();
+  void check_kind(const std::filesystem::path& path, const FileKind& kind) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -1,5 +1,5 @@
 // What wraps HDF5's C interface: identifiers that release themselves, one check of every return value, and
-// the property lists in use. Only core/output_file.cpp includes it.
+// the property lists in use. Only core/output_file.cpp and core/output_blocks.cpp include it.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,9 +9,11 @@
 #include <functional>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/output_file.hpp"
 
 namespace polybed::core::hdf5 {
 
@@ -60,6 +62,11 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
+  /// Releases it now: for what can still fail then.
+  void close(const std::string& what) {
+    const hid_t id = std::exchange(id_, -1);
+    checked(what, [&] { return H5Idec_ref(id); });
+  }
 
  private:
   hid_t id_;
@@ -121,6 +128,19 @@ inline std::vector<std::size_t> shape_of(hid_t dataset, const std::string& name)
   std::vector<hsize_t> dims(std::size_t(rank), 0);
   checked(name, [&] { return H5Sget_simple_extent_dims(space, dims.data(), nullptr); });
   return {dims.begin(), dims.end()};
+}
+
+/// Where a rank's part lies in a dataset of the shape it names.
+inline Handle place_of(const Slab& slab, const std::string& name) {
+  const std::vector<hsize_t> dims(slab.shape.begin(), slab.shape.end()), start(slab.start.begin(), slab.start.end()),
+      count(slab.count.begin(), slab.count.end());
+  return Handle(name, [&] {
+    const hid_t space = H5Screate_simple(int(dims.size()), dims.data(), nullptr);
+    const bool none = std::find(count.begin(), count.end(), hsize_t(0)) != count.end();
+    const herr_t done = none ? H5Sselect_none(space)
+                             : H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+    return done < 0 ? hid_t(-1) : space;
+  });
 }
 
 inline std::size_t product(const std::vector<std::size_t>& shape) {

@@ -13,10 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path file_of_step(const fs::path& directory, const std::string& name, std::size_t step) {
-  return directory / name / (step_name(step) + ".h5");
-}
-
 void remove_quietly(const fs::path& path) {
   std::error_code ignored;  // a file that stays is linked by nothing
   fs::remove(path, ignored);
@@ -30,6 +26,10 @@ std::string step_name(std::size_t step) {
   return std::string(digits - std::min(digits, number.size()), '0') + number;
 }
 
+fs::path step_path(const fs::path& directory, const std::string& name, std::size_t step) {
+  return directory / name / (step_name(step) + ".h5");
+}
+
 StepWriter::StepWriter(fs::path run_directory, StepSeries series, std::optional<double> resume_time)
     : directory_(std::move(run_directory)), series_(std::move(series)) {
   make_directories(directory_ / series_.name);
@@ -41,7 +41,7 @@ StepWriter::StepWriter(fs::path run_directory, StepSeries series, std::optional<
 
 fs::path StepWriter::index_path() const { return directory_ / (series_.name + ".h5"); }
 
-fs::path StepWriter::step_path(std::size_t step) const { return file_of_step(directory_, series_.name, step); }
+fs::path StepWriter::path_of(std::size_t step) const { return step_path(directory_, series_.name, step); }
 
 void StepWriter::begin() {
   index_.emplace(series_.kind);
@@ -51,7 +51,7 @@ void StepWriter::begin() {
   if (!series_.count_name.empty()) index_->make_rows(series_.count_name, 0);
   remove_quietly(directory_ / (series_.name + ".xdmf"));
   index_->save(index_path());
-  for (std::size_t step = 0; fs::exists(step_path(step)); ++step) remove_quietly(step_path(step));
+  for (std::size_t step = 0; fs::exists(path_of(step)); ++step) remove_quietly(path_of(step));
 }
 
 void StepWriter::go_on(double resume_time) {
@@ -69,12 +69,16 @@ void StepWriter::go_on(double resume_time) {
     stored_.count = index_->read(series_.count_name).values;
   }
   write_description();
-  for (std::size_t step = kept; step < all; ++step) remove_quietly(step_path(step));
+  for (std::size_t step = kept; step < all; ++step) remove_quietly(path_of(step));
 }
 
 void StepWriter::add(const OutputFile& content, double time_s, std::size_t count) {
+  content.save(path_of(stored_.time.size()));
+  add_written(time_s, count);
+}
+
+void StepWriter::add_written(double time_s, std::size_t count) {
   const std::size_t step = stored_.time.size();
-  content.save(step_path(step));
   index_->link("step/" + step_name(step), series_.name + "/" + step_name(step) + ".h5", "/step");
   index_->append_row("time_s", std::span(&time_s, 1));
   stored_.time.push_back(time_s);
@@ -95,7 +99,7 @@ OutputFile open_step(const fs::path& run_directory, const std::string& name, std
   if (step >= steps)
     throw FileError(
         fmt::format("{} has {} steps, none numbered {}", (run_directory / (name + ".h5")).string(), steps, step));
-  return OutputFile(file_of_step(run_directory, name, step), kind);
+  return OutputFile(step_path(run_directory, name, step), kind);
 }
 
 }  // namespace polybed::core

@@ -46,6 +46,8 @@ class StepWriter {
   /// Stores a step, whose content is the group /step; complete on the disk when it returns.
   /// \param count  of this step, if the series counts something
   void add(const OutputFile& content, double time_s, std::size_t count = 0);
+  /// Takes up a step whose file, of step_path, is in place.
+  void add_written(double time_s, std::size_t count = 0);
 
   [[nodiscard]] const std::vector<double>& times() const { return stored_.time; }
 
@@ -54,13 +56,17 @@ class StepWriter {
   void go_on(double resume_time);
   void write_description() const;
   [[nodiscard]] std::filesystem::path index_path() const;
-  [[nodiscard]] std::filesystem::path step_path(std::size_t step) const;
+  [[nodiscard]] std::filesystem::path path_of(std::size_t step) const;
 
   std::filesystem::path directory_;
   StepSeries series_;
   std::optional<OutputFile> index_;
   StepTimes stored_;
 };
+
+/// Where the file of a step of a series lies.
+[[nodiscard]] std::filesystem::path step_path(const std::filesystem::path& run_directory, const std::string& name,
+                                              std::size_t step);
 
 /// The file of a step that a series holds; throws FileError if it has no such step.
 [[nodiscard]] OutputFile open_step(const std::filesystem::path& run_directory, const std::string& name,

@@ -109,35 +109,54 @@ void take_from_first(const Ranks* ranks, std::span<double> values) {
   check_mpi(MPI_Bcast(values.data(), int(values.size()), MPI_DOUBLE, 0, communicator(ranks)), "MPI_Bcast");
 }
 
-void on_first(const Ranks* ranks, const std::function<void()>& work) {
-  if (ranks == nullptr) return work();
+namespace {
+
+/// How work ended, in a form that another rank can be told.
+struct Ending {
   enum Outcome : int { fine, file, numerics, wrong_case, memory };
   int outcome = fine;
   std::string message;
-  const auto keep = [&](Outcome kind, const char* text) {
-    outcome = kind;
-    message = text;
-  };
-  if (is_first(ranks)) {
-    try {
-      work();
-    } catch (const NumericsError& error) {
-      keep(numerics, error.what());
-    } catch (const CaseError& error) {
-      keep(wrong_case, error.what());
-    } catch (const std::bad_alloc& error) {
-      keep(memory, error.what());
-    } catch (const std::exception& error) {
-      keep(file, error.what());
-    }
+};
+
+Ending ending_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const NumericsError& error) {
+    return {Ending::numerics, error.what()};
+  } catch (const CaseError& error) {
+    return {Ending::wrong_case, error.what()};
+  } catch (const std::bad_alloc& error) {
+    return {Ending::memory, error.what()};
+  } catch (const std::exception& error) {
+    return {Ending::file, error.what()};
   }
-  check_mpi(MPI_Bcast(&outcome, 1, MPI_INT, 0, communicator(ranks)), "MPI_Bcast");
-  if (outcome == fine) return;
-  message = broadcast(communicator(ranks), 0, ranks->rank(), message);
-  if (outcome == numerics) throw NumericsError(message);
-  if (outcome == wrong_case) throw CaseError(message);
-  if (outcome == memory) throw std::bad_alloc();
+  return {};
+}
+
+/// Throws on every rank what one has met.
+void share(const Ranks& ranks, int from, Ending ending) {
+  check_mpi(MPI_Bcast(&ending.outcome, 1, MPI_INT, from, communicator(&ranks)), "MPI_Bcast");
+  if (ending.outcome == Ending::fine) return;
+  const std::string message = broadcast(communicator(&ranks), from, ranks.rank(), ending.message);
+  if (ending.outcome == Ending::numerics) throw NumericsError(message);
+  if (ending.outcome == Ending::wrong_case) throw CaseError(message);
+  if (ending.outcome == Ending::memory) throw std::bad_alloc();
   throw FileError(message);
+}
+
+}  // namespace
+
+void on_first(const Ranks* ranks, const std::function<void()>& work) {
+  if (ranks == nullptr) return work();
+  share(*ranks, 0, is_first(ranks) ? ending_of(work) : Ending{});
+}
+
+void on_all(const Ranks* ranks, const std::function<void()>& work) {
+  if (ranks == nullptr) return work();
+  const Ending ending = ending_of(work);
+  int mine = ending.outcome == Ending::fine ? ranks->count() : ranks->rank(), lowest = 0;
+  check_mpi(MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, communicator(ranks)), "MPI_Allreduce");
+  if (lowest < ranks->count()) share(*ranks, lowest, ending);
 }
 
 }  // namespace polybed::core

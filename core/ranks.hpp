@@ -58,4 +58,8 @@ void take_from_first(const Ranks* ranks, std::span<double> values);
 /// so that none waits for one that has given up.
 void on_first(const Ranks* ranks, const std::function<void()>& work);
 
+/// Work that every rank does for itself: what the lowest rank that failed has thrown is thrown on every rank. The work
+/// may hold one collective call at its end, but none that a rank can miss by failing before it.
+void on_all(const Ranks* ranks, const std::function<void()>& work);
+
 }  // namespace polybed::core

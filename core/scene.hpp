@@ -101,7 +101,7 @@ struct Tfm {
   std::string integrator = "auto";  ///< auto | explicit | implicit
   double rtol = 1e-4;
   std::string flux = "limited";                  ///< limited | upwind: the volume fractions
-  std::string momentum = "upwind";               ///< convection of momentum
+  std::string momentum = "auto";                 ///< convection of momentum
   std::string solids_wall = "free_slip";         ///< free_slip | no_slip | johnson_jackson
   std::string max_packing = "auto";              ///< auto (from bed.solids_fraction) | a number
   double frictional_pressure = 0.05;             ///< Fr of p_f, Pa

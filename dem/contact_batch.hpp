@@ -20,7 +20,7 @@ namespace polybed::dem {
 
 struct ContactBatch {
   static constexpr int width = 64;  ///< contacts
-  static constexpr int most_memory = 16;
+  static constexpr int most_memory = 24;
   using Row = double[width];
 
   int count = 0;  ///< contacts; loops run to padded(), over finite values

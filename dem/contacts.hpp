@@ -33,14 +33,20 @@ struct Contacts {
     std::swap(touched, touching);
     touching.clear();
   }
-  /// After it: forgets the memory of pairs that have parted.
-  void forget_parted() {
-    if (memory_size == 0) return;
+  /// Calls for each of the pairs that touched at the force before and do so no longer.
+  template <class Act>
+  void each_parted(Act&& act) const {
     auto now = touching.begin();
     for (const std::int32_t pair : touched) {
       while (now != touching.end() && *now < pair) ++now;
-      if (now == touching.end() || *now != pair) std::fill_n(memory_of(pair), memory_size, 0.0);
+      if (now == touching.end() || *now != pair) act(pair);
     }
+  }
+
+  /// Forgets the memory of pairs that have parted.
+  void forget_parted() {
+    if (memory_size == 0) return;
+    each_parted([&](std::int32_t pair) { std::fill_n(memory_of(pair), memory_size, 0.0); });
   }
 };
 

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "dem/effects/cohesion.hpp"
 #include "dem/effects/contact_hertz.hpp"
 #include "dem/effects/contact_linear.hpp"
 #include "dem/effects/friction.hpp"
+#include "dem/effects/friction_partial_slip.hpp"
+#include "dem/effects/rolling.hpp"
 
 namespace polybed::dem {
 
@@ -16,12 +19,71 @@ std::string law_of(const core::Scene& scene, const std::string& role) {
   return found == scene.effects.end() ? "none" : found->second;
 }
 
-std::unique_ptr<TangentialLaw> make_tangential(const core::Scene& scene, const Materials& materials) {
-  if (law_of(scene, "contact") == "hertz") return nullptr;
-  if (law_of(scene, "contact") == "linear")
-    return std::make_unique<SpringFriction>(materials, scene.dem.normal_stiffness.value(), scene.dem.tangential_ratio);
-  if (scene.dem.tangential == "mindlin") return std::make_unique<MindlinFriction>(materials);
-  return std::make_unique<SpringFriction>(materials);
+std::unique_ptr<NormalLaw> make_normal(const core::Scene& scene, const Materials& materials,
+                                       const std::string& contact) {
+  if (contact == "none")
+    throw core::CaseError("effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear");
+  if (contact != "linear") return std::make_unique<HertzContact>(materials, scene.dem.tail);
+  if (!scene.dem.normal_stiffness)
+    throw core::CaseError("dem.normal_stiffness: effects.contact = \"linear\" needs it, as in \"1000 N/m\"");
+  return std::make_unique<LinearContact>(materials, *scene.dem.normal_stiffness, scene.dem.tail);
+}
+
+std::unique_ptr<TangentialLaw> make_tangential(const core::Scene& scene, const Materials& materials,
+                                               const std::string& contact, int place) {
+  const std::string& law = scene.dem.tangential;
+  if (contact == "hertz") return nullptr;
+  if (contact == "linear") {
+    if (law == "mindlin" || law == "mindlin_deresiewicz")
+      throw core::CaseError("dem.tangential = \"" + law +
+                            "\" needs the radius of a contact, which effects.contact = \"linear\" has not: use "
+                            "hertz_mindlin, or dem.tangential = \"linear\"");
+    return std::make_unique<SpringFriction>(materials, scene.dem.normal_stiffness.value(), scene.dem.tangential_ratio,
+                                            place);
+  }
+  if (law == "linear")
+    throw core::CaseError(
+        "dem.tangential = \"linear\" is a share of dem.normal_stiffness: it goes with effects.contact = \"linear\"");
+  if (law == "mindlin") return std::make_unique<MindlinFriction>(materials, place);
+  if (law == "mindlin_deresiewicz") return std::make_unique<PartialSlipFriction>(materials, place);
+  return std::make_unique<SpringFriction>(materials, place);
+}
+
+std::unique_ptr<RollingLaw> make_rolling(const core::Scene& scene, const Materials& materials,
+                                         const std::string& contact, int place) {
+  const std::string law = law_of(scene, "rolling");
+  if (law == "none") return nullptr;
+  if (contact == "hertz")
+    throw core::CaseError("effects.rolling = \"" + law +
+                          "\" resists rotation, and with effects.contact = \"hertz\" nothing rotates: use "
+                          "hertz_mindlin or linear, or leave it out");
+  if (!(scene.dem.rolling_friction > 0))
+    throw core::CaseError("dem.rolling_friction: effects.rolling = \"" + law + "\" needs it, above 0");
+  if (law == "cdt") {
+    if (scene.dem.rolling_damping > 0)
+      throw core::CaseError("dem.rolling_damping: effects.rolling = \"cdt\" has no spring to damp; use epsd");
+    return std::make_unique<ConstantRolling>(materials, scene.dem.rolling_friction);
+  }
+  return std::make_unique<SpringRolling>(materials, scene.dem.rolling_friction, scene.dem.rolling_damping, place);
+}
+
+std::unique_ptr<CohesionLaw> make_cohesion(const core::Scene& scene, const Materials& materials,
+                                           const std::string& contact, int place) {
+  const std::string law = law_of(scene, "cohesion");
+  if (law == "none") return nullptr;
+  if (law == "van_der_waals") {
+    if (!(scene.dem.hamaker_constant > 0))
+      throw core::CaseError("dem.hamaker_constant: effects.cohesion = \"van_der_waals\" needs it, as in 1e-19");
+    return std::make_unique<VanDerWaalsCohesion>(materials, scene.dem.hamaker_constant, scene.dem.cohesion_gap);
+  }
+  if (!(scene.dem.cohesion_energy > 0))
+    throw core::CaseError("dem.cohesion_energy: effects.cohesion = \"" + law + "\" needs it, as in \"50 mJ/m2\"");
+  if (law == "dmt") return std::make_unique<DmtCohesion>(materials, scene.dem.cohesion_energy);
+  if (contact == "linear")
+    throw core::CaseError(
+        "effects.cohesion = \"jkr\" stands in place of Hertz' force, which effects.contact = \"linear\" has not: use "
+        "hertz_mindlin, hertz or dmt");
+  return std::make_unique<JkrCohesion>(materials, scene.dem.cohesion_energy, place);
 }
 
 }  // namespace
@@ -29,28 +91,38 @@ std::unique_ptr<TangentialLaw> make_tangential(const core::Scene& scene, const M
 PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials) {
   PairLaws laws;
   const std::string contact = law_of(scene, "contact");
-  if (contact == "none")
-    throw core::CaseError("effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear");
-  if (contact == "linear") {
-    if (!scene.dem.normal_stiffness)
-      throw core::CaseError("dem.normal_stiffness: effects.contact = \"linear\" needs it, as in \"1000 N/m\"");
-    laws.normal = std::make_unique<LinearContact>(materials, *scene.dem.normal_stiffness, scene.dem.tail);
-  } else {
-    laws.normal = std::make_unique<HertzContact>(materials, scene.dem.tail);
-  }
-  laws.tangential = make_tangential(scene, materials);
+  laws.normal = make_normal(scene, materials, contact);
+  laws.tangential = make_tangential(scene, materials, contact, 0);
+  laws.rolling = make_rolling(scene, materials, contact, laws.contact_memory());
+  laws.cohesion = make_cohesion(scene, materials, contact, laws.contact_memory());
   return laws;
 }
 
 std::vector<core::Role> roles() {
+  const std::string absent = "DEM only; reaches the TFM through the solids stress";
   return {{"contact",
            "dem",
            "Pair",
            "forces of touching particles",
-           "DEM only; reaches the TFM through the solids stress",
+           absent,
            {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential"},
             {"hertz", "Hertz's normal force alone: no friction, no rotation"},
-            {"linear", "linear springs, dem.normal_stiffness"}}}};
+            {"linear", "linear springs, dem.normal_stiffness"}}},
+          {"rolling",
+           "dem",
+           "Pair",
+           "moments that resist rolling, dem.rolling_friction",
+           absent,
+           {{"cdt", "constant moment mu_r R* F_n against the rolling, for contacts that move (Ai et al. 2011, A)"},
+            {"epsd", "spring of rotation capped at it, dem.rolling_damping, for heaps at rest (Ai et al. 2011, C)"}}},
+          {"cohesion",
+           "dem",
+           "Pair",
+           "attraction of particles that touch or nearly do",
+           absent,
+           {{"dmt", "constant pull 2 pi W R* in contact, hard small spheres, dem.cohesion_energy"},
+            {"jkr", "Johnson, Kendall and Roberts in place of Hertz, soft large spheres, dem.cohesion_energy"},
+            {"van_der_waals", "A R*/(6 z^2) across a gap, dem.hamaker_constant, dem.cohesion_gap"}}}};
 }
 
 }  // namespace polybed::dem

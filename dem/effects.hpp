@@ -49,15 +49,27 @@ class RollingLaw {
   virtual ~RollingLaw() = default;
   virtual void act(ContactBatch& batch, double dt) const = 0;
   [[nodiscard]] virtual int memory_size() const = 0;
+  /// Adds the energy in the springs of rotation, J.
+  virtual void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const = 0;
+  /// Stiffness of the spring of rotation, N m, where the normal one is a given, N/m; 0 without a spring.
+  [[nodiscard]] virtual double stiffness(int kind, double normal_stiffness) const = 0;
 };
 
-/// Slot Pair, attraction: adds to normal; may reach beyond contact.
+/// Slot Pair, attraction: adds to normal; may reach beyond contact. Friction and rolling do not feel it: their limits
+/// are those of the repulsion alone.
 class CohesionLaw {
  public:
   virtual ~CohesionLaw() = default;
   virtual void act(ContactBatch& batch) const = 0;
+  [[nodiscard]] virtual int memory_size() const = 0;
+  /// Adds the energy of the attraction, J; 0 far apart.
+  virtual void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const = 0;
+  /// Adds what the next act() loses, as when surfaces jump into contact, J.
+  virtual void add_loss(const ContactBatch& batch, ContactBatch::Row& lost) const = 0;
   /// m, beyond contact.
   [[nodiscard]] virtual double reach() const = 0;
+  /// Greatest attraction of any pair, N.
+  [[nodiscard]] virtual double pull_off() const = 0;
 };
 
 struct PairLaws {
@@ -67,12 +79,15 @@ struct PairLaws {
   std::unique_ptr<CohesionLaw> cohesion;
 
   [[nodiscard]] double reach() const { return cohesion ? cohesion->reach() : 0; }
-  [[nodiscard]] int memory_size() const {
+  /// Of what ends with the overlap, the first in a contact's memory.
+  [[nodiscard]] int contact_memory() const {
     return (tangential ? tangential->memory_size() : 0) + (rolling ? rolling->memory_size() : 0);
   }
+  [[nodiscard]] int memory_size() const { return contact_memory() + (cohesion ? cohesion->memory_size() : 0); }
 };
 
-/// The laws that a scene names; throws core::CaseError for one that is not known.
+/// The laws that a scene names; throws core::CaseError for what contradicts itself or lacks a number. Each law is given
+/// its place in the memory of a contact: friction's first, then rolling's, then cohesion's.
 [[nodiscard]] PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials);
 
 /// The roles that act in the particle model, with their laws.

@@ -4,35 +4,81 @@ namespace polybed::dem {
 
 namespace {
 
-/// Energy lost in each contact, in whole units; the memory moves on.
-POLYBED_ALL_VECTOR_WIDTHS std::int64_t count(ContactBatch& b, int m, const ContactBatch::Row& stored,
-                                             const ContactBatch::Row& counted, bool tangential, double dt,
-                                             double per_unit) {
-  std::int64_t sum = 0;
-  for (int c = 0; c < b.count; ++c) {
-    const double dashpot = b.normal[c] - b.elastic[c];
-    double lost = -0.5 * (b.memory[m][c] + dashpot) * b.speed[c] * dt;
-    b.memory[m][c] = dashpot;
-    if (tangential) {
-      double power = 0;
-      for (int k = 0; k < 3; ++k) {
-        power += (b.memory[m + 1 + k][c] + b.tangential[k][c]) * b.velocity[k][c];
-        b.memory[m + 1 + k][c] = b.tangential[k][c];
-      }
-      lost += -0.5 * power * dt - (stored[c] - b.memory[m + 4][c]);
-      b.memory[m + 4][c] = stored[c];
+using Row = ContactBatch::Row;
+
+/// Adds load . rate for the load of the last step, which the memory holds, and for that of now, which it takes.
+POLYBED_ALL_VECTOR_WIDTHS void add_power(ContactBatch& b, int m, const Row* load, const Row* rate, Row& before,
+                                         Row& now) {
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < b.padded(); ++c) {
+      before[c] += b.memory[m + k][c] * rate[k][c];
+      now[c] += load[k][c] * rate[k][c];
+      b.memory[m + k][c] = load[k][c];
     }
-    sum += std::int64_t(counted[c] * lost * per_unit);
+}
+
+/// Adds what a spring has gained since the last step, and what it holds.
+void add_stored(ContactBatch& b, int m, const Row& stored, Row& gained, Row& held) {
+  for (int c = 0; c < b.padded(); ++c) {
+    gained[c] += stored[c] - b.memory[m][c];
+    held[c] += stored[c];
+    b.memory[m][c] = stored[c];
   }
+}
+
+std::int64_t units_of(const Row& lost, const Row& counted, int count, double per_unit) {
+  std::int64_t sum = 0;
+  for (int c = 0; c < count; ++c) sum += std::int64_t(counted[c] * lost[c] * per_unit);
   return sum;
 }
 
 }  // namespace
 
-void Ledger::act(ContactBatch& batch, const ContactBatch::Row& counted, double dt) {
-  alignas(64) ContactBatch::Row stored = {};
-  if (laws_.tangential) laws_.tangential->energy(batch, stored);
-  units_ += count(batch, place_, stored, counted, laws_.tangential != nullptr, dt, unit_.per_unit);
+Ledger::Ledger(const PairLaws& laws, int place, bool synchronised, FixedPoint unit)
+    : laws_(laws), place_(place), synchronised_(synchronised), unit_(unit) {
+  // Force is a power of overlap, the same for all pairs: one overlap tells the share.
+  constexpr double overlap = 1e-6;
+  elastic_share_ = laws.normal->energy(0, overlap) / (laws.normal->force_at(0, overlap) * overlap);
+}
+
+void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
+  alignas(64) Row before = {}, now = {}, gained = {}, held = {}, stored = {}, lost = {};
+  Row &due = batch.memory[place_], &if_parted = batch.memory[place_ + 1];
+  for (int c = 0; c < batch.padded(); ++c) {
+    before[c] = due[c] * batch.speed[c];
+    now[c] = (batch.normal[c] - batch.elastic[c]) * batch.speed[c];
+  }
+  int place = place_ + 2;
+  if (laws_.tangential) {
+    add_power(batch, place, batch.tangential, batch.velocity, before, now);
+    laws_.tangential->energy(batch, stored);
+    add_stored(batch, place + 3, stored, gained, held);
+    place += 4;
+  }
+  if (laws_.rolling) {
+    alignas(64) Row spin[3], turned = {};
+    for (int k = 0; k < 3; ++k)
+      for (int c = 0; c < batch.padded(); ++c) spin[k][c] = batch.spin_i[k][c] - batch.spin_j[k][c];
+    add_power(batch, place, batch.moment, spin, before, now);
+    laws_.rolling->add_energy(batch, turned);
+    add_stored(batch, place + 3, turned, gained, held);
+  }
+  const double half = -0.5 * dt;
+  for (int c = 0; c < batch.padded(); ++c) {
+    lost[c] = (synchronised_ ? due[c] : half * before[c]) + half * now[c] - gained[c];
+    due[c] = synchronised_ ? half * now[c] : batch.normal[c] - batch.elastic[c];
+    const bool ended = batch.normal[c] == 0;
+    if_parted[c] = (ended ? elastic_share_ * batch.elastic[c] * batch.overlap[c] : half * now[c]) + held[c];
+  }
+  if (laws_.cohesion) laws_.cohesion->add_loss(batch, lost);
+  units_ += units_of(lost, counted, batch.count, unit_.per_unit);
+}
+
+void Ledger::part(const Contacts& contacts, std::size_t owned) {
+  contacts.each_parted([&](std::int32_t pair) {
+    if (std::size_t(contacts.pairs[std::size_t(pair)].first) < owned)
+      units_ += std::int64_t(contacts.memory_of(pair)[place_ + 1] * unit_.per_unit);
+  });
 }
 
 }  // namespace polybed::dem

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "closures/contact_pair.hpp"
+#include "closures/rolling_friction.hpp"
 #include "core/contact_properties.hpp"
 
 namespace polybed::dem {
@@ -23,9 +24,11 @@ Materials::Materials(const core::Scene& scene) : stride_(std::int32_t(scene.spec
       const closures::Elastic one{given.first.youngs_modulus, given.first.poisson_ratio};
       const closures::Elastic other{given.second.youngs_modulus, given.second.poisson_ratio};
       const double radius = wall ? infinity : species_[b].radius, mass = wall ? infinity : species_[b].mass;
+      const double inertia = wall ? infinity : species_[b].inertia;
       kinds_.push_back({closures::reduced_radius(a.radius, radius), closures::reduced_mass(a.mass, mass),
                         closures::reduced_youngs_modulus(one, other), closures::reduced_shear_modulus(one, other),
-                        given.restitution, given.friction, std::min(a.radius, radius)});
+                        given.restitution, given.friction, std::min(a.radius, radius),
+                        closures::rolling_inertia(a.inertia, a.mass, a.radius, inertia, mass, radius)});
     }
 }
 

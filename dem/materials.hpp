@@ -20,7 +20,8 @@ struct PairMaterial {
   double radius = 0, mass = 0;                   ///< reduced: R*, m*
   double youngs_modulus = 0, shear_modulus = 0;  ///< reduced: E*, G*, Pa
   double restitution = 0, friction = 0;
-  double least_radius = 0;  ///< of the two, m
+  double least_radius = 0;     ///< of the two, m
+  double rolling_inertia = 0;  ///< of rolling about the contact, kg m2
 };
 
 class Materials {

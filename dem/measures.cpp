@@ -21,11 +21,10 @@ class Sum {
   std::int64_t units_ = 0;
 };
 
-/// Elastic energy, number and extremes of contacts that this rank counts.
+/// Elastic energy and that of attraction, number and extremes of contacts that this rank counts.
 void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum& elastic, Totals& totals) {
   const Images images = model.images();
   ContactBatch batch;
-  alignas(64) ContactBatch::Row stored = {};
   const Particles& particles = model.particles();
   for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
     const ContactLoader& loader = model.pair_forces().loader();
@@ -33,12 +32,16 @@ void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum&
       loader.load_touching_walls(particles, contacts, begin, batch);
     else
       loader.load_touching_pairs(particles, contacts, images, begin, batch);
+    alignas(64) ContactBatch::Row stored = {};
     model.laws().normal->act(batch);
     if (model.laws().tangential) model.laws().tangential->energy(batch, stored);
+    if (model.laws().rolling) model.laws().rolling->add_energy(batch, stored);
+    if (model.laws().cohesion) model.laws().cohesion->add_energy(batch, stored);
     for (int c = 0; c < batch.count; ++c) {
       const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
-      if (std::size_t(pair.first) >= particles.owned || batch.overlap[c] <= 0) continue;
-      elastic.add(model.laws().normal->energy(batch.kind[c], batch.overlap[c]) + stored[c]);
+      if (std::size_t(pair.first) >= particles.owned) continue;
+      elastic.add(model.laws().normal->energy(batch.kind[c], std::max(batch.overlap[c], 0.0)) + stored[c]);
+      if (batch.overlap[c] <= 0) continue;  // held by cohesion across a gap
       ++totals.contacts;
       totals.max_overlap = std::max(totals.max_overlap, batch.overlap[c]);
       totals.max_force = std::max(totals.max_force, batch.elastic[c]);
@@ -68,9 +71,9 @@ Totals totals_of(const Model& model) {
   }
   add_contacts(model, model.pairs(), false, elastic, totals);
   add_contacts(model, model.walls(), true, elastic, totals);
-  std::array<std::int64_t, 9> sums{kinetic.units(),     rotational.units(),  potential.units(),
-                                   elastic.units(),     model.dissipated(),  totals.contacts,
-                                   momentum[0].units(), momentum[1].units(), momentum[2].units()};
+  std::array<std::int64_t, 10> sums{kinetic.units(),     rotational.units(), potential.units(),   elastic.units(),
+                                    model.dissipated(),  totals.contacts,    momentum[0].units(), momentum[1].units(),
+                                    momentum[2].units(), model.flow_work()};
   core::add_over_ranks(model.ranks(), sums);
   totals.kinetic = double(sums[0]) * unit.unit;
   totals.rotational = double(sums[1]) * unit.unit;
@@ -78,6 +81,7 @@ Totals totals_of(const Model& model) {
   totals.elastic = double(sums[3]) * unit.unit;
   totals.dissipated = double(sums[4]) * unit.unit;
   totals.contacts = sums[5];
+  totals.work = double(sums[9]) * unit.unit;
   for (std::size_t k = 0; k < 3; ++k) totals.momentum[k] = double(sums[6 + k]) * momentum_unit.unit;
   totals.max_overlap = core::greatest_of_ranks(model.ranks(), totals.max_overlap);
   totals.max_force = core::greatest_of_ranks(model.ranks(), totals.max_force);

@@ -9,10 +9,11 @@ namespace polybed::dem {
 
 /// Energies, J, and the rest that history.csv tells of contacts.
 struct Totals {
-  double kinetic = 0, rotational = 0, elastic = 0;
+  double kinetic = 0, rotational = 0;
+  double elastic = 0;         ///< of springs, and of attraction, which is negative
   double potential = 0;       ///< against the origin of the box; 0 without gravity
   double dissipated = 0;      ///< since the start, by dashpots and friction; 0 without dem.ledger
-  double work = 0;            ///< done by a sheared box's flow since the start
+  double work = 0;            ///< done by a sheared box's flow since the start; 0 without dem.ledger
   std::int64_t contacts = 0;  ///< of particles with each other and with walls
   double max_overlap = 0;     ///< m
   double max_force = 0;       ///< N, elastic

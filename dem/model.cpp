@@ -78,16 +78,21 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
-  pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size : 0);
+  pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
   const std::vector<Particle> all = std::move(start_);
   measure(all);
   place(all, std::vector<std::int32_t>(all.size(), 1));
   if (scene.dem.ledger) {
-    ledger_.emplace(laws_, laws_.memory_size(), energy_unit_);
+    ledger_.emplace(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
     pair_forces_.keep(*ledger_);
+  }
+  if (scene.dem.ledger && box_.shear_rate != 0) {
+    flow_work_.emplace(force_unit_, energy_unit_, limits_.dt);
+    pair_forces_.keep(*flow_work_);
   }
   rebuild();
   find_forces(0);
+  if (flow_work_) flow_work_->begin();
 }
 
 /// Units of the sums over all particles.
@@ -129,28 +134,29 @@ void Model::step(double stop) {
   }
   ++steps_;
   find_forces(limits_.dt);
-  bool stale_here = false;
+  if (flow_work_) flow_work_->end_step();
+  const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
+  Verlet::Drift drift;
   {
     const auto scope = timers_.scope("motion", timed_);
     verlet_.end(particles_);
-    stale_here = list_goes_stale();
+    drift = verlet_.next_drift(particles_, since);
   }
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
   // All that the ranks have to agree on in a step.
   constexpr double none = 0, stale = 1, trouble = 2;
-  const double here = pair_forces_.trouble().pair >= 0 ? trouble : (stale_here ? stale : none);
-  const double anywhere = core::greatest_of_ranks(ranks_.get(), here);
+  const bool troubled = pair_forces_.trouble().pair >= 0 || drift.hasty >= 0;
+  const double anywhere = core::greatest_of_ranks(
+      ranks_.get(), troubled ? trouble : (list_goes_stale(drift.distance, since) ? stale : none));
   stale_ = anywhere == stale;
-  if (anywhere == trouble) stop_in_trouble();
+  if (anywhere == trouble) stop_in_trouble(drift.hasty);
 }
 
-/// Whether the next step takes an owned particle too far for the list.
-bool Model::list_goes_stale() const {
-  const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
+/// Whether the next step takes an owned particle too far for the list. \param since  it was made, after that step, s
+bool Model::list_goes_stale(double drift, double since) const {
   // Two particles may approach from both sides, and a sheared box moves the one faster than the other.
   const double flow = std::abs(box_.shear_rate) * since * (materials_.greatest_diameter() + skin_ + laws_.reach());
-  const double moved = 2 * verlet_.next_moved(particles_, since) + flow;
-  return !(moved <= skin_);
+  return !(2 * drift + flow <= skin_);
 }
 
 void Model::wrap() {
@@ -159,7 +165,10 @@ void Model::wrap() {
     if (box_.periodic[1] && (x[1] < 0 || x[1] >= box_.size[1])) {
       const double boxes = std::floor(x[1] / box_.size[1]);
       x[0] -= boxes * box_.image_shift(clock());
-      particles_.motion[i].v[0] -= boxes * box_.image_speed();
+      Motion& m = particles_.motion[i];
+      const double from = m.v[0];
+      m.v[0] -= boxes * box_.image_speed();
+      if (flow_work_) flow_work_->wrapped(1 / m.inverse_mass, from, m.v[0]);
     }
     for (std::size_t k = 0; k < 3; ++k)
       if (box_.periodic[k]) {
@@ -230,21 +239,35 @@ void Model::find_forces(double dt) {
   pair_forces_.add_outer_pairs(particles_, pairs_, now, dt);
 }
 
-/// Collective: tells the deepest overlap of all ranks.
-void Model::stop_in_trouble() const {
+/// Collective: tells the deepest overlap of all ranks, or which particle is too fast. \param hasty  such a one, or -1
+void Model::stop_in_trouble(std::int64_t hasty) const {
+  const bool pair = pair_forces_.trouble().pair >= 0;
+  const double urgency = pair ? 1 + pair_forces_.trouble().excess : (hasty >= 0 ? 0.5 : 0);
+  const std::string text = pair ? trouble_of_pair() : (hasty >= 0 ? trouble_of_haste(hasty) : "");
+  throw core::NumericsError(core::said_by(ranks_.get(), core::rank_of_greatest(ranks_.get(), urgency), text));
+}
+
+std::string Model::trouble_of_pair() const {
   const PairTrouble& t = pair_forces_.trouble();
-  std::string text;
-  if (t.pair >= 0) {
-    const Contacts::Pair pair = (t.wall ? walls_ : pairs_).pairs[std::size_t(t.pair)];
-    const Place& at = particles_.place[std::size_t(pair.first)];
-    const std::string other = t.wall ? fmt::format("wall {}", pair.second)
-                                     : fmt::format("particle {}", particles_.id[std::size_t(pair.second)]);
-    text = fmt::format(
-        "t = {:.6g} s: particle {} and {} overlap by {:.3g} m more than dem.max_overlap allows, near ({:.6g}, {:.6g}, "
-        "{:.6g}) m; raise dem.youngs_modulus, state a higher dem.greatest_speed, or look at the start",
-        time(), particles_.id[std::size_t(pair.first)], other, t.excess, at.x[0], at.x[1], at.x[2]);
-  }
-  throw core::NumericsError(core::said_by(ranks_.get(), core::rank_of_greatest(ranks_.get(), t.excess), text));
+  const Contacts::Pair pair = (t.wall ? walls_ : pairs_).pairs[std::size_t(t.pair)];
+  const Place& at = particles_.place[std::size_t(pair.first)];
+  const std::string other = t.wall ? fmt::format("wall {}", pair.second)
+                                   : fmt::format("particle {}", particles_.id[std::size_t(pair.second)]);
+  return fmt::format(
+      "t = {:.6g} s: particle {} and {} overlap by {:.3g} m more than dem.max_overlap allows, near ({:.6g}, {:.6g}, "
+      "{:.6g}) m; raise dem.youngs_modulus, state a higher dem.greatest_speed, or look at the start",
+      time(), particles_.id[std::size_t(pair.first)], other, t.excess, at.x[0], at.x[1], at.x[2]);
+}
+
+std::string Model::trouble_of_haste(std::int64_t id) const {
+  const auto found = std::find(particles_.id.begin(), particles_.id.end(), id);
+  const auto i = std::size_t(found - particles_.id.begin());
+  const Vector &x = particles_.place[i].x, &v = particles_.motion[i].v;
+  return fmt::format(
+      "t = {:.6g} s: particle {} moves by more than a tenth of its diameter in one step of {:.3g} s, at {:.4g} m/s "
+      "near "
+      "({:.6g}, {:.6g}, {:.6g}) m; state a higher dem.greatest_speed, or look at the start",
+      time(), id, limits_.dt, std::hypot(v[0], v[1], v[2]), x[0], x[1], x[2]);
 }
 
 Work Model::work() const {

@@ -75,22 +75,30 @@ class Model : public core::Simulation {
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Collective.
   [[nodiscard]] Work work() const;
+  /// Units of the loads of a particle.
+  [[nodiscard]] FixedPoint unit_of_force() const { return force_unit_; }
+  [[nodiscard]] FixedPoint unit_of_torque() const { return torque_unit_; }
   /// Units of the energies and momenta of all particles together, and what this rank's contacts have dissipated.
   [[nodiscard]] FixedPoint energy_unit() const { return energy_unit_; }
   [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
   [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
+  /// In the same unit, what this rank's part of a sheared box has done on the particles.
+  [[nodiscard]] std::int64_t flow_work() const { return flow_work_ ? flow_work_->units() : 0; }
 
  private:
   void measure(const std::vector<Particle>& all);
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
-  [[nodiscard]] bool list_goes_stale() const;
+  [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
   void list_pairs(std::vector<KeptContact>& kept);
   void find_forces(double dt);
   /// Time that the state belongs to, s.
   [[nodiscard]] double clock() const { return double(steps_) * limits_.dt; }
-  [[noreturn]] void stop_in_trouble() const;
+  /// What the ranks of a step have to agree on: something is wrong; or the next drift is too far for the list.
+  [[noreturn]] void stop_in_trouble(std::int64_t hasty) const;
+  [[nodiscard]] std::string trouble_of_pair() const;
+  [[nodiscard]] std::string trouble_of_haste(std::int64_t id) const;
   void wrap();
 
   std::shared_ptr<const core::Ranks> ranks_;
@@ -102,7 +110,8 @@ class Model : public core::Simulation {
   StepLimits limits_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
-  std::optional<Ledger> ledger_;  ///< absent: energies lost are not counted
+  std::optional<Ledger> ledger_;       ///< absent: energies lost are not counted
+  std::optional<FlowWork> flow_work_;  ///< absent: the box is not sheared, or there is no ledger
   double skin_;
   Verlet verlet_;
   NeighbourSearch search_;

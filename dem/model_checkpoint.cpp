@@ -70,9 +70,13 @@ core::Checkpoint Model::checkpoint() const {
   checkpoint.integers["memory_size"] = pairs_.memory_size;
   checkpoint.numbers["dt"] = limits_.dt;
   checkpoint.numbers["time"] = reported_;
-  std::array<std::int64_t, 1> dissipated{this->dissipated()};
-  core::add_over_ranks(ranks_.get(), dissipated);
-  checkpoint.integers["dissipated"] = dissipated[0];
+  std::array<std::int64_t, 3> sums{dissipated(), flow_work(), flow_work_ ? flow_work_->due() : 0};
+  core::add_over_ranks(ranks_.get(), sums);
+  checkpoint.integers["dissipated"] = sums[0];
+  if (flow_work_) {
+    checkpoint.integers["flow_work"] = sums[1];
+    checkpoint.integers["flow_work_due"] = sums[2];
+  }
   return checkpoint;
 }
 
@@ -88,6 +92,11 @@ void Model::resume(const core::Checkpoint& checkpoint) {
       throw core::FileError("the checkpoint is of another law of contact or another time step");
   });
   if (ledger_) ledger_->set_units(core::is_first(ranks_.get()) ? checkpoint.integers.at("dissipated") : 0);
+  // Particles that were not sheared before begin without any work.
+  const auto first = [&](const char* key) {
+    return core::is_first(ranks_.get()) && checkpoint.integers.contains(key) ? checkpoint.integers.at(key) : 0;
+  };
+  if (flow_work_) flow_work_->set(first("flow_work"), first("flow_work_due"));
   core::take_from_first(ranks_.get(), head);
   particles.resize(std::size_t(head[0]));
   contacts.resize(std::size_t(head[1]));

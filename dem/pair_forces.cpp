@@ -39,6 +39,14 @@ POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
     }
 }
 
+/// Empties the first rows of the memory of pairs within the reach of cohesion that do not touch: a new contact has
+/// none.
+POLYBED_ALL_VECTOR_WIDTHS void forget_open(ContactBatch& b, int rows) {
+  const int n = b.padded();
+  for (int m = 0; m < rows; ++m)
+    for (int c = 0; c < n; ++c) b.memory[m][c] = b.overlap[c] > 0 ? b.memory[m][c] : 0;
+}
+
 /// Whether a contact is deeper than allowed, or its overlap is not a number.
 POLYBED_ALL_VECTOR_WIDTHS bool any_deeper(const ContactBatch& b, double max_overlap) {
   int deeper = 0;
@@ -78,6 +86,7 @@ void PairForces::act(double dt) {
   laws_.normal->act(batch_);
   if (laws_.tangential) laws_.tangential->act(batch_, dt);
   if (laws_.rolling) laws_.rolling->act(batch_, dt);
+  if (laws_.reach() > 0) forget_open(batch_, laws_.contact_memory());
   if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
   if (laws_.cohesion) laws_.cohesion->act(batch_);
   count_units(batch_, force_.per_unit, torque_.per_unit);
@@ -116,6 +125,7 @@ void PairForces::add_inner_pairs(Particles& particles, Contacts& contacts, const
 
 void PairForces::add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
   add_pairs(particles, contacts, images, contacts.inner, contacts.pairs.size(), dt);
+  if (ledger_ != nullptr) ledger_->part(contacts, particles.owned);
   contacts.forget_parted();
   pair_checks_ += contacts.pairs.size();
 }
@@ -126,6 +136,7 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Image
     p = loader_.find_pairs(particles, contacts, images, p, std::int32_t(end), batch_);
     loader_.load_pairs(particles, contacts, images, batch_);
     treat(particles, contacts, false, dt);
+    if (flow_work_ != nullptr) flow_work_->act(batch_, counted_, contacts, images);
     for (int c = 0; c < batch_.count; ++c) {
       add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
       add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
@@ -143,6 +154,7 @@ void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) 
     for (int c = 0; c < batch_.count; ++c)
       add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
   }
+  if (ledger_ != nullptr) ledger_->part(contacts, particles.owned);
   contacts.forget_parted();
   pair_checks_ += contacts.pairs.size();
 }

@@ -12,12 +12,14 @@ namespace polybed::dem {
 
 namespace {
 
-/// Contacts that a particle of the largest kind has room for among the smallest: its surface over the area that each
-/// takes, and those a fully packed monodisperse bed allows.
-double most_contacts(const Materials& materials) {
-  const double ratio = materials.greatest_diameter() / materials.least_diameter();
+/// Contacts that a particle has room for among partners of a radius: its surface over the area that each takes, and at
+/// least those a fully packed monodisperse bed allows.
+double most_contacts(double radius, double partner) {
+  const double ratio = radius / partner;
   return std::max(16.0, 4 * (ratio + 1) * (ratio + 1));
 }
+
+constexpr double most_walls = 3;  ///< that a particle touches at once
 
 }  // namespace
 
@@ -67,13 +69,25 @@ double greatest_speed(const core::Scene& scene, const Box& box, const std::vecto
 }
 
 FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws) {
+  const auto force = [&](int kind) {
+    const double overlap = scene.dem.max_overlap * 2 * materials.kinds()[std::size_t(kind)].least_radius;
+    return laws.normal->force_at(kind, overlap);
+  };
+  // Many fine ones push a coarse one with small forces each, few coarse ones with large: the sums are alike. Their
+  // most, not the largest force times the largest number, or a fine particle's torque drowns in the unit of a wide
+  // mixture.
   double most = 0;
-  for (std::size_t k = 0; k < materials.kinds().size(); ++k) {
-    const double overlap = scene.dem.max_overlap * 2 * materials.kinds()[k].least_radius;
-    most = std::max(most, laws.normal->force_at(int(k), overlap));
+  const auto& species = materials.species();
+  for (int i = 0; i < int(species.size()); ++i) {
+    double sum = most_walls * force(materials.wall_kind(i));
+    for (int j = 0; j < int(species.size()); ++j)
+      sum +=
+          most_contacts(species[std::size_t(i)].radius, species[std::size_t(j)].radius) * force(materials.kind(i, j));
+    most = std::max(most, sum);
   }
+  if (laws.cohesion) most = std::max(most, laws.cohesion->pull_off());
   // The dashpot and friction add to the elastic force, hardly more than it.
-  return FixedPoint::for_sums_of(4 * most, most_contacts(materials));
+  return FixedPoint::for_sums_of(4 * most, 1);
 }
 
 FixedPoint torque_unit(const FixedPoint& force, const Materials& materials) {

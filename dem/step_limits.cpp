@@ -18,6 +18,13 @@ namespace {
 /// the Rayleigh time suits one sphere, not dense contacts.
 constexpr double of_rayleigh = 0.2, of_stability = 0.2, of_diameter = 0.01;
 
+/// Limit of a spring of rotation, N m. Of two unequal bodies the inertia is taken too small.
+void add_rolling(const PairMaterial& pair, double stiffness, const std::string& name, std::vector<StepLimit>& all) {
+  if (!(stiffness > 0)) return;
+  const double inertia = closures::moment_of_inertia(pair.mass, pair.least_radius);
+  all.push_back({fmt::format("rolling of {}", name), closures::dense_spring_step(inertia, stiffness)});
+}
+
 /// Limits of one pair of materials.
 void add_pair(const core::Scene& scene, const Materials& materials, const PairLaws& laws, int kind,
               const std::string& name, double speed, bool synchronised, std::vector<StepLimit>& all) {
@@ -30,6 +37,9 @@ void add_pair(const core::Scene& scene, const Materials& materials, const PairLa
   all.push_back({fmt::format("damping of {}", name),
                  of_stability * (synchronised ? closures::step_limit_synchronised(omega, damping)
                                               : closures::step_limit_thesis(omega, damping))});
+  if (laws.rolling)
+    add_rolling(materials.kinds()[std::size_t(kind)],
+                laws.rolling->stiffness(kind, law.force_at(kind, overlap) / overlap), name, all);
 }
 
 }  // namespace
@@ -54,9 +64,11 @@ StepLimits step_limits(const core::Scene& scene, const Materials& materials, con
                speed, limits.synchronised, limits.all);
     }
     const core::ContactProperties own = core::contact_properties(scene, species[a].name, species[a].name);
-    limits.all.push_back({fmt::format("Rayleigh time of {}", species[a].name),
-                          of_rayleigh * closures::rayleigh_time(species[a].radius, species[a].density,
-                                                                own.first.youngs_modulus, own.first.poisson_ratio)});
+    const closures::Elastic material{own.first.youngs_modulus, own.first.poisson_ratio};
+    limits.all.push_back(
+        {fmt::format("Rayleigh time of {}", species[a].name),
+         of_rayleigh * closures::rayleigh_time(species[a].radius, species[a].density, closures::shear_modulus(material),
+                                               material.poisson_ratio)});
     limits.all.push_back({fmt::format("speed of {}", species[a].name), of_diameter * 2 * species[a].radius / speed});
   }
   std::stable_sort(limits.all.begin(), limits.all.end(),

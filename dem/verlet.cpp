@@ -59,17 +59,24 @@ void Verlet::mark(const Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) marked_[i] = particles.place[i].x;
 }
 
-double Verlet::next_moved(const Particles& particles, double time) const {
+Verlet::Drift Verlet::next_drift(const Particles& particles, double time) const {
+  // Beyond a tenth of a diameter in a step contacts are no longer resolved; far beyond, walls are jumped over.
+  constexpr double share_of_diameter = 0.1;
   double most = 0;
+  Drift drift;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Vector &x = particles.place[i].x, &from = marked_[i], v = kicked(particles, i, 0.5 * dt_);
-    const double dx = x[0] - from[0] + v[0] * dt_ - shear_rate_ * from[1] * time;
-    const double dy = x[1] - from[1] + v[1] * dt_, dz = x[2] - from[2] + v[2] * dt_;
+    const double sx = v[0] * dt_, sy = v[1] * dt_, sz = v[2] * dt_;
+    const double dx = x[0] - from[0] + sx - shear_rate_ * from[1] * time;
+    const double dy = x[1] - from[1] + sy, dz = x[2] - from[2] + sz;
     const double square = dx * dx + dy * dy + dz * dz;
     // Turned round, so that what is not a number counts as too far, and stays.
     most = square <= most || std::isnan(most) ? most : square;
+    const double against = sx - shear_rate_ * x[1] * dt_, allowed = 2 * share_of_diameter * particles.place[i].radius;
+    if (!(against * against + sy * sy + sz * sz <= allowed * allowed)) drift.hasty = particles.id[i];
   }
-  return std::sqrt(most);
+  drift.distance = std::sqrt(most);
+  return drift;
 }
 
 }  // namespace polybed::dem

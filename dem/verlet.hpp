@@ -1,6 +1,7 @@
 // Motion of the particles: velocity Verlet, T(2.11)-(2.13), in its two readings.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "dem/box.hpp"
@@ -25,11 +26,15 @@ class Verlet {
   [[nodiscard]] bool synchronised() const { return synchronised_; }
   [[nodiscard]] double dt() const { return dt_; }
 
-  /// Remembers where the owned particles are: what next_moved() counts from.
+  /// Remembers where the owned particles are: what next_drift() counts from.
   void mark(const Particles& particles);
-  /// Greatest distance from the marked place that an owned particle will have after the next begin(), against a sheared
-  /// box's own flow, m. \param time  from the mark to then, s
-  [[nodiscard]] double next_moved(const Particles& particles, double time) const;
+  /// What the next begin() will do.
+  struct Drift {
+    double distance = 0;      ///< greatest from the marked place, against a sheared box's own flow, m
+    std::int64_t hasty = -1;  ///< id of an owned particle that it will move by more than a tenth of its diameter
+  };
+  /// \param time  from the mark to then, s
+  [[nodiscard]] Drift next_drift(const Particles& particles, double time) const;
 
  private:
   [[nodiscard]] Vector kicked(const Particles& particles, std::size_t i, double time) const;

@@ -29,6 +29,12 @@ class Boundaries {
   [[nodiscard]] bool closed() const { return closed_; }
   [[nodiscard]] bool open() const { return open_; }
 
+  /// Whether this block reaches a wall for the solids at the low (0) or high (1) end of an axis: all ends of the column
+  /// are but the top of an open one, the distributor too.
+  [[nodiscard]] bool stops_solids(int axis, int side) const {
+    return grid_.ends(axis, side) && (axis != 1 || side == 0 || closed_);
+  }
+
   /// Ghosts of any number of fields, in one message to each neighbouring rank and axis. Collective, as are the others.
   void fill(std::span<const Ghosts> wanted) const;
 

@@ -113,7 +113,7 @@ void Compressible::set_pressure_rate(const Interphase& solids, FluidState& fluid
 }
 
 std::pair<double, Index> Compressible::sound_time(const FluidState& fluid) const {
-  const double h = *std::min_element(grid_.spacing.begin(), grid_.spacing.begin() + grid_.dimensions);
+  const double h = grid_.smallest_spacing();
   std::pair<double, Index> shortest{std::numeric_limits<double>::infinity(), 0};
   core::for_each_row(grid_, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {

@@ -8,12 +8,40 @@
 
 namespace polybed::fluid {
 
+/// Share of the mean weight of the four cells around an edge that transmits shear from the one pair of faces to the
+/// other: all of it.
+struct WholeEdge {
+  [[nodiscard]] double operator()(core::Index, core::Index, core::Index) const { return 1; }
+};
+
+/// The same of a phase whose fraction may end there: the harmonic mean of the fractions of the four cells over their
+/// plain mean, 16/(sum phi sum 1/phi). 1 where phi is even, to second order where it is smooth; 0 at a free surface,
+/// which is pulled at by nothing. Without it a face with hardly any mass hangs on dense neighbours, and its velocity,
+/// which costs nothing, shears them. Fractions not above 0 count as 0.
+class SolidEdge {
+ public:
+  explicit SolidEdge(const core::Field& fraction) : phi_(fraction.data()) {}
+  /// \param c  the cell above the edge along both axes  \param sa, sb  their strides
+  [[nodiscard]] double operator()(core::Index c, core::Index sa, core::Index sb) const {
+    return of(phi_[c], phi_[c - sa], phi_[c - sb], phi_[c - sa - sb]);
+  }
+  [[nodiscard]] static double of(double a, double b, double c, double d) {
+    if (!(a > 0 && b > 0 && c > 0 && d > 0)) return 0;
+    return 16 / (((a + b) + (c + d)) * ((1 / a + 1 / b) + (1 / c + 1 / d)));
+  }
+
+ private:
+  const double* phi_;
+};
+
 /// div(w (grad U + grad U^T - 2/3 div U I)) on the faces of one axis, w a weight on cells (eps of the fluid, phi_j
 /// times viscosity of a solid). Ghosts of both must be filled; fields must outlive this.
+template <class Edge = WholeEdge>
 class FaceStress {
  public:
-  FaceStress(const core::Grid& grid, const core::Field& weight, const core::FaceField& velocity, int axis)
-      : grid_(grid), axis_(axis), weight_(weight.data()) {
+  FaceStress(const core::Grid& grid, const core::Field& weight, const core::FaceField& velocity, int axis,
+             Edge edge = {})
+      : grid_(grid), axis_(axis), weight_(weight.data()), edge_(edge) {
     for (int d = 0; d < grid.dimensions; ++d) {
       u_[std::size_t(d)] = velocity[std::size_t(d)].data();
       stride_[std::size_t(d)] = grid.stride(d);
@@ -48,13 +76,15 @@ class FaceStress {
   [[nodiscard]] double shear(core::Index c, std::size_t b) const {
     const auto a = std::size_t(axis_);
     const core::Index sa = stride_[a], sb = stride_[b];
-    const double weight = 0.25 * ((weight_[c] + weight_[c - sa]) + (weight_[c - sb] + weight_[c - sa - sb]));
+    const double weight =
+        0.25 * edge_(c, sa, sb) * ((weight_[c] + weight_[c - sa]) + (weight_[c - sb] + weight_[c - sa - sb]));
     return weight * ((u_[a][c] - u_[a][c - sb]) * per_length_[b] + (u_[b][c] - u_[b][c - sa]) * per_length_[a]);
   }
 
   const core::Grid& grid_;
   int axis_;
   const double* weight_;
+  Edge edge_;
   std::array<const double*, 3> u_{};
   std::array<core::Index, 3> stride_{};
   std::array<double, 3> per_length_{};

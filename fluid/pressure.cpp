@@ -44,7 +44,7 @@ double divergence_error(const core::Grid& grid, const core::FaceField& flux, dou
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) worst = std::max(worst, std::abs(div[std::size_t(c)]));
   });
-  const double h = *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
+  const double h = grid.smallest_spacing();
   return core::greatest_of_ranks(grid, worst) * h / velocity_scale;
 }
 

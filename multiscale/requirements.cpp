@@ -71,10 +71,8 @@ double lifted_fraction(const core::Scene& scene, const tfm::Model& model) {
   if (!model.effects().solids_stress) return rest;
   constexpr double carried = 0.1;
   const tfm::Constants& constants = model.constants();
-  double density = 0;
-  for (std::size_t j = 0; j < constants.species(); ++j) density += constants.bed_share[j] * constants.density[j];
-  const double weight =
-      scene.bed.static_height * rest * std::abs(density - constants.fluid.density) * constants.gravity;
+  const double weight = scene.bed.static_height * rest *
+                        std::abs(tfm::mean_density(constants) - constants.fluid.density) * constants.gravity;
   return std::min(rest, model.effects().solids_stress->solids_fraction_at(carried * weight));
 }
 
@@ -191,6 +189,7 @@ Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std
   model = std::make_unique<tfm::Model>(part, timers);
   need.integrator = model->integrator_name();
   need.reason = model->integrator_reason();
+  need.momentum = model->momentum();
   need.unknowns = unknowns_of(scene, *model);
   estimate_steps(scene, *model, need);
   const std::optional<double> per_step = time_of_step(*model, scene.run.until, sample_steps);

@@ -37,6 +37,7 @@ struct BedState {
 struct Requirements {
   std::size_t unknowns = 0, cells = 0;
   std::string integrator, reason;
+  tfm::MomentumForm momentum;
   MemoryNeed memory;
   BedState rest;                 ///< settled, as bed.solids_fraction says
   BedState lifted;               ///< packed but carried by the fluid, as a bed is that starts packed

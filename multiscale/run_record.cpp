@@ -187,6 +187,7 @@ std::string run_record_text(const RunRecord& record) {
   Json json;
   begin_record(json, record.scene, "tfm", record.state, record.totals.ranks);
   json.member("integrator", model.integrator_name()).member("integrator_reason", model.integrator_reason());
+  json.member("momentum", model.momentum().name).member("momentum_reason", model.momentum().reason);
   json.member("unknowns", std::uint64_t(model.unknowns())).member("time_s", model.time());
   json.member("cpu_s", record.totals.cpu_seconds)
       .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);

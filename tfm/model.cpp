@@ -6,14 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "closures/drag_schiller_naumann.hpp"
-#include "closures/terminal_velocity.hpp"
 #include "core/blocks.hpp"
 #include "core/error.hpp"
 #include "core/ranks.hpp"
 #include "fluid/properties.hpp"
 #include "tfm/initial.hpp"
 #include "tfm/particle_scene.hpp"
+#include "tfm/step_estimate.hpp"
 
 namespace polybed::tfm {
 
@@ -48,24 +47,24 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   return constants;
 }
 
-/// The scale of velocities where nothing flows in.
-double greatest_terminal_velocity(const Constants& constants) {
-  double greatest = 0;
+/// Relaxation time of the slip of the smallest species in clear fluid, D^2 rho_j/(18 mu), over the time in which the
+/// inlet's fluid crosses the smallest cell: an explicit step is bound to the first, an implicit one to the second.
+double drag_over_crossing_time(const Constants& constants, double velocity) {
+  const double h = constants.grid.smallest_spacing();
+  double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < constants.species(); ++j)
-    greatest = std::max(greatest, closures::terminal_velocity(
-                                      [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; },
-                                      constants.diameter[j], constants.density[j] - constants.fluid.density,
-                                      constants.fluid.density, constants.fluid.viscosity, constants.gravity));
-  return greatest;
+    shortest = std::min(shortest, constants.diameter[j] * constants.diameter[j] * constants.density[j] /
+                                      (18 * constants.fluid.viscosity));
+  return shortest * velocity / h;
 }
 
 /// Absolute tolerance of the fractions.
 double fraction_tolerance(double rtol) { return 0.1 * rtol; }
 
-Discretisation make_discretisation(const core::Tfm& options) {
+Discretisation make_discretisation(const core::Tfm& options, const std::string& momentum) {
   const auto scheme = [](const std::string& name) { return name == "limited" ? Scheme::limited : Scheme::upwind; };
-  const bool conservative = options.momentum.rfind("conservative", 0) == 0;
-  const bool limited = options.momentum == "limited" || options.momentum == "conservative_limited";
+  const bool conservative = momentum.rfind("conservative", 0) == 0;
+  const bool limited = momentum == "limited" || momentum == "conservative_limited";
   return {scheme(options.flux), limited ? Scheme::limited : Scheme::upwind,
           options.solids_wall == "no_slip" ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip, conservative};
 }
@@ -75,9 +74,11 @@ Discretisation make_discretisation(const core::Tfm& options) {
 Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks)
     : timers_(timers),
       options_(scene.tfm),
+      momentum_(momentum_form(scene)),
       equations_(scene, make_constants(scene, ranks),
                  fluid::Boundaries(make_grid(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
-                 fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm), timers) {
+                 fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_.name),
+                 timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
   layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible(),
@@ -107,18 +108,6 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
 }
 
 Model::~Model() = default;
-
-/// Relaxation time of the slip of the smallest species in clear fluid, D^2 rho_j/(18 mu), over the time in which the
-/// inlet's fluid crosses the smallest cell: an explicit step is bound to the first, an implicit one to the second.
-double drag_over_crossing_time(const Constants& constants, double velocity) {
-  const core::Grid& grid = constants.grid;
-  const double h = *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
-  double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < constants.species(); ++j)
-    shortest = std::min(shortest, constants.diameter[j] * constants.diameter[j] * constants.density[j] /
-                                      (18 * constants.fluid.viscosity));
-  return shortest * velocity / h;
-}
 
 /// The rule rests on measured costs, docs/cost.md: a liquid bed of particles that are not too fine is cheaper with
 /// explicit steps, one that settles, is fine or is fluidised by a gas with implicit ones.

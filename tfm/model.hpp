@@ -15,6 +15,7 @@
 #include "tfm/compressible_problem.hpp"
 #include "tfm/explicit_problem.hpp"
 #include "tfm/implicit_problem.hpp"
+#include "tfm/momentum_form.hpp"
 #include "tfm/step_limits.hpp"
 
 namespace polybed::tfm {
@@ -44,15 +45,17 @@ class Model : public core::Simulation {
   void show(double t) override;
   void restart() override;
 
-  /// The whole column's state, to the bit, on the first rank; valid right after restart(). It does not depend on how
-  /// many ranks share the column.
+  /// The state of this rank's block, to the bit; valid right after restart(). What a file of it holds does not depend
+  /// on how many ranks share the column.
   [[nodiscard]] core::Checkpoint checkpoint() const;
+  /// How the arrays of a checkpoint that ranks share lie in those of the column.
+  [[nodiscard]] core::CheckpointParts checkpoint_parts() const;
   /// Keeps the state last accepted as the one that checkpoint() returns, after a step has failed.
   void keep_last_state();
   /// Begins at time 0 from the state of a checkpoint of the same species and grid.
   void start_from(const core::Checkpoint& checkpoint);
-  /// Takes a run up again from a checkpoint, of which only the first rank's is read, written by any number of ranks;
-  /// throws core::FileError if it is of another scene.
+  /// Takes a run up again from a checkpoint written by any number of ranks: each rank's own parts, the rest of the
+  /// first; throws core::FileError if it is of another scene.
   void resume(const core::Checkpoint& checkpoint);
 
   [[nodiscard]] const Constants& constants() const { return equations_.constants(); }
@@ -67,6 +70,7 @@ class Model : public core::Simulation {
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   [[nodiscard]] const std::string& integrator_name() const { return integrator_name_; }
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_reason_; }
+  [[nodiscard]] const MomentumForm& momentum() const { return momentum_; }
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
   [[nodiscard]] Work work() const;
   /// Of the whole column.
@@ -106,6 +110,7 @@ class Model : public core::Simulation {
 
   core::Timers& timers_;
   core::Tfm options_;
+  MomentumForm momentum_;
   RightHandSide equations_;
   std::string integrator_name_, integrator_reason_;
   StateLayout layout_;

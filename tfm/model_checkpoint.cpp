@@ -1,4 +1,4 @@
-// The model's state in a checkpoint: the whole column, whoever computes it.
+// The model's state in a checkpoint: each rank has its block of the column, whoever reads it next.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -10,24 +10,63 @@
 
 namespace polybed::tfm {
 
+namespace {
+
+/// What an integrator that is closed leaves behind; cells of first order are counted by the fallback, which goes on.
+constexpr std::array<std::pair<const char*, std::uint64_t Work::*>, 7> counts{
+    {{"steps", &Work::steps},
+     {"rejected_steps", &Work::rejected_steps},
+     {"right_hand_sides", &Work::right_hand_sides},
+     {"pressure_solves", &Work::pressure_solves},
+     {"pressure_iterations", &Work::pressure_iterations},
+     {"newton_iterations", &Work::newton_iterations},
+     {"krylov_iterations", &Work::krylov_iterations}}};
+
+}  // namespace
+
 StateLayout Model::layout_on(const core::Grid& grid) const {
   return {grid, int(constants().species()), layout_.with_pressure(), transports_temperature(),
           constants().openings.passages()};
 }
 
+namespace {
+
+/// Where a block's entry of the state lies in the column's.
+core::Slab slab_of(const core::Grid& grid, const StateLayout::Entry& entry, const StateLayout::Entry& column) {
+  core::Slab slab;
+  for (std::size_t axis = std::size_t(grid.dimensions); axis-- > 0;) {
+    slab.shape.push_back(std::size_t(column.box.hi[axis] - column.box.lo[axis]));
+    slab.count.push_back(std::size_t(entry.box.hi[axis] - entry.box.lo[axis]));
+    const bool any = slab.count.back() > 0;
+    slab.start.push_back(any ? std::size_t(grid.before[axis] + entry.box.lo[axis] - column.box.lo[axis]) : 0);
+  }
+  return slab;
+}
+
+}  // namespace
+
+core::CheckpointParts Model::checkpoint_parts() const {
+  core::CheckpointParts parts;
+  const StateLayout column = layout_of_column();
+  for (std::size_t n = 0; n < layout_.entries().size(); ++n) {
+    const StateLayout::Entry& entry = layout_.entries()[n];
+    parts["state"].push_back(
+        {layout_.name_of(entry, constants().name), slab_of(constants().grid, entry, column.entries()[n])});
+  }
+  const core::Slab cells = parts["state"].front().slab;  // a fraction comes first
+  parts["pressure"] = {{"cells", cells}};
+  parts["first_order_steps_left"] = {{"cells", cells}};
+  return parts;
+}
+
 core::Checkpoint Model::checkpoint() const {
   core::Checkpoint c;
-  const core::Grid& grid = constants().grid;
-  const StateLayout column = layout_of_column();
-  std::vector<double>& state = c.arrays["state"];
-  state.resize(core::is_first(grid.ranks.get()) ? column.size() : 0);
-  for (std::size_t n = 0; n < layout_.entries().size(); ++n) {
-    core::Field field = core::make_field(grid);
-    layout_.unpack(layout_.entries()[n], y_, field);
-    const core::Field whole = core::gather(grid, field, layout_.entries()[n].axis);
-    if (!state.empty()) column.pack(column.entries()[n], whole, state);
-  }
-  c.arrays["pressure"] = core::gather(grid, fields().fluid.pressure, -1);
+  c.arrays["state"] = y_;
+  c.arrays["pressure"].resize(constants().grid.cell_count());
+  layout_.pack(layout_.entries().front(), fields().fluid.pressure, c.arrays["pressure"]);
+  if (fallback_ && !fallback_->steps_left().empty()) c.arrays["first_order_steps_left"] = fallback_->steps_left();
+  for (auto& [name, parts] : checkpoint_parts())
+    if (c.arrays.contains(name)) c.parts[name] = std::move(parts);
   c.numbers["time_s"] = time_;
   c.numbers["step_s"] = step_;
   c.texts["integrator"] = integrator_name_;
@@ -37,43 +76,20 @@ core::Checkpoint Model::checkpoint() const {
     c.numbers["fluid_out_kg"] = account->out;
   }
   const Work done = work();
-  c.integers["steps"] = std::int64_t(done.steps);
-  c.integers["rejected_steps"] = std::int64_t(done.rejected_steps);
-  c.integers["right_hand_sides"] = std::int64_t(done.right_hand_sides);
-  c.integers["pressure_solves"] = std::int64_t(done.pressure_solves);
-  c.integers["pressure_iterations"] = std::int64_t(done.pressure_iterations);
-  c.integers["newton_iterations"] = std::int64_t(done.newton_iterations);
-  c.integers["krylov_iterations"] = std::int64_t(done.krylov_iterations);
+  for (const auto& [name, count] : counts) c.integers[name] = std::int64_t(done.*count);
   c.integers["first_order_cells"] = std::int64_t(done.first_order_cells);
-  if (fallback_ && !fallback_->steps_left().empty()) {
-    core::Field left = core::make_field(grid);
-    layout_.unpack(layout_.entries().front(), fallback_->steps_left(), left);
-    c.arrays["first_order_steps_left"] = core::gather(grid, left, -1);
-  }
   return c;
 }
 
 /// A run has flags only while a cell is out of bounds, so a checkpoint without them has none.
 void Model::restore_fallback(const core::Checkpoint& checkpoint) {
   if (!fallback_) return;
-  const core::Grid& grid = constants().grid;
-  const core::Ranks* ranks = grid.ranks.get();
-  const bool first = core::is_first(ranks);
   const auto flags = checkpoint.arrays.find("first_order_steps_left");
-  const auto count = checkpoint.integers.find("first_order_cells");
-  std::array<double, 2> known{};
-  if (first)
-    known = {flags == checkpoint.arrays.end() ? 0.0 : 1.0,
-             count == checkpoint.integers.end() ? 0.0 : double(count->second)};
-  core::take_from_first(ranks, known);
-  std::vector<double> left;
-  if (known[0] > 0) {
-    core::Field block = core::make_field(grid);
-    core::scatter(grid, first ? flags->second : core::Field(), -1, block);
-    left.resize(grid.cell_count());
-    layout_.pack(layout_.entries().front(), block, left);
-  }
-  fallback_->restore(layout_, std::move(left), std::uint64_t(known[1]));
+  const auto known = checkpoint.integers.find("first_order_cells");
+  double count = known == checkpoint.integers.end() ? 0.0 : double(known->second);
+  core::take_from_first(constants().grid.ranks.get(), std::span(&count, 1));
+  fallback_->restore(layout_, flags == checkpoint.arrays.end() ? std::vector<double>() : flags->second,
+                     std::uint64_t(count));
   use_fallback();
 }
 
@@ -94,28 +110,19 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
 void Model::check_fits(const core::Checkpoint& checkpoint) const {
   const auto state = checkpoint.arrays.find("state"), pressure = checkpoint.arrays.find("pressure");
   const auto kind = checkpoint.texts.find("integrator");
-  if (state == checkpoint.arrays.end() || state->second.size() != column_size_ || pressure == checkpoint.arrays.end() ||
-      pressure->second.size() != core::whole_column(constants().grid).padded_size() || kind == checkpoint.texts.end() ||
-      kind->second != integrator_name_)
+  const bool first = core::is_first(constants().grid.ranks.get());  // texts are the first rank's
+  if (state == checkpoint.arrays.end() || state->second.size() != y_.size() || pressure == checkpoint.arrays.end() ||
+      pressure->second.size() != constants().grid.cell_count() ||
+      (first && (kind == checkpoint.texts.end() || kind->second != integrator_name_)))
     throw core::FileError("the checkpoint belongs to another case: its unknowns or its integrator differ");
 }
 
 void Model::resume(const core::Checkpoint& checkpoint) {
-  const core::Grid& grid = constants().grid;
-  const core::Ranks* ranks = grid.ranks.get();
+  const core::Ranks* ranks = constants().grid.ranks.get();
   const bool first = core::is_first(ranks);
-  core::on_first(ranks, [&] { check_fits(checkpoint); });
-  const StateLayout column = layout_of_column();
-  core::Field whole = first ? core::make_field(core::whole_column(grid)) : core::Field(),
-              block = core::make_field(grid);
-  for (std::size_t n = 0; n < column.entries().size(); ++n) {
-    const StateLayout::Entry& entry = column.entries()[n];
-    if (first) column.unpack(entry, checkpoint.arrays.at("state"), whole);
-    core::scatter(grid, whole, entry.axis, block);
-    layout_.pack(layout_.entries()[n], block, y_);
-  }
-  if (first) whole = checkpoint.arrays.at("pressure");
-  core::scatter(grid, whole, -1, equations_.fields().fluid.pressure);
+  core::on_all(ranks, [&] { check_fits(checkpoint); });
+  y_ = checkpoint.arrays.at("state");
+  layout_.unpack(layout_.entries().front(), checkpoint.arrays.at("pressure"), equations_.fields().fluid.pressure);
   std::array<double, 2> clock{};
   if (first) clock = {checkpoint.numbers.at("time_s"), checkpoint.numbers.at("step_s")};
   core::take_from_first(ranks, clock);
@@ -130,18 +137,11 @@ void Model::resume(const core::Checkpoint& checkpoint) {
 /// Counts go on where they were; they are exact in a double up to 9e15.
 void Model::take_up_counts(const core::Checkpoint& checkpoint) {
   const core::Ranks* ranks = constants().grid.ranks.get();
-  const auto take = [&](std::uint64_t& count, const char* name) {
+  for (const auto& [name, count] : counts) {
     double value = core::is_first(ranks) ? double(checkpoint.integers.at(name)) : 0;
     core::take_from_first(ranks, std::span(&value, 1));
-    count = std::uint64_t(value);
-  };
-  take(before_.steps, "steps");
-  take(before_.rejected_steps, "rejected_steps");
-  take(before_.right_hand_sides, "right_hand_sides");
-  take(before_.pressure_solves, "pressure_solves");
-  take(before_.pressure_iterations, "pressure_iterations");
-  take(before_.newton_iterations, "newton_iterations");
-  take(before_.krylov_iterations, "krylov_iterations");
+    before_.*count = std::uint64_t(value);
+  }
 }
 
 }  // namespace polybed::tfm

@@ -91,17 +91,8 @@ std::FILE* open_steps(const std::filesystem::path& path, std::optional<double> r
 
 namespace {
 
-std::vector<const core::Field*> components(const core::Grid& grid, const core::FaceField& u) {
-  std::vector<const core::Field*> list;
-  for (int axis = 0; axis < grid.dimensions; ++axis) list.push_back(&u[std::size_t(axis)]);
-  return list;
-}
-
-/// Fields on cells put together on the first rank.
-std::vector<core::Field> gathered(const core::Grid& grid, const std::vector<const core::Field*>& fields) {
-  std::vector<core::Field> whole;
-  for (const core::Field* field : fields) whole.push_back(core::gather(grid, *field, -1));
-  return whole;
+core::FieldValues components(const core::Grid& grid, const core::FaceField& u) {
+  return {u.begin(), u.begin() + grid.dimensions};
 }
 
 }  // namespace
@@ -134,11 +125,11 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
     files_.reset(new Files{
         {directory, history_columns(constants, compressible), resume_time},
         {directory, slab_centres(constants.grid), profile_names(constants, knows_temperature(model)), resume_time},
-        {directory, core::whole_column(constants.grid), field_names(constants, knows_temperature(model), compressible),
-         resume_time},
         steps,
         {open_steps(steps, resume_time), std::fclose}});
   });
+  fields_.emplace(directory, constants.grid, field_names(constants, knows_temperature(model), compressible),
+                  resume_time);
 }
 
 void Observers::write_history(double time) {
@@ -197,29 +188,25 @@ void Observers::write_fields(double time) {
                                         fluid::lateral_mean(grid, fields.fluid.pressure)};
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));
-  std::vector<std::vector<core::Field>> whole{gathered(grid, {&fields.fluid.voidage}),
-                                              gathered(grid, {&fields.fluid.pressure}),
-                                              gathered(grid, components(grid, velocities[0]))};
+  std::vector<core::FieldValues> values{
+      {fields.fluid.voidage}, {fields.fluid.pressure}, components(grid, velocities[0])};
   for (std::size_t j = 0; j < fields.solids.species(); ++j) {
     rows.push_back(fluid::lateral_mean(grid, fields.solids.fraction[j]));
     rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));
-    whole.push_back(gathered(grid, {&fields.solids.fraction[j]}));
-    whole.push_back(gathered(grid, components(grid, velocities[j + 1])));
+    values.push_back({fields.solids.fraction[j]});
+    values.push_back(components(grid, velocities[j + 1]));
     if (!knows_temperature(model_)) continue;
     rows.push_back(fluid::lateral_mean(grid, fields.solids.temperature[j]));
-    whole.push_back(gathered(grid, {&fields.solids.temperature[j]}));
+    values.push_back({fields.solids.temperature[j]});
   }
+  core::Field total;
   if (model_.effects().compressible) {
-    const core::Field total = model_.effects().compressible->total_pressure(fields.fluid);
-    whole.push_back(gathered(grid, {&total}));
-    whole.push_back(gathered(grid, {&fields.fluid.compression.density}));
+    total = model_.effects().compressible->total_pressure(fields.fluid);
+    values.push_back({total});
+    values.push_back({fields.fluid.compression.density});
   }
-  std::vector<core::FieldValues> values;
-  for (const auto& field : whole) values.emplace_back(field.begin(), field.end());
-  core::on_first(ranks_, [&] {
-    files_->profiles.write_row(time, rows);
-    files_->fields.write_step(time, values);
-  });
+  core::on_first(ranks_, [&] { files_->profiles.write_row(time, rows); });
+  fields_->write_step(time, values);
 }
 
 void Observers::log_step() {

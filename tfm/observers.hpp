@@ -51,7 +51,6 @@ class Observers {
   struct Files {
     core::HistoryWriter history;
     core::ProfileWriter profiles;
-    core::FieldWriter fields;
     std::filesystem::path steps_path;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> steps;
   };
@@ -65,6 +64,7 @@ class Observers {
   fluid::Drifts drifts_;
   LeastWellPosed least_well_posed_;
   std::unique_ptr<Files> files_;
+  std::optional<core::FieldWriter> fields_;  ///< every rank writes its block
   double bed_height_ = 0, force_balance_ = 0;
 };
 

@@ -14,7 +14,8 @@ namespace {
 /// The rate of strain of one velocity at cell centres.
 class Strain {
  public:
-  Strain(const core::Grid& grid, const core::FaceField& velocity) : grid_(grid) {
+  Strain(const core::Grid& grid, const core::FaceField& velocity, const core::Field& fraction)
+      : grid_(grid), share_(fraction) {
     for (std::size_t d = 0; d < std::size_t(grid.dimensions); ++d) {
       u_[d] = velocity[d].data();
       stride_[d] = grid.stride(int(d));
@@ -38,14 +39,15 @@ class Strain {
   }
 
  private:
-  /// (du_a/dx_b + du_b/dx_a)^2 on the edge below the faces c of both axes.
+  /// (du_a/dx_b + du_b/dx_a)^2 on the edge below the faces c of both axes, as far as the edge transmits shear.
   [[nodiscard]] double edge(Index c, std::size_t a, std::size_t b) const {
     const double rate =
         (u_[a][c] - u_[a][c - stride_[b]]) * per_length_[b] + (u_[b][c] - u_[b][c - stride_[a]]) * per_length_[a];
-    return rate * rate;
+    return share_(c, stride_[a], stride_[b]) * rate * rate;
   }
 
   const core::Grid& grid_;
+  fluid::SolidEdge share_;
   std::array<const double*, 3> u_{};
   std::array<Index, 3> stride_{};
   std::array<double, 3> per_length_{};
@@ -55,7 +57,7 @@ class Strain {
 
 void strain_rates(const Constants& constants, Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
-    const Strain strain(constants.grid, fields.solids.velocity[j]);
+    const Strain strain(constants.grid, fields.solids.velocity[j], fields.solids.fraction[j]);
     double* out = fields.stress.strain[j].data();
     core::for_each_row(constants.grid, [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) out[c] = strain.squared(c);
@@ -70,7 +72,7 @@ void add_solids_viscosity(const Constants& constants, const fluid::Boundaries& b
     const core::Field& phi = fields.solids.fraction[j];
     for (std::size_t c = 0; c < weight.size(); ++c) weight[c] = std::max(phi[c], 0.0) * fields.stress.viscosity[c];
     for (int axis = 0; axis < grid.dimensions; ++axis) {
-      const fluid::FaceStress stress(grid, weight, fields.solids.velocity[j], axis);
+      const fluid::FaceStress stress(grid, weight, fields.solids.velocity[j], axis, fluid::SolidEdge(phi));
       const Index s = grid.stride(axis);
       double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
       const double per_density = 1 / constants.density[j], floor = diffusion_floor(constants, j);

@@ -1,5 +1,6 @@
 // The deviatoric stress of the solids on the staggered grid: div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) with
 // T_j = (mu_s/phi)(grad U_j + grad U_j^T - 2/3 div U_j I): the viscosity, like the pressure, is shared by volume.
+// Shear is transmitted where there are solids on both sides (fluid::SolidEdge).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace polybed::tfm {
 }
 
 /// Fills stress.strain with 2 D':D' of each species in the owned cells, 1/s2; gamma^2 in simple shear. Shear is the
-/// mean of the squares on the edges around, so that a ripple from cell to cell is seen.
+/// mean of the squares on the edges around, so that a ripple from cell to cell is seen, each as far as the edge
+/// transmits shear: the viscosity times it is what the viscous force takes from the mean motion.
 void strain_rates(const Constants&, Fields&);
 
 /// Adds the viscous force per mass of each species. Ghosts of stress.viscosity and of the velocities must be filled.

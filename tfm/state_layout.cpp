@@ -57,34 +57,35 @@ void StateLayout::pack(const fluid::Interphase& solids, const fluid::FluidState&
   for (const Entry& entry : entries_) pack(entry, field_of(entry, solids, fluid), y);
 }
 
-std::string StateLayout::describe(std::size_t index, const std::vector<std::string>& species) const {
+std::string StateLayout::name_of(const Entry& entry, const std::vector<std::string>& species) {
   static constexpr const char* axis_name[] = {"x", "y", "z"};
+  const auto of_species = [&](const char* symbol) {
+    return fmt::format("{}_{}", symbol, species.at(std::size_t(entry.species)));
+  };
+  switch (entry.kind) {
+    case Kind::fraction:
+      return of_species("phi");
+    case Kind::velocity:
+      return fmt::format("{}.{}", of_species("u"), axis_name[entry.axis]);
+    case Kind::flux:
+      return fmt::format("flux.{}", axis_name[entry.axis]);
+    case Kind::temperature:
+      return of_species("theta");
+    case Kind::passed:
+      return fmt::format("{}.{}", of_species("passed"), entry.box.lo[1] == 0 ? "bottom" : "top");
+    case Kind::pressure:
+      break;
+  }
+  return "pressure";
+}
+
+std::string StateLayout::describe(std::size_t index, const std::vector<std::string>& species) const {
   for (const Entry& entry : entries_) {
     if (index >= entry.begin + entry.size) continue;
     const auto nx = std::size_t(entry.box.hi[0] - entry.box.lo[0]);
     const auto ny = std::size_t(entry.box.hi[1] - entry.box.lo[1]);
     const std::size_t local = index - entry.begin;
-    std::string name;
-    switch (entry.kind) {
-      case Kind::fraction:
-        name = "phi_" + species.at(std::size_t(entry.species));
-        break;
-      case Kind::velocity:
-        name = fmt::format("u_{}.{}", species.at(std::size_t(entry.species)), axis_name[entry.axis]);
-        break;
-      case Kind::flux:
-        name = fmt::format("flux.{}", axis_name[entry.axis]);
-        break;
-      case Kind::temperature:
-        name = "theta_" + species.at(std::size_t(entry.species));
-        break;
-      case Kind::passed:
-        name = "passed_" + species.at(std::size_t(entry.species));
-        break;
-      case Kind::pressure:
-        name = "pressure";
-        break;
-    }
+    const std::string name = name_of(entry, species);
     const auto before = [&](std::size_t axis) { return std::size_t(grid_.before[axis]); };
     const std::size_t i = before(0) + local % nx, j = before(1) + local / nx % ny, k = before(2) + local / nx / ny;
     return grid_.dimensions == 2 ? fmt::format("{} ({}, {})", name, i, j)

@@ -42,6 +42,8 @@ class StateLayout {
   /// Copies one padded field to its place in a state vector.
   void pack(const Entry& entry, const core::Field& field, std::span<double> y) const;
 
+  /// Name of a field of the state: "phi_fine", "u_fine.x", "passed_fine.top".
+  [[nodiscard]] static std::string name_of(const Entry& entry, const std::vector<std::string>& species);
   /// Name of the field and the cell or face of the column that an entry of the state belongs to, for messages.
   [[nodiscard]] std::string describe(std::size_t index, const std::vector<std::string>& species) const;
 

@@ -16,24 +16,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-double smallest_cell(const core::Grid& grid) {
-  return *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
-}
-
-double mean_density(const Constants& constants) {
-  return std::inner_product(constants.density.begin(), constants.density.end(), constants.bed_share.begin(), 0.0);
-}
-
-double fastest_fall(const Constants& constants) {
-  double fastest = 0;
-  for (std::size_t j = 0; j < constants.species(); ++j)
-    fastest = std::max(fastest, std::abs(closures::terminal_velocity(
-                                    [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; },
-                                    constants.diameter[j], constants.density[j] - constants.fluid.density,
-                                    constants.fluid.density, constants.fluid.viscosity, constants.gravity)));
-  return fastest;
-}
-
 /// 1/s: the slip of the fastest species relaxes while all of them drag the fluid along.
 double drag_rate(const Constants& constants, const std::string& name, const UniformBed& bed) {
   const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
@@ -60,6 +42,22 @@ double stress_slope(const StressEffect& stress, double solids_fraction) {
 
 }  // namespace
 
+double mean_density(const Constants& constants) {
+  return std::inner_product(constants.density.begin(), constants.density.end(), constants.bed_share.begin(), 0.0);
+}
+
+double terminal_velocity(const Constants& constants, std::size_t species) {
+  return closures::terminal_velocity([](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; },
+                                     constants.diameter[species], constants.density[species] - constants.fluid.density,
+                                     constants.fluid.density, constants.fluid.viscosity, constants.gravity);
+}
+
+double greatest_terminal_velocity(const Constants& constants) {
+  double greatest = 0;
+  for (std::size_t j = 0; j < constants.species(); ++j) greatest = std::max(greatest, terminal_velocity(constants, j));
+  return greatest;
+}
+
 double expanded_fraction(const Constants& constants, const std::string& name, double velocity, double packed) {
   const double excess = (mean_density(constants) - constants.fluid.density) * constants.gravity;
   if (!(excess > 0)) return 0;
@@ -84,9 +82,9 @@ double expanded_fraction(const Constants& constants, const std::string& name, do
 
 std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Constants& constants, const Effects& effects,
                                           const UniformBed& bed) {
-  const double h = smallest_cell(constants.grid);
+  const double h = constants.grid.smallest_spacing();
   const auto scale = [](double rate) { return rate > 0 ? 1 / rate : infinite; };
-  const double speed = std::max(bed.velocity / (1 - bed.solids_fraction), fastest_fall(constants));
+  const double speed = std::max(bed.velocity / (1 - bed.solids_fraction), greatest_terminal_velocity(constants));
   std::vector<TimeScale> scales{{"convection", scale(speed / h), 0}};
   if (const auto named = scene.effects.find("drag"); effects.drag && named != scene.effects.end())
     scales.push_back({"drag", scale(drag_rate(constants, named->second, bed)), 0});
@@ -110,7 +108,7 @@ double explicit_step(const std::vector<TimeScale>& scales) {
 
 double implicit_step(const Constants& constants, double velocity, double rtol) {
   constexpr double share = 0.5, measured_at = 1e-3;
-  const double h = smallest_cell(constants.grid);
+  const double h = constants.grid.smallest_spacing();
   const double pull = constants.gravity * std::abs(1 - constants.fluid.density / mean_density(constants));
   const double rate = std::abs(velocity) / h + std::sqrt(pull / h);
   return rate > 0 ? share / rate * std::cbrt(rtol / measured_at) : infinite;

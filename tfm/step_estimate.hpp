@@ -10,6 +10,14 @@
 
 namespace polybed::tfm {
 
+/// Mean density of the solids of the whole bed, kg/m3.
+[[nodiscard]] double mean_density(const Constants& constants);
+
+/// Terminal velocity, m/s >= 0, of a lone particle of a species with Schiller and Naumann's drag, and the greatest of
+/// all.
+[[nodiscard]] double terminal_velocity(const Constants& constants, std::size_t species);
+[[nodiscard]] double greatest_terminal_velocity(const Constants& constants);
+
 /// A bed that is the same everywhere and at rest.
 struct UniformBed {
   double solids_fraction;  ///< phi, of the composition of the whole bed
@@ -27,12 +35,12 @@ struct UniformBed {
 /// The scales that time_scales() finds in cells, of a uniform bed: convection with the fluid's velocity between the
 /// particles and the terminal velocity of the fastest species; drag of every species, relaxing with the fluid; elastic
 /// waves of the solids and their bulk viscosity with the slope of the solids pressure at phi; the fluid's viscosity.
-/// Off means absent. Of a bed that starts packed they are those of its fields at the start to a tenth; later the flow
-/// within the bed decides.
+/// Off means absent. Of a bed that starts packed they are those of its fields at the start to a thousandth; later the
+/// flow within the bed decides.
 [[nodiscard]] std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Constants& constants,
                                                         const Effects& effects, const UniformBed& bed);
 
-/// The step that the explicit integrator is expected to take: a share of the shortest scale, m. Measured, docs/cost.md.
+/// The step that the explicit integrator is expected to take: a share of the shortest scale, s. Measured, docs/cost.md.
 [[nodiscard]] double explicit_step(const std::vector<TimeScale>& scales);
 
 /// The step that the implicit integrator is expected to take at a tolerance: its error test follows the slower of

@@ -40,7 +40,7 @@ double courant_rate(const core::Grid& grid, const core::FaceField& velocity, Ind
 
 std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity) {
   const core::Grid& grid = constants.grid;
-  const double h = *std::min_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
+  const double h = grid.smallest_spacing();
   FastestRate convection, acoustics, damping, drag, viscous, temperature;
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {

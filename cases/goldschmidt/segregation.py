@@ -4,7 +4,8 @@
     cases/goldschmidt/segregation.py runs/segregation -o segregation.png
 
 s = (S - 1)/(S_max - 1), S = height of the centre of the fine over that of the coarse, S_max = (2 - x)/(1 - x) with x the share
-of the fine in the volume of the solids: that of two pure layers of one packing. Goldschmidt et al. (2003).
+of the fine in the volume of the solids: that of two pure layers of one packing, x and 1 - x thick, by hand. The definition is
+remembered as that of Goldschmidt et al. (2003), which is not held here and of which no copy was found.
 """
 import argparse
 import sys

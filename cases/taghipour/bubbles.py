@@ -27,12 +27,16 @@ LEAST_CELLS = 6
 
 
 def darton(excess, height):
-    """Bubble diameter, m, over a porous plate: 0.54 (U - u_mf)^0.4 h^0.8 g^-0.2. Darton et al. (1977), eq. 8, A_0 = 0."""
+    """Bubble diameter, m, over a porous plate: 0.54 (U - u_mf)^0.4 h^0.8 g^-0.2. Darton et al. (Trans. Inst. Chem. Engrs. 55,
+    1977, 274) with A_0 = 0. The paper is not held here; programs that cite it have 0.54 g^-0.2 (U - u_mf)^0.4 (h + 4 sqrt A_0)^0.8.
+    """
     return 0.54 * excess**0.4 * height**0.8 * GRAVITY**-0.2
 
 
 def davidson_harrison(diameter, excess):
-    """Velocity of bubbles in a bubbling bed, m/s: U - u_mf + 0.711 sqrt(g d). Davidson and Harrison (1963)."""
+    """Velocity of bubbles in a bubbling bed, m/s: U - u_mf + 0.711 sqrt(g d). Davidson and Harrison (1963), not held here:
+    as worked examples of the bubbling-bed model have it.
+    """
     return excess + 0.711 * np.sqrt(GRAVITY * diameter)
 
 

@@ -11,10 +11,10 @@ namespace polybed::dem {
 /// hdd: k_t = (2/3) 8 G* a; linear: a constant. Beyond mu F_n the force is cut and xi is what the spring then holds.
 class SpringFriction final : public TangentialLaw {
  public:
-  /// hdd.
-  explicit SpringFriction(const Materials& materials);
+  /// hdd. \param place  of its memory in a batch
+  SpringFriction(const Materials& materials, int place);
   /// Linear. \param normal_stiffness  k_n, N/m  \param ratio  k_t/k_n
-  SpringFriction(const Materials& materials, double normal_stiffness, double ratio);
+  SpringFriction(const Materials& materials, double normal_stiffness, double ratio, int place);
   void act(ContactBatch& batch, double dt) const override;
   [[nodiscard]] int memory_size() const override { return 3; }
   void energy(const ContactBatch& batch, ContactBatch::Row& stored) const override;
@@ -27,13 +27,14 @@ class SpringFriction final : public TangentialLaw {
     double dashpot;     ///< c_t/c_n
   };
   std::vector<Constants> constants_;
+  int place_;
 };
 
 /// F_t -= 8 G* a v_t dt with F_t as memory, cut in proportion to a when the overlap lessens, or the law would make
-/// energy; and a dashpot beside it.
+/// energy; and a dashpot beside it. The first step of a contact has the mean of a over it, (2/3) a.
 class MindlinFriction final : public TangentialLaw {
  public:
-  explicit MindlinFriction(const Materials& materials);
+  MindlinFriction(const Materials& materials, int place);
   void act(ContactBatch& batch, double dt) const override;
   [[nodiscard]] int memory_size() const override { return 4; }  ///< F_t and the last a
   void energy(const ContactBatch& batch, ContactBatch::Row& stored) const override;
@@ -43,6 +44,7 @@ class MindlinFriction final : public TangentialLaw {
     double friction, per_radius, dashpot;  ///< mu, 8 G*, c_t/c_n
   };
   std::vector<Constants> constants_;
+  int place_;
 };
 
 }  // namespace polybed::dem

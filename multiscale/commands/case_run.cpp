@@ -19,16 +19,17 @@ CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::
   options_.quiet = options_.quiet || !first_;
 }
 
-void CaseRun::prepare(const std::function<void(core::Checkpoint&)>& resume,
-                      const std::function<void(core::Checkpoint&)>& start_from) {
+void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& resume,
+                      const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& start_from) {
   core::Checkpoint checkpoint;
   const std::string word = "checkpoint:";
   if (options_.resume) {
     core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, scene_); });
-    resume(checkpoint);
+    resume(checkpoint, checkpoint_path(directory_));
   } else if (scene_.bed.start.starts_with(word)) {
-    core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(scene_.bed.start.substr(word.size())); });
-    start_from(checkpoint);
+    const std::filesystem::path path = scene_.bed.start.substr(word.size());
+    core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(path); });
+    start_from(checkpoint, path);
   }
   begin_ = simulation().time();
   if (!options_.resume) core::on_first(ranks_.get(), [&] { remove_checkpoints(directory_); });
@@ -64,7 +65,7 @@ void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
   add_case(state, scene_);
-  core::on_first(ranks_.get(), [&] { core::write_checkpoint(checkpoint_path(directory_), state); });
+  core::write_checkpoint(checkpoint_path(directory_), state, ranks_.get());
   record("running");
 }
 

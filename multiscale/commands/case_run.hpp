@@ -27,9 +27,10 @@ class CaseRun {
           std::shared_ptr<const core::Ranks> ranks);
 
   /// Takes up the run that --resume asks for, or the state of bed.start = "checkpoint:FILE", or begins anew.
-  /// Collective. \param resume  with the checkpoint, on the first rank that of the file  \param start_from  likewise
-  void prepare(const std::function<void(core::Checkpoint&)>& resume,
-               const std::function<void(core::Checkpoint&)>& start_from);
+  /// Collective. \param resume  with the checkpoint, on the first rank what the file says of all, and the file's path
+  /// \param start_from  likewise
+  void prepare(const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& resume,
+               const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& start_from);
 
   [[nodiscard]] virtual core::Simulation& simulation() = 0;
   [[nodiscard]] virtual std::vector<core::Observer> observers() = 0;

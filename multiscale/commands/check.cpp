@@ -6,17 +6,18 @@
 
 #include "closures/drag.hpp"
 #include "closures/mixture.hpp"
-#include "closures/terminal_velocity.hpp"
 #include "core/case_file.hpp"
 #include "core/json.hpp"
 #include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "multiscale/commands/options.hpp"
+#include "multiscale/particle_requirements.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "tfm/model.hpp"
 #include "tfm/particle_scene.hpp"
+#include "tfm/step_estimate.hpp"
 
 namespace polybed::multiscale {
 
@@ -82,9 +83,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
     const double excess = constants.density[j] - constants.fluid.density;
     derived.weight +=
         scene.bed.volume_share[j] * scene.bed.static_height * scene.bed.solids_fraction * excess * constants.gravity;
-    derived.terminal.push_back(closures::terminal_velocity(
-        [](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; }, constants.diameter[j], excess,
-        constants.fluid.density, constants.fluid.viscosity, constants.gravity));
+    derived.terminal.push_back(tfm::terminal_velocity(constants, j));
     derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] / constants.fluid.viscosity);
     for (const Inflow& inflow : inflows)
       if (inflow.velocity > derived.terminal[j])
@@ -108,7 +107,9 @@ void write_state(core::Json& json, const char* name, const BedState& bed) {
 
 void write_requirements(core::Json& json, const Requirements& need) {
   constexpr double mega = 1e-6;
-  json.member("integrator", need.integrator).member("unknowns", std::uint64_t(need.unknowns));
+  json.member("integrator", need.integrator)
+      .member("momentum", need.momentum.name)
+      .member("unknowns", std::uint64_t(need.unknowns));
   json.member("cells", std::uint64_t(need.cells)).member("memory_MB", mega * need.memory.total());
   json.key("memory").begin_object().member("state_MB", mega * need.memory.state);
   json.member("fields_MB", mega * need.memory.fields).member("solver_MB", mega * need.memory.solver);
@@ -145,6 +146,7 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
   constexpr double mega = 1e-6;
   const MemoryNeed& m = need.memory;
   fmt::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, need.integrator, need.reason);
+  fmt::print("# convection of momentum {} ({})\n", need.momentum.name, need.momentum.reason);
   fmt::print("# memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
              mega * m.total(), mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
   fmt::print("# time scales of the bed, from the case alone:\n");
@@ -174,12 +176,14 @@ void print_size_classes(const core::Scene& scene) {
   }
 }
 
-/// The case alone: what it will need is known of the two-fluid model only.
+/// A case that only the particle model runs: what it will need there, and what keeps it from the continuum.
 void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons, bool as_json) {
   const std::string text = core::resolved_case(scene);
+  const ParticleRequirements need = particle_requirements_of(scene);
   if (as_json) {
     core::Json json;
     json.begin_object().member("case", text).member("hash", core::text_hash(text));
+    write_particle_requirements(json, scene, need);
     write_size_classes(json, scene);
     json.key("notes").begin_array();
     for (const std::string& reason : reasons) json.value(reason);
@@ -189,6 +193,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   }
   fmt::print("{}\n", text);
   print_size_classes(scene);
+  print_particle_requirements(scene, need);
   for (const std::string& reason : reasons) fmt::print("# {}\n", reason);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/json.hpp"
 #include "dem/observers.hpp"
+#include "dem/settling.hpp"
 #include "multiscale/commands/case_run.hpp"
 #include "multiscale/run_record.hpp"
 
@@ -23,13 +24,17 @@ class DemRun final : public CaseRun {
       : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks)), model_(scene_, timers_, ranks_) {
     std::optional<double> initial_energy;
     prepare(
-        [&](core::Checkpoint& checkpoint) {
+        [&](core::Checkpoint& checkpoint, const fs::path&) {
           model_.resume(checkpoint);
           std::array<double, 1> energy{first_ ? checkpoint.numbers["initial_energy"] : 0.0};
           core::take_from_first(ranks_.get(), energy);
           initial_energy = energy[0];
         },
-        [&](core::Checkpoint& checkpoint) { model_.start_from(checkpoint); });
+        [&](core::Checkpoint& checkpoint, const fs::path&) { model_.start_from(checkpoint); });
+    if (scene_.bed.start == "settled" && !options_.resume) {
+      if (!options_.quiet) fmt::print(stderr, "the bed settles first\n");
+      model_.start_from(dem::settled(scene_, model_.limits().dt, ranks_));
+    }
     const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
     observers_.emplace(model_, scene_, directory_, initial_energy, resume_time);
   }

@@ -22,12 +22,14 @@ class TfmRun final : public CaseRun {
     model_.show(model_.time());
     initial_mass_ = tfm::masses(model_);
     prepare(
-        [&](core::Checkpoint& checkpoint) {
+        [&](core::Checkpoint& checkpoint, const fs::path& path) {
           if (first_) initial_mass_ = checkpoint.arrays.at("initial_mass");
+          read_fields(path, checkpoint);
           model_.resume(checkpoint);
           core::take_from_first(ranks_.get(), initial_mass_);
         },
-        [&](core::Checkpoint& checkpoint) {
+        [&](core::Checkpoint& checkpoint, const fs::path& path) {
+          read_fields(path, checkpoint);
           model_.start_from(checkpoint);
           model_.show(0);
           initial_mass_ = tfm::masses(model_);
@@ -37,6 +39,11 @@ class TfmRun final : public CaseRun {
   }
 
  private:
+  /// Every rank reads its block.
+  void read_fields(const fs::path& path, core::Checkpoint& checkpoint) const {
+    core::on_all(ranks_.get(), [&] { core::read_parts(path, model_.checkpoint_parts(), checkpoint); });
+  }
+
   core::Simulation& simulation() override { return model_; }
   std::vector<double> kinks() override { return model_.kinks(); }
   void keep_last_state() override { model_.keep_last_state(); }
@@ -91,6 +98,7 @@ class TfmRun final : public CaseRun {
                work.krylov_iterations);
     fmt::print(stderr, "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
                simulated, simulated > 0 ? cpu / simulated : 0.0, model_.integrator_name(), model_.integrator_reason());
+    fmt::print(stderr, "convection of momentum: {} ({})\n", model_.momentum().name, model_.momentum().reason);
     for (const fluid::WorstInvariant& w : observers_->invariants().worst())
       fmt::print(stderr, "{}: worst {:.2e}, limit {:.0e}{}\n", w.name, w.value, w.limit,
                  w.value > w.limit ? "  <-- exceeded" : "");

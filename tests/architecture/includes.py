@@ -17,11 +17,11 @@ MAY_USE = {
 LIBRARIES = {
     r"(arkode|ida|nvector|sundials|sunlinsol|sunmatrix)/": r"core/integrator(_vector)?\.[ch]pp",
     r"_?HYPRE": r"core/(linear_solver\w*\.cpp|hypre_rows\.[ch]pp)",
-    r"hdf5": r"core/output_(file\.cpp|hdf5\.hpp)",
+    r"hdf5": r"core/output_((file|blocks)\.cpp|hdf5\.hpp)",
     r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
     r"CLI/": r"multiscale/main\.cpp",
     r"mpi\.h": r"(core/mpi\.hpp|multiscale/main\.cpp)",
-    r"core/mpi\.hpp": r"core/(ranks|blocks|halo|messages|linear_solver|hypre_rows|integrator_vector)\.cpp",
+    r"core/mpi\.hpp": r"core/(ranks|blocks|halo|messages|output_blocks|linear_solver|hypre_rows|integrator_vector)\.cpp",
 }
 CLOSURES_SEE = re.compile(r"^(closures/|Eigen/|[a-z_]+$)")  # ours, Eigen, the standard library
 

@@ -23,6 +23,7 @@ start = "list:beads.csv"
 until = 1
 [effects]
 drag = "cello"
+contact = "hertz_mindlin"
 """
 
 

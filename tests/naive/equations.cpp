@@ -14,11 +14,12 @@ using core::Index;
 
 namespace {
 
-tfm::Discretisation discretisation_of(const core::Tfm& options) {
+tfm::Discretisation discretisation_of(const core::Tfm& options, const tfm::Model& model) {
   const auto scheme = [](const std::string& name) {
     return name == "limited" ? tfm::Scheme::limited : tfm::Scheme::upwind;
   };
-  return {scheme(options.flux), scheme(options.momentum), fluid::WallSlip::free_slip};
+  return {scheme(options.flux), scheme(options.momentum), fluid::WallSlip::free_slip,
+          model.momentum().name == "conservative"};
 }
 
 /// dphi_j/dt = -div(U_j at(phi_j)) with other values on faces.
@@ -45,7 +46,8 @@ void set_continuity(const tfm::RightHandSide& equations, tfm::Fields& fields, co
 Equations::Equations(const core::Scene& scene, const tfm::Model& model, const tfm::StateLayout& layout, Terms terms,
                      core::Timers& timers)
     : layout_(layout),
-      equations_(scene, model.constants(), model.boundaries(), model.inlet(), discretisation_of(scene.tfm), timers),
+      equations_(scene, model.constants(), model.boundaries(), model.inlet(), discretisation_of(scene.tfm, model),
+                 timers),
       terms_(std::move(terms)),
       pressure_(model.constants().grid, scene.tfm.pressure_tolerance.value_or(std::min(1e-4, 0.1 * scene.tfm.rtol))) {}
 

@@ -85,30 +85,17 @@ TEST(Blocks, GhostsAreWhatTheOtherBlocksOwn) {
   }
 }
 
-TEST(Blocks, TheWholeIsPutTogetherAndHandedOut) {
-  for (const Grid& whole : columns()) {
-    const Grid block = block_of(whole, Ranks::of_program());
-    for (int axis = -1; axis < block.dimensions; ++axis) {
-      const Box mine = axis < 0 ? owned_cells(block) : owned_faces(block, axis);
-      Field field = make_field(block, -7), back = make_field(block, -7);
-      const auto place = [&](int i, int j, int k) {
-        return i + block.before[0] + 100.0 * (j + block.before[1]) + 10000.0 * (k + block.before[2]);
-      };
-      for (int k = mine.lo[2]; k < mine.hi[2]; ++k)
-        for (int j = mine.lo[1]; j < mine.hi[1]; ++j)
-          for (int i = mine.lo[0]; i < mine.hi[0]; ++i) field[std::size_t(block.index(i, j, k))] = place(i, j, k);
-      const Field all = gather(block, field, axis);
-      if (is_first(block.ranks.get())) {
-        const Box box = axis < 0 ? owned_cells(whole) : owned_faces(whole, axis);
-        for (int k = box.lo[2]; k < box.hi[2]; ++k)
-          for (int j = box.lo[1]; j < box.hi[1]; ++j)
-            for (int i = box.lo[0]; i < box.hi[0]; ++i)
-              EXPECT_EQ(all[std::size_t(whole.index(i, j, k))], i + 100.0 * j + 10000.0 * k);
-      }
-      scatter(block, all, axis, back);
-      EXPECT_EQ(back, field);
-    }
-  }
+/// What the blocks own of a field on cells, as a field of the whole column on every rank.
+Field gathered(const Grid& block, const Field& field) {
+  const Grid whole = whole_column(block);
+  Field all = make_field(whole);
+  for (int k = 0; k < block.cells[2]; ++k)
+    for (int j = 0; j < block.cells[1]; ++j)
+      for (int i = 0; i < block.cells[0]; ++i)
+        all[std::size_t(whole.index(i + block.before[0], j + block.before[1], k + block.before[2]))] =
+            field[std::size_t(block.index(i, j, k))];
+  add_over_ranks(block, all);
+  return all;
 }
 
 TEST(Blocks, CellsAreNumberedOnceAndNeighboursAgree) {
@@ -119,7 +106,7 @@ TEST(Blocks, CellsAreNumberedOnceAndNeighboursAgree) {
     const Halo halo(block);
     for (int axis = 0; axis < block.dimensions; ++axis) halo.exchange(std::array<Field*, 1>{&place}, axis);
     // Numbers and places are two names of one cell: gathered, they pair off one to one.
-    const Field all_numbers = gather(block, numbers, -1), all_places = gather(block, place, -1);
+    const Field all_numbers = gathered(block, numbers), all_places = gathered(block, place);
     std::vector<double> by_number(whole.cell_count(), -1);
     if (is_first(block.ranks.get()))
       for_each_row(whole, [&](Index b, Index e) {
@@ -165,6 +152,21 @@ TEST(Ranks, AnErrorOfTheFirstIsThrownOnAll) {
   EXPECT_THROW(on_first(ranks.get(), [] { throw CaseError("wrong"); }), CaseError);
   EXPECT_THROW(on_first(ranks.get(), [] { throw NumericsError("not finite"); }), NumericsError);
   EXPECT_THROW(on_first(ranks.get(), [] { throw std::bad_alloc(); }), std::bad_alloc);
+  EXPECT_NO_THROW(on_all(ranks.get(), [] {}));
+  const int last = ranks ? ranks->count() - 1 : 0;
+  const auto failing_from = [&](int lowest) {
+    const int here = ranks ? ranks->rank() : 0;
+    try {
+      on_all(ranks.get(), [&] {
+        if (here >= lowest) throw NumericsError("rank " + std::to_string(here));
+      });
+    } catch (const NumericsError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(failing_from(last), "rank " + std::to_string(last));
+  EXPECT_EQ(failing_from(0), "rank 0");
 }
 
 /// A coefficient that varies over three orders, from the place of the face.
@@ -206,7 +208,7 @@ TEST(Poisson, IsSolvedAcrossTheBlocks) {
       const PoissonResult alone = PoissonSolver(whole).solve(spans(b_whole), {}, source(whole), reference, tolerance);
       EXPECT_TRUE(here.converged) << here.solver << ' ' << here.residual;
       EXPECT_TRUE(alone.converged) << alone.solver << ' ' << alone.residual;
-      const Field all = gather(block, p, -1);
+      const Field all = gathered(block, p);
       if (!is_first(block.ranks.get())) continue;
       double most = 0, scale = 0;
       for_each_row(whole, [&](Index begin, Index end) {

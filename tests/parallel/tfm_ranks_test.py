@@ -138,6 +138,23 @@ class Ranks(Scratch):
             self.assertLessEqual(self.largest_difference(self.folder / "whole", run), SAME)
             self.assertEqual(history(run)["time_s"], history(self.folder / "whole")["time_s"])
 
+    def test_files_of_any_number_of_ranks_are_the_same_to_the_bit(self):
+        """One state, read and written again by 1 to 4 ranks before anything is computed, in two and in three dimensions."""
+        deep = [self.write("deep.toml", case_without("depth")), *DEEP]
+        for name, words in (("flat", [CASE, *FLAT]), ("deep", deep)):
+            self.on(1, *words, *FIXED, "--until", "0.005", "-o", self.folder / f"{name}0", "--quiet")
+            start = f'bed.start="checkpoint:{self.folder / f"{name}0/checkpoint.h5"}"'
+            for ranks in (1, 2, 3, 4):
+                self.on(ranks, *words, *FIXED, "--quiet", "--set", start, "--until", "0.001", "-o",
+                        self.folder / f"{name}{ranks}")
+            for ranks in (0, 2, 3, 4):
+                one, other = (datasets(self.folder / f"{name}{n}/fields.h5") for n in (1, ranks))
+                step = "/step/000002" if ranks == 0 else "/step/000001"
+                names = [n.removeprefix(step) for n in other if n.startswith(step)]
+                self.assertIn("/u_fluid", names)
+                for field in names:
+                    self.assertEqual(one["/step/000001" + field].tobytes(), other[step + field].tobytes(), (ranks, field))
+
     def test_restart_on_as_many_ranks_is_the_same_to_the_bit(self):
         words = [CASE, *FLAT, *FIXED, "--quiet"]
         self.on(2, *words, "-o", self.folder / "whole")

@@ -159,7 +159,7 @@ std::vector<HardCase> fluidised_cases() {
   const auto all_forms = [] {
     std::vector<Treatment> schemes = all_schemes();
     for (const char* integrator : {"explicit", "implicit"})
-      schemes.push_back({integrator, "limited", "", "conservative"});
+      schemes.push_back({integrator, "limited", "", "upwind"});
     return schemes;
   };
   return {{"T4",

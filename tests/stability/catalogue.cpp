@@ -13,7 +13,7 @@ std::vector<HardCase> joined(const std::vector<std::vector<HardCase>>& groups) {
 }  // namespace
 
 std::vector<HardCase> short_cases() {
-  return joined({settling_cases(), closure_cases(), fluidised_cases(), transport_cases()});
+  return joined({settling_cases(), closure_cases(), fluidised_cases(), transport_cases(), column_cases()});
 }
 
 std::vector<HardCase> long_cases() { return demanding_cases(); }

@@ -33,8 +33,7 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
     : constants_(constants),
       boundaries_(boundaries),
       bulk_viscosity_(scene.tfm.bulk_viscosity),
-      cell_width_(*std::min_element(constants.grid.spacing.begin(),
-                                    constants.grid.spacing.begin() + constants.grid.dimensions)) {
+      cell_width_(constants.grid.smallest_spacing()) {
   law_.strength = scene.tfm.frictional_pressure;
   law_.onset = scene.tfm.frictional_onset;
   choose_packing(scene);

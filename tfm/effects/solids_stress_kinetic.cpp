@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/operators.hpp"
 #include "tfm/granular_temperature.hpp"
+#include "tfm/solids.hpp"
 #include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
@@ -15,8 +16,9 @@ using core::Index;
 namespace {
 
 /// Least solids fraction at which collisions are evaluated: the mean free path is 12 diameters there, and what it makes
-/// of shear and compression would grow as 1/phi^2. Below, what collisions do to a grain fades with phi, so that a cell
-/// without solids has the temperature that slip and drag give a lone grain.
+/// of shear and compression would grow as 1/phi^2. Below, all that collisions do fades with phi, so that a cell
+/// without solids has the temperature that slip and drag give a lone grain: the stress and its work on the temperature
+/// alike, or thin solids that fly apart would be driven by what they do not lose.
 constexpr double collision_fraction_floor = 0.01;
 
 /// theta, m2/s2, that rounds off 1/sqrt(theta) of the slip production at 0: (0.1 mm/s)^2.
@@ -88,21 +90,38 @@ void KineticStress::radial_distributions(const Fields& fields, std::size_t cell,
   }
 }
 
-/// The factors of the balance of fluctuation energy of one species.
-void KineticStress::balance_terms(const Fields& fields, Index cell, double phi, std::size_t species,
-                                  Local& local) const {
-  const auto c = std::size_t(cell);
-  const double rho = constants_.density[species], d = constants_.diameter[species], e = restitution_[species];
-  double divergence = 0;
-  for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
-    const double* u = fields.solids.velocity[species][std::size_t(axis)].data();
-    divergence += (u[cell + constants_.grid.stride(axis)] - u[cell]) / constants_.grid.spacing[std::size_t(axis)];
+/// What the solids' pressure works against and what their viscosity is sheared by. Both act on all species, shared by
+/// volume, so the work of one species' part is done on the motion of all: otherwise species that move apart would make
+/// energy. The divergence is that of the faces' sum of phi_j U_j over phi, as the pressure's gradient is divided.
+KineticStress::Motion KineticStress::motion_in(const Fields& fields, Index cell) const {
+  const core::Grid& grid = constants_.grid;
+  Motion motion{0, 0};
+  const double* phi = fields.solids_fraction.data();
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const Index s = grid.stride(axis);
+    const auto velocity = [&](Index face) {
+      double sum = 0;
+      for (std::size_t j = 0; j < constants_.species(); ++j)
+        sum += core::face_mean(fields.solids.fraction[j].data(), face, s) *
+               fields.solids.velocity[j][std::size_t(axis)][std::size_t(face)];
+      return sum / std::max(core::face_mean(phi, face, s), stress_fraction_floor);
+    };
+    motion.divergence += (velocity(cell + s) - velocity(cell)) / grid.spacing[std::size_t(axis)];
   }
+  for (std::size_t j = 0; j < constants_.species(); ++j)
+    motion.strain += fields.share[j][std::size_t(cell)] * fields.stress.strain[j][std::size_t(cell)];
+  return motion;
+}
+
+/// The factors of the balance of fluctuation energy of one species.
+void KineticStress::balance_terms(const Fields& fields, std::size_t c, double phi, std::size_t species,
+                                  const Motion& motion, Local& local) const {
+  const double rho = constants_.density[species], d = constants_.diameter[species], e = restitution_[species];
   const double slip = fields.slip_superficial[species][c] / std::max(fields.fluid.voidage[c], fluid::voidage_floor);
   const double fade = collision_share(fields.solids_fraction[c]);
-  local.compression = fade * rho * (1 + local.collisions) * divergence;
+  local.compression = fade * rho * (1 + local.collisions) * motion.divergence;
   local.viscosity = fade * closures::kinetic_viscosity(model_, phi, local.g0, e) * rho * d / phi;
-  local.shear = local.viscosity * fields.stress.strain[species][c];
+  local.shear = local.viscosity * motion.strain;
   local.loss = closures::kinetic_dissipation(model_, phi, local.g0, e) * rho / (d * phi);
   local.drag = closures::fluctuation_drag_sink(fields.solids.exchange[species][c], 1);
   local.slip = closures::slip_production(phi, local.g0, constants_.fluid.viscosity, slip, d, rho);
@@ -112,12 +131,14 @@ void KineticStress::balance_terms(const Fields& fields, Index cell, double phi, 
 void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialValue& radial) const {
   const auto c = std::size_t(cell);
   const double solids = std::max(fields.solids_fraction[c], 0.0), phi = std::max(solids, collision_fraction_floor);
+  const double fade = collision_share(solids);
+  const Motion motion = motion_in(fields, cell);
   std::array<Local, most_species> local;
   radial_distributions(fields, c, phi, {local.data(), constants_.species()});
   double wall = 0;
   for (std::size_t j = 0; j < constants_.species(); ++j) {
     Local& here = local[j];
-    balance_terms(fields, cell, phi, j, here);
+    balance_terms(fields, c, phi, j, motion, here);
     double& theta = fields.solids.temperature[j][c];
     double s = std::sqrt(std::max(theta, 0.0));
     if (transported_) {
@@ -127,7 +148,7 @@ void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialV
       theta = s * s;
     }
     const double share = fields.share[j][c], rho = constants_.density[j];
-    const double energy = share * rho * s * s;
+    const double energy = fade * share * rho * s * s;
     fields.stress.pressure[c] += solids * energy * (1 + here.collisions);
     fields.stress.slope[c] += energy * (1 + here.collisions * (2 + phi * radial.slope / radial.value));
     fields.stress.viscosity[c] += share * here.viscosity * s;
@@ -158,7 +179,7 @@ void KineticStress::add_wall_energy(Fields& fields) const {
   const core::Grid& grid = constants_.grid;
   for (int wall = 0; wall < grid.dimensions; ++wall)
     for (int side = 0; side < 2; ++side) {
-      if (!grid.ends(wall, side) || (wall == 1 && side == 1 && !boundaries_.closed())) continue;
+      if (!boundaries_.stops_solids(wall, side)) continue;
       core::Box box = core::owned_cells(grid);
       box.lo[std::size_t(wall)] = side == 0 ? 0 : grid.cells[std::size_t(wall)] - 1;
       box.hi[std::size_t(wall)] = box.lo[std::size_t(wall)] + 1;

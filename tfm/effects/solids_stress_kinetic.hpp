@@ -13,9 +13,10 @@ namespace polybed::tfm {
 /// p = sum_j phi_j rho_j theta_j (1 + sum_k h_jk), mu_s = sum_j x_j mu_j with mu_j that of species j alone at the
 /// solids fraction of all and g0_j = sum_k x_k g_jk: neutral to cutting a species in two. Per volume of species j, in
 /// W/m3:
-///   (3/2) rho_j (dtheta_j/dt + U_j.grad theta_j) = mu_j/phi 2 D'_j:D'_j - p_j/phi_j div U_j - Gamma_j/phi_j
+///   (3/2) rho_j (dtheta_j/dt + U_j.grad theta_j) = mu_j/phi 2 D':D' - p_j/phi_j div U - Gamma_j/phi_j
 ///     - 3 b_j theta_j + slip production + div(k_j grad theta_j)/(phi_j + 1e-4 X_j).
-/// Algebraic: the left side and the last term are left out.
+/// D' and U are those of all solids, by volume: the stress acts on all. Algebraic: the left side and the last term are
+/// left out. Below a solids fraction of 0.01 p, mu_j and k_j, here and there, fade to 0 together.
 class KineticStress : public CollisionalStress {
  public:
   KineticStress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
@@ -31,7 +32,12 @@ class KineticStress : public CollisionalStress {
     double compression, shear, loss, drag, slip;  ///< of theta, s, s^3, theta, 1/s in the balance above, W/m3
   };
   void radial_distributions(const Fields& fields, std::size_t cell, double phi, std::span<Local> local) const;
-  void balance_terms(const Fields& fields, core::Index cell, double phi, std::size_t species, Local& local) const;
+  struct Motion {
+    double divergence, strain;  ///< 1/s, 1/s2
+  };
+  [[nodiscard]] Motion motion_in(const Fields& fields, core::Index cell) const;
+  void balance_terms(const Fields& fields, std::size_t cell, double phi, std::size_t species, const Motion& motion,
+                     Local& local) const;
   void add_cell(Fields& fields, core::Index cell, const closures::RadialValue& radial) const;
   void find_rate(Fields& fields, std::size_t cell, double phi, std::size_t species, const Local& local) const;
   void add_wall_energy(Fields& fields) const;

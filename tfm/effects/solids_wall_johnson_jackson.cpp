@@ -27,7 +27,7 @@ void JohnsonJacksonWall::fill_ghosts(Fields& fields) {
   const core::Grid& grid = constants_.grid;
   for (int wall = 0; wall < grid.dimensions; ++wall)
     for (int side = 0; side < 2; ++side) {
-      if (!grid.ends(wall, side) || (wall == 1 && side == 1 && !boundaries_.closed())) continue;
+      if (!boundaries_.stops_solids(wall, side)) continue;
       for (int along = 0; along < grid.dimensions; ++along)
         for (std::size_t j = 0; j < constants_.species() && along != wall; ++j) fill(fields, j, along, wall, side);
     }

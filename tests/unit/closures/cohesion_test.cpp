@@ -72,6 +72,34 @@ TEST(Jkr, IsHertzWhereAdhesionIsSmall) {
   EXPECT_NEAR(jkr_force(scales, 1e-6), hertz, 2e-4 * hertz);
 }
 
+/// Difference quotient of an energy, and the force that it must be.
+template <class Energy, class Force>
+void expect_slope(const Energy& energy, const Force& force, double overlap, double step, double scale) {
+  // Of second order in the step.
+  const double slope = (energy(overlap + step) - energy(overlap - step)) / (2 * step);
+  EXPECT_NEAR(slope, force(overlap), 1e-6 * scale) << overlap;
+}
+
+TEST(Adhesion, EnergiesAreTheIntegralsOfTheForces) {
+  const JkrScales s = jkr_scales(work, modulus, radius);
+  for (double d : {-.9, -.5, 0., 1., 10.})
+    expect_slope([&](double x) { return jkr_energy(s, x); }, [&](double x) { return jkr_force(s, x); }, d * s.gap,
+                 1e-4 * s.gap, s.force);
+  EXPECT_NEAR(jkr_energy(s, -s.gap), 0, 1e-15 * s.force * s.gap);
+  // 7.09 of Thornton and Ning, three figures; 7.0918 from -(4/3) (0.6 4^(1/3) + 0.1) 3 pi (pi/8)^(2/3).
+  const double scale = std::cbrt(std::pow(work, 5) * std::pow(radius, 4) / (modulus * modulus));
+  EXPECT_NEAR(-jkr_energy(s, 0) / scale, 7.09, 5e-3);
+  const double pull = dmt_pull_off(work, radius);
+  EXPECT_DOUBLE_EQ(dmt_energy(pull, 2e-6), -2e-6 * pull);
+  EXPECT_EQ(dmt_energy(pull, -2e-6), 0);
+  for (double overlap : {-5e-9, -1e-9, -.2e-9, 1e-8})
+    expect_slope([&](double x) { return van_der_waals_energy(1e-19, 5e-8, .4e-9, -x); },
+                 [&](double x) { return van_der_waals_force(1e-19, 5e-8, .4e-9, -x); }, overlap, 1e-13,
+                 van_der_waals_pull_off(1e-19, 5e-8, .4e-9));
+  // 1e-19 5e-8/6 over the gap: 8.3333e-19 J at 1 nm.
+  EXPECT_NEAR(van_der_waals_energy(1e-19, 5e-8, .4e-9, 1e-9), -8.333333333333333e-19, 1e-32);
+}
+
 TEST(Adhesion, OfASoftenedContact) {
   EXPECT_NEAR(softened_work_of_adhesion(.05, 7e10, 1e7), 0.0014485409873154585, 1e-17);  // .05 7000^-0.4
 }

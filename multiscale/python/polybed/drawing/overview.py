@@ -31,7 +31,7 @@ def draw_profiles(axes, run, time, legend):
     axes.set_xlabel("volume fraction")
     axes.tick_params(labelleft=False)
     if legend:
-        axes.legend(loc="upper center", fontsize=8, handlelength=1.4)
+        axes.legend(loc="upper center", fontsize=8, handlelength=1.4, frameon=True, edgecolor="none", framealpha=0.85)
 
 
 def draw_history(axes, run, time):

@@ -14,10 +14,11 @@ EDGE = 1.5  # points, the radius from which a circle has an outline
 
 
 def shown_top(run, steps):
-    """Top of the views, m: a fifth above the highest particle of the steps; never above the column."""
+    """Top of the views, m: a fifth above the highest particle of the steps, and a quarter of the width, so that a few
+    particles on a wide floor are not a line; never above the column."""
     height = run.size[1]
     tops = [np.max(step.position[:, 1] + step.radius) for step in map(run.particles.__getitem__, steps) if len(step)]
-    return min(1.2 * max(tops), height) if tops and max(tops) > 0 else height
+    return min(max(1.2 * max(tops), 0.25 * run.size[0]), height) if tops and max(tops) > 0 else height
 
 
 def front(step, most=MOST):

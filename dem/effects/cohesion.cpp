@@ -1,0 +1,138 @@
+#include "dem/effects/cohesion.hpp"
+
+#include <algorithm>
+
+#include "closures/cohesion_dmt.hpp"
+#include "closures/cohesion_van_der_waals.hpp"
+#include "closures/contact_hertz.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+using Row = ContactBatch::Row;
+
+POLYBED_ALL_VECTOR_WIDTHS void dmt(ContactBatch& b, const Row& pull) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c) b.normal[c] += closures::dmt_force(pull[c], b.overlap[c]);
+}
+
+/// Whether two surfaces hold after this step, 1 or 0: they touch, or held and the neck is not broken.
+double holds(double held, double overlap, double gap) { return overlap >= 0 ? 1.0 : (overlap >= -gap ? held : 0.0); }
+
+POLYBED_ALL_VECTOR_WIDTHS void jkr(ContactBatch& b, int place, const Row& force, const Row& gap) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c) {
+    const double held = holds(b.memory[place][c], b.overlap[c], gap[c]);
+    const double whole = closures::jkr_force({force[c], 0, gap[c]}, b.overlap[c]);
+    b.memory[place][c] = held;
+    b.normal[c] += held * (whole - b.elastic[c]);
+  }
+}
+
+POLYBED_ALL_VECTOR_WIDTHS void van_der_waals(ContactBatch& b, const Row& radius, double hamaker, double least_gap) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c)
+    b.normal[c] += closures::van_der_waals_force(hamaker, radius[c], least_gap, -b.overlap[c]);
+}
+
+/// Share of the greatest pull at which the van der Waals force is cut.
+constexpr double pull_at_reach = 1e-6;
+
+}  // namespace
+
+DmtCohesion::DmtCohesion(const Materials& materials, double work_of_adhesion) {
+  for (const PairMaterial& m : materials.kinds()) pull_.push_back(closures::dmt_pull_off(work_of_adhesion, m.radius));
+}
+
+void DmtCohesion::act(ContactBatch& batch) const {
+  alignas(64) Row pull = {};
+  for (int c = 0; c < batch.count; ++c) pull[c] = pull_[std::size_t(batch.kind[c])];
+  dmt(batch, pull);
+}
+
+void DmtCohesion::add_energy(const ContactBatch& batch, Row& stored) const {
+  for (int c = 0; c < batch.count; ++c)
+    stored[c] += closures::dmt_energy(pull_[std::size_t(batch.kind[c])], batch.overlap[c]);
+}
+
+double DmtCohesion::pull_off() const { return *std::max_element(pull_.begin(), pull_.end()); }
+
+JkrCohesion::JkrCohesion(const Materials& materials, double work_of_adhesion, int place) : place_(place) {
+  for (const PairMaterial& m : materials.kinds()) {
+    const closures::JkrScales scales = closures::jkr_scales(work_of_adhesion, m.youngs_modulus, m.radius);
+    constants_.push_back(
+        {scales, -closures::jkr_energy(scales, 0), closures::hertz_coefficient(m.youngs_modulus, m.radius)});
+  }
+}
+
+void JkrCohesion::act(ContactBatch& batch) const {
+  alignas(64) Row force = {}, gap;
+  std::fill_n(gap, ContactBatch::width, 1.0);
+  for (int c = 0; c < batch.count; ++c) {
+    const closures::JkrScales& s = constants_[std::size_t(batch.kind[c])].scales;
+    force[c] = s.force;
+    gap[c] = s.gap;
+  }
+  jkr(batch, place_, force, gap);
+}
+
+void JkrCohesion::add_energy(const ContactBatch& batch, Row& stored) const {
+  for (int c = 0; c < batch.count; ++c) {
+    const Constants& k = constants_[std::size_t(batch.kind[c])];
+    const double hertz = closures::hertz_stored_energy(k.coefficient, std::max(batch.overlap[c], 0.0));
+    stored[c] += batch.memory[place_][c] * (closures::jkr_energy(k.scales, batch.overlap[c]) - hertz);
+  }
+}
+
+void JkrCohesion::add_loss(const ContactBatch& batch, Row& lost) const {
+  for (int c = 0; c < batch.count; ++c) {
+    const Constants& k = constants_[std::size_t(batch.kind[c])];
+    const double held = batch.memory[place_][c];
+    lost[c] += (holds(held, batch.overlap[c], k.scales.gap) > held ? 1 : 0) * k.loss;
+  }
+}
+
+double JkrCohesion::reach() const {
+  double reach = 0;
+  for (const Constants& k : constants_) reach = std::max(reach, k.scales.gap);
+  return reach;
+}
+
+double JkrCohesion::pull_off() const {
+  double pull = 0;
+  for (const Constants& k : constants_) pull = std::max(pull, 1.5 * k.scales.force);
+  return pull;
+}
+
+VanDerWaalsCohesion::VanDerWaalsCohesion(const Materials& materials, double hamaker, double least_gap)
+    : hamaker_(hamaker), least_gap_(least_gap) {
+  for (const PairMaterial& m : materials.kinds()) radius_.push_back(m.radius);
+  const double greatest = *std::max_element(radius_.begin(), radius_.end());
+  reach_ = closures::van_der_waals_reach(
+      hamaker, greatest, pull_at_reach * closures::van_der_waals_pull_off(hamaker, greatest, least_gap));
+}
+
+void VanDerWaalsCohesion::act(ContactBatch& batch) const {
+  alignas(64) Row radius = {};
+  for (int c = 0; c < batch.count; ++c) radius[c] = radius_[std::size_t(batch.kind[c])];
+  van_der_waals(batch, radius, hamaker_, least_gap_);
+}
+
+void VanDerWaalsCohesion::add_energy(const ContactBatch& batch, Row& stored) const {
+  for (int c = 0; c < batch.count; ++c) {
+    const double radius = radius_[std::size_t(batch.kind[c])], gap = -batch.overlap[c];
+    // From the distance at which the force is cut.
+    stored[c] += closures::van_der_waals_energy(hamaker_, radius, least_gap_, gap) -
+                 closures::van_der_waals_energy(hamaker_, radius, least_gap_, reach_);
+  }
+}
+
+double VanDerWaalsCohesion::pull_off() const {
+  return closures::van_der_waals_pull_off(hamaker_, *std::max_element(radius_.begin(), radius_.end()), least_gap_);
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,90 @@
+#include "dem/effects/rolling.hpp"
+
+#include "closures/contact_tangential.hpp"
+#include "closures/rolling_friction.hpp"
+#include "dem/effects/rows.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+using closures::Vec3;
+using Row = ContactBatch::Row;
+
+/// w_i - w_j without its part along n.
+Vec3 rolling_of(const ContactBatch& b, int c) {
+  const Vec3 n = at(b.distance, c), spin = at(b.spin_i, c) - at(b.spin_j, c);
+  return spin - closures::dot(spin, n) * n;
+}
+
+/// k_n = F_n/delta of the elastic force; 0 across a gap.
+double secant_stiffness(const ContactBatch& b, int c) {
+  return b.overlap[c] > 0 ? b.elastic[c] / (b.overlap[c] > 0 ? b.overlap[c] : 1.0) : 0;
+}
+
+POLYBED_ALL_VECTOR_WIDTHS void constant(ContactBatch& b, const Row& arm) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c) {
+    const double limit = closures::rolling_limit(1, arm[c], b.normal[c]);
+    put(b.moment, c, closures::rolling_cdt(limit, rolling_of(b, c)));
+  }
+}
+
+POLYBED_ALL_VECTOR_WIDTHS void spring(ContactBatch& b, int place, const Row& arm, const Row& inertia, double damping,
+                                      double dt) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c) {
+    const double stiffness = closures::rolling_stiffness(secant_stiffness(b, c), 1, arm[c]);
+    const double dashpot = closures::rolling_damping(damping, inertia[c], stiffness);
+    const Vec3 before = closures::transported(at(b.memory + place, c), at(b.distance, c));
+    const double limit = closures::rolling_limit(1, arm[c], b.normal[c]);
+    const closures::RollingMoment m =
+        closures::rolling_epsd(before, rolling_of(b, c), stiffness, dashpot, limit, time_of_contact(b, c, dt));
+    put(b.memory + place, c, m.spring);
+    put(b.moment, c, m.moment);
+  }
+}
+
+}  // namespace
+
+ConstantRolling::ConstantRolling(const Materials& materials, double rolling_friction) {
+  for (const PairMaterial& m : materials.kinds()) arm_.push_back(rolling_friction * m.radius);
+}
+
+void ConstantRolling::act(ContactBatch& batch, double) const {
+  alignas(64) Row arm = {};
+  for (int c = 0; c < batch.count; ++c) arm[c] = arm_[std::size_t(batch.kind[c])];
+  constant(batch, arm);
+}
+
+SpringRolling::SpringRolling(const Materials& materials, double rolling_friction, double damping, int place)
+    : damping_(damping), place_(place) {
+  for (const PairMaterial& m : materials.kinds())
+    constants_.push_back({rolling_friction * m.radius, m.rolling_inertia});
+}
+
+void SpringRolling::act(ContactBatch& batch, double dt) const {
+  alignas(64) Row arm = {}, inertia = {};
+  for (int c = 0; c < batch.count; ++c) {
+    const Constants& k = constants_[std::size_t(batch.kind[c])];
+    arm[c] = k.arm;
+    inertia[c] = k.inertia;
+  }
+  spring(batch, place_, arm, inertia, damping_, dt);
+}
+
+double SpringRolling::stiffness(int kind, double normal_stiffness) const {
+  return closures::rolling_stiffness(normal_stiffness, 1, constants_[std::size_t(kind)].arm);
+}
+
+void SpringRolling::add_energy(const ContactBatch& batch, Row& stored) const {
+  for (int c = 0; c < batch.count; ++c) {
+    const Vec3 kept = at(batch.memory + place_, c);
+    const double k = stiffness(batch.kind[c], secant_stiffness(batch, c));
+    stored[c] += 0.5 * closures::dot(kept, kept) / (k > tiny ? k : tiny);
+  }
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,60 @@
+// Work that the flow of a sheared box does on the particles in it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "dem/box.hpp"
+#include "dem/contact_batch.hpp"
+#include "dem/contacts.hpp"
+
+namespace polybed::dem {
+
+/// What the joined faces of a sheared box give: energies are those at rest with its bottom.
+///
+/// A contact across the faces acts on a particle and on the image of another, which is faster by b U than the other
+/// itself, b boxes up. Its force F on the first works F . (v_i - v_j) = F . (v_i - v_image) + F_x b U on the two: the
+/// ledger of contacts has the first part, the second is the faces'. A force acts for half a step before and for half a
+/// step after the time it is found for, so the parts of two successive forces add up to the work over a drift, and the
+/// half step of a contact that parts is not lost. A particle that leaves through a face and comes back through the
+/// other changes its speed by U: what its energy changes by is the faces' work too.
+class FlowWork {
+ public:
+  /// \param force  unit of the forces of a batch  \param energy  unit of the sum, J  \param dt  s
+  FlowWork(FixedPoint force, FixedPoint energy, double dt)
+      : per_force_(0.5 * dt * force.unit * energy.per_unit), per_energy_(energy.per_unit) {}
+
+  /// After the forces of a batch are found. \param counted  1, or 0 for pairs that another rank counts
+  void act(const ContactBatch& batch, const ContactBatch::Row& counted, const Contacts& contacts,
+           const Images& images) {
+    for (int c = 0; c < batch.count; ++c) {
+      const double speed = images.speed[std::size_t(contacts.pairs[std::size_t(batch.pair[c])].image)];
+      now_ += std::int64_t(counted[c] * batch.force[0][c] * speed * per_force_);
+    }
+  }
+  /// After all forces at the start, and after all of a step.
+  void begin() { before_ = std::exchange(now_, 0); }
+  void end_step() {
+    units_ += before_ + now_;
+    begin();
+  }
+  /// A particle has come back through the other face. \param mass  kg  \param from, to  v_x, m/s
+  void wrapped(double mass, double from, double to) {
+    units_ += std::llround(0.5 * mass * (to - from) * (to + from) * per_energy_);
+  }
+
+  /// J, of this rank since the start, and the half of the last forces that is due in the next step.
+  [[nodiscard]] std::int64_t units() const { return units_; }
+  [[nodiscard]] std::int64_t due() const { return before_; }
+  void set(std::int64_t units, std::int64_t due) {
+    units_ = units;
+    before_ = due;
+  }
+
+ private:
+  double per_force_, per_energy_;
+  std::int64_t units_ = 0, before_ = 0, now_ = 0;
+};
+
+}  // namespace polybed::dem

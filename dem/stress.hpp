@@ -1,0 +1,38 @@
+// Stress of the particles: what a sheared box is made to measure, and the pressure of a gas of spheres.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "dem/model.hpp"
+
+namespace polybed::dem {
+
+using Tensor = std::array<std::array<double, 3>, 3>;
+
+/// sigma = (1/V) [sum m v' v' + sum_pairs r_ij F_ij], Pa, positive in compression (Irving and Kirkwood, J. Chem. Phys.
+/// 18, 1950, 817). v' is the velocity against a sheared box's own flow, v - gamma y e_x; r_ij = x_i - x_j, F_ij the
+/// force on i. V is the volume of the box. Walls are no part of it: it is meant for boxes that are periodic all round.
+struct Stress {
+  Tensor kinetic{}, contact{};
+  std::vector<Tensor> kinetic_of;   ///< by species; they add up to `kinetic`
+  std::vector<double> temperature;  ///< theta_j = <v'^2>/3 by species, m2/s2
+  std::int64_t contacts = 0;        ///< pairs that touch
+  double shear_rate = 0;            ///< 1/s, of the box
+
+  [[nodiscard]] double component(std::size_t a, std::size_t b) const { return kinetic[a][b] + contact[a][b]; }
+  /// p_s = tr sigma/3, Pa.
+  [[nodiscard]] double pressure() const { return (component(0, 0) + component(1, 1) + component(2, 2)) / 3; }
+  /// mu_s = -sigma_xy/gamma, Pa s; without meaning in a box that is not sheared.
+  [[nodiscard]] double viscosity() const { return -component(0, 1) / shear_rate; }
+  /// N_1/p and N_2/p, (sigma_xx - sigma_yy)/p and (sigma_yy - sigma_zz)/p.
+  [[nodiscard]] double first_normal_difference() const { return (component(0, 0) - component(1, 1)) / pressure(); }
+  [[nodiscard]] double second_normal_difference() const { return (component(1, 1) - component(2, 2)) / pressure(); }
+};
+
+/// Of the last step, at the velocities of the full step. Nothing moves on: contacts are looked at once more, and the
+/// laws act on a copy of their memory. Collective: the same on any number of ranks to the bit.
+[[nodiscard]] Stress stress_of(const Model& model);
+
+}  // namespace polybed::dem

@@ -1,0 +1,115 @@
+#include "multiscale/particle_requirements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/memory.hpp"
+#include "core/progress.hpp"
+#include "dem/packing.hpp"
+#include "dem/scene.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+/// Measured on the cases of this repository, one core: a dense bed with friction and the ledger makes 1e7
+/// particle-steps a second, a dilute one up to four times as many; a step costs 3 microseconds with no particles at
+/// all.
+constexpr double particle_steps_per_second = 1e7, seconds_per_step = 3e-6, band = 4;
+/// Memory that the peak of a run grows by with each particle of a dense bed, and what output takes at any size; bytes.
+constexpr double bytes_per_particle = 1500, output = 12e6;
+
+/// A sphere that moves as fast as any of n does in random motion of the speed s per component: the mean of the
+/// greatest of n magnitudes is s sqrt(2 ln n) and a little more, which hardly moves the step.
+double fastest_of(double speed, std::int64_t n) {
+  return speed * std::sqrt(3 + 2 * std::log(double(std::max<std::int64_t>(n, 1))));
+}
+
+/// Particles that stand for those at the start in what depends on the fastest: the list itself, or one of each species.
+std::vector<dem::Particle> fastest_at_start(const core::Scene& scene, const dem::Materials& materials,
+                                            const dem::Box& box, std::int64_t count) {
+  if (scene.bed.start.starts_with("list:")) return dem::start_particles(scene, materials, box);
+  std::vector<dem::Particle> particles;
+  for (const dem::Species& species : materials.species()) {
+    dem::Particle particle{};
+    particle.place.radius = species.radius;
+    particle.motion.v[0] = fastest_of(scene.dem.start_speed, count);
+    particles.push_back(particle);
+  }
+  return particles;
+}
+
+std::vector<std::int64_t> numbers_of(const core::Scene& scene, const dem::Materials& materials, const dem::Box& box) {
+  if (!scene.bed.start.starts_with("list:")) return dem::particle_numbers(scene, materials, box);
+  std::vector<std::int64_t> numbers(materials.species().size(), 0);
+  for (const dem::Particle& particle : dem::start_particles(scene, materials, box))
+    ++numbers[std::size_t(particle.species)];
+  return numbers;
+}
+
+constexpr double mega = 1e-6;
+
+}  // namespace
+
+std::int64_t ParticleRequirements::count() const {
+  return std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0));
+}
+
+ParticleRequirements particle_requirements_of(const core::Scene& scene) {
+  const dem::Box box = dem::box_of(scene);
+  const dem::Materials materials(scene);
+  const dem::PairLaws laws = dem::make_pair_laws(scene, materials);
+  dem::require_room_for_images(box, materials.greatest_diameter(), dem::skin_of(scene, materials) + laws.reach());
+  ParticleRequirements need;
+  need.numbers = numbers_of(scene, materials, box);
+  const std::vector<dem::Particle> fastest = fastest_at_start(scene, materials, box, need.count());
+  need.limits = dem::step_limits(scene, materials, laws, dem::greatest_speed(scene, box, fastest));
+  need.program = core::process_memory().now + output;
+  need.particles = bytes_per_particle * double(need.count());
+  need.steps = std::ceil(scene.run.until / need.limits.dt);
+  need.particle_steps = need.steps * double(need.count());
+  need.expected = need.particle_steps / particle_steps_per_second + need.steps * seconds_per_step;
+  need.least = need.expected / band;
+  need.most = need.expected * band;
+  return need;
+}
+
+void write_particle_requirements(core::Json& json, const core::Scene& scene, const ParticleRequirements& need) {
+  json.key("particles").begin_object();
+  for (std::size_t j = 0; j < need.numbers.size(); ++j) json.member(scene.species[j].name, need.numbers[j]);
+  json.end_object().member("memory_MB", mega * need.memory());
+  json.key("memory").begin_object().member("particles_MB", mega * need.particles);
+  json.member("program_MB", mega * need.program).end_object();
+  json.member("integrator", need.limits.synchronised ? "synchronised" : "thesis");
+  json.key("step").begin_object().member("dt_s", need.limits.dt).member("limited_by", need.limits.limited_by);
+  json.member("greatest_speed_expected_m_s", need.limits.greatest_speed).key("limits").begin_array();
+  for (const dem::StepLimit& limit : need.limits.all)
+    json.begin_object().member("name", limit.name).member("dt_s", limit.dt).end_object();
+  json.end_array().end_object();
+  json.key("time").begin_object().member("steps", need.steps).member("particle_steps", need.particle_steps);
+  json.member("expected_s", need.expected).member("least_s", need.least).member("most_s", need.most).end_object();
+}
+
+void print_particle_requirements(const core::Scene& scene, const ParticleRequirements& need) {
+  std::string each;
+  for (std::size_t j = 0; j < need.numbers.size(); ++j)
+    each += fmt::format("{}{} {}", j == 0 ? "" : ", ", need.numbers[j], scene.species[j].name);
+  fmt::print("# {} particles: {}\n", need.count(), each);
+  fmt::print("# memory about {:.0f} MB: particles and contacts {:.1f}, program {:.0f}\n", mega * need.memory(),
+             mega * need.particles, mega * need.program);
+  fmt::print("# time step {:.3g} s, limited by {}; greatest speed expected {:.3g} m/s; {} integrator ({})\n",
+             need.limits.dt, need.limits.limited_by, need.limits.greatest_speed,
+             need.limits.synchronised ? "synchronised" : "thesis", need.limits.integrator_reason);
+  for (const dem::StepLimit& limit : need.limits.all) fmt::print("#   {}: {:.3g} s\n", limit.name, limit.dt);
+  const auto text = [](double seconds) {
+    return seconds < 9.5 ? fmt::format("{:.1g} s", seconds) : core::duration_text(seconds);
+  };
+  fmt::print(
+      "# computing {:.4g} s takes about {} of one core, between {} and {}: {:.3g} steps, {:.3g} particle-steps\n",
+      scene.run.until, text(need.expected), text(need.least), text(need.most), need.steps, need.particle_steps);
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,34 @@
+// What a case will need of the particle model before it is run: particles, memory, time step, steps and time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/json.hpp"
+#include "core/scene.hpp"
+#include "dem/step_limits.hpp"
+
+namespace polybed::multiscale {
+
+struct ParticleRequirements {
+  std::vector<std::int64_t> numbers;  ///< of each species
+  dem::StepLimits limits;             ///< the step and what sets it
+  double program = 0, particles = 0;  ///< memory, bytes: the program itself; what grows with the number
+  double steps = 0, particle_steps = 0;
+  double least = 0, expected = 0, most = 0;  ///< CPU time of the run, s: the middle of a band and its ends
+  [[nodiscard]] std::int64_t count() const;
+  [[nodiscard]] double memory() const { return program + particles; }
+};
+
+/// From the case alone: nothing is packed and nothing is stepped, so that it is known at once for any number. Throws
+/// core::CaseError for what the particle model could not build.
+[[nodiscard]] ParticleRequirements particle_requirements_of(const core::Scene& scene);
+
+/// Members of an object that is open.
+void write_particle_requirements(core::Json& json, const core::Scene& scene, const ParticleRequirements& need);
+
+/// The same for people, each line behind a #.
+void print_particle_requirements(const core::Scene& scene, const ParticleRequirements& need);
+
+}  // namespace polybed::multiscale
