@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace polybed::dem {
@@ -19,6 +19,7 @@ struct Contacts {
   std::vector<Pair> pairs;
   std::size_t inner = 0;               ///< pairs at the beginning of the list that need no ghost
   std::vector<std::int32_t> touching;  ///< pairs in contact (or within the reach of cohesion), rising
+  std::vector<std::int32_t> touched;   ///< those that did at the force before
   std::vector<double> memory;          ///< memory_size numbers of each pair; zero of pairs that do not touch
   int memory_size = 0;
 
@@ -27,20 +28,25 @@ struct Contacts {
     return memory.data() + std::ptrdiff_t(pair) * memory_size;
   }
 
-  /// Calls for each of the pairs that touched (`before`, rising) and do so no longer.
+  /// Before a force finds what touches: nothing yet.
+  void begin_touching() {
+    std::swap(touched, touching);
+    touching.clear();
+  }
+  /// Calls for each of the pairs that touched at the force before and do so no longer.
   template <class Act>
-  void each_parted(std::span<const std::int32_t> before, Act&& act) const {
+  void each_parted(Act&& act) const {
     auto now = touching.begin();
-    for (const std::int32_t pair : before) {
+    for (const std::int32_t pair : touched) {
       while (now != touching.end() && *now < pair) ++now;
       if (now == touching.end() || *now != pair) act(pair);
     }
   }
 
   /// Forgets the memory of pairs that have parted.
-  void forget_parted(std::span<const std::int32_t> before) {
+  void forget_parted() {
     if (memory_size == 0) return;
-    each_parted(before, [&](std::int32_t pair) { std::fill_n(memory_of(pair), memory_size, 0.0); });
+    each_parted([&](std::int32_t pair) { std::fill_n(memory_of(pair), memory_size, 0.0); });
   }
 };
 

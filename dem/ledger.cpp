@@ -76,8 +76,8 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
   units_ += units_of(lost, counted, batch.count, unit_.per_unit);
 }
 
-void Ledger::part(const Contacts& contacts, std::span<const std::int32_t> before, std::size_t owned) {
-  contacts.each_parted(before, [&](std::int32_t pair) {
+void Ledger::part(const Contacts& contacts, std::size_t owned) {
+  contacts.each_parted([&](std::int32_t pair) {
     if (std::size_t(contacts.pairs[std::size_t(pair)].first) < owned)
       units_ += std::int64_t(contacts.memory_of(pair)[place_ + 1] * unit_.per_unit);
   });

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "dem/box.hpp"
@@ -41,9 +40,9 @@ class Ledger {
 
   /// After the contact's laws and before cohesion. \param counted  1, or 0 for pairs that another rank counts
   void act(ContactBatch& batch, const ContactBatch::Row& counted, double dt);
-  /// Before the memory of contacts that have parted is forgotten. \param before  those that touched, rising
+  /// Before the memory of contacts that have parted is forgotten.
   /// \param owned  pairs whose first particle is below it are counted here
-  void part(const Contacts& contacts, std::span<const std::int32_t> before, std::size_t owned);
+  void part(const Contacts& contacts, std::size_t owned);
 
   /// J, of this rank's contacts since the start.
   [[nodiscard]] std::int64_t units() const { return units_; }

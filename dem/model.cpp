@@ -38,7 +38,7 @@ using Memories = std::unordered_map<std::pair<std::int64_t, std::int64_t>, const
 void recall(Contacts& contacts, const Particles& particles, bool walls, const Memories& memories) {
   contacts.memory.assign(contacts.pairs.size() * std::size_t(contacts.memory_size), 0.0);
   contacts.touching.clear();
-  contacts.touching.reserve(contacts.pairs.size() + 2);  // all that the steps until the next list can need
+  for (auto* list : {&contacts.touching, &contacts.touched}) list->reserve(contacts.pairs.size());  // until the next
   for (std::int32_t p = 0; p < std::int32_t(contacts.pairs.size()); ++p) {
     const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
     const auto found = memories.find({particles.id[std::size_t(pair.first)],

@@ -119,15 +119,14 @@ void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall
 }
 
 void PairForces::add_inner_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
-  std::swap(before_, contacts.touching);
-  contacts.touching.clear();
+  contacts.begin_touching();
   add_pairs(particles, contacts, images, 0, contacts.inner, dt);
 }
 
 void PairForces::add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
   add_pairs(particles, contacts, images, contacts.inner, contacts.pairs.size(), dt);
-  if (ledger_ != nullptr) ledger_->part(contacts, before_, particles.owned);
-  contacts.forget_parted(before_);
+  if (ledger_ != nullptr) ledger_->part(contacts, particles.owned);
+  contacts.forget_parted();
   pair_checks_ += contacts.pairs.size();
 }
 
@@ -147,8 +146,7 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Image
 
 void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) {
   const auto end = std::int32_t(contacts.pairs.size());
-  std::swap(before_, contacts.touching);
-  contacts.touching.clear();
+  contacts.begin_touching();
   for (std::int32_t p = 0; p < end;) {
     p = loader_.find_walls(particles, contacts, p, batch_);
     loader_.load_walls(particles, contacts, batch_);
@@ -156,8 +154,8 @@ void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) 
     for (int c = 0; c < batch_.count; ++c)
       add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
   }
-  if (ledger_ != nullptr) ledger_->part(contacts, before_, particles.owned);
-  contacts.forget_parted(before_);
+  if (ledger_ != nullptr) ledger_->part(contacts, particles.owned);
+  contacts.forget_parted();
   pair_checks_ += contacts.pairs.size();
 }
 

@@ -64,7 +64,6 @@ class PairForces {
   FlowWork* flow_work_ = nullptr;  ///< absent: the box is not sheared, or energies are not counted
   ContactBatch batch_;
   alignas(64) ContactBatch::Row counted_ = {};  ///< by the ledger: 1, or 0 of pairs that another rank counts
-  std::vector<std::int32_t> before_;
   PairTrouble trouble_;
   std::uint64_t pair_checks_ = 0, contact_steps_ = 0;
 };
