@@ -153,6 +153,10 @@ int memory(const std::string& contact, const std::string& tangential, bool ledge
   scene.dem.ledger = ledger;
   const Beads beads(scene, {{"a", {0.02, 0.02, 0.02}}});
   EXPECT_EQ(beads.model.pairs().memory_size, beads.model.walls().memory_size);
+  EXPECT_EQ(beads.model.laws().tangential == nullptr, contact == "hertz");
+  EXPECT_EQ(beads.model.laws().rolling, nullptr);
+  EXPECT_EQ(beads.model.laws().cohesion, nullptr);
+  EXPECT_EQ(beads.model.laws().reach(), 0);
   return beads.model.pairs().memory_size;
 }
 

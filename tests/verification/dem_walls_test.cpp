@@ -103,11 +103,18 @@ TEST(DemWalls, AddUpInEdgesAndCorners) {
     }
 }
 
-// Above the open top the side walls go on, and nothing pushes from above.
+// At the open top nothing pushes from above, and the side wall still does.
 TEST(DemWalls, OpenTop) {
   core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.01, 0.01, 0.01});
-  const Beads open(scene, {{"a", {0.005, 0.01, 0.005}}});
-  EXPECT_EQ(open.force(0), (dem::Vector{0, 0, 0}));
+  const Beads free(scene, {{"a", {0.005, 0.01, 0.005}}});
+  EXPECT_EQ(free.force(0), (dem::Vector{0, 0, 0}));
+  const Beads aside(scene, {{"a", {0.49e-3, 0.01, 0.005}}});
+  const double k = 4.0 / 3 * 5e6 / (1 - 0.25 * 0.25) * std::sqrt(0.5e-3);
+  compare("side wall at the open top", aside.force(0)[0], k * std::pow(1e-5, 1.5), 1e-10);
+  EXPECT_EQ(aside.force(0)[1], 0);
+  scene.column.closed = true;
+  const Beads lid(scene, {{"a", {0.005, 0.01 - 0.49e-3, 0.005}}});
+  EXPECT_LT(lid.force(0)[1], 0);
 }
 
 // A coarse sphere under 500 fine ones: its load is the sum of theirs to the last unit, and each is Hertz's.
