@@ -18,7 +18,7 @@ class SimpleShear : public testing::TestWithParam<Row> {};
 TEST_P(SimpleShear, AgreesWithTheTable) {
   const Row& row = GetParam();
   constexpr double rate = 100, d = Gas::diameter;
-  const Gas gas{.number = 1000,
+  const Gas gas{.number = 2048,
                 .fraction = row.fraction,
                 .restitution = 0.9,
                 .temperature = row.expected[theta] * rate * rate * d * d,
