@@ -116,6 +116,7 @@ class DemRun final : public CaseRun {
     json.member("elastic_J", t.elastic).member("potential_J", t.potential);
     if (scene_.dem.ledger)
       json.member("dissipated_J", t.dissipated)
+          .member("work_J", t.work)
           .member("initial_J", observers_->initial_energy())
           .member("worst_error", observers_->ledger_error())
           .member("limit", ledger_limit);

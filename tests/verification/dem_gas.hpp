@@ -58,6 +58,18 @@ inline core::Scene scene_of(const Gas& gas) {
   return scene;
 }
 
+/// Diameter of the hard spheres that soft ones act like (Barker and Henderson, J. Chem. Phys. 47, 1967, 4714): the
+/// integral of 1 - exp(-u/T) over r, u = k (d - r)^2/2, T = m theta: d - sqrt(pi m theta/(2 k)), for T << k d^2.
+inline double hard_diameter(const Gas& gas) {
+  return Gas::diameter - std::sqrt(0.5 * pi * gas.mass() * gas.temperature / stiffness_of(gas));
+}
+
+/// p/(rho theta) of an elastic gas, rho that of the spheres, after Carnahan and Starling at that diameter.
+inline double hard_sphere_pressure(const Gas& gas) {
+  const double share = std::pow(hard_diameter(gas) / Gas::diameter, 3), phi = share * gas.fraction;
+  return closures::kinetic_pressure(phi, closures::radial_carnahan_starling(phi).value, 1) / share;
+}
+
 /// A gas that runs.
 class GasRun {
  public:

@@ -75,8 +75,7 @@ Pairs treated(const dem::Model& model, int& across) {
   return pairs;
 }
 
-// Two sizes, so that two levels of the search are there; 3 boxes of shift in 300 looks, each of some dozens of
-// contacts.
+// Two sizes, so that two levels of the search are there; 3 boxes of shift in 150 looks, each of some dozens of contacts.
 TEST(DemShear, PairsAcrossTheFacesAreFound) {
   Gas gas{.number = 150, .fraction = 0.4, .restitution = 0.9, .softness = 0.4, .shear_rate = 50};
   core::Scene scene = scene_of(gas);
@@ -86,8 +85,8 @@ TEST(DemShear, PairsAcrossTheFacesAreFound) {
   scene.dem.skin = 0.05e-3;
   GasRun run(gas, scene);
   int across = 0, all = 0;
-  for (int n = 0; n < 300; ++n) {
-    run.run_for(0.01 / gas.shear_rate);
+  for (int n = 0; n < 150; ++n) {
+    run.run_for(0.02 / gas.shear_rate);
     const Pairs found = treated(run.model, across);
     all += int(found.size());
     // Two ways of the same sum may differ by round-off about an overlap of nothing.
@@ -95,7 +94,7 @@ TEST(DemShear, PairsAcrossTheFacesAreFound) {
     ASSERT_TRUE(std::includes(found.begin(), found.end(), sure.begin(), sure.end())) << n;
     ASSERT_TRUE(std::includes(possible.begin(), possible.end(), found.begin(), found.end())) << n;
   }
-  EXPECT_GT(across, 300);  // one in each look
+  EXPECT_GT(across, 150);  // one in each look
   testing::Test::RecordProperty("contacts looked at", fmt::format("{}, {} of them across the faces", all, across));
 }
 
