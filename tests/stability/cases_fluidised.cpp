@@ -158,8 +158,7 @@ void light_solids(Trial& trial) {
 std::vector<HardCase> fluidised_cases() {
   const auto all_forms = [] {
     std::vector<Treatment> schemes = all_schemes();
-    for (const char* integrator : {"explicit", "implicit"})
-      schemes.push_back({integrator, "limited", "", "upwind"});
+    for (const char* integrator : {"explicit", "implicit"}) schemes.push_back({integrator, "limited", "", "upwind"});
     return schemes;
   };
   return {{"T4",
