@@ -82,5 +82,16 @@ TEST(OneRank, GathersById) {
   EXPECT_EQ(once[2].low, 2);
 }
 
+/// The list is made again if a place is not a number, also where particles behind it in the order are fine.
+TEST(Verlet, WhatIsNotANumberHasMovedTooFar) {
+  Verlet verlet(false, 0.1, {0, 0, 0}, FixedPoint{}, FixedPoint{}, 0);
+  Particles particles = two_apart(0.1);
+  verlet.mark(particles);
+  particles.motion[1].v[1] = 2;
+  EXPECT_DOUBLE_EQ(verlet.next_drift(particles, 0.1).distance, 0.2);  // 2 m/s for 0.1 s
+  particles.place[0].x[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(verlet.next_drift(particles, 0.1).distance));
+}
+
 }  // namespace
 }  // namespace polybed::dem
