@@ -20,7 +20,7 @@ namespace {
 /// all.
 constexpr double particle_steps_per_second = 1e7, seconds_per_step = 3e-6, band = 4;
 /// Memory that the peak of a run grows by with each particle of a dense bed, and what output takes at any size; bytes.
-constexpr double bytes_per_particle = 1500, output = 12e6;
+constexpr double bytes_per_particle = 2400, output = 12e6;
 
 /// A sphere that moves as fast as any of n does in random motion of the speed s per component: the mean of the
 /// greatest of n magnitudes is s sqrt(2 ln n) and a little more, which hardly moves the step.

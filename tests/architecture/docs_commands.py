@@ -2,7 +2,7 @@
 """Every command in a ```sh block of the README, the docs and the cases runs and ends with 0; so does every ```python block.
 
 A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
-`polybed tfm` line gets `--until 0.1s` in place of its own end, and replaces an earlier run of the same page. Each page
+`polybed tfm` line gets `--until 0.1s` in place of its own end, a `polybed dem` line 1 ms, and replaces an earlier run of the same page. Each page
 has a folder of its own, so that it must stand alone. Usage: docs_commands.py PROGRAM
 """
 import os
@@ -20,6 +20,7 @@ import open_mpi  # noqa: E402
 PYTHON = "/usr/bin/python3"
 MOST_NOT_RUN = 6
 SHORT = ["--until", "0.1 s", "--quiet", "--no-picture"]
+SHORT_DEM = ["--until", "1 ms", *SHORT[2:]]  # its steps are microseconds
 
 
 def blocks(text):
@@ -39,11 +40,11 @@ def shortened(command, program):
     if words[0] == program and words[1] == "-n":  # as the launcher does it
         on_ranks = ["mpirun", "-q", "-n", words[2]]
         del words[1:3]
-    if len(words) > 1 and words[1] == "tfm":
+    if len(words) > 1 and words[1] in ("tfm", "dem"):
         if "--until" in words:
             at = words.index("--until")
             del words[at:at + 2]
-        words += SHORT + ([] if {"--resume", "--force"} & set(words) else ["--force"])
+        words += (SHORT if words[1] == "tfm" else SHORT_DEM) + ([] if {"--resume", "--force"} & set(words) else ["--force"])
     return on_ranks + words
 
 
@@ -58,6 +59,7 @@ def self_test():
     assert list(blocks("```sh\na b\n```\n```sh no-run\nc\n```\n")) == [("", ["a b"]), ("no-run", ["c"])]
     assert list(blocks("```python\nprint(1)\n```\n")) == [("", [f"{PYTHON} -c 'print(1)\n'"])]
     assert shortened("./polybed tfm x --until '20 s'", "p") == ["p", "tfm", "x", *SHORT, "--force"]
+    assert shortened("./polybed dem x --until '20 s'", "p") == ["p", "dem", "x", *SHORT_DEM, "--force"]
     assert shortened("./polybed -n 2 check x", "p") == ["mpirun", "-q", "-n", "2", "p", "check", "x"]
     assert "--force" not in shortened("./polybed tfm x --resume", "p")
     assert run("false", "p", ".")

@@ -110,12 +110,15 @@ def panels(run):
     """(relative height, function) of what the history holds."""
     history = run.history
     chosen = [(2.4, lambda axes: draw_heights(axes, run, *length_unit(run)))]
-    if {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys():
+    # particles without a fluid have no pressure
+    if {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys() and np.any(history["pressure_drop_Pa"] != 0):
         chosen.append((1.2, lambda axes: draw_force_balance(axes, run)))
     if "mixing" in history and len(run.species) > 1:
         chosen.append((1, lambda axes: draw_mixing(axes, run)))
+    if set(LEDGER[:3]) <= history.keys():
+        chosen.append((1.4, lambda axes: draw_energies(axes, run)))
     if set(LEDGER) <= history.keys():
-        chosen += [(1.4, lambda axes: draw_energies(axes, run)), (1.4, lambda axes: draw_ledger(axes, run))]
+        chosen.append((1.4, lambda axes: draw_ledger(axes, run)))
     if "contacts" in history:
         chosen.append((1, lambda axes: draw_contacts(axes, run)))
     if "max_overlap_m" in history:
@@ -132,7 +135,9 @@ def draw(run, time=None):
         raise IndexError(f"{run.directory} has no history yet")
     chosen = panels(run)
     figure = plt.figure(figsize=(10.5, 1.2 + 1.15 * sum(height for height, _ in chosen)), constrained_layout=True)
-    grid = figure.add_gridspec(len(chosen), 2, width_ratios=[2.2, 1], height_ratios=[height for height, _ in chosen])
+    held = run.record.get("invariants") and len(chosen) > 1
+    heights = [height for height, _ in chosen]
+    grid = figure.add_gridspec(len(chosen), 1 + bool(held), width_ratios=[2.2, 1] if held else [1], height_ratios=heights)
     first = None
     for n, (_, draw_one) in enumerate(chosen):
         axes = figure.add_subplot(grid[n, 0], sharex=first)
@@ -144,10 +149,12 @@ def draw(run, time=None):
     axes.set_xlabel("time (s)")
     t = history["time_s"]
     first.set_xlim(t[0], t[-1] if t[-1] > t[0] else t[0] + 1)
-    side = figure.add_subplot(grid[0, 1])
-    side.set_axis_off()
-    side.legend(*first.get_legend_handles_labels(), loc="center left", fontsize=9)
-    if run.record.get("invariants") and len(chosen) > 1:
+    if held:
+        side = figure.add_subplot(grid[0, 1])
+        side.set_axis_off()
+        side.legend(*first.get_legend_handles_labels(), loc="center left", fontsize=9)
         draw_invariants(figure.add_subplot(grid[1:, 1]), run)
+    else:
+        first.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
     figure.suptitle(title_of(run), fontsize=10)
     return figure
