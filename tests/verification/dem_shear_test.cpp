@@ -75,7 +75,8 @@ Pairs treated(const dem::Model& model, int& across) {
   return pairs;
 }
 
-// Two sizes, so that two levels of the search are there; 3 boxes of shift in 150 looks, each of some dozens of contacts.
+// Two sizes, so that two levels of the search are there; 3 boxes of shift in 150 looks, each of some dozens of
+// contacts.
 TEST(DemShear, PairsAcrossTheFacesAreFound) {
   Gas gas{.number = 150, .fraction = 0.4, .restitution = 0.9, .softness = 0.4, .shear_rate = 50};
   core::Scene scene = scene_of(gas);
@@ -118,6 +119,19 @@ TEST(DemShear, MomentumAndEnergy) {
   compare("stress", input, after.dissipated + stored + after.elastic - before.elastic, 0.01);
   EXPECT_GT(after.dissipated, before.kinetic);
   EXPECT_LT(run.drift(), 1e-12);
+}
+
+// Taken up again from a checkpoint in the middle, with contacts across the faces: the same state and work to the bit.
+TEST(DemShear, ResumesToTheBit) {
+  const Gas gas{.number = 100, .fraction = 0.45, .restitution = 0.9, .softness = 0.4, .shear_rate = 100};
+  GasRun whole(gas), again(gas);
+  whole.run_for(1.2 / gas.shear_rate);
+  whole.model.restart();
+  again.model.resume(whole.model.checkpoint());
+  for (GasRun* run : {&whole, &again}) run->run_for(1 / gas.shear_rate);
+  EXPECT_EQ(whole.model.checkpoint().arrays, again.model.checkpoint().arrays);
+  EXPECT_EQ(whole.model.checkpoint().integers, again.model.checkpoint().integers);
+  EXPECT_NE(dem::totals_of(whole.model).work, 0);
 }
 
 // Simple shear at phi 0.5, e 0.9, N = 500: theta, p, mu in shear units as measured by another code (calibration, 4:
