@@ -74,7 +74,7 @@ Discretisation make_discretisation(const core::Tfm& options, const std::string& 
 Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks)
     : timers_(timers),
       options_(scene.tfm),
-      momentum_(momentum_form(scene)),
+      momentum_((refuse_particle_scene(scene), momentum_form(scene))),
       equations_(scene, make_constants(scene, ranks),
                  fluid::Boundaries(make_grid(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
                  fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_.name),

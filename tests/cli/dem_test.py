@@ -257,7 +257,7 @@ class Check(Dem):
             words = ["--set", f"bed.particles=[{250 * share},{50 * share}]", "--set", f"column.size=[{0.012 * share},0.03]",
                      "--set", f"column.cells=[{6 * share},30]", "--set", "bed.start_solids_fraction=0.55", "--set", "run.until=1e-3"]
             need = strict_json(self.ends(DONE, "check", self.case, "--json", *words).stdout)
-            held = 1e-6 * program.peak_memory("dem", self.case, "--quiet", *words, "-o", self.folder / f"memory{share}")
+            held = 1e-6 * program.peak_memory("dem", self.case, "--quiet", "--no-picture", *words, "-o", self.folder / f"memory{share}")
             self.assertAlmostEqual(need["memory_MB"], held, delta=0.3 * held)
 
 

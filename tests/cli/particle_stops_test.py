@@ -34,7 +34,7 @@ class Stops(Scratch):
     def test_a_particle_that_would_jump_over_a_wall(self):
         """D10: 100 m/s at a wall, where 1 m/s was expected."""
         text = self.stops("bead,0.01,0.01,0.01,0,0,0\nbead,0.03,0.03,0.03,0,-100,0\n")
-        self.assertRegex(text, "particle 1 moved by more than a tenth of its diameter .*dem.greatest_speed")
+        self.assertRegex(text, "particle 1 moves by more than a tenth of its diameter .*dem.greatest_speed")
 
     def test_two_centres_in_one_place(self):
         """D14."""

@@ -42,10 +42,10 @@ TEST(DemGas, Haff) {
   EXPECT_LT(run.drift(), 1e-12);
 }
 
-// Hertz' law ends smoothly, so that the error of a step falls fast with it and 700 steps per contact will do. 50
+// Hertz' law ends smoothly, so that the error of a step falls fast with it and 600 steps per contact will do. 50
 // spheres, 1e4 collisions: work() counts the steps of contacts, each of which lasts about t_c.
 TEST(DemGas, EnergyOfElasticCollisions) {
-  const Gas gas{.number = 50, .fraction = 0.4, .softness = 0.3, .steps_per_contact = 700};
+  const Gas gas{.number = 50, .fraction = 0.4, .softness = 0.3, .steps_per_contact = 600};
   core::Scene scene = scene_of(gas);
   scene.effects = {{"contact", "hertz"}};
   // E that makes an impact at the mean normal speed of collisions, sqrt(pi theta), last t_c (Hertz, 2.9432751843

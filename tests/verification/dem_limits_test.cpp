@@ -86,7 +86,7 @@ TEST(DemLimits, StopsAtAParticleThatIsTooFast) {
   core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.05, 0.05, 0.05});
   scene.column.closed = true;
   const std::string text = message(scene, {{"a", {0.02, 0.02, 0.02}}, {"a", {0.04, 0.04, 0.04}, {0, -100, 0}}});
-  EXPECT_THAT(text, testing::HasSubstr("particle 1 moved by more than a tenth of its diameter"));
+  EXPECT_THAT(text, testing::HasSubstr("particle 1 moves by more than a tenth of its diameter"));
   // Expected, it may fly: a hundred steps of 0.01 diameters.
   scene.dem.greatest_speed = 100;
   EXPECT_EQ(message(scene, {{"a", {0.02, 0.02, 0.02}}, {"a", {0.04, 0.04, 0.04}, {0, -100, 0}}}), "did not stop");

@@ -32,6 +32,7 @@ Two laws_of_wall_and_sphere(const core::Scene& scene) {
 TEST(DemWalls, AreSpheresOfInfiniteRadius) {
   for (const std::string contact : {"hertz_mindlin", "linear"})
     for (const std::string law : {"hdd", "mindlin"}) {
+      if (contact == "linear" && law == "mindlin") continue;  // which needs a radius of contact
       const Material glass{5e6, 0.25, 2500};
       core::Scene scene = dry_box(0.5e-3, glass, {0.01, 0.01, 0.01});
       scene.species.push_back(sphere("b", 0.5e11, glass));

@@ -147,7 +147,7 @@ class DemPeers(unittest.TestCase):
         (self.directory / "run/run.json").write_text(json.dumps({"work": work}))
         own = 2.5e-9
         (self.directory / "run/history.csv").write_text(
-            f"time_s,kinetic_energy_J\n0,1\n0.002,{self.bed['drift_J'] + own:.17g}\n")
+            f"time_s,kinetic_J\n0,1\n0.002,{self.bed['drift_J'] + own:.17g}\n")
         found = dem_polybed.read(self.directory, SETTINGS)
         self.assertAlmostEqual(found["rows"][-1]["kinetic_J"] / own, 1, delta=1e-6)
         self.assertAlmostEqual(found["rows"][-1]["contacts"], 6.2, delta=1e-12)  # two spheres share a contact
