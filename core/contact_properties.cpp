@@ -16,6 +16,7 @@ struct Material {
 Material material_of(const Scene& scene, const std::string& name) {
   const Dem& dem = scene.dem;
   const Material common{{dem.youngs_modulus, dem.poisson_ratio}, dem.restitution, dem.friction};
+  if (name == "wall") return common;
   const auto found =
       std::find_if(scene.species.begin(), scene.species.end(), [&](const Species& s) { return s.name == name; });
   if (found == scene.species.end()) throw CaseError("no species '" + name + "'");
@@ -33,7 +34,7 @@ bool is_between(const ContactPair& pair, const std::string& a, const std::string
 }  // namespace
 
 ContactProperties contact_properties(const Scene& scene, const std::string& a, const std::string& b) {
-  const Material first = material_of(scene, a == "wall" ? b : a), second = material_of(scene, b == "wall" ? a : b);
+  const Material first = material_of(scene, a), second = material_of(scene, b);
   ContactProperties contact{first.elastic, second.elastic, 0.5 * (first.restitution + second.restitution),
                             0.5 * (first.friction + second.friction)};
   for (const ContactPair& pair : scene.contact_pairs) {

@@ -65,7 +65,9 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
   }
   const double half = -0.5 * dt;
   for (int c = 0; c < batch.padded(); ++c) {
-    lost[c] = (synchronised_ ? due[c] : half * before[c]) + half * now[c] - gained[c];
+    // Within the reach of cohesion a contact that has opened is still listed; it has parted all the same.
+    const bool open = batch.overlap[c] <= 0;
+    lost[c] = open ? if_parted[c] : (synchronised_ ? due[c] : half * before[c]) + half * now[c] - gained[c];
     due[c] = synchronised_ ? half * now[c] : batch.normal[c] - batch.elastic[c];
     const bool ended = batch.normal[c] == 0;
     if_parted[c] = (ended ? elastic_share_ * batch.elastic[c] * batch.overlap[c] : half * now[c]) + held[c];

@@ -120,7 +120,8 @@ class FrozenPair {
     }
     particles_.owned = 2;
     contacts_.memory_size = laws_.memory_size();
-    contacts_.pairs = {{0, 1}};
+    contacts_.pairs = {{0, 1, dem::Images::here, materials_.kind(0, 0)}};
+    contacts_.inner = 1;
     contacts_.memory.assign(std::size_t(contacts_.memory_size), 0.0);
   }
 
@@ -136,7 +137,9 @@ class FrozenPair {
         particles_.motion[i].w[k] = spin[k];
         particles_.load[i] = {};
       }
-    forces_->add_pairs(particles_, contacts_, 0, dt);
+    const dem::Images images(box_, 0, 0);
+    forces_->add_inner_pairs(particles_, contacts_, images, dt);
+    forces_->add_outer_pairs(particles_, contacts_, images, dt);
   }
 
   [[nodiscard]] dem::Vector history() const {

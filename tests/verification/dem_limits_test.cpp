@@ -163,7 +163,7 @@ TEST(DemLimits, WhatIsOffHasNoMemory) {
   EXPECT_EQ(memory("hertz_mindlin", "hdd", false), 3);
   EXPECT_EQ(memory("hertz_mindlin", "mindlin", false), 4);
   EXPECT_EQ(memory("linear", "linear", false), 3);
-  EXPECT_EQ(memory("hertz", "hdd", true), 6);
+  EXPECT_EQ(memory("hertz", "hdd", true), 2);
   EXPECT_EQ(memory("hertz_mindlin", "hdd", true), 9);
 }
 

@@ -75,7 +75,8 @@ Pairs treated(const dem::Model& model, int& across) {
   return pairs;
 }
 
-// Two sizes, so that two levels of the search are there; 3 boxes of shift in 300 looks, each of some dozens of contacts.
+// Two sizes, so that two levels of the search are there; 3 boxes of shift in 300 looks, each of some dozens of
+// contacts.
 TEST(DemShear, PairsAcrossTheFacesAreFound) {
   Gas gas{.number = 150, .fraction = 0.4, .restitution = 0.9, .softness = 0.4, .shear_rate = 50};
   core::Scene scene = scene_of(gas);

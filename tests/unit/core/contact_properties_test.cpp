@@ -30,7 +30,7 @@ TEST(ContactProperties, OfSpeciesAreTheirOwnElseThoseOfDem) {
   EXPECT_EQ(contact.first.poisson_ratio, 0.25);
   EXPECT_EQ(contact.second.youngs_modulus, 5e6);
   EXPECT_EQ(contact.second.poisson_ratio, 0.33);
-  EXPECT_DOUBLE_EQ(contact.friction, 0.25);      // (0.2 + 0.3)/2
+  EXPECT_DOUBLE_EQ(contact.friction, 0.25);     // (0.2 + 0.3)/2
   EXPECT_DOUBLE_EQ(contact.restitution, 0.65);  // (0.4 + 0.9)/2
 }
 
@@ -42,13 +42,13 @@ TEST(ContactProperties, OfEqualsAreTheirOwnToTheBit) {
   }
 }
 
-TEST(ContactProperties, OfAWallAreThoseOfWhatTouchesIt) {
+TEST(ContactProperties, OfAWallAreThoseOfDem) {
   const ContactProperties contact = contact_properties(two_species(), "glass", "wall");
   EXPECT_EQ(contact.first.youngs_modulus, 7e6);
-  EXPECT_EQ(contact.second.youngs_modulus, 7e6);
+  EXPECT_EQ(contact.second.youngs_modulus, 5e6);
   EXPECT_EQ(contact.second.poisson_ratio, 0.25);
-  EXPECT_EQ(contact.friction, 0.2);
-  EXPECT_EQ(contact.restitution, 0.4);
+  EXPECT_DOUBLE_EQ(contact.friction, 0.25);
+  EXPECT_DOUBLE_EQ(contact.restitution, 0.65);
 }
 
 TEST(ContactProperties, OfAPairGoBeforeAndHoldInEitherOrder) {

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "dem/exchange.hpp"
 #include "dem/gathered.hpp"
 #include "dem/materials.hpp"
 #include "dem/neighbours.hpp"
+#include "dem/verlet.hpp"
 
 namespace polybed::dem {
 namespace {
@@ -80,6 +84,17 @@ TEST(OneRank, GathersById) {
   EXPECT_EQ(once[0].high, -3);
   EXPECT_EQ(once[1].high, 4);
   EXPECT_EQ(once[2].low, 2);
+}
+
+/// The list is made again if a place is not a number, also where particles behind it in the order are fine.
+TEST(Verlet, WhatIsNotANumberHasMovedTooFar) {
+  Verlet verlet(false, 0.1, {0, 0, 0}, FixedPoint{}, FixedPoint{}, 0);
+  Particles particles = two_apart(0.1);
+  verlet.mark(particles);
+  particles.motion[1].v[1] = 2;
+  EXPECT_DOUBLE_EQ(verlet.next_drift(particles, 0.1).distance, 0.2);  // 2 m/s for 0.1 s
+  particles.place[0].x[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(verlet.next_drift(particles, 0.1).distance));
 }
 
 }  // namespace

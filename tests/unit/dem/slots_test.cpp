@@ -22,7 +22,7 @@ TEST(Slots, AnAbsentLawHasNothing) {
   EXPECT_EQ(bare.cohesion, nullptr);
   EXPECT_EQ(bare.memory_size(), 0);
   EXPECT_EQ(bare.reach(), 0);
-  EXPECT_EQ(Ledger::memory_size(bare), 1);
+  EXPECT_EQ(Ledger::memory_size(bare), 2);
 }
 
 TEST(Slots, EachLawHasItsOwnMemory) {
@@ -31,14 +31,14 @@ TEST(Slots, EachLawHasItsOwnMemory) {
   scene.dem.cohesion_energy = 0.05;
   scene.dem.hamaker_constant = 1e-19;
   EXPECT_EQ(laws_of(scene).memory_size(), 3);
-  EXPECT_EQ(Ledger::memory_size(laws_of(scene)), 5);
+  EXPECT_EQ(Ledger::memory_size(laws_of(scene)), 6);
   scene.dem.tangential = "mindlin";
   EXPECT_EQ(laws_of(scene).memory_size(), 4);
   scene.dem.tangential = "mindlin_deresiewicz";
   EXPECT_EQ(laws_of(scene).memory_size(), 8);
   scene.effects["rolling"] = "cdt";
   EXPECT_EQ(laws_of(scene).memory_size(), 8);
-  EXPECT_EQ(Ledger::memory_size(laws_of(scene)), 9);
+  EXPECT_EQ(Ledger::memory_size(laws_of(scene)), 10);
   scene.effects["rolling"] = "epsd";
   EXPECT_EQ(laws_of(scene).memory_size(), 11);
   for (const char* memoryless : {"dmt", "van_der_waals"}) {
