@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "dem/exchange.hpp"
 #include "dem/gathered.hpp"
 #include "dem/materials.hpp"
 #include "dem/neighbours.hpp"
+#include "dem/verlet.hpp"
 
 namespace polybed::dem {
 namespace {
