@@ -127,6 +127,18 @@ class Files(Dem):
         self.assertEqual([n for n in COLUMNS if n not in rows], ["dissipated_J", "work_J"])
 
 
+    def test_its_pictures_show_what_it_has(self):
+        """Without the ledger there are energies still, and without a fluid there is no pressure drop."""
+        self.dem(DONE, "run", "--set", "dem.ledger=false", "--until", "5 ms")
+        done = self.ends(DONE, "plot", self.folder / "run", "--what", "overview,particles,profiles,history", "--format", "svg",
+                         "--out", self.folder, picture=True)
+        self.assertEqual(len(done.stdout.split()), 4)
+        text = (self.folder / "history.svg").read_text()  # matplotlib writes each text as a comment beside its glyphs
+        self.assertIn("energy (J)", text)
+        self.assertNotIn("pressure drop", text)
+        self.assertNotIn("does not close", text)
+
+
 class GoOn(Dem):
     def test_resumed_is_the_same_to_the_bit(self):
         whole = self.whole_run()
