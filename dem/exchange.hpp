@@ -12,17 +12,11 @@
 
 #include "core/messages.hpp"
 #include "core/ranks.hpp"
-#include "dem/contact_batch.hpp"
 #include "dem/decomposition.hpp"
+#include "dem/kept_contacts.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {
-
-/// What is kept of a contact, by the ids of its particles; of a wall: -1 - its number.
-struct KeptContact {
-  std::int64_t low, high;
-  std::array<double, ContactBatch::most_memory> memory;
-};
 
 class Exchange {
  public:

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "core/error.hpp"
 #include "dem/packing.hpp"
@@ -13,41 +12,6 @@
 namespace polybed::dem {
 
 namespace {
-
-/// Contacts that have a memory, by ids.
-void keep(const Contacts& contacts, const Particles& particles, bool walls, std::vector<KeptContact>& kept) {
-  for (const std::int32_t p : contacts.touching) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
-    KeptContact c{particles.id[std::size_t(pair.first)],
-                  walls ? -1 - std::int64_t(pair.second) : particles.id[std::size_t(pair.second)],
-                  {}};
-    std::copy_n(contacts.memory_of(p), contacts.memory_size, c.memory.begin());
-    kept.push_back(c);
-  }
-}
-
-struct PairHash {
-  std::size_t operator()(const std::pair<std::int64_t, std::int64_t>& p) const {
-    return std::size_t(std::uint64_t(p.first) * 0x9e3779b97f4a7c15ULL ^
-                       std::uint64_t(p.second) * 0xc2b2ae3d27d4eb4fULL);
-  }
-};
-using Memories = std::unordered_map<std::pair<std::int64_t, std::int64_t>, const KeptContact*, PairHash>;
-
-/// Gives the pairs of a new list the memory they had; those that have one are the ones that touch.
-void recall(Contacts& contacts, const Particles& particles, bool walls, const Memories& memories) {
-  contacts.memory.assign(contacts.pairs.size() * std::size_t(contacts.memory_size), 0.0);
-  contacts.touching.clear();
-  for (auto* list : {&contacts.touching, &contacts.touched}) list->reserve(contacts.pairs.size());  // until the next
-  for (std::int32_t p = 0; p < std::int32_t(contacts.pairs.size()); ++p) {
-    const Contacts::Pair pair = contacts.pairs[std::size_t(p)];
-    const auto found = memories.find({particles.id[std::size_t(pair.first)],
-                                      walls ? -1 - std::int64_t(pair.second) : particles.id[std::size_t(pair.second)]});
-    if (found == memories.end()) continue;
-    std::copy_n(found->second->memory.begin(), contacts.memory_size, contacts.memory_of(p));
-    contacts.touching.push_back(p);
-  }
-}
 
 /// What each owned particle costs: itself and its contacts.
 std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pairs, const Contacts& walls) {
@@ -93,6 +57,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   rebuild();
   find_forces(0);
   if (flow_work_) flow_work_->begin();
+  look_ahead();
 }
 
 /// Units of the sums over all particles.
@@ -123,7 +88,8 @@ void Model::place(const std::vector<Particle>& all, const std::vector<std::int32
 }
 
 void Model::step(double stop) {
-  if (stale_) {
+  if (ahead_ == Ahead::trouble) stop_in_trouble();
+  if (ahead_ == Ahead::stale) {
     const auto scope = timers_.scope("neighbours");
     rebuild();
   }
@@ -135,21 +101,24 @@ void Model::step(double stop) {
   ++steps_;
   find_forces(limits_.dt);
   if (flow_work_) flow_work_->end_step();
-  const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
-  Verlet::Drift drift;
   {
     const auto scope = timers_.scope("motion", timed_);
     verlet_.end(particles_);
-    drift = verlet_.next_drift(particles_, since);
   }
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
-  // All that the ranks have to agree on in a step.
-  constexpr double none = 0, stale = 1, trouble = 2;
-  const bool troubled = pair_forces_.trouble().pair >= 0 || drift.hasty >= 0;
-  const double anywhere = core::greatest_of_ranks(
-      ranks_.get(), troubled ? trouble : (list_goes_stale(drift.distance, since) ? stale : none));
-  stale_ = anywhere == stale;
-  if (anywhere == trouble) stop_in_trouble(drift.hasty);
+  look_ahead();
+  if (ahead_ == Ahead::trouble) stop_in_trouble();
+}
+
+/// What the next step will need, or that there must be none: all that the ranks have to agree on.
+void Model::look_ahead() {
+  const auto scope = timers_.scope("motion", timed_);
+  const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
+  const Verlet::Drift drift = verlet_.next_drift(particles_, since);
+  hasty_ = drift.hasty;
+  const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0;
+  const Ahead here = troubled ? Ahead::trouble : (list_goes_stale(drift.distance, since) ? Ahead::stale : Ahead::clear);
+  ahead_ = Ahead(int(core::greatest_of_ranks(ranks_.get(), double(here))));
 }
 
 /// Whether the next step takes an owned particle too far for the list. \param since  it was made, after that step, s
@@ -203,14 +172,12 @@ void Model::list_pairs(std::vector<KeptContact>& kept) {
   search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(),
                      exchange_.decomposition().whole(materials_.greatest_diameter() + skin_ + laws_.reach()), pairs_);
   search_.find_walls(particles_, walls_.pairs);
-  Memories memories;
-  memories.reserve(kept.size());
-  for (const KeptContact& c : kept) memories.emplace(std::pair(c.low, c.high), &c);
-  recall(pairs_, particles_, false, memories);
-  recall(walls_, particles_, true, memories);
+  const KeptById memories(kept);
+  memories.recall(pairs_, particles_, false);
+  memories.recall(walls_, particles_, true);
   verlet_.mark(particles_);
   marked_at_ = steps_;
-  stale_ = false;
+  ahead_ = Ahead::clear;
   ++work_.rebuilds;
   work_.candidates += search_.candidates();
 }
@@ -239,11 +206,11 @@ void Model::find_forces(double dt) {
   pair_forces_.add_outer_pairs(particles_, pairs_, now, dt);
 }
 
-/// Collective: tells the deepest overlap of all ranks, or which particle is too fast. \param hasty  such a one, or -1
-void Model::stop_in_trouble(std::int64_t hasty) const {
+/// Collective: tells the deepest overlap of all ranks, or which particle is too fast.
+void Model::stop_in_trouble() const {
   const bool pair = pair_forces_.trouble().pair >= 0;
-  const double urgency = pair ? 1 + pair_forces_.trouble().excess : (hasty >= 0 ? 0.5 : 0);
-  const std::string text = pair ? trouble_of_pair() : (hasty >= 0 ? trouble_of_haste(hasty) : "");
+  const double urgency = pair ? 1 + pair_forces_.trouble().excess : (hasty_ >= 0 ? 0.5 : 0);
+  const std::string text = pair ? trouble_of_pair() : (hasty_ >= 0 ? trouble_of_haste() : "");
   throw core::NumericsError(core::said_by(ranks_.get(), core::rank_of_greatest(ranks_.get(), urgency), text));
 }
 
@@ -259,15 +226,15 @@ std::string Model::trouble_of_pair() const {
       time(), particles_.id[std::size_t(pair.first)], other, t.excess, at.x[0], at.x[1], at.x[2]);
 }
 
-std::string Model::trouble_of_haste(std::int64_t id) const {
-  const auto found = std::find(particles_.id.begin(), particles_.id.end(), id);
+std::string Model::trouble_of_haste() const {
+  const auto found = std::find(particles_.id.begin(), particles_.id.end(), hasty_);
   const auto i = std::size_t(found - particles_.id.begin());
   const Vector &x = particles_.place[i].x, &v = particles_.motion[i].v;
   return fmt::format(
-      "t = {:.6g} s: particle {} moves by more than a tenth of its diameter in one step of {:.3g} s, at {:.4g} m/s "
+      "t = {:.6g} s: particle {} moves by more than a tenth of its diameter in one step of {:.3g} s, at {:.4g} m/s, "
       "near "
       "({:.6g}, {:.6g}, {:.6g}) m; state a higher dem.greatest_speed, or look at the start",
-      time(), id, limits_.dt, std::hypot(v[0], v[1], v[2]), x[0], x[1], x[2]);
+      time(), hasty_, limits_.dt, std::hypot(v[0], v[1], v[2]), x[0], x[1], x[2]);
 }
 
 Work Model::work() const {

@@ -88,6 +88,8 @@ class Model : public core::Simulation {
  private:
   void measure(const std::vector<Particle>& all);
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
+  void take_up(const core::Checkpoint& checkpoint, bool same_step);
+  void look_ahead();
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
@@ -95,10 +97,9 @@ class Model : public core::Simulation {
   void find_forces(double dt);
   /// Time that the state belongs to, s.
   [[nodiscard]] double clock() const { return double(steps_) * limits_.dt; }
-  /// What the ranks of a step have to agree on: something is wrong; or the next drift is too far for the list.
-  [[noreturn]] void stop_in_trouble(std::int64_t hasty) const;
+  [[noreturn]] void stop_in_trouble() const;
   [[nodiscard]] std::string trouble_of_pair() const;
-  [[nodiscard]] std::string trouble_of_haste(std::int64_t id) const;
+  [[nodiscard]] std::string trouble_of_haste() const;
   void wrap();
 
   std::shared_ptr<const core::Ranks> ranks_;
@@ -121,7 +122,9 @@ class Model : public core::Simulation {
   Contacts pairs_, walls_;
   double reported_ = 0;  ///< s
   std::int64_t steps_ = 0, count_ = 0, marked_at_ = 0;
-  bool stale_ = false;       ///< the list would not do for the next step
+  /// What all ranks have found for the next step: its drift is too far for the list, or something is wrong.
+  enum class Ahead { clear, stale, trouble } ahead_ = Ahead::clear;
+  std::int64_t hasty_ = -1;  ///< id of an owned particle that would move too far in it, or none
   std::uint64_t timed_ = 1;  ///< steps that the clock's answer in this one stands for: it costs a system call
   Work work_;
 };

@@ -109,9 +109,14 @@ void PairForces::watch_overlap(bool wall) {
   }
 }
 
-/// What is done with a batch once it is full: laws, and the memory of its contacts.
+/// What is done with a batch once it is full: laws, and the memory of its contacts. Of a batch in trouble nothing is
+/// taken over: the run stops, and numbers that are none must not reach the state that it leaves behind.
 void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall, double dt) {
   watch_overlap(wall);
+  if (trouble_.pair >= 0) {
+    batch_.count = 0;
+    return;
+  }
   if (ledger_ != nullptr) mark_counted(particles.owned);
   act(dt);
   store_memory(contacts, batch_);
