@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "closures/contact_pair.hpp"
 #include "closures/dem_time_step.hpp"
@@ -14,8 +13,8 @@ namespace polybed::dem {
 
 namespace {
 
-/// Shares of the limits that a step takes; the first two from the specification of the product, which found that half
-/// the Rayleigh time suits one sphere, not dense contacts.
+/// Shares of the limits that a step takes. Half the Rayleigh time, as the short paper has it, suits one sphere; in
+/// dense contacts, whose limits add up, a fifth.
 constexpr double of_rayleigh = 0.2, of_stability = 0.2, of_diameter = 0.01;
 
 /// Limit of a spring of rotation, N m. Of two unequal bodies the inertia is taken too small.
@@ -49,7 +48,9 @@ StepLimits step_limits(const core::Scene& scene, const Materials& materials, con
   limits.greatest_speed = speed;
   const double ratio = materials.greatest_diameter() / materials.least_diameter();
   const std::string& integrator = scene.dem.integrator;
-  const bool unequal = laws.tangential && scene.dem.friction > 0 && ratio >= 3;
+  const auto& kinds = materials.kinds();
+  const bool rough = std::any_of(kinds.begin(), kinds.end(), [](const PairMaterial& m) { return m.friction > 0; });
+  const bool unequal = laws.tangential && rough && ratio >= 3;
   limits.synchronised = integrator == "synchronised" || (integrator == "auto" && unequal);
   limits.integrator_reason = integrator != "auto"
                                  ? "as the case says"
