@@ -42,6 +42,8 @@ void LinearContact::act(ContactBatch& batch) const {
   linear(batch, stiffness_, dashpot, least_force_);
 }
 
+double LinearContact::energy(int, double overlap) const { return closures::linear_stored_energy(stiffness_, overlap); }
+
 double LinearContact::contact_time(int kind, double) const {
   const Constants& k = constants_[std::size_t(kind)];
   return closures::linear_contact_time(stiffness_, k.mass, 0);

@@ -12,7 +12,7 @@ class LinearContact final : public NormalLaw {
   /// \param stiffness  N/m  \param tail  as of HertzContact
   LinearContact(const Materials& materials, double stiffness, const std::string& tail);
   void act(ContactBatch& batch) const override;
-  [[nodiscard]] double energy(int, double overlap) const override { return 0.5 * stiffness_ * overlap * overlap; }
+  [[nodiscard]] double energy(int, double overlap) const override;
   [[nodiscard]] double force_at(int, double overlap) const override { return stiffness_ * overlap; }
   [[nodiscard]] double contact_time(int kind, double speed) const override;
   [[nodiscard]] double overlap_of_impact(int kind, double speed) const override;
