@@ -80,7 +80,9 @@ core::Checkpoint Model::checkpoint() const {
   return checkpoint;
 }
 
-void Model::resume(const core::Checkpoint& checkpoint) {
+void Model::resume(const core::Checkpoint& checkpoint) { take_up(checkpoint, true); }
+
+void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   std::vector<double> particles, contacts;
   std::array<double, 5> head{};
   core::on_first(ranks_.get(), [&] {
@@ -88,7 +90,7 @@ void Model::resume(const core::Checkpoint& checkpoint) {
     contacts = checkpoint.arrays.at("contacts");
     head = {double(particles.size()), double(contacts.size()), double(checkpoint.integers.at("steps")),
             checkpoint.numbers.at("dt"), checkpoint.numbers.at("time")};
-    if (checkpoint.integers.at("memory_size") != pairs_.memory_size || head[3] != limits_.dt)
+    if (checkpoint.integers.at("memory_size") != pairs_.memory_size || (same_step && head[3] != limits_.dt))
       throw core::FileError("the checkpoint is of another law of contact or another time step");
   });
   if (ledger_) ledger_->set_units(core::is_first(ranks_.get()) ? checkpoint.integers.at("dissipated") : 0);
@@ -125,7 +127,7 @@ void Model::resume(const core::Checkpoint& checkpoint) {
 }
 
 void Model::start_from(const core::Checkpoint& checkpoint) {
-  resume(checkpoint);
+  take_up(checkpoint, false);
   steps_ = marked_at_ = 0;
   reported_ = 0;
 }
