@@ -63,8 +63,7 @@ double greatest_speed(const core::Scene& scene, const Box& box, const std::vecto
   if (!(speed > 0))
     throw core::CaseError(
         "dem.greatest_speed: without gravity, shear or particles that move nothing tells how fast they will be; give "
-        "the "
-        "greatest speed expected, which sets the time step");
+        "the greatest speed expected, which sets the time step");
   return speed;
 }
 

@@ -10,9 +10,10 @@ import subprocess
 import sys
 import tempfile
 
-MPI = dict(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-           OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_btl_vader_single_copy_mechanism="none",
-           OMPI_MCA_mpi_yield_when_idle="1", PYTHONHOME="/nowhere")
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import open_mpi  # noqa: E402
+
+MPI = {**open_mpi.SETTINGS, **open_mpi.MORE_THAN_CORES, "PYTHONHOME": "/nowhere"}
 CASE = """
 [column]
 size = ["20 mm", "20 mm", "20 mm"]

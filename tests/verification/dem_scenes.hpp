@@ -4,11 +4,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -16,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "../unit/core/scratch.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
 #include "dem/measures.hpp"
@@ -68,9 +66,7 @@ inline core::Scene dry_box(double radius, const Material& material, dem::Vector 
 class Beads {
  public:
   Beads(const core::Scene& scene, const std::vector<Bead>& beads)
-      : scene_(written(scene, beads)), model(scene_, timers) {
-    std::filesystem::remove_all(folder_);
-  }
+      : scene_(written(scene, beads)), model(scene_, timers) {}
   Beads(const Beads&) = delete;
   Beads& operator=(const Beads&) = delete;
 
@@ -109,19 +105,16 @@ class Beads {
     return {double(units[0]) * unit, double(units[1]) * unit, double(units[2]) * unit};
   }
   core::Scene written(core::Scene scene, const std::vector<Bead>& beads) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "polybed-beads-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch directory");
-    folder_ = pattern;
-    std::ofstream file(folder_ / "beads.csv");
+    std::ofstream file(folder_.path() / "beads.csv");
     file << "species,x,y,z,vx,vy,vz,wx,wy,wz\n";
     for (const Bead& b : beads)
       file << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", b.species,
                           b.x[0], b.x[1], b.x[2], b.v[0], b.v[1], b.v[2], b.w[0], b.w[1], b.w[2]);
-    scene.bed.start = "list:" + (folder_ / "beads.csv").string();
+    scene.bed.start = "list:" + (folder_.path() / "beads.csv").string();
     return scene;
   }
 
-  std::filesystem::path folder_;
+  test::Scratch folder_;
   core::Scene scene_;
   core::Timers timers;
 
@@ -129,7 +122,7 @@ class Beads {
   dem::Model model;
 };
 
-/// delta_m, F_m and t_c of an elastic impact after Hertz, from the numbers of the problem alone (spec, section 6).
+/// delta_m, F_m and t_c of an elastic impact after Hertz, from the numbers of the problem alone.
 struct HertzImpact {
   double overlap, force, duration;
 };
