@@ -40,11 +40,11 @@ double smoothing_time(double width) { return width * width / (16 * std::numbers:
 LineDiffusion::LineDiffusion(int count, bool joined, double lambda, int steps) : steps_(steps) {
   const auto n = std::size_t(count);
   if (joined) {
-    const double rest = 2 / (1 + std::sqrt(1 + 4 * lambda));  // 1 - q, of lambda (1 - q)^2 = q
-    const double q = lambda * rest * rest;
+    const double root = 2 / (1 + std::sqrt(1 + 4 * lambda));  // 1 - q, of lambda (1 - q)^2 = q
+    const double q = lambda * root * root, rest = 1 - q;  // of q as rounded, or the sum would drift where q is near 1
     gain_.assign(n, rest * rest);
     carry_.assign(n, q);
-    around_ = 1 / (rest < 0.5 ? -std::expm1(count * std::log1p(-rest)) : 1 - std::pow(q, count));
+    around_ = -1 / std::expm1(count * std::log1p(-rest));
     return;
   }
   double excess = 1;  // of the pivot over lambda: 1 + lambda (1 - lambda/pivot before)
