@@ -15,7 +15,7 @@ inline constexpr double added_mass_of_one = 0.5;
 /// Largest solids fraction that the swarm's coefficient is taken at: 1 minus the least voidage of the drag's closures.
 inline constexpr double added_mass_largest_fraction = 0.74;
 
-/// C_m = (1 + 2 phi)/(2 (1 - phi)) in a swarm (Zuber, Chem. Eng. Sci. 19, 1964, 897, eq. 20: two concentric spheres).
+/// C_m = (1 + 2 phi)/(2 (1 - phi)) in a swarm (Zuber, Chem. Eng. Sci. 19, 1964, 897: a sphere in a concentric shell).
 /// phi 0 to 0.74; held there outside, so that C_m is 0.5 to 4.77 and finite where phi reaches 1.
 [[nodiscard]] inline double added_mass_zuber(double solids_fraction) {
   const double phi = std::clamp(solids_fraction, 0.0, added_mass_largest_fraction);

@@ -119,8 +119,12 @@ struct ParticleRows {
 template <class Law>
 POLYBED_WIDE void evaluate_particles(const Law& law, Block& b, const ParticleRows& in, double largest,
                                      double per_viscosity, double* f, GuardCount& count) {
+  for (std::size_t p = 0; p < b.cells; ++p) {  // apart from the next loop: together they are too long for vectors
+    b.per_mean[p] = in.per_mean[p];
+    b.coefficient[p] = law.coefficient(in.voidage[p], {in.per_mean[p], in.average[p], largest});
+  }
   for (std::size_t p = 0; p < b.cells; ++p) {
-    const MixtureCell around = mixture_cell(law, in.voidage[p], {in.per_mean[p], in.average[p], largest});
+    const MixtureCell around{in.voidage[p], 1 / b.per_mean[p], b.per_mean[p], b.coefficient[p]};
     const MixtureTerms term = law.term(around, in.diameter[p], in.share[p]);
     b.voidage[p] = term.voidage;
     b.reynolds[p] = per_viscosity * in.slip[p] * term.length;

@@ -29,8 +29,9 @@ namespace polybed::closures {
   return factor * cross(slip, relative_spin);  // = relative_spin x (v - u_f)
 }
 
-/// pi mu d^3, N m s: the torque of the fluid is minus it times Omega - omega/2. Low Re_spin = rho_f d^2 |Omega -
-/// omega/2|/(4 mu) < 10; above, the fluid resists more. As a rate for steps that are implicit in the spin.
+/// pi mu d^3, N m s: the torque of the fluid is minus it times Omega - omega/2. To rho_f d^2 |Omega - omega/2|/mu = 32;
+/// above, the fluid resists more (Dennis, Singh and Ingham, J. Fluid Mech. 101, 1980, 257). As a rate for steps that
+/// are implicit in the spin.
 [[nodiscard]] inline double spin_resistance(double viscosity, double diameter) {
   return std::numbers::pi * viscosity * diameter * diameter * diameter;
 }
