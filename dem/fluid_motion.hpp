@@ -1,5 +1,5 @@
-// What the fluid does to the particles, and how they move under it: the drag of a frozen fluid is integrated exactly, so
-// that no step is too long for it.
+// What the fluid does to the particles, and how they move under it: the drag of a frozen fluid is integrated exactly,
+// so that no step is too long for it.
 #pragma once
 
 #include <cmath>
@@ -34,28 +34,38 @@ class FluidMotion {
   /// \param fluid_density  kg/m3  \param gravity  m/s2  \param force, energy  units of loads and of the work
   FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force, FixedPoint energy);
 
-  /// Change of a particle's velocity in a time h, s, under a load, the fluid and the weight less the displaced fluid's:
-  /// U_f is frozen, and U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa with kappa = k/M.
-  [[nodiscard]] Vector change(const Particles& particles, std::size_t i, const Load& given, double h) const {
+  /// What happens to a particle in a time h under a load, the fluid, and its weight less the displaced fluid's.
+  struct Kick {
+    Vector dv;    ///< change of its velocity, m/s
+    Vector free;  ///< what it would be without drag, m/s
+  };
+  /// U_f is frozen: U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa, kappa = k/M, M the mass with the
+  /// added one, a the acceleration by everything but drag. \param h  s
+  [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
     const Motion& m = particles.motion[i];
+    const Load& given = particles.load[i];
     const FluidLoad& f = load[i];
-    const double inertia = 1 / m.inverse_mass + f.added, per_inertia = 1 / inertia;
-    const double mean = mean_decay(f.drag * per_inertia * h);
-    Vector dv;
-    for (std::size_t k = 0; k < 3; ++k)
-      dv[k] = h * mean * (acceleration(particles, i, given, k) + f.drag * per_inertia * (f.velocity[k] - m.v[k]));
-    return dv;
+    const Vector& weight = net_gravity_[std::size_t(particles.species[i])];
+    const double share = 1 / (1 + f.added * m.inverse_mass), per_inertia = m.inverse_mass * share;
+    const double x = f.drag * per_inertia * h, mean = mean_decay(x);
+    Kick kick;
+    for (std::size_t k = 0; k < 3; ++k) {
+      kick.free[k] = h * ((double(given.force[k]) * force_.unit + f.force[k]) * per_inertia + weight[k] * share);
+      kick.dv[k] = mean * (kick.free[k] + x * (f.velocity[k] - m.v[k]));
+    }
+    return kick;
   }
-  /// Keeps what a change made by change() has taken from the fluid.
-  void account(const Particles& particles, std::size_t i, const Load& given, const Vector& dv, double h) {
+  /// Keeps what a kick takes from the fluid, before the velocity changes.
+  void account(const Particles& particles, std::size_t i, const Kick& kick, double h) {
     const Motion& m = particles.motion[i];
     FluidLoad& f = load[i];
-    const double mass = 1 / m.inverse_mass, inertia = mass + f.added;
+    const double mass = mass_[std::size_t(particles.species[i])], inertia = mass + f.added;
+    const double unit = force_.unit * h;
     double work = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      f.impulse[k] += inertia * (dv[k] - h * acceleration(particles, i, given, k)) - f.added * dv[k];
-      const double others = h * (double(given.force[k]) * force_.unit + mass * gravity_[k]);
-      work += (m.v[k] + 0.5 * dv[k]) * (mass * dv[k] - others);
+      f.impulse[k] += inertia * (kick.dv[k] - kick.free[k]) - f.added * kick.dv[k];
+      const double others = double(particles.load[i].force[k]) * unit + mass * (gravity_[k] * h);
+      work += (m.v[k] + 0.5 * kick.dv[k]) * (mass * kick.dv[k] - others);
     }
     work_ += std::int64_t(work * energy_.per_unit);
   }
@@ -74,15 +84,8 @@ class FluidMotion {
   std::vector<FluidLoad> load;  ///< of the owned particles
 
  private:
-  /// Of everything but drag, m/s2.
-  [[nodiscard]] double acceleration(const Particles& particles, std::size_t i, const Load& given, std::size_t k) const {
-    const double mass = 1 / particles.motion[i].inverse_mass;
-    const double force = double(given.force[k]) * force_.unit + load[i].force[k] +
-                         mass * net_gravity_[std::size_t(particles.species[i])][k];
-    return force / (mass + load[i].added);
-  }
-
   Vector gravity_;
+  std::vector<double> mass_;         ///< of each species, kg
   std::vector<Vector> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
   FixedPoint force_, energy_;
   std::int64_t work_ = 0;

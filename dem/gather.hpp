@@ -1,4 +1,5 @@
-// From the fluid to particles: what each of them sees of the fields around it, T(2.4)-(2.10), with the weights it gives.
+// From the fluid to particles: what each of them sees of the fields around it, T(2.4)-(2.10), with the weights it
+// gives.
 #pragma once
 
 #include <array>
@@ -57,8 +58,7 @@ class Gather {
     Vector v{};
     for (int axis = 0; axis < weights_.dimensions(); ++axis) {
       const auto a = std::size_t(axis);
-      for_each_face(weights_.dimensions(), lines, axis,
-                    [&](std::size_t at, double w) { v[a] += w * field[a][at]; });
+      for_each_face(weights_.dimensions(), lines, axis, [&](std::size_t at, double w) { v[a] += w * field[a][at]; });
     }
     return v;
   }

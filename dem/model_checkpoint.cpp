@@ -153,8 +153,8 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
 /// The fluid of a checkpoint, and what it does to the particles; or, where that had none, as at a start.
 void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all) {
   std::vector<double> loads(all.size() * load_width);
-  const bool with_fluid = core::on_any_rank(
-      ranks_.get(), core::is_first(ranks_.get()) && checkpoint.arrays.contains("fluid_loads"));
+  const bool with_fluid =
+      core::on_any_rank(ranks_.get(), core::is_first(ranks_.get()) && checkpoint.arrays.contains("fluid_loads"));
   coupling_->motion().load.assign(particles_.owned, FluidLoad{});
   if (!with_fluid) return;
   core::on_first(ranks_.get(), [&] { loads = checkpoint.arrays.at("fluid_loads"); });

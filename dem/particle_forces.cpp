@@ -24,8 +24,7 @@ ParticleForces::ParticleForces(const core::Scene& scene, const Materials& materi
                                double viscosity)
     : largest_(materials.greatest_diameter()), fluid_density_(fluid_density), viscosity_(viscosity) {
   for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
-  if (const std::string law = law_of(scene, "drag"); law != "none")
-    law_ = closures::drag_law(law, closures::Guard::on);
+  if (const std::string law = law_of(scene, "drag"); law != "none") law_ = closures::drag_law(law, closures::Guard::on);
   if (const std::string law = law_of(scene, "added_mass"); law != "none")
     added_ = law == "zuber" ? Added::zuber : Added::half;
 }

@@ -23,8 +23,8 @@ Scatter::Scatter(const core::Grid& grid, const Materials& materials, bool added_
   // The greatest that each sum can be if all particles were in one place, and what speeds may exceed expectations by.
   constexpr double reserve = 64;
   const double mass = all * heaviest;
-  for (const double most : {all, all * speed * reserve, mass * speed * reserve, mass * reserve, all, all, all / lightest,
-                            mass, all})
+  for (const double most :
+       {all, all * speed * reserve, mass * speed * reserve, mass * reserve, all, all, all / lightest, mass, all})
     unit_.push_back(FixedPoint::for_sums_of(most, 1));
   sums_.resize(grid.padded_size() * (3 * count_ + species_.size()));
 }
@@ -36,8 +36,8 @@ void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& 
     const FluidLoad& f = loads[i];
     const double v = volume_of(particles.place[i].radius), mass = 1 / m.inverse_mass, inertia = mass + f.added;
     const double x = f.drag * dt / inertia, s = mean_decay(x), g = x * s, a = f.added / inertia * s;
-    std::array<double, 6> same{mass * (g + a), v * (g + a), v * (1 - mass / inertia * s), v * v * s / inertia,
-                               mass * a, v * a};
+    std::array<double, 6> same{mass * (g + a),      v * (g + a), v * (1 - mass / inertia * s),
+                               v * v * s / inertia, mass * a,    v * a};
     if (held) same = {f.drag * dt, 0, 0, 0, 0, 0};
     add(particles.place[i], same, m.v, f.impulse, std::size_t(particles.species[i]));
   }
@@ -65,8 +65,7 @@ void Scatter::add(const Place& place, const std::array<double, 6>& same, const V
                 [&](std::size_t at, double w) { cells[at] += std::int64_t(w * units[Sum::volume]); });
 }
 
-void Scatter::give(const core::Ranks* ranks, bool open_top, fluid::ParticlePhase& phase,
-                   std::vector<Field>& fraction) {
+void Scatter::give(const core::Ranks* ranks, bool open_top, fluid::ParticlePhase& phase, std::vector<Field>& fraction) {
   core::add_over_ranks(ranks, sums_);
   const double per_cell = 1 / grid_.cell_volume(), unit = unit_[volume].unit * per_cell;
   std::fill(phase.voidage.begin(), phase.voidage.end(), 1.0);
@@ -82,9 +81,9 @@ void Scatter::give(const core::Ranks* ranks, bool open_top, fluid::ParticlePhase
 
 void Scatter::give_faces(bool open_top, fluid::ParticlePhase& phase) const {
   const double per_cell = 1 / grid_.cell_volume();
-  const std::array<core::FaceField*, 9> fields{&phase.voidage_on, &phase.flux,  &phase.impulse, &phase.drag,
-                                               &phase.follow,     &phase.slide, &phase.yield,   &phase.carry,
-                                               &phase.carry_flux};
+  const std::array<core::FaceField*, 9> fields{&phase.voidage_on, &phase.flux,   &phase.impulse,
+                                               &phase.drag,       &phase.follow, &phase.slide,
+                                               &phase.yield,      &phase.carry,  &phase.carry_flux};
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     const std::int64_t* sums = sums_.data() + a * grid_.padded_size() * count_;

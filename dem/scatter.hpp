@@ -37,8 +37,8 @@ class Scatter {
   core::Grid grid_;
   Weights weights_;
   std::vector<Species> species_;
-  std::size_t count_;             ///< sums on a face
-  std::vector<FixedPoint> unit_;  ///< of each
+  std::size_t count_;               ///< sums on a face
+  std::vector<FixedPoint> unit_;    ///< of each
   std::vector<std::int64_t> sums_;  ///< [axis][face][sum], then [species][cell]
 };
 

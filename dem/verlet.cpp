@@ -17,37 +17,20 @@ namespace {
 
 /// A particle under its load and its weight alone.
 struct Free {
+  struct Kick {
+    Vector dv;
+  };
   Vector gravity;
   double unit;  ///< of forces, N
 
-  [[nodiscard]] Vector change(const Particles& particles, std::size_t i, double time) const {
+  [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double time) const {
     const double linear = particles.motion[i].inverse_mass * unit * time;
     const Load& load = particles.load[i];
-    Vector dv;
-    for (std::size_t k = 0; k < 3; ++k) dv[k] = double(load.force[k]) * linear + gravity[k] * time;
-    return dv;
+    Kick kick;
+    for (std::size_t k = 0; k < 3; ++k) kick.dv[k] = double(load.force[k]) * linear + gravity[k] * time;
+    return kick;
   }
-  void account(const Particles&, std::size_t, const Vector&, double) const {}
-};
-
-/// A particle in a fluid; an account is kept of what the fluid gives.
-struct InFluid {
-  FluidMotion& fluid;
-
-  [[nodiscard]] Vector change(const Particles& particles, std::size_t i, double time) const {
-    return fluid.change(particles, i, particles.load[i], time);
-  }
-  void account(const Particles& particles, std::size_t i, const Vector& dv, double time) const {
-    fluid.account(particles, i, particles.load[i], dv, time);
-  }
-};
-
-/// The same where nothing is changed.
-struct InFluidAhead {
-  const FluidMotion& fluid;
-  [[nodiscard]] Vector change(const Particles& particles, std::size_t i, double time) const {
-    return fluid.change(particles, i, particles.load[i], time);
-  }
+  void account(const Particles&, std::size_t, const Kick&, double) const {}
 };
 
 void turn(Particles& particles, std::size_t i, double unit, double time) {
@@ -60,10 +43,10 @@ void turn(Particles& particles, std::size_t i, double unit, double time) {
 
 /// What the load, the weight and the fluid do to a particle in a time, s.
 template <class Push>
-void Verlet::kick(Particles& particles, std::size_t i, const Push& push, double time) const {
-  const Vector dv = push.change(particles, i, time);
-  push.account(particles, i, dv, time);
-  for (std::size_t k = 0; k < 3; ++k) particles.motion[i].v[k] += dv[k];
+void Verlet::kick(Particles& particles, std::size_t i, Push& push, double time) const {
+  const auto given = push.kick(particles, i, time);
+  push.account(particles, i, given, time);
+  for (std::size_t k = 0; k < 3; ++k) particles.motion[i].v[k] += given.dv[k];
   turn(particles, i, torque_.unit, time);
 }
 
@@ -79,7 +62,7 @@ void Verlet::begin_with(Particles& particles, Push&& push) {
     for (std::size_t i = 0; i < particles.owned; ++i) {
       Motion& m = particles.motion[i];
       half_[i] = {m.v, m.w};
-      const Vector dv = push.change(particles, i, half);  // only looked at: it is not kept
+      const Vector dv = push.kick(particles, i, half).dv;  // only looked at: it is not kept
       for (std::size_t k = 0; k < 3; ++k) m.v[k] += dv[k];
       turn(particles, i, torque_.unit, half);
     }
@@ -101,14 +84,14 @@ void Verlet::end_with(Particles& particles, Push&& push) {
 
 void Verlet::begin(Particles& particles, FluidMotion* fluid) {
   if (fluid != nullptr)
-    begin_with(particles, InFluid{*fluid});
+    begin_with(particles, *fluid);
   else
     begin_with(particles, Free{gravity_, force_.unit});
 }
 
 void Verlet::end(Particles& particles, FluidMotion* fluid) {
   if (fluid != nullptr)
-    end_with(particles, InFluid{*fluid});
+    end_with(particles, *fluid);
   else
     end_with(particles, Free{gravity_, force_.unit});
 }
@@ -119,7 +102,7 @@ void Verlet::mark(const Particles& particles) {
 }
 
 Verlet::Drift Verlet::next_drift(const Particles& particles, double time, const FluidMotion* fluid) const {
-  return fluid != nullptr ? next_drift_with(particles, time, InFluidAhead{*fluid})
+  return fluid != nullptr ? next_drift_with(particles, time, *fluid)
                           : next_drift_with(particles, time, Free{gravity_, force_.unit});
 }
 
@@ -131,7 +114,7 @@ Verlet::Drift Verlet::next_drift_with(const Particles& particles, double time, P
   Drift drift;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Vector &x = particles.place[i].x, &from = marked_[i], &v = particles.motion[i].v,
-                 dv = push.change(particles, i, 0.5 * dt_);
+                 dv = push.kick(particles, i, 0.5 * dt_).dv;
     const double sx = (v[0] + dv[0]) * dt_, sy = (v[1] + dv[1]) * dt_, sz = (v[2] + dv[2]) * dt_;
     const double dx = x[0] - from[0] + sx - shear_rate_ * from[1] * time;
     const double dy = x[1] - from[1] + sy, dz = x[2] - from[2] + sz;

@@ -1,5 +1,5 @@
-// The shares in which a particle belongs to the cells and the faces around it, T(2.9): linear in the distance along each
-// direction of the grid. What is given to the fluid and what is taken from it have the same weights.
+// The shares in which a particle belongs to the cells and the faces around it, T(2.9): linear in the distance along
+// each direction of the grid. What is given to the fluid and what is taken from it have the same weights.
 #pragma once
 
 #include <algorithm>
