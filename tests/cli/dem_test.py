@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, NUMBERS, STOPPED, WRONG_CASE, Scratch, datasets, history, same_bits, strict_json
+from program import DONE, FILE, NUMBERS, WRONG_CASE, Scratch, datasets, history, same_bits, strict_json
 
 # 300 spheres of two sizes that fall in a column with a periodic depth; a step takes about 50 microseconds.
 FALL = """[column]
@@ -154,17 +154,7 @@ class GoOn(Dem):
 
     def test_ctrl_c_leaves_a_run_that_goes_on(self):
         directory = self.folder / "run"
-        words = ["dem", self.case, "--quiet", "--until", "5 s", "-o", directory]
-        running = self.start(*words)
-        program.wait_until(running, lambda: (directory / "checkpoint.h5").exists())
-        running.send_signal(signal.SIGINT)
-        told = running.communicate(timeout=program.LONGEST)
-        self.assertEqual(running.returncode, STOPPED, told)
-        self.assertIn("checkpoint", told[1])
-        record = strict_json((directory / "run.json").read_text())
-        self.assertEqual(record["state"], "stopped by the user")
-        with h5py.File(directory / "checkpoint.h5") as checkpoint:
-            self.assertEqual(checkpoint["numbers/time"][()], record["time_s"])
+        record = self.interrupted(directory, "dem", self.case, "--quiet", "--until", "5 s", clock="time")
         until = record["time_s"] + 1e-3
         twin = self.folder / "twin"
         shutil.copytree(directory, twin)
