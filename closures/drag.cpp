@@ -110,6 +110,31 @@ POLYBED_WIDE void evaluate_species(const Law& law, Block& b, const double* share
   for (std::size_t c = 0; c < b.cells; ++c) f[c] = b.offset[c] + b.factor[c] * b.f[c];
 }
 
+/// What each particle of a block reads.
+struct ParticleRows {
+  const double *voidage, *per_mean, *average, *share, *diameter, *slip;
+};
+
+/// f of the particles of a block, each the one species wanted of its own mixture.
+template <class Law>
+POLYBED_WIDE void evaluate_particles(const Law& law, Block& b, const ParticleRows& in, double largest,
+                                     double per_viscosity, double* f, GuardCount& count) {
+  for (std::size_t p = 0; p < b.cells; ++p) {  // apart from the next loop: together they are too long for vectors
+    b.per_mean[p] = in.per_mean[p];
+    b.coefficient[p] = law.coefficient(in.voidage[p], {in.per_mean[p], in.average[p], largest});
+  }
+  for (std::size_t p = 0; p < b.cells; ++p) {
+    const MixtureCell around{in.voidage[p], 1 / b.per_mean[p], b.per_mean[p], b.coefficient[p]};
+    const MixtureTerms term = law.term(around, in.diameter[p], in.share[p]);
+    b.voidage[p] = term.voidage;
+    b.reynolds[p] = per_viscosity * in.slip[p] * term.length;
+    b.offset[p] = term.offset;
+    b.factor[p] = term.factor;
+  }
+  evaluate(law.base, b.cells, b.voidage.data(), b.reynolds.data(), b.f.data(), b.re_dfdre.data(), count);
+  for (std::size_t p = 0; p < b.cells; ++p) f[p] = b.offset[p] + b.factor[p] * b.f[p];
+}
+
 }  // namespace
 
 DragLaw drag_law(std::string_view name, Guard guard) {
@@ -196,6 +221,23 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
           for (std::size_t j = 0; j < diameter.size(); ++j)
             evaluate_species(l, block, share[j] + begin, slip[j] + begin, diameter[j], fluid_density / viscosity,
                              f[j] + begin, count);
+        }
+      },
+      law);
+}
+
+void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std::span<const double> per_mean,
+                       std::span<const double> average, double largest, std::span<const double> share,
+                       std::span<const double> diameter, std::span<const double> slip, double fluid_density,
+                       double viscosity, std::span<double> f, GuardCount& count) {
+  std::visit(
+      [&](const auto& l) {
+        Block block;
+        for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
+          block.cells = std::min(voidage.size() - begin, Block::most);
+          const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin],
+                                &share[begin],   &diameter[begin], &slip[begin]};
+          evaluate_particles(l, block, in, largest, fluid_density / viscosity, &f[begin], count);
         }
       },
       law);

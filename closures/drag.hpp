@@ -59,4 +59,15 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
                    double viscosity, std::span<double* const> f, GuardCount& count);
 
+/// Many particles, each in a mixture of its own: f[particle] of the particle's own species, no allocation. All spans of
+/// one length.
+/// \param per_mean  sum x_j / D_j around the particle, 1/m  \param average  sum x_j D_j around it, m
+/// \param largest  the greatest diameter of the scene, that of an absent species too, m
+/// \param share  x of the particle's own species around it  \param diameter  of the particle, m
+/// \param slip  superficial slip speed eps |U_f - U_p|, m/s
+void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std::span<const double> per_mean,
+                       std::span<const double> average, double largest, std::span<const double> share,
+                       std::span<const double> diameter, std::span<const double> slip, double fluid_density,
+                       double viscosity, std::span<double> f, GuardCount& count);
+
 }  // namespace polybed::closures

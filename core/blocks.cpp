@@ -68,6 +68,16 @@ Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks) {
   return block;
 }
 
+Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks) {
+  Grid grid;
+  grid.dimensions = column.dimensions;
+  grid.cells = column.cells;
+  for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.size[d] / column.cells[d];
+  grid.periodic[0] = column.sides == "periodic";
+  grid.periodic[2] = column.sides == "periodic" && column.dimensions == 3;
+  return block_of(grid, ranks);
+}
+
 Grid whole_column(const Grid& block) {
   Grid column;
   column.dimensions = block.dimensions;

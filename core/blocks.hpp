@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/field.hpp"
+#include "core/scene.hpp"
 
 namespace polybed::core {
 
@@ -16,6 +17,9 @@ constexpr int least_block_cells = 4;
 
 /// This rank's block of a column; the column itself for null.
 [[nodiscard]] Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks);
+
+/// The grid of a column that a case describes: this rank's block of it, or the column itself for null.
+[[nodiscard]] Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks);
 
 /// The grid of the whole column, on one rank.
 [[nodiscard]] Grid whole_column(const Grid& block);

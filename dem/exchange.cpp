@@ -114,6 +114,16 @@ void Exchange::migrate(Particles& particles, std::vector<KeptContact>& kept) {
   for (const KeptContact& c : send(ranks_, contacts)) kept.push_back(c);
 }
 
+void Exchange::send_ahead(const Particles& particles, std::vector<KeptLoad>& kept) {
+  if (!ranks_) return;
+  std::vector<std::vector<KeptLoad>> leaving(std::size_t(ranks_->count()));
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const int owner = decomposition_.owner(particles.place[i].x);
+    if (owner != ranks_->rank()) leaving[std::size_t(owner)].push_back(kept[i]);
+  }
+  for (const KeptLoad& k : send(ranks_, leaving)) kept.push_back(k);
+}
+
 void Exchange::choose_ghosts(Particles& particles) {
   particles.resize(particles.owned);
   if (!ranks_) return;

@@ -14,6 +14,7 @@
 #include "core/ranks.hpp"
 #include "dem/decomposition.hpp"
 #include "dem/kept_contacts.hpp"
+#include "dem/kept_loads.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {
@@ -27,6 +28,8 @@ class Exchange {
 
   /// Sends particles to the ranks that own their places, with their contacts. No ghosts before or after.
   void migrate(Particles& particles, std::vector<KeptContact>& kept);
+  /// Sends what is kept of particles, in their order, to the ranks that own their places: before they migrate.
+  void send_ahead(const Particles& particles, std::vector<KeptLoad>& kept);
   /// Sends copies of particles to ranks whose parts they are near, and adds those received as ghosts.
   void choose_ghosts(Particles& particles);
   /// Begins to tell the other ranks where their ghosts are now and how they move; between both calls the owned

@@ -31,6 +31,13 @@ std::vector<Particle> gathered_particles(const Particles& particles, const std::
   return all;
 }
 
+std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
+                                     const std::shared_ptr<const core::Ranks>& ranks) {
+  std::vector<KeptLoad> all = on_first(loads, ranks);
+  std::sort(all.begin(), all.end(), [](const KeptLoad& a, const KeptLoad& b) { return a.id < b.id; });
+  return all;
+}
+
 std::vector<KeptContact> gathered_contacts(const std::vector<KeptContact>& contacts,
                                            const std::shared_ptr<const core::Ranks>& ranks) {
   std::vector<KeptContact> all = on_first(contacts, ranks);

@@ -15,6 +15,9 @@ namespace polybed::dem {
 /// Owned particles of all ranks, by id.
 [[nodiscard]] std::vector<Particle> gathered_particles(const Particles& particles,
                                                        const std::shared_ptr<const core::Ranks>& ranks);
+/// What the fluid does to them, by id.
+[[nodiscard]] std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
+                                                   const std::shared_ptr<const core::Ranks>& ranks);
 /// Contacts of all ranks, by ids; a pair across ranks, which both keep, once.
 [[nodiscard]] std::vector<KeptContact> gathered_contacts(const std::vector<KeptContact>& contacts,
                                                          const std::shared_ptr<const core::Ranks>& ranks);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "dem/packing.hpp"
@@ -36,6 +37,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       gravity_(gravity_of(scene)),
       force_unit_(force_unit(scene, materials_, laws_)),
       torque_unit_(torque_unit(force_unit_, materials_)),
+      held_(scene.dem.held),
       skin_(skin_of(scene, materials_)),
       verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
       search_(box_, materials_, skin_ + laws_.reach()),
@@ -54,10 +56,22 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
     flow_work_.emplace(force_unit_, energy_unit_, limits_.dt);
     pair_forces_.keep(*flow_work_);
   }
+  couple(scene, all);
   rebuild();
   find_forces(0);
   if (flow_work_) flow_work_->begin();
+  if (coupling_) coupling_->begin(particles_);
   look_ahead();
+}
+
+/// The fluid between the particles, if there is one.
+void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
+  if (scene.fluid.name == "none") return;
+  double volume = 0;
+  for (const Particle& p : all) volume += 4.0 / 3 * std::numbers::pi * std::pow(p.place.radius, 3);
+  coupling_.emplace(scene, materials_, ranks_.get(), timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
+                    limits_.greatest_speed, volume, count_);
+  coupling_->motion().load.resize(particles_.owned);
 }
 
 /// Units of the sums over all particles.
@@ -94,27 +108,37 @@ void Model::step(double stop) {
     rebuild();
   }
   timed_ = steps_ < 64 ? 1 : (steps_ % 16 == 0 ? 16 : 0);
-  {
-    const auto scope = timers_.scope("motion", timed_);
-    verlet_.begin(particles_);
-  }
   ++steps_;
-  find_forces(limits_.dt);
-  if (flow_work_) flow_work_->end_step();
-  {
-    const auto scope = timers_.scope("motion", timed_);
-    verlet_.end(particles_);
-  }
+  if (held_)
+    coupling_->hold(particles_);
+  else
+    move(limits_.dt);
+  if (coupling_ && coupling_->due(steps_)) coupling_->advance(particles_, clock());
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
   look_ahead();
   if (ahead_ == Ahead::trouble) stop_in_trouble();
+}
+
+void Model::move(double dt) {
+  {
+    const auto scope = timers_.scope("motion", timed_);
+    verlet_.begin(particles_, fluid_motion());
+  }
+  find_forces(dt);
+  if (flow_work_) flow_work_->end_step();
+  if (coupling_) {
+    const auto scope = timers_.scope("fluid forces", timed_);
+    coupling_->find_forces(particles_);
+  }
+  const auto scope = timers_.scope("motion", timed_);
+  verlet_.end(particles_, fluid_motion());
 }
 
 /// What the next step will need, or that there must be none: all that the ranks have to agree on.
 void Model::look_ahead() {
   const auto scope = timers_.scope("motion", timed_);
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
-  const Verlet::Drift drift = verlet_.next_drift(particles_, since);
+  const Verlet::Drift drift = verlet_.next_drift(particles_, since, coupling_ ? &coupling_->motion() : nullptr);
   hasty_ = drift.hasty;
   const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0;
   const Ahead here = troubled ? Ahead::trouble : (list_goes_stale(drift.distance, since) ? Ahead::stale : Ahead::clear);
@@ -154,6 +178,11 @@ std::vector<KeptContact> Model::kept_contacts() const {
   return kept;
 }
 
+void Model::restart() {
+  rebuild();
+  if (coupling_) coupling_->restart();
+}
+
 void Model::rebuild() {
   std::vector<KeptContact> kept = kept_contacts();
   wrap();
@@ -164,10 +193,16 @@ void Model::rebuild() {
 /// Moves particles to their owners and finds anew who is near whom; contacts go with their particles.
 void Model::list_pairs(std::vector<KeptContact>& kept) {
   particles_.resize(particles_.owned);
+  std::vector<KeptLoad> loads;
+  if (coupling_) {
+    loads = keep(particles_, coupling_->motion().load);
+    exchange_.send_ahead(particles_, loads);
+  }
   exchange_.migrate(particles_, kept);
   const std::vector<std::int32_t> order = search_.order(particles_);
   const Particles before = particles_;
   for (std::size_t n = 0; n < order.size(); ++n) particles_.set(n, before.at(std::size_t(order[n])));
+  if (coupling_) recall(loads, particles_, coupling_->motion().load);
   exchange_.choose_ghosts(particles_);
   search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(),
                      exchange_.decomposition().whole(materials_.greatest_diameter() + skin_ + laws_.reach()), pairs_);

@@ -13,6 +13,7 @@
 #include "core/timers.hpp"
 #include "dem/box.hpp"
 #include "dem/contacts.hpp"
+#include "dem/coupling.hpp"
 #include "dem/effects.hpp"
 #include "dem/exchange.hpp"
 #include "dem/materials.hpp"
@@ -48,7 +49,7 @@ class Model : public core::Simulation {
   /// The state is that of the last step: observers read times not more than a step old.
   void show(double) override {}
   /// Lists the pairs anew, as a run taken up again does: both then have the same bits.
-  void restart() override { rebuild(); }
+  void restart() override;
 
   /// All particles and contacts, to the bit, on the first rank; it does not depend on how many ranks there are.
   [[nodiscard]] core::Checkpoint checkpoint() const;
@@ -67,6 +68,8 @@ class Model : public core::Simulation {
   [[nodiscard]] const StepLimits& limits() const { return limits_; }
   [[nodiscard]] const core::Ranks* ranks() const { return ranks_.get(); }
   [[nodiscard]] const std::shared_ptr<const core::Ranks>& share() const { return ranks_; }
+  /// With the fluid; null where there is none.
+  [[nodiscard]] const Coupling* coupling() const { return coupling_ ? &*coupling_ : nullptr; }
   [[nodiscard]] Vector gravity() const { return gravity_; }
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
@@ -83,12 +86,14 @@ class Model : public core::Simulation {
   [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
   [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
   /// In the same unit, what this rank's part of a sheared box has done on the particles.
+  [[nodiscard]] std::int64_t fluid_work() const { return coupling_ ? coupling_->motion().work() : 0; }
   [[nodiscard]] std::int64_t flow_work() const { return flow_work_ ? flow_work_->units() : 0; }
 
  private:
   void measure(const std::vector<Particle>& all);
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
   void take_up(const core::Checkpoint& checkpoint, bool same_step);
+  void take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all);
   void look_ahead();
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
@@ -101,6 +106,9 @@ class Model : public core::Simulation {
   [[nodiscard]] std::string trouble_of_pair() const;
   [[nodiscard]] std::string trouble_of_haste() const;
   void wrap();
+  void move(double dt);
+  [[nodiscard]] FluidMotion* fluid_motion() { return coupling_ ? &coupling_->motion() : nullptr; }
+  void couple(const core::Scene& scene, const std::vector<Particle>& all);
 
   std::shared_ptr<const core::Ranks> ranks_;
   core::Timers& timers_;
@@ -112,6 +120,8 @@ class Model : public core::Simulation {
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
   std::optional<Ledger> ledger_;       ///< absent: energies lost are not counted
+  std::optional<Coupling> coupling_;   ///< absent: there is no fluid
+  bool held_;                          ///< the particles do not move
   std::optional<FlowWork> flow_work_;  ///< absent: the box is not sheared, or there is no ledger
   double skin_;
   Verlet verlet_;

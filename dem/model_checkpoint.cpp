@@ -53,6 +53,23 @@ Particle read_particle(const double* in, const Materials& materials) {
   return p;
 }
 
+constexpr std::size_t load_width = 11;
+
+void write_loads(core::Checkpoint& checkpoint, const std::vector<KeptLoad>& loads) {
+  std::vector<double>& out = checkpoint.arrays["fluid_loads"];
+  for (const auto& [id, f] : loads) {
+    out.insert(out.end(), f.velocity.begin(), f.velocity.end());
+    out.insert(out.end(), f.force.begin(), f.force.end());
+    out.insert(out.end(), f.impulse.begin(), f.impulse.end());
+    out.push_back(f.drag);
+    out.push_back(f.added);
+  }
+}
+
+FluidLoad read_load(const double* in) {
+  return {{in[0], in[1], in[2]}, in[9], {in[3], in[4], in[5]}, in[10], {in[6], in[7], in[8]}};
+}
+
 }  // namespace
 
 core::Checkpoint Model::checkpoint() const {
@@ -66,13 +83,19 @@ core::Checkpoint Model::checkpoint() const {
     out.push_back(double(c.high));
     out.insert(out.end(), c.memory.begin(), c.memory.begin() + pairs_.memory_size);
   }
+  if (coupling_) {
+    const std::vector<KeptLoad> loads = gathered_loads(keep(particles_, coupling_->motion().load), ranks_);
+    write_loads(checkpoint, loads);
+    coupling_->write(checkpoint);
+  }
   checkpoint.integers["steps"] = steps_;
   checkpoint.integers["memory_size"] = pairs_.memory_size;
   checkpoint.numbers["dt"] = limits_.dt;
   checkpoint.numbers["time"] = reported_;
-  std::array<std::int64_t, 3> sums{dissipated(), flow_work(), flow_work_ ? flow_work_->due() : 0};
+  std::array<std::int64_t, 4> sums{dissipated(), flow_work(), flow_work_ ? flow_work_->due() : 0, fluid_work()};
   core::add_over_ranks(ranks_.get(), sums);
   checkpoint.integers["dissipated"] = sums[0];
+  if (coupling_) checkpoint.integers["fluid_work"] = sums[3];
   if (flow_work_) {
     checkpoint.integers["flow_work"] = sums[1];
     checkpoint.integers["flow_work_due"] = sums[2];
@@ -123,13 +146,32 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
     if (c.high >= 0) ++work.at(where.at(c.high));
   }
   place(all, work);
+  if (coupling_) take_up_fluid(checkpoint, all);
   list_pairs(kept);
+}
+
+/// The fluid of a checkpoint, and what it does to the particles; or, where that had none, as at a start.
+void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all) {
+  std::vector<double> loads(all.size() * load_width);
+  const bool with_fluid =
+      core::on_any_rank(ranks_.get(), core::is_first(ranks_.get()) && checkpoint.arrays.contains("fluid_loads"));
+  coupling_->motion().load.assign(particles_.owned, FluidLoad{});
+  if (!with_fluid) return;
+  core::on_first(ranks_.get(), [&] { loads = checkpoint.arrays.at("fluid_loads"); });
+  core::take_from_first(ranks_.get(), loads);
+  std::unordered_map<std::int64_t, std::size_t> row;
+  for (std::size_t n = 0; n < all.size(); ++n) row[all[n].id] = n;
+  for (std::size_t i = 0; i < particles_.owned; ++i)
+    coupling_->motion().load[i] = read_load(loads.data() + row.at(particles_.id[i]) * load_width);
+  coupling_->read(checkpoint);
+  coupling_->motion().set_work(core::is_first(ranks_.get()) ? checkpoint.integers.at("fluid_work") : 0);
 }
 
 void Model::start_from(const core::Checkpoint& checkpoint) {
   take_up(checkpoint, false);
   steps_ = marked_at_ = 0;
   reported_ = 0;
+  if (coupling_) coupling_->begin(particles_);
 }
 
 }  // namespace polybed::dem

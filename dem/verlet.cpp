@@ -13,45 +13,87 @@ Verlet::Verlet(bool synchronised, double dt, Vector gravity, FixedPoint force, F
       torque_(torque),
       shear_rate_(shear_rate) {}
 
-/// Adds what a load and the weight do to a particle in a time, s; a negative one takes it back.
-void Verlet::kick(Particles& particles, std::size_t i, const Load& load, double time) const {
-  Motion& m = particles.motion[i];
-  const double linear = m.inverse_mass * force_.unit * time, angular = m.inverse_inertia * torque_.unit * time;
-  for (std::size_t k = 0; k < 3; ++k) {
-    m.v[k] += double(load.force[k]) * linear + gravity_[k] * time;
-    m.w[k] += double(load.torque[k]) * angular;
+namespace {
+
+/// A particle under its load and its weight alone.
+struct Free {
+  struct Kick {
+    Vector dv;
+  };
+  Vector gravity;
+  double unit;  ///< of forces, N
+
+  [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double time) const {
+    const double linear = particles.motion[i].inverse_mass * unit * time;
+    const Load& load = particles.load[i];
+    Kick kick;
+    for (std::size_t k = 0; k < 3; ++k) kick.dv[k] = double(load.force[k]) * linear + gravity[k] * time;
+    return kick;
   }
+  void account(const Particles&, std::size_t, const Kick&, double) const {}
+};
+
+void turn(Particles& particles, std::size_t i, double unit, double time) {
+  Motion& m = particles.motion[i];
+  const double angular = m.inverse_inertia * unit * time;
+  for (std::size_t k = 0; k < 3; ++k) m.w[k] += double(particles.load[i].torque[k]) * angular;
 }
 
-/// The velocity of a particle after a kick by its present load.
-Vector Verlet::kicked(const Particles& particles, std::size_t i, double time) const {
-  const Motion& m = particles.motion[i];
-  const double linear = m.inverse_mass * force_.unit * time;
-  const Load& load = particles.load[i];
-  Vector v;
-  for (std::size_t k = 0; k < 3; ++k) v[k] = m.v[k] + (double(load.force[k]) * linear + gravity_[k] * time);
-  return v;
+}  // namespace
+
+/// What the load, the weight and the fluid do to a particle in a time, s.
+template <class Push>
+void Verlet::kick(Particles& particles, std::size_t i, Push& push, double time) const {
+  const auto given = push.kick(particles, i, time);
+  push.account(particles, i, given, time);
+  for (std::size_t k = 0; k < 3; ++k) particles.motion[i].v[k] += given.dv[k];
+  turn(particles, i, torque_.unit, time);
 }
 
-void Verlet::begin(Particles& particles) {
+template <class Push>
+void Verlet::begin_with(Particles& particles, Push&& push) {
   const double half = 0.5 * dt_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    kick(particles, i, particles.load[i], half);
+    kick(particles, i, push, half);
     for (std::size_t k = 0; k < 3; ++k) particles.place[i].x[k] += particles.motion[i].v[k] * dt_;
   }
   if (synchronised_) {
-    before_.assign(particles.load.begin(), particles.load.begin() + std::ptrdiff_t(particles.owned));
-    for (std::size_t i = 0; i < particles.owned; ++i) kick(particles, i, before_[i], half);
+    half_.resize(particles.owned);
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      Motion& m = particles.motion[i];
+      half_[i] = {m.v, m.w};
+      const Vector dv = push.kick(particles, i, half).dv;  // only looked at: it is not kept
+      for (std::size_t k = 0; k < 3; ++k) m.v[k] += dv[k];
+      turn(particles, i, torque_.unit, half);
+    }
   }
   std::fill(particles.load.begin(), particles.load.end(), Load{});
 }
 
-void Verlet::end(Particles& particles) {
+template <class Push>
+void Verlet::end_with(Particles& particles, Push&& push) {
   const double half = 0.5 * dt_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    if (synchronised_) kick(particles, i, before_[i], -half);
-    kick(particles, i, particles.load[i], half);
+    if (synchronised_) {
+      particles.motion[i].v = half_[i].v;
+      particles.motion[i].w = half_[i].w;
+    }
+    kick(particles, i, push, half);
   }
+}
+
+void Verlet::begin(Particles& particles, FluidMotion* fluid) {
+  if (fluid != nullptr)
+    begin_with(particles, *fluid);
+  else
+    begin_with(particles, Free{gravity_, force_.unit});
+}
+
+void Verlet::end(Particles& particles, FluidMotion* fluid) {
+  if (fluid != nullptr)
+    end_with(particles, *fluid);
+  else
+    end_with(particles, Free{gravity_, force_.unit});
 }
 
 void Verlet::mark(const Particles& particles) {
@@ -59,14 +101,21 @@ void Verlet::mark(const Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) marked_[i] = particles.place[i].x;
 }
 
-Verlet::Drift Verlet::next_drift(const Particles& particles, double time) const {
+Verlet::Drift Verlet::next_drift(const Particles& particles, double time, const FluidMotion* fluid) const {
+  return fluid != nullptr ? next_drift_with(particles, time, *fluid)
+                          : next_drift_with(particles, time, Free{gravity_, force_.unit});
+}
+
+template <class Push>
+Verlet::Drift Verlet::next_drift_with(const Particles& particles, double time, Push&& push) const {
   // Beyond a tenth of a diameter in a step contacts are no longer resolved; far beyond, walls are jumped over.
   constexpr double share_of_diameter = 0.1;
   double most = 0;
   Drift drift;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    const Vector &x = particles.place[i].x, &from = marked_[i], v = kicked(particles, i, 0.5 * dt_);
-    const double sx = v[0] * dt_, sy = v[1] * dt_, sz = v[2] * dt_;
+    const Vector &x = particles.place[i].x, &from = marked_[i], &v = particles.motion[i].v,
+                 dv = push.kick(particles, i, 0.5 * dt_).dv;
+    const double sx = (v[0] + dv[0]) * dt_, sy = (v[1] + dv[1]) * dt_, sz = (v[2] + dv[2]) * dt_;
     const double dx = x[0] - from[0] + sx - shear_rate_ * from[1] * time;
     const double dy = x[1] - from[1] + sy, dz = x[2] - from[2] + sz;
     const double square = dx * dx + dy * dy + dz * dz;

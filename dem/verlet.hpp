@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dem/box.hpp"
+#include "dem/fluid_motion.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {
@@ -19,9 +20,10 @@ class Verlet {
   Verlet(bool synchronised, double dt, Vector gravity, FixedPoint force, FixedPoint torque, double shear_rate);
 
   /// First half: afterwards positions and the velocities that the force needs are there, and loads are clear.
-  void begin(Particles& particles);
+  /// \param fluid  that the particles move through; null: none, here and below
+  void begin(Particles& particles, FluidMotion* fluid);
   /// Second half: the velocities of the full step.
-  void end(Particles& particles);
+  void end(Particles& particles, FluidMotion* fluid);
 
   [[nodiscard]] bool synchronised() const { return synchronised_; }
   [[nodiscard]] double dt() const { return dt_; }
@@ -34,18 +36,27 @@ class Verlet {
     std::int64_t hasty = -1;  ///< id of an owned particle that it will move by more than a tenth of its diameter
   };
   /// \param time  from the mark to then, s
-  [[nodiscard]] Drift next_drift(const Particles& particles, double time) const;
+  [[nodiscard]] Drift next_drift(const Particles& particles, double time, const FluidMotion* fluid) const;
 
  private:
-  [[nodiscard]] Vector kicked(const Particles& particles, std::size_t i, double time) const;
-  void kick(Particles& particles, std::size_t i, const Load& load, double time) const;
+  template <class Push>
+  void begin_with(Particles& particles, Push&& push);
+  template <class Push>
+  void end_with(Particles& particles, Push&& push);
+  template <class Push>
+  [[nodiscard]] Drift next_drift_with(const Particles& particles, double time, Push&& push) const;
+  template <class Push>
+  void kick(Particles& particles, std::size_t i, Push& push, double time) const;
 
   bool synchronised_;
   double dt_;
   Vector gravity_;
   FixedPoint force_, torque_;
   double shear_rate_;
-  std::vector<Load> before_;  ///< of the last step, where synchronised
+  struct Velocities {
+    Vector v, w;
+  };
+  std::vector<Velocities> half_;  ///< of the half step, where synchronised
   std::vector<Vector> marked_;
 };
 

@@ -21,20 +21,10 @@ using Kind = StateLayout::Entry::Kind;
 
 namespace {
 
-core::Grid make_grid(const core::Column& column, const std::shared_ptr<const core::Ranks>& ranks) {
-  core::Grid grid;
-  grid.dimensions = column.dimensions;
-  grid.cells = column.cells;
-  for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.size[d] / column.cells[d];
-  grid.periodic[0] = column.sides == "periodic";
-  grid.periodic[2] = column.sides == "periodic" && column.dimensions == 3;
-  return core::block_of(grid, ranks);
-}
-
 Constants make_constants(const core::Scene& scene, const std::shared_ptr<const core::Ranks>& ranks) {
   refuse_particle_scene(scene);
   Constants constants;
-  constants.grid = make_grid(scene.column, ranks);
+  constants.grid = core::grid_of(scene.column, ranks);
   constants.gravity = scene.column.gravity;
   constants.fluid = fluid::fluid_constants(scene.fluid);
   constants.bed_share = scene.bed.volume_share;
@@ -76,8 +66,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
       options_(scene.tfm),
       momentum_((refuse_particle_scene(scene), momentum_form(scene))),
       equations_(scene, make_constants(scene, ranks),
-                 fluid::Boundaries(make_grid(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
-                 fluid::Inlet(make_grid(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_.name),
+                 fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
+                 fluid::Inlet(core::grid_of(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_.name),
                  timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();

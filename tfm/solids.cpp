@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/operators.hpp"
+#include "fluid/convection.hpp"
 
 namespace polybed::tfm {
 
@@ -51,20 +52,6 @@ void subtract(const core::FaceField& flux, core::FaceField& from) {
     for (std::size_t f = 0; f < flux[a].size(); ++f) from[a][f] -= flux[a][f];
 }
 
-template <class Difference>
-void convect(const core::Grid& grid, const fluid::Boundaries& boundaries, const core::FaceField& velocity,
-             bool of_fluid, core::FaceField& acceleration) {
-  for (int axis = 0; axis < grid.dimensions; ++axis) {
-    Field& rate = acceleration[std::size_t(axis)];
-    std::fill(rate.begin(), rate.end(), 0.0);
-    // A limited slope on the outlet's faces would ask for a second layer of faces beyond it, which there is not.
-    core::Box inside = core::interior_faces(grid, axis), at_outlet = boundaries.moving_faces(axis, of_fluid);
-    at_outlet.lo[std::size_t(axis)] = inside.hi[std::size_t(axis)];
-    core::subtract_convection<Difference>(grid, velocity, axis, inside, rate);
-    core::subtract_convection<core::UpwindDifference>(grid, velocity, axis, at_outlet, rate);
-  }
-}
-
 }  // namespace
 
 void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, double t,
@@ -95,15 +82,11 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
 }
 
 void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields) {
-  const auto convect_phase = [&](const core::FaceField& velocity, bool of_fluid, core::FaceField& acceleration) {
-    if (scheme == Scheme::limited)
-      convect<core::LimitedDifference>(constants.grid, boundaries, velocity, of_fluid, acceleration);
-    else
-      convect<core::UpwindDifference>(constants.grid, boundaries, velocity, of_fluid, acceleration);
-  };
-  convect_phase(fields.fluid.velocity, true, fields.fluid_acceleration);
+  const bool limited = scheme == Scheme::limited;
+  fluid::convection(constants.grid, boundaries, limited, true, fields.fluid.velocity, fields.fluid_acceleration);
   for (std::size_t j = 0; j < constants.species(); ++j)
-    convect_phase(fields.solids.velocity[j], false, fields.solids.acceleration[j]);
+    fluid::convection(constants.grid, boundaries, limited, false, fields.solids.velocity[j],
+                      fields.solids.acceleration[j]);
 }
 
 void add_gravity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {

@@ -9,9 +9,7 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, STOPPED, WRONG_CASE, Scratch, datasets, history, same_bits, strict_json
-
-NUMBERS = 3  # code of a run whose numbers failed
+from program import DONE, FILE, NUMBERS, WRONG_CASE, Scratch, datasets, history, same_bits, strict_json
 
 # 300 spheres of two sizes that fall in a column with a periodic depth; a step takes about 50 microseconds.
 FALL = """[column]
@@ -156,17 +154,7 @@ class GoOn(Dem):
 
     def test_ctrl_c_leaves_a_run_that_goes_on(self):
         directory = self.folder / "run"
-        words = ["dem", self.case, "--quiet", "--until", "5 s", "-o", directory]
-        running = self.start(*words)
-        program.wait_until(running, lambda: (directory / "checkpoint.h5").exists())
-        running.send_signal(signal.SIGINT)
-        told = running.communicate(timeout=program.LONGEST)
-        self.assertEqual(running.returncode, STOPPED, told)
-        self.assertIn("checkpoint", told[1])
-        record = strict_json((directory / "run.json").read_text())
-        self.assertEqual(record["state"], "stopped by the user")
-        with h5py.File(directory / "checkpoint.h5") as checkpoint:
-            self.assertEqual(checkpoint["numbers/time"][()], record["time_s"])
+        record = self.interrupted(directory, "dem", self.case, "--quiet", "--until", "5 s", clock="time")
         until = record["time_s"] + 1e-3
         twin = self.folder / "twin"
         shutil.copytree(directory, twin)
@@ -225,24 +213,42 @@ class Refused(Dem):
         for words in (["dem", case, "-o", self.folder / "run"], ["check", case]):
             self.assertIn("effects.contact", self.ends(WRONG_CASE, *words).stderr)
 
-    def overlap(self, rows, *words):
+
+class Stops(Dem):
+    """Runs whose numbers fail: they say where and with which particle, and leave numbers only."""
+
+    def stops(self, rows, *words):
         self.write("pair.csv", "species,x,y,z,vx\n" + rows)
         told = self.dem(NUMBERS, "run", *words, case=self.write("pair.toml", PAIR)).stderr
-        self.assertTrue(strict_json((self.folder / "run/run.json").read_text())["state"].startswith("failed: "))
-        self.assertTrue(datasets(self.folder / "run/checkpoint.h5"))
-        self.assertIn(str(self.folder / "run"), told)
-        with h5py.File(self.folder / "run/particles.h5") as file:  # the last state is always there
+        run = self.folder / "run"
+        self.assertTrue(strict_json((run / "run.json").read_text())["state"].startswith("failed: "))
+        self.assertIn(str(run), told)
+        self.has_no_nan(run, RESULTS)
+        with h5py.File(run / "checkpoint.h5") as file:
+            ids = file["arrays/particles"][()].reshape(rows.count("\n"), -1)[:, 0]
+            self.assertEqual(list(ids), list(range(len(ids))))
+        with h5py.File(run / "particles.h5") as file:  # the last state is always there
             self.assertEqual(len(file[f"step/{len(file['time_s']):06d}/id"]), rows.count("\n"))
         return told
 
     def test_particles_that_overlap_at_the_start(self):
-        told = self.overlap("beads,0.005,0.01,0.01,0\nbeads,0.010,0.01,0.01,0\nbeads,0.0107,0.01,0.01,0\n")
+        told = self.stops("beads,0.005,0.01,0.01,0\nbeads,0.010,0.01,0.01,0\nbeads,0.0107,0.01,0.01,0\n")
+        self.assertRegex(told, "particle 1 and particle 2 overlap")
+
+    def test_particles_with_one_centre(self):
+        """They have no direction to part in: 0/0."""
+        told = self.stops("beads,0.005,0.01,0.01,0\nbeads,0.010,0.01,0.01,0\nbeads,0.010,0.01,0.01,0\n")
         self.assertRegex(told, "particle 1 and particle 2 overlap")
 
     def test_particles_that_meet_too_fast(self):
-        told = self.overlap("beads,0.008,0.01,0.01,5\nbeads,0.010,0.01,0.01,0\n")
+        told = self.stops("beads,0.008,0.01,0.01,5\nbeads,0.010,0.01,0.01,0\n")
         self.assertRegex(told, "particle 0 and particle 1 overlap")
         self.assertIn("dem.youngs_modulus", told)
+
+    def test_a_particle_that_would_jump_over_a_wall(self):
+        """100 m/s at a wall, where 1 m/s was expected."""
+        told = self.stops("beads,0.005,0.01,0.01,0\nbeads,0.015,0.01,0.01,100\n", "--set", "dem.greatest_speed=1")
+        self.assertRegex(told, "particle 1 moves by more than a tenth of its diameter .*dem.greatest_speed")
 
 
 class Check(Dem):

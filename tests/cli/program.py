@@ -18,7 +18,7 @@ CASE = ROOT / "cases/matsuura-akehata/case.toml"
 PROGRAM = None  # set by main
 LONGEST = 60  # s; far beyond any of these commands, so that a program that hangs is told
 
-DONE, WRONG_CASE, FILE, STOPPED = 0, 2, 4, 130
+DONE, WRONG_CASE, NUMBERS, FILE, STOPPED = 0, 2, 3, 4, 130
 
 # A coarse grid: a step takes about 1 ms. Checkpoints and outputs have intervals of their own, so that they do not
 # move with the end of the run.
@@ -129,9 +129,24 @@ class Scratch(unittest.TestCase):
         self.assertEqual(done.returncode, code, f"{words}\n{(done.stdout or '')[-500:]}\n{done.stderr[-500:]}")
         return done
 
-    def has_no_nan(self, directory):
-        """All numbers of all files of a run directory are finite."""
-        for name in ("fields.h5", "profiles.h5", "checkpoint.h5"):
+    def interrupted(self, directory, *words, clock):
+        """A run into a directory, ended by Ctrl-C once it has a checkpoint; its record. The user is told of the checkpoint,
+        and it is of the time at which the run was stopped. :param clock: the checkpoint's name of its time"""
+        running = self.start(*words, "-o", directory)
+        wait_until(running, (directory / "checkpoint.h5").exists)
+        running.send_signal(signal.SIGINT)
+        told = running.communicate(timeout=LONGEST)
+        self.assertEqual(running.returncode, STOPPED, told)
+        self.assertIn("checkpoint", told[1])
+        record = strict_json((directory / "run.json").read_text())
+        self.assertEqual(record["state"], "stopped by the user")
+        with h5py.File(directory / "checkpoint.h5") as checkpoint:
+            self.assertEqual(checkpoint[f"numbers/{clock}"][()], record["time_s"])
+        return record
+
+    def has_no_nan(self, directory, files=("fields.h5", "profiles.h5", "checkpoint.h5")):
+        """All numbers of these files of a run directory and of its history are finite."""
+        for name in files:
             for path, values in datasets(directory / name).items():
                 if np.asarray(values).dtype.kind == "f":
                     self.assertTrue(np.isfinite(values).all(), f"{name}{path}")

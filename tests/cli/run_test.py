@@ -2,13 +2,12 @@
 """Runs of the continuum model: what they write, how they stop and go on. Usage: run_test.py PROGRAM"""
 import os
 import shutil
-import signal
 
 import h5py
 import numpy as np
 
 import program
-from program import CASE, DONE, FILE, SMALL, STOPPED, WRONG_CASE, Scratch, history, same_bits, strict_json
+from program import CASE, DONE, FILE, SMALL, WRONG_CASE, Scratch, history, same_bits, strict_json
 
 SPECIES = ("fine", "coarse")
 
@@ -124,18 +123,8 @@ class Stop(Scratch):
         that of a run that was not stopped, and what comes after is the same each time."""
         whole, stopped, twin = (self.folder / n for n in ("whole", "stopped", "twin"))
         words = ["tfm", CASE, *SMALL, "--until", "1 s", "--quiet"]
-        running = self.start(*words, "-o", stopped)
-        program.wait_until(running, lambda: (stopped / "checkpoint.h5").exists())
-        running.send_signal(signal.SIGINT)
-        text = running.communicate(timeout=program.LONGEST)
-        self.assertEqual(running.returncode, STOPPED, text)
-        self.assertIn("checkpoint", text[1])
-        record = strict_json((stopped / "run.json").read_text())
-        self.assertEqual(record["state"], "stopped by the user")
-        reached = record["time_s"]
+        reached = self.interrupted(stopped, *words, clock="time_s")["time_s"]
         self.assertTrue(0.1 <= reached < 1, reached)
-        with h5py.File(stopped / "checkpoint.h5") as checkpoint:
-            self.assertEqual(checkpoint["numbers/time_s"][()], reached)
         shutil.copytree(stopped, twin)
         for directory in (stopped, twin):
             self.ends(DONE, *words, "-o", directory, "--resume")

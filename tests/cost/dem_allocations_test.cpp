@@ -1,4 +1,5 @@
-// What the particle model takes from the heap: nothing in a step that does not list the pairs anew.
+// What the particle model takes from the heap: nothing in a step that does not list the pairs anew, and nothing where
+// its exchange with the fluid is smoothed.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -7,6 +8,7 @@
 
 #include "core/case_file.hpp"
 #include "dem/model.hpp"
+#include "fluid/smoothing.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
@@ -61,6 +63,20 @@ TEST(DemAllocations, AStepTakesNothingFromTheHeap) {
   }
   EXPECT_GT(lists, 5);
   EXPECT_GT(steps, 300);
+}
+
+TEST(DemAllocations, SmoothingTakesNothingFromTheHeap) {
+  core::Grid grid;
+  grid.cells = {12, 30, 1};
+  grid.periodic[0] = true;
+  const std::size_t at_first = allocations;
+  const fluid::Smoothing smoothing(grid, 4, false);
+  core::Field field = core::make_field(grid, 1);
+  const std::size_t before = allocations;
+  EXPECT_GT(before, at_first);  // which shows that they are counted
+  smoothing.smooth_cells(field);
+  for (int axis = 0; axis < 2; ++axis) smoothing.smooth_faces(field, axis);
+  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

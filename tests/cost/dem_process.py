@@ -2,15 +2,15 @@
 import os
 import resource
 import subprocess
+import sys
 import time
 from pathlib import Path
 
-# As in tests/CMakeLists.txt: what Open MPI needs in a container and as root; ranks that wait let others have the core.
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import open_mpi  # noqa: E402
+
 # One thread each. polybed draws no picture when its Python does not start; that of the others is not in the way.
-SETTINGS = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1",
-            "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
-            "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_mpi_yield_when_idle": "1",
-            "PYTHONHOME": "/nowhere"}
+SETTINGS = open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES | {"OMP_NUM_THREADS": "1", "PYTHONHOME": "/nowhere"}
 
 
 class Failed(Exception):

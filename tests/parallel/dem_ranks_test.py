@@ -14,7 +14,9 @@ import tempfile
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
+import open_mpi  # noqa: E402
 import program  # noqa: E402
 from program import Scratch, main  # noqa: E402
 
@@ -165,10 +167,8 @@ def ulps_up(value, count=1):
 class DemRanks(Scratch):
     def start_on(self, ranks, *words):
         """`polybed dem` on a number of ranks, begun."""
-        settings = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                        OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_hwloc_base_binding_policy="none",
-                        OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_mpi_yield_when_idle="1",
-                        OMPI_MCA_orte_tmpdir_base=tempfile.mkdtemp(dir=self.folder), PYTHONHOME="/nowhere")
+        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
+        settings |= {"OMPI_MCA_orte_tmpdir_base": tempfile.mkdtemp(dir=self.folder), "PYTHONHOME": "/nowhere"}
         return subprocess.Popen(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "dem", *map(str, words), "--quiet"],
                                 env=settings, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 

@@ -5,7 +5,8 @@
 namespace polybed::verification {
 namespace {
 
-/// A row of the specification's table (calibration, section 4): simple shear, e = 0.9, frictionless linear springs.
+/// What another program found: simple shear of 2048 spheres, e = 0.9, frictionless linear springs, t_c/tau 0.02 to
+/// 0.04.
 struct Row {
   double fraction;
   std::array<double, 3> expected;  ///< theta, p, mu in shear units
@@ -38,7 +39,7 @@ TEST_P(SimpleShear, AgreesWithTheTable) {
     compare(name[q], mean.mean(q) / units[q], row.expected[q], std::max(0.02, 3 * error));
     compare(std::string("standard error of ") + name[q], mean.error(q) / mean.mean(q), 0, 0.02, 1);
   }
-  // -sigma_xy gamma V against what contacts dissipate and the motion stores: 1 %, the specification's.
+  // -sigma_xy gamma V against what contacts dissipate and the motion stores: 1 %, this project's goal.
   const double heat = dem::stress_of(run.model).temperature[0] - heat_before;
   const double stored = 1.5 * gas.number * gas.mass() * heat + after.elastic - before.elastic;
   compare("balance", 20 * mean.mean(shear_stress) * volume, after.dissipated - before.dissipated + stored, 0.01);
@@ -50,8 +51,8 @@ INSTANTIATE_TEST_SUITE_P(DemRows, SimpleShear,
                                          Row{0.4, {0.939, 2.625, 0.757}, {0.004, 0.011, 0.005}}),
                          [](const auto& info) { return fmt::format("Phi{:.0f}", 10 * info.param.fraction); });
 
-// Springs so stiff (t_c/tau = 0.01) that they matter less than 0.4 %: the specification's 0.5 % of Carnahan-Starling
-// with the nominal diameter, and three standard errors of this run.
+// Springs so stiff (t_c/tau = 0.01) that they matter less than 0.4 %: 0.5 % of Carnahan-Starling with the nominal
+// diameter, this project's goal, and three standard errors of this run.
 TEST(DemElasticGas, CarnahanStarling) {
   for (const double fraction : {0.2, 0.4}) {
     const Gas gas{.number = 1000, .fraction = fraction, .softness = 0.01};

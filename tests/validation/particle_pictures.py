@@ -19,9 +19,9 @@ import matplotlib.pyplot as plt
 
 SPEED, RADIUS, FRICTION, RESTITUTION = 3.9, 2.5e-3, 0.092, 0.98
 ANGLES = np.linspace(1, 80, 40)  # degrees from the normal
-# Limits of fine steps by the specification's prototype.
-PROTOTYPE = {"angle": [2, 5, 10, 15, 20, 25, 30], "hdd": [.75034, .69448, .57356, .56197, .58213, .62263, .68474],
-             "mindlin": [.87033, .85746, .70669, .63385, .62248, .63937, .68474]}
+# By another program, 20000 steps a contact: as in tests/verification/dem_oblique_test.cpp.
+FINE = {"angle": [2, 5, 10, 15, 20, 25, 30], "hdd": [.75034, .69448, .57356, .56197, .58213, .62263, .68474],
+        "mindlin": [.87033, .85746, .70669, .63385, .62248, .63937, .68474]}
 
 # The wall has nearly the sphere's Poisson ratio and the greatest modulus a case may name; the result does not depend on it.
 IMPACTS = """[column]
@@ -116,7 +116,7 @@ def main(program, picture):
         folder = pathlib.Path(name)
         for law, colour in (("hdd", "tab:blue"), ("mindlin", "tab:orange")):
             left.plot(ANGLES, rebounds(program, folder, law), color=colour, label=f"polybed, {law}")
-            left.plot(PROTOTYPE["angle"], PROTOTYPE[law], "o", color=colour, mfc="none", label=f"prototype, {law}")
+            left.plot(FINE["angle"], FINE[law], "o", color=colour, mfc="none", label=f"fine steps, {law}")
         for integrator in ("thesis", "synchronised"):
             for tail, line in (("clip", "-o"), ("keep", "--s")):
                 errors = [missing_energy(program, folder, integrator, tail, dt) for dt in steps]

@@ -59,7 +59,7 @@ TEST_P(ForceBalance, ABedExpandsToIt) {
   const auto& [point, integrator] = GetParam();
   const double found = voidage_after(point.velocity, 0.5, integrator);
   record("difference in voidage", found - point.voidage);
-  EXPECT_NEAR(found, point.voidage, 1e-4);  // the spec's figure; the top of the bed is 20 cells away
+  EXPECT_NEAR(found, point.voidage, 1e-4);  // this project's goal; the top of the bed is 20 cells away
 }
 
 INSTANTIATE_TEST_SUITE_P(Expansion, ForceBalance,

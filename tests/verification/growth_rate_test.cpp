@@ -27,8 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Stress, GrowthRate,
 
 // References: eigenvalues of the linearised equations of continuity and momentum for fraction and velocity as they
 // stand, and the roots of the dispersion relation, which agree to ten digits; for M = 0.2 Pa s without stress both give
-// the .6802 1/s and 34.77 mm/s of the specification, here with 0.05 Pa, so that there is a pressure that gives
-// viscosity.
+// .6802 1/s and 34.77 mm/s. Here it is 0.05 Pa, so that there is a pressure that gives viscosity.
 INSTANTIATE_TEST_SUITE_P(Viscosity, GrowthRate,
                          testing::Values(Wave{0.05, 0.66885, 0.034773, 0.2}, Wave{2 * 1.1585, 0.34662, 0.039505, 0.08},
                                          Wave{10 * 1.1585, -1.99548, 0.035631, 0.2}));

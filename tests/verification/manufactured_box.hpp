@@ -19,25 +19,11 @@ constexpr Regime liquid_bed{0.1, 5e-3, 1e-3, 0.1};
 /// solids of different velocities under one pressure are ill-posed where drag does not rule: fine ripples would grow.
 constexpr Regime balanced{0.01, 1e-2, 8e-3, 0.002};
 
-/// Solids of 2500 and 1500 kg/m3, the second twice as large, in a liquid of 1000 kg/m3; they press on each other from
-/// 0.1 on, so that the stress is smooth and acts everywhere.
+/// The box of two species in this regime; cells may be of any shape.
 inline core::Scene all_effects(const Regime& regime, int dimensions, std::array<int, 3> cells) {
-  const double length = regime.length;
-  core::Scene scene = uniform_bed(regime.diameter, 2500, 1000, regime.viscosity, 0.32, cells[1], length);
-  scene.column.dimensions = dimensions;
-  scene.column.size = {length, length, length};
+  core::Scene scene = two_species_box(dimensions, cells[1], regime.length, regime.diameter, regime.viscosity);
   scene.column.cells = cells;
-  scene.species.push_back(scene.species[0]);
-  scene.species[1].name = "second";
-  scene.species[1].diameter = 2 * regime.diameter;
-  scene.species[1].density = 1500;
   scene.bed.volume_share = {0.5625, 0.4375};
-  scene.effects = {{"drag", "cello"},
-                   {"solids_stress", "frictional"},
-                   {"species_exchange", "syamlal"},
-                   {"fluid_stress", "newtonian"}};
-  scene.tfm.frictional_onset = 0.1;
-  scene.tfm.max_packing = "0.64";
   scene.tfm.bulk_viscosity = 0;
   scene.tfm.pressure_tolerance = 1e-10;
   return scene;

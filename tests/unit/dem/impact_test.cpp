@@ -105,7 +105,7 @@ TEST(Impact, DoesNotDependOnThePhaseOfTheFirstStep) {
     for (bool synchronised : {false, true}) {
       const double error = error_over_phases(laws[n], 200, synchronised);
       RecordProperty(std::string(laws[n].tangential) + (synchronised ? "_synchronised" : ""), std::to_string(error));
-      EXPECT_LT(error, 5e-3) << laws[n].tangential << synchronised;  // what the specification allows at 200 steps
+      EXPECT_LT(error, 5e-3) << laws[n].tangential << synchronised;  // goal; found 1.4e-3
     }
 }
 

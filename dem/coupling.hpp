@@ -1,0 +1,89 @@
+// Particles and fluid together: what each hears of the other, and when.
+//
+// Between two steps of the fluid its fields are frozen, and every particle moves through them, with its drag integrated
+// exactly; the impulse that it takes is kept. Then the particles' volumes and impulses go to the fluid, the fluid takes
+// its step, and each particle gets by one kick what the change of the fluid would have done to it meanwhile: that is in
+// the fluid's equations, so that the momentum of both together is kept whatever the length of the steps.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/checkpoint.hpp"
+#include "core/ranks.hpp"
+#include "core/timers.hpp"
+#include "dem/fluid_motion.hpp"
+#include "dem/gather.hpp"
+#include "dem/particle_forces.hpp"
+#include "dem/scatter.hpp"
+#include "fluid/flow.hpp"
+#include "fluid/smoothing.hpp"
+
+namespace polybed::dem {
+
+class Coupling {
+ public:
+  struct Units {
+    FixedPoint force, energy;
+  };
+  /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume  of all particles, m3
+  Coupling(const core::Scene& scene, const Materials& materials, const core::Ranks* ranks, core::Timers& timers,
+           Units units, double dt, double speed, double volume, std::int64_t count);
+
+  /// The fluid between the particles at the start of a run. Collective, as are advance and write.
+  void begin(const Particles& particles);
+  /// Loads of the particles where they are now.
+  void find_forces(const Particles& particles);
+  /// Whether the fluid takes its step after so many of the particles.
+  [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
+  /// The fluid's step that ends at time t, s, and the particles' answer to it.
+  void advance(Particles& particles, double t);
+  /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
+  void hold(const Particles& particles);
+
+  [[nodiscard]] FluidMotion& motion() { return motion_; }
+  [[nodiscard]] const FluidMotion& motion() const { return motion_; }
+  [[nodiscard]] const fluid::Flow& flow() const { return flow_; }
+  [[nodiscard]] const fluid::FlowStep& last_step() const { return last_; }
+  [[nodiscard]] const std::vector<core::Field>& fraction() const { return fraction_; }
+  [[nodiscard]] const ParticleForces& forces() const { return forces_; }
+  [[nodiscard]] int every() const { return every_; }
+  /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
+  [[nodiscard]] double kernel_width() const { return width_; }
+  /// Mean net pressure on the distributor, less that at the outlet, Pa.
+  [[nodiscard]] double pressure_drop() const;
+  /// Steps and iterations since the start.
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
+
+  /// What comes next does not depend on earlier solves.
+  void restart() { flow_.forget(); }
+  void write(core::Checkpoint& checkpoint) const;
+  void read(const core::Checkpoint& checkpoint);
+
+ private:
+  void collect(const Particles& particles);
+  void smooth();
+  void answer(Particles& particles);
+  void take_fields();
+
+  const core::Ranks* ranks_;
+  core::Timers& timers_;
+  fluid::Flow flow_;
+  fluid::ParticlePhase phase_;
+  std::vector<core::Field> fraction_;  ///< phi_j, [species][cell]
+  double width_;
+  fluid::Smoothing smoothing_;
+  ParticleForces forces_;
+  Scatter scatter_;
+  Gather gather_;
+  FluidMotion motion_;
+  int every_;
+  bool held_;
+  double dt_;  ///< of the particles, s
+  fluid::FlowStep last_;
+  std::uint64_t steps_ = 0, iterations_ = 0;
+};
+
+}  // namespace polybed::dem

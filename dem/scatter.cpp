@@ -1,0 +1,106 @@
+#include "dem/scatter.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace polybed::dem {
+
+using core::Field;
+
+namespace {
+
+double volume_of(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
+
+}  // namespace
+
+Scatter::Scatter(const core::Grid& grid, const Materials& materials, bool added_mass, double all, double speed)
+    : grid_(grid), weights_(grid), species_(materials.species()), count_(added_mass ? carry_flux + 1 : yield + 1) {
+  double lightest = species_.front().density, heaviest = lightest;
+  for (const Species& s : species_) {
+    lightest = std::min(lightest, s.density);
+    heaviest = std::max(heaviest, s.density);
+  }
+  // The greatest that each sum can be if all particles were in one place, and what speeds may exceed expectations by.
+  constexpr double reserve = 64;
+  const double mass = all * heaviest;
+  for (const double most :
+       {all, all * speed * reserve, mass * speed * reserve, mass * reserve, all, all, all / lightest, mass, all})
+    unit_.push_back(FixedPoint::for_sums_of(most, 1));
+  sums_.resize(grid.padded_size() * (3 * count_ + species_.size()));
+}
+
+void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt, bool held) {
+  std::fill(sums_.begin(), sums_.end(), 0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const Motion& m = particles.motion[i];
+    const FluidLoad& f = loads[i];
+    const double v = volume_of(particles.place[i].radius), mass = 1 / m.inverse_mass, inertia = mass + f.added;
+    const double x = f.drag * dt / inertia, s = mean_decay(x), g = x * s, a = f.added / inertia * s;
+    std::array<double, 6> same{mass * (g + a),      v * (g + a), v * (1 - mass / inertia * s),
+                               v * v * s / inertia, mass * a,    v * a};
+    if (held) same = {f.drag * dt, 0, 0, 0, 0, 0};
+    add(particles.place[i], same, m.v, f.impulse, std::size_t(particles.species[i]));
+  }
+}
+
+/// \param same  drag, follow, slide, yield, carry, carry_flux: alike on the faces of all axes
+void Scatter::add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
+                  std::size_t species) {
+  const Lines lines = weights_(place.x);
+  const double v = volume_of(place.radius);
+  std::array<double, 9> units{};
+  units[Sum::volume] = v * unit_[Sum::volume].per_unit;
+  for (std::size_t q = drag; q < count_; ++q) units[q] = same[q - drag] * unit_[q].per_unit;
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    units[flux] = v * velocity[a] * unit_[flux].per_unit;
+    units[Sum::impulse] = impulse[a] * unit_[Sum::impulse].per_unit;
+    for_each_face(grid_.dimensions, lines, axis, [&](std::size_t at, double w) {
+      std::int64_t* sum = face(axis, at);
+      for (std::size_t q = 0; q < count_; ++q) sum[q] += std::int64_t(w * units[q]);
+    });
+  }
+  std::int64_t* cells = sums_.data() + grid_.padded_size() * (3 * count_ + species);
+  for_each_cell(grid_.dimensions, lines,
+                [&](std::size_t at, double w) { cells[at] += std::int64_t(w * units[Sum::volume]); });
+}
+
+void Scatter::give(const core::Ranks* ranks, bool open_top, fluid::ParticlePhase& phase, std::vector<Field>& fraction) {
+  core::add_over_ranks(ranks, sums_);
+  const double per_cell = 1 / grid_.cell_volume(), unit = unit_[volume].unit * per_cell;
+  std::fill(phase.voidage.begin(), phase.voidage.end(), 1.0);
+  for (std::size_t j = 0; j < species_.size(); ++j) {
+    const std::int64_t* cells = sums_.data() + grid_.padded_size() * (3 * count_ + j);
+    for (std::size_t c = 0; c < grid_.padded_size(); ++c) {
+      fraction[j][c] = double(cells[c]) * unit;
+      phase.voidage[c] -= fraction[j][c];
+    }
+  }
+  give_faces(open_top, phase);
+}
+
+void Scatter::give_faces(bool open_top, fluid::ParticlePhase& phase) const {
+  const double per_cell = 1 / grid_.cell_volume();
+  const std::array<core::FaceField*, 9> fields{&phase.voidage_on, &phase.flux,   &phase.impulse,
+                                               &phase.drag,       &phase.follow, &phase.slide,
+                                               &phase.yield,      &phase.carry,  &phase.carry_flux};
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const std::int64_t* sums = sums_.data() + a * grid_.padded_size() * count_;
+    for (std::size_t q = 0; q < count_; ++q) {
+      Field& field = (*fields[q])[a];
+      const double unit = unit_[q].unit * per_cell;
+      for (std::size_t c = 0; c < field.size(); ++c) field[c] = double(sums[c * count_ + q]) * unit;
+    }
+    // The faces of the outlet stand for half a cell.
+    if (axis == 1 && open_top)
+      core::for_each_row(grid_, {0, grid_.cells[1], 0}, {grid_.cells[0], grid_.cells[1] + 1, grid_.cells[2]},
+                         [&](core::Index begin, core::Index end) {
+                           for (std::size_t q = 0; q < count_; ++q)
+                             for (auto c = std::size_t(begin); c < std::size_t(end); ++c) (*fields[q])[1][c] *= 2;
+                         });
+    for (double& eps : phase.voidage_on[a]) eps = 1 - eps;
+  }
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,244 @@
+#include "fluid/flow.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "fluid/convection.hpp"
+#include "fluid/density.hpp"
+#include "fluid/pressure.hpp"
+#include "fluid/properties.hpp"
+#include "fluid/viscous_stress.hpp"
+
+namespace polybed::fluid {
+
+using core::Field;
+using core::Index;
+
+namespace {
+
+void clear(core::FaceField& faces) {
+  for (Field& f : faces) std::fill(f.begin(), f.end(), 0.0);
+}
+
+}  // namespace
+
+Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
+    : grid_(grid),
+      boundaries_(grid, scene.column.closed),
+      inlet_(grid, scene),
+      constants_(fluid_constants(scene.fluid)),
+      gravity_(scene.column.gravity),
+      tolerance_(tolerance),
+      viscous_(scene.effects.contains("fluid_stress") && scene.effects.at("fluid_stress") != "none"),
+      limited_(scene.tfm.momentum != "upwind"),
+      solver_(grid),
+      fluid_(grid),
+      convected_(core::make_face_field(grid)),
+      acceleration_(core::make_face_field(grid)),
+      velocity_change_(core::make_face_field(grid)),
+      gradient_(core::make_face_field(grid)),
+      gradient_change_(core::make_face_field(grid)),
+      per_inertia_(core::make_face_field(grid)),
+      mobility_(core::make_face_field(grid)),
+      source_(core::make_field(grid)),
+      change_(core::make_field(grid)) {
+  if (scene.fluid.equation_of_state == "incompressible") return;
+  compressible_.emplace(grid, boundaries_, equation_of_state(scene.fluid, constants_.density),
+                        scene.fluid.outlet_pressure, constants_.density, gravity_);
+  compressible_->make_fields(fluid_);
+  shift_ = core::make_field(grid);
+}
+
+void Flow::begin(double t, const ParticlePhase& particles) {
+  set_voidage(particles);
+  set_inlet(t);
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    core::for_each_row(grid_, boundaries_.moving_faces(axis, true), [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+        const double eps = particles.voidage_on[a][c];
+        fluid_.flux[a][c] = eps * fluid_.velocity[a][c] + particles.flux[a][c];
+        mobility_[a][c] = eps / constants_.density;
+        per_inertia_[a][c] = 1 / constants_.density;
+      }
+    });
+  }
+  FlowStep step;
+  ParticlePhase still = particles;
+  clear(still.yield);
+  clear(velocity_change_);
+  std::fill(shift_.begin(), shift_.end(), 0.0);
+  close_pressure(t, 1, still, step);
+  correct(1);
+  std::fill(fluid_.pressure.begin(), fluid_.pressure.end(), 0.0);
+  clear(gradient_);
+  clear(gradient_change_);
+  clear(velocity_change_);
+}
+
+FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
+  FlowStep step;
+  set_voidage(particles);
+  set_inlet(t + dt);
+  find_acceleration(dt);
+  with_density(fluid_, constants_.density, [&](const auto& density) { push(density, dt, particles); });
+  close_pressure(t, dt, particles, step);
+  correct(dt);
+  step.courant = courant(dt);
+  if (!(step.courant <= 1))
+    throw core::NumericsError(
+        fmt::format("t = {:.6g} s: the fluid moves by {:.3g} cells in its step of {:.3g} s; lower dem.fluid_every", t + dt,
+                    step.courant, dt));
+  return step;
+}
+
+void Flow::set_voidage(const ParticlePhase& particles) {
+  fluid_.voidage = particles.voidage;
+  boundaries_.fill_cells(fluid_.voidage);
+  if (compressible_ && !compressible_->set_density(fluid_))
+    throw core::NumericsError("the pressure of the fluid has left the range of its equation of state");
+}
+
+/// What flows in, over the voidage of the cells above.
+void Flow::set_inlet(double t) {
+  if (boundaries_.closed()) return;
+  inlet_.set_velocity(t, fluid_.flux[1]);
+  for_each_boundary_row(grid_, 1, 0, [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+      fluid_.velocity[1][c] = fluid_.flux[1][c] / fluid_.voidage[c];
+  });
+}
+
+/// a, and dt (U.grad)U.
+void Flow::find_acceleration(double dt) {
+  boundaries_.fill_velocity(fluid_.velocity, WallSlip::no_slip);
+  convection(grid_, boundaries_, limited_, true, fluid_.velocity, acceleration_);
+  for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a)
+    for (std::size_t c = 0; c < convected_[a].size(); ++c) convected_[a][c] = -dt * acceleration_[a][c];
+  if (viscous_) add_viscous_stress(grid_, boundaries_, fluid_, constants_, acceleration_);
+  if (compressible_) compressible_->add_gravity(fluid_, acceleration_);
+}
+
+/// dU without the change of pressure, J that belongs to it, and B.
+template <class Density>
+void Flow::push(const Density& density, double dt, const ParticlePhase& particles) {
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const Index s = grid_.stride(axis);
+    core::for_each_row(grid_, boundaries_.moving_faces(axis, true), [&](Index begin, Index end) {
+      for (Index f = begin; f < end; ++f) {
+        const auto c = std::size_t(f);
+        const double eps = particles.voidage_on[a][c], inertia = eps * density.on_face(f, s);
+        const double whole = inertia + particles.drag[a][c];
+        double force = dt * (inertia * acceleration_[a][c] - eps * gradient_[a][c]) - particles.impulse[a][c];
+        double flux = eps * fluid_.velocity[a][c] + particles.flux[a][c];
+        if (particles.added_mass()) {
+          force -= particles.carry[a][c] * convected_[a][c];
+          flux += particles.carry_flux[a][c] * convected_[a][c];
+        }
+        const double change = force / whole;
+        velocity_change_[a][c] = change;
+        fluid_.flux[a][c] = flux + (eps + particles.follow[a][c]) * change;
+        per_inertia_[a][c] = (eps + particles.slide[a][c]) / whole;
+        mobility_[a][c] = (eps + particles.follow[a][c]) * per_inertia_[a][c] + particles.yield[a][c];
+      }
+    });
+  }
+}
+
+/// The change of pressure that makes J what the constraint asks for: -dt div(B grad dp) [+ kappa dp/dt] = -div J.
+void Flow::close_pressure(double t, double dt, const ParticlePhase&, FlowStep& step) {
+  boundaries_.join(fluid_.flux, mobility_);
+  core::divergence(grid_, fluid_.flux, source_);
+  for (double& s : source_) s = -s / dt;
+  if (compressible_) {
+    const double still = constants_.density * gravity_;
+    core::for_each_row(grid_, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+        const double kappa = fluid_.compression.kappa[c];
+        double along = 0;  // U.grad P
+        for (int axis = 0; axis < grid_.dimensions; ++axis) {
+          const auto a = std::size_t(axis);
+          const auto next = c + std::size_t(grid_.stride(axis));
+          const double fall = axis == 1 ? still : 0;
+          along += 0.5 * (fluid_.velocity[a][c] * (gradient_[a][c] - fall) +
+                          fluid_.velocity[a][next] * (gradient_[a][next] - fall));
+        }
+        shift_[c] = kappa / (dt * dt);
+        source_[c] -= kappa * along / dt;
+      }
+    });
+  }
+  std::fill(change_.begin(), change_.end(), 0.0);
+  const core::PoissonResult result =
+      solver_.solve({mobility_[0], mobility_[1], mobility_[2]}, shift_, source_, change_, tolerance_);
+  step.iterations = result.iterations;
+  step.residual = result.residual;
+  if (!result.converged)
+    throw core::NumericsError(fmt::format("t = {:.6g} s: the pressure of the fluid was not found, residual {:.2e}", t + dt,
+                                          result.residual));
+}
+
+/// The change of pressure acts.
+void Flow::correct(double dt) {
+  gradient_of(change_, gradient_change_);
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    core::for_each_row(grid_, boundaries_.moving_faces(axis, true), [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+        velocity_change_[a][c] -= dt * per_inertia_[a][c] * gradient_change_[a][c];
+        fluid_.velocity[a][c] += velocity_change_[a][c];
+        fluid_.flux[a][c] -= dt * mobility_[a][c] * gradient_change_[a][c];
+      }
+    });
+  }
+  core::for_each_row(grid_, [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) fluid_.pressure[c] += change_[c];
+  });
+  set_gradient();  // from the sum, so that a run taken up again has the same bits
+  boundaries_.join(fluid_.velocity, fluid_.flux);
+}
+
+void Flow::gradient_of(const Field& p, core::FaceField& out) const {
+  Field with_ghosts = p;
+  set_outlet_pressure(grid_, boundaries_, with_ghosts);
+  clear(out);
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    Field& g = out[std::size_t(axis)];
+    for_each_gradient_row(grid_, boundaries_.moving_faces(axis, true), axis, with_ghosts,
+                          [&](Index begin, Index end, auto gradient) {
+                            for (Index c = begin; c < end; ++c) g[std::size_t(c)] = gradient(c);
+                          });
+    const Index s = grid_.stride(axis);
+    if (grid_.cells[std::size_t(axis)] < 2) continue;
+    for_each_boundary_row(grid_, axis, 0, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) g[std::size_t(c)] = g[std::size_t(c + s)];
+    });
+    if (axis == 1 && !boundaries_.closed()) continue;  // the outlet moves
+    for_each_boundary_row(grid_, axis, 1, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) g[std::size_t(c)] = g[std::size_t(c - s)];
+    });
+  }
+  boundaries_.join(out);
+}
+
+double Flow::courant(double dt) const {
+  double most = 0, per_square = 0;
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const double h = grid_.spacing[a];
+    per_square += 1 / (h * h);
+    core::for_each_row(grid_, core::owned_faces(grid_, axis), [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+        const double crossed = std::abs(fluid_.velocity[a][c]) * dt / h;
+        most = crossed <= most ? most : crossed;  // turned round, so that what is not a number stays
+      }
+    });
+  }
+  return viscous_ ? std::max(most, 2 * constants_.viscosity / constants_.density * dt * per_square) : most;
+}
+
+}  // namespace polybed::fluid

@@ -1,0 +1,91 @@
+// The averaged fluid between particles, step by step: T(1.10) with T(1.16), the same terms as in fluid/momentum.hpp,
+// with the particles' answer taken implicitly.
+//
+//   (m + K) dU = dt [m a - eps G - I/dt - C (U.grad)U] - dt (eps + S) dG,   m = eps rho_f
+//   J = eps (U + dU) + F + Y (dU + ...) - dt Q dG,   div J = 0  (or -kappa dP/dt of a compressible fluid)
+//
+// a = -(U.grad)U + div(eps tau)/(eps rho_f), G the gradient of the net pressure, dG its change; F, I, K, S, Y, Q, C of
+// ParticlePhase. The pressure's change follows from the constraint, with the mobility
+//
+//   B = (eps + Y)(eps + S)/(m + K) + Q.
+//
+// Particles that answered to the old pressure only would have to be pushed apart by the new one: the ratio of what they
+// displace to what they weigh, phi rho_f/(eps rho_p), would multiply the error at every step, whatever its length.
+#pragma once
+
+#include <optional>
+
+#include "core/linear_solver.hpp"
+#include "core/scene.hpp"
+#include "fluid/boundaries.hpp"
+#include "fluid/compressible.hpp"
+#include "fluid/inlet.hpp"
+#include "fluid/particle_phase.hpp"
+
+namespace polybed::fluid {
+
+/// What a step of the fluid took.
+struct FlowStep {
+  int iterations = 0;    ///< of the linear solver
+  double residual = 0;   ///< its true relative residual
+  double courant = 0;    ///< greatest |U| dt/h, and of the viscous stress 2 nu dt sum(1/h^2)
+};
+
+class Flow {
+ public:
+  /// \param grid  the column; on one rank, as all of this class  \param tolerance  relative residual of the pressure
+  Flow(const core::Scene& scene, const core::Grid& grid, double tolerance);
+
+  /// A fluid that enters at time t, s, between particles that do not answer: its velocity is made to fit the inlet and
+  /// the particles' flux by an impulse of the pressure, which is then forgotten.
+  void begin(double t, const ParticlePhase& particles);
+  /// One step from t to t + dt, s. Throws core::NumericsError with a remedy if the equations cannot be solved, or dt is
+  /// too long for explicit convection and stress.
+  FlowStep advance(double t, double dt, const ParticlePhase& particles);
+
+  [[nodiscard]] const FluidState& state() const { return fluid_; }
+  [[nodiscard]] FluidState& state() { return fluid_; }
+  [[nodiscard]] const core::Grid& grid() const { return grid_; }
+  [[nodiscard]] const Boundaries& boundaries() const { return boundaries_; }
+  [[nodiscard]] const Inlet& inlet() const { return inlet_; }
+  [[nodiscard]] const FluidConstants& constants() const { return constants_; }
+  /// G, Pa/m, on all faces: on those that are held that of their neighbour inside.
+  [[nodiscard]] const core::FaceField& gradient() const { return gradient_; }
+  /// dG and dU of the last step, and dt (U.grad)U in it, m/s.
+  [[nodiscard]] const core::FaceField& gradient_change() const { return gradient_change_; }
+  [[nodiscard]] const core::FaceField& velocity_change() const { return velocity_change_; }
+  [[nodiscard]] const core::FaceField& convected() const { return convected_; }
+  /// Of a compressible fluid.
+  [[nodiscard]] const Compressible* compressible() const { return compressible_ ? &*compressible_ : nullptr; }
+  /// The pressure's gradient from the pressure: after the state was set from outside.
+  void set_gradient() { gradient_of(fluid_.pressure, gradient_); }
+  /// Begins anew: what comes next does not depend on earlier solves.
+  void forget() { solver_.forget(); }
+
+ private:
+  void set_voidage(const ParticlePhase& particles);
+  void set_inlet(double t);
+  void find_acceleration(double dt);
+  template <class Density>
+  void push(const Density& density, double dt, const ParticlePhase& particles);
+  void close_pressure(double t, double dt, const ParticlePhase& particles, FlowStep& step);
+  void correct(double dt);
+  [[nodiscard]] double courant(double dt) const;
+  void gradient_of(const core::Field& p, core::FaceField& out) const;
+
+  core::Grid grid_;
+  Boundaries boundaries_;
+  Inlet inlet_;
+  FluidConstants constants_;
+  double gravity_, tolerance_;
+  bool viscous_, limited_;
+  std::optional<Compressible> compressible_;
+  core::PoissonSolver solver_;
+  FluidState fluid_;
+  core::FaceField convected_, acceleration_, velocity_change_, gradient_, gradient_change_;
+  core::FaceField per_inertia_;  ///< (eps + S)/(m + K), 1/(kg/m3): what dU gains by -dt dG
+  core::FaceField mobility_;     ///< B, m3/kg
+  core::Field source_, change_, shift_;
+};
+
+}  // namespace polybed::fluid

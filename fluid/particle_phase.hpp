@@ -1,0 +1,44 @@
+// The door between the averaged fluid and particles that are followed one by one: all that a step of the fluid has to
+// know of them, as sums over particles on its own faces. Solids that are continua come through interphase.hpp.
+#pragma once
+
+#include "core/field.hpp"
+
+namespace polybed::fluid {
+
+/// Per volume of a cell, psi; w: weight of a particle on a face. Over an interval dt the particles have moved through a
+/// frozen fluid and got the impulse I from it by drag and added mass. What the fluid's change dU, its own convection
+/// (U.grad)U and a change dG of the pressure's gradient do to a particle of velocity U_p and inertia M = m + m_a follows
+/// in one kick at the end of the interval,
+///
+///   dU_p = g dU + (m_a/M) s (dU + dt (U.grad)U) - (V/M) s dt dG,   g = 1 - exp(-k dt/M),  s = g M/(k dt),
+///
+/// k being the drag over the slip. The sums below are what the fluid's momentum and the flux of volume see of it.
+struct ParticlePhase {
+  core::Field voidage;         ///< eps in cells
+  core::FaceField voidage_on;  ///< eps on faces
+  core::FaceField flux;        ///< sum w V U_p: volume flux of the particles, m/s
+  core::FaceField impulse;     ///< sum w I: what the fluid has lost to them since its last step, kg/(m2 s)
+  core::FaceField drag;        ///< sum w m [g + (m_a/M) s], kg/m3: times dU, what it loses besides
+  core::FaceField follow;      ///< sum w V [g + (m_a/M) s]: times dU, flux that the particles gain
+  core::FaceField slide;       ///< sum w V [1 - (m/M) s]: times dt dG, what the fluid gains by slower particles
+  core::FaceField yield;       ///< sum w V^2 s/M, m3/kg: times -dt dG, flux that the particles gain
+  core::FaceField carry;       ///< sum w m (m_a/M) s, kg/m3: times dt (U.grad)U; empty without added mass
+  core::FaceField carry_flux;  ///< sum w V (m_a/M) s likewise
+
+  ParticlePhase() = default;
+  ParticlePhase(const core::Grid& grid, bool added_mass)
+      : voidage(core::make_field(grid, 1)),
+        voidage_on(core::make_face_field(grid, 1)),
+        flux(core::make_face_field(grid)),
+        impulse(core::make_face_field(grid)),
+        drag(core::make_face_field(grid)),
+        follow(core::make_face_field(grid)),
+        slide(core::make_face_field(grid)),
+        yield(core::make_face_field(grid)) {
+    if (added_mass) carry = carry_flux = core::make_face_field(grid);
+  }
+  [[nodiscard]] bool added_mass() const { return !carry[0].empty(); }
+};
+
+}  // namespace polybed::fluid

@@ -1,0 +1,128 @@
+#include "fluid/smoothing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace polybed::fluid {
+
+namespace {
+/// Along an axis, for cells much smaller than w, the kernel is higher than the Gaussian and narrower at half height: by
+/// 5.0 and 7.3 % with 8 steps, 2.4 and 3.6 % with 16, 1.2 and 1.8 % with 32. With 16 the cells soon matter more: at w
+/// of 4 cells it is 9.2 % higher, 7.5 % with 32. The cost is in proportion: with 16, 15 ns per cell and field in 2-D.
+constexpr int steps = 16;
+
+/// The faces of an axis that are smoothed.
+core::Box free_faces(const core::Grid& grid, int axis, bool closed) {
+  core::Box box = core::interior_faces(grid, axis);
+  if (axis == 1 && !closed) box.hi[1] = grid.faces(1);
+  return box;
+}
+
+/// Copies `count` entries of some lines between a field and a tile of LineDiffusion::lanes lines.
+template <class Copy>
+void for_each_entry(int count, core::Index stride, const core::Index* starts, int lines, Copy&& copy) {
+  constexpr int lanes = LineDiffusion::lanes;
+  for (int i = 0; i < count; ++i)
+    for (int l = 0; l < lines; ++l) copy(i * lanes + l, starts[l] + i * stride);
+}
+}  // namespace
+
+double smoothing_width(double smallest_cell, double largest_diameter, std::size_t particles) {
+  constexpr double resolved = 1.5, bed = 4, single = 6;
+  constexpr std::size_t fewest_of_a_bed = 10;
+  if (smallest_cell >= resolved * largest_diameter) return 0;
+  return (particles < fewest_of_a_bed ? single : bed) * largest_diameter;
+}
+
+double smoothing_time(double width) { return width * width / (16 * std::numbers::ln2); }
+
+LineDiffusion::LineDiffusion(int count, bool joined, double lambda, int steps) : steps_(steps) {
+  const auto n = std::size_t(count);
+  if (joined) {
+    const double root = 2 / (1 + std::sqrt(1 + 4 * lambda));  // 1 - q, of lambda (1 - q)^2 = q
+    const double q = lambda * root * root, rest = 1 - q;  // of q as rounded, or the sum would drift where q is near 1
+    gain_.assign(n, rest * rest);
+    carry_.assign(n, q);
+    around_ = -1 / std::expm1(count * std::log1p(-rest));
+    return;
+  }
+  double excess = 1;  // of the pivot over lambda: 1 + lambda (1 - lambda/pivot before)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double pivot = i + 1 < n ? lambda + excess : excess;
+    gain_.push_back(1 / pivot);
+    carry_.push_back(lambda / pivot);
+    excess = 1 + lambda * (excess / pivot);
+  }
+}
+
+template <bool forward>
+void LineDiffusion::pass(double* tile) const {
+  const int n = count();
+  double value[lanes] = {};
+  const auto sweep = [&](auto&& store) {
+    for (int m = 0; m < n; ++m) {
+      const int i = forward ? m : n - 1 - m;
+      const double gain = forward ? gain_[std::size_t(i)] : 1.0, carry = carry_[std::size_t(i)];
+      double* entry = tile + i * lanes;
+      for (int l = 0; l < lanes; ++l) value[l] = gain * entry[l] + carry * value[l];
+      store(entry);
+    }
+  };
+  if (around_ > 0) {
+    sweep([](double*) {});
+    for (double& v : value) v *= around_;
+  }
+  sweep([&](double* entry) { std::copy(value, value + lanes, entry); });
+}
+
+void LineDiffusion::apply(double* tile) const {
+  for (int step = 0; step < steps_; ++step) {
+    pass<true>(tile);
+    pass<false>(tile);
+  }
+}
+
+Smoothing::Sweeps Smoothing::sweeps(const core::Grid& grid, const core::Box& box, double time) {
+  Sweeps result;
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const int count = box.hi[a] - box.lo[a];
+    if (count < 2) continue;
+    const double lambda = time / steps / (grid.spacing[a] * grid.spacing[a]);
+    Sweep sweep{{count, grid.periodic[a], lambda, steps}, grid.stride(axis), {}};
+    core::Box first = box;
+    first.hi[a] = first.lo[a] + 1;
+    core::for_each_row(grid, first, [&](core::Index begin, core::Index end) {
+      for (core::Index c = begin; c < end; ++c) sweep.starts.push_back(c);
+    });
+    result.push_back(std::move(sweep));
+  }
+  return result;
+}
+
+Smoothing::Smoothing(const core::Grid& grid, double width, bool closed) {
+  if (!(width > 0)) return;
+  const double time = smoothing_time(width);
+  cells_ = sweeps(grid, core::owned_cells(grid), time);
+  for (int axis = 0; axis < grid.dimensions; ++axis)
+    faces_[std::size_t(axis)] = sweeps(grid, free_faces(grid, axis, closed), time);
+  const int longest = 1 + *std::max_element(grid.cells.begin(), grid.cells.end());
+  work_.assign(std::size_t(longest * LineDiffusion::lanes), 0);
+}
+
+void Smoothing::smooth(const Sweeps& sweeps, core::Field& field) const {
+  double* tile = work_.data();
+  double* values = field.data();
+  for (const Sweep& sweep : sweeps)
+    for (std::size_t first = 0; first < sweep.starts.size(); first += LineDiffusion::lanes) {
+      const int lines = int(std::min(sweep.starts.size() - first, std::size_t(LineDiffusion::lanes)));
+      const core::Index* starts = sweep.starts.data() + first;
+      const int count = sweep.line.count();
+      for_each_entry(count, sweep.stride, starts, lines, [&](int t, core::Index c) { tile[t] = values[c]; });
+      sweep.line.apply(tile);
+      for_each_entry(count, sweep.stride, starts, lines, [&](int t, core::Index c) { values[c] = tile[t]; });
+    }
+}
+
+}  // namespace polybed::fluid

@@ -1,0 +1,86 @@
+// The averaging kernel by which particles and fluid feel each other, with a width of its own: results must not change
+// with the size of the cells. What particles deposit in cells and faces, and what is gathered from there, is smoothed
+// by d phi/d tau = lap phi up to tau = w^2/(16 ln 2): a Gaussian whose full width at half height is w.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/field.hpp"
+
+namespace polybed::fluid {
+
+/// The width that the kernel has unless the case says, m: 0, plain weights, where the smallest cell is at least 1.5 of
+/// the largest diameters; else 4 of these in beds, and 6 for single particles (fewer than 10), whose own disturbance of
+/// the fluid must not be taken for its speed.
+[[nodiscard]] double smoothing_width(double smallest_cell, double largest_diameter, std::size_t particles);
+
+/// tau, m2, after which diffusion has made of a point the Gaussian exp(-r^2/(4 tau)) of full width w at half height:
+/// exp(-w^2/(16 tau)) = 1/2.
+[[nodiscard]] double smoothing_time(double width);
+
+/// Diffusion along one line of equal cells by equal implicit Euler steps, (1 + lambda L)^-steps with L = (-1, 2, -1),
+/// no flux through the ends or the ends joined.
+///
+/// Each step is a forward and a backward recurrence whose coefficients are all positive, computed without differences:
+/// what is >= 0 stays so, and every entry of such a line, hence its sum, is right to round-off at any lambda. With
+/// joined ends 1 + lambda L = (1 - q E)(1 - q/E)/(1 - q)^2, E the shift by a cell, and either recurrence starts with
+/// what has come around; Sherman and Morrison's formula would subtract.
+class LineDiffusion {
+ public:
+  static constexpr int lanes = 8;  ///< lines done at once, as one runs into the latency of the arithmetic
+  /// \param lambda  of each step: its time over the cell size squared
+  LineDiffusion(int count, bool joined, double lambda, int steps);
+  [[nodiscard]] int count() const { return int(gain_.size()); }
+  /// Smooths `lanes` lines; entry i of line l is tile[i * lanes + l].
+  void apply(double* tile) const;
+
+ private:
+  template <bool forward>
+  void pass(double* tile) const;
+  std::vector<double> gain_, carry_;  ///< y[i] = gain[i] b[i] + carry[i] y[i-1]; then x[i] = y[i] + carry[i] x[i+1]
+  double around_ = 0;                 ///< 1/(1 - q^count): all turns around joined ends; 0 where they are not joined
+  int steps_;
+};
+
+/// \pre The whole column is on this rank (grid.ranks is null). One object must not smooth two fields at the same time.
+///
+/// Axis after axis, which on a uniform box commute: the operator is exactly their product. It is symmetric, positive,
+/// keeps constants and conserves the sum of what it smooths, each to round-off, so that what is gathered with it and
+/// what is scattered with it are adjoint. Steps of implicit Euler have the exact second moment, 2 tau along each axis,
+/// however few and whatever the cells; their number sets the shape (see smoothing.cpp).
+///
+/// smooth_cells(div F) = div(smooth_faces(F)) along joined axes, and for the component of F along a joined axis
+/// whatever the other axes are. For the component normal to walls both have the same sum, but they agree only where the
+/// kernel does not reach the wall: there faces conserve the sum of F instead.
+class Smoothing {
+ public:
+  /// \param width   w, full width at half height of the kernel, m; 0: nothing is smoothed
+  /// \param closed  whether the column's top is a wall to what is smoothed: the faces there are held
+  Smoothing(const core::Grid& grid, double width, bool closed);
+
+  [[nodiscard]] bool present() const { return !work_.empty(); }
+  /// Smooths a cell field in place: no flux through walls, bottom and top. Ghosts are neither read nor written.
+  void smooth_cells(core::Field& field) const { smooth(cells_, field); }
+  /// Smooths a component of a quantity on the faces of an axis. The faces on walls and on the bottom are held, those of
+  /// the top if it is closed: neither read nor written, no flux between them and their neighbours. An open top's are
+  /// like interior ones. Across the axis no flux through walls.
+  void smooth_faces(core::Field& field, int axis) const { smooth(faces_[std::size_t(axis)], field); }
+
+ private:
+  /// The lines of a box of entries along one axis.
+  struct Sweep {
+    LineDiffusion line;
+    core::Index stride;
+    std::vector<core::Index> starts;
+  };
+  using Sweeps = std::vector<Sweep>;
+  [[nodiscard]] static Sweeps sweeps(const core::Grid& grid, const core::Box& box, double time);
+  void smooth(const Sweeps& sweeps, core::Field& field) const;
+
+  Sweeps cells_;
+  std::array<Sweeps, 3> faces_;
+  mutable std::vector<double> work_;  ///< the lines that are being smoothed
+};
+
+}  // namespace polybed::fluid

@@ -1,0 +1,69 @@
+// Which integrator `dem.integrator = "auto"` chooses: forces of friction on small particles among large ones want spins
+// and velocities at the time of the places.
+#include "dem/step_limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench.hpp"
+
+namespace polybed::dem::test {
+namespace {
+
+/// Two species without friction, the second `ratio` times as large.
+core::Scene two_sizes(double ratio) {
+  core::Scene scene = scene_of({});
+  scene.dem.friction = 0;
+  scene.species.push_back(scene.species[0]);
+  scene.species[1].name = "b";
+  scene.species[1].diameter *= ratio;
+  return scene;
+}
+
+StepLimits limits_of(const core::Scene& scene) {
+  const Materials materials(scene);
+  return step_limits(scene, materials, make_pair_laws(scene, materials), 1);
+}
+
+TEST(Integrator, IsThatOfTheThesisWithoutFriction) {
+  const StepLimits limits = limits_of(two_sizes(3.5));
+  EXPECT_FALSE(limits.synchronised);
+  EXPECT_EQ(limits.integrator_reason, "no friction or a size ratio of 3.5, below 3");
+}
+
+TEST(Integrator, IsSynchronisedForTheFrictionOfOneSpecies) {
+  core::Scene scene = two_sizes(3.5);
+  scene.species[1].friction = 0.4;
+  const StepLimits limits = limits_of(scene);
+  EXPECT_TRUE(limits.synchronised);
+  EXPECT_EQ(limits.integrator_reason, "friction and a size ratio of 3.5, at least 3");
+}
+
+TEST(Integrator, IsSynchronisedForTheFrictionOfOnePair) {
+  for (const char* partner : {"b", "wall"}) {
+    core::Scene scene = two_sizes(3.5);
+    scene.contact_pairs.push_back({{"a", partner}, {}, {}, 0.4, {}});
+    EXPECT_TRUE(limits_of(scene).synchronised) << partner;
+  }
+}
+
+TEST(Integrator, IsThatOfTheThesisForSizesAlikeOrWithoutALawOfFriction) {
+  core::Scene scene = two_sizes(2.9);
+  scene.species[1].friction = 0.4;
+  EXPECT_FALSE(limits_of(scene).synchronised);
+  scene.species[1].diameter *= 3.1 / 2.9;
+  EXPECT_TRUE(limits_of(scene).synchronised);
+  scene.effects["contact"] = "hertz";
+  EXPECT_FALSE(limits_of(scene).synchronised);
+}
+
+TEST(Integrator, IsTheOneThatTheCaseSays) {
+  core::Scene scene = two_sizes(3.5);
+  scene.dem.integrator = "synchronised";
+  EXPECT_TRUE(limits_of(scene).synchronised);
+  scene.species[1].friction = 0.4;
+  scene.dem.integrator = "thesis";
+  EXPECT_FALSE(limits_of(scene).synchronised);
+}
+
+}  // namespace
+}  // namespace polybed::dem::test
