@@ -56,6 +56,11 @@ void shear(const Scene& scene, Messages& wrong) {
   needs(scene.column.gravity == 0, fmt::format("column.gravity = 0, it is {:g} m/s2", scene.column.gravity));
 }
 
+void in_fluid(const Scene& scene, Messages& wrong) {
+  if (scene.fluid.name == "none" && scene.dem.held)
+    wrong.push_back("dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"");
+}
+
 void no_fluid(const Scene& scene, Messages& wrong) {
   if (scene.fluid.name != "none") return;
   const auto idle = [&](bool set, const char* what) {
@@ -108,6 +113,7 @@ std::vector<std::string> resolve_particles(Scene& scene, const std::string& case
   gravity(scene.column, wrong);
   periodic_ends(scene, wrong);
   shear(scene, wrong);
+  in_fluid(scene, wrong);
   no_fluid(scene, wrong);
   bed(scene, case_name, wrong);
   return wrong;

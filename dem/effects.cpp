@@ -100,7 +100,13 @@ PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials) {
 
 std::vector<core::Role> roles() {
   const std::string absent = "DEM only; reaches the TFM through the solids stress";
-  return {{"contact",
+  return {{"added_mass",
+           "dem",
+           "Inertia",
+           "fluid that a particle drags along when it accelerates",
+           "not in this version",
+           {{"zuber", "C_m = (1 + 2 phi)/(2 (1 - phi)), Zuber 1964"}, {"half", "C_m = 1/2, of one sphere"}}},
+          {"contact",
            "dem",
            "Pair",
            "forces of touching particles",

@@ -71,9 +71,11 @@ Totals totals_of(const Model& model) {
   }
   add_contacts(model, model.pairs(), false, elastic, totals);
   add_contacts(model, model.walls(), true, elastic, totals);
-  std::array<std::int64_t, 10> sums{kinetic.units(),     rotational.units(), potential.units(),   elastic.units(),
-                                    model.dissipated(),  totals.contacts,    momentum[0].units(), momentum[1].units(),
-                                    momentum[2].units(), model.flow_work()};
+  std::array<std::int64_t, 10> sums{kinetic.units(),     rotational.units(),
+                                    potential.units(),   elastic.units(),
+                                    model.dissipated(),  totals.contacts,
+                                    momentum[0].units(), momentum[1].units(),
+                                    momentum[2].units(), model.flow_work() + model.fluid_work()};
   core::add_over_ranks(model.ranks(), sums);
   totals.kinetic = double(sums[0]) * unit.unit;
   totals.rotational = double(sums[1]) * unit.unit;

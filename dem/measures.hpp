@@ -13,7 +13,7 @@ struct Totals {
   double elastic = 0;         ///< of springs, and of attraction, which is negative
   double potential = 0;       ///< against the origin of the box; 0 without gravity
   double dissipated = 0;      ///< since the start, by dashpots and friction; 0 without dem.ledger
-  double work = 0;            ///< done by a sheared box's flow since the start; 0 without dem.ledger
+  double work = 0;            ///< of a fluid, or of a sheared box's flow, since the start; 0 without dem.ledger
   std::int64_t contacts = 0;  ///< of particles with each other and with walls
   double max_overlap = 0;     ///< m
   double max_force = 0;       ///< N, elastic

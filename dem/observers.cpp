@@ -95,8 +95,14 @@ void Observers::write_history(double time) {
     double weight = 0;
     for (const double m : mass) weight += m;
     weight *= std::abs(model_.gravity()[1]) / slabs_.area;
-    // Without a fluid nothing carries the bed but its bottom.
-    std::vector<std::optional<double>> row{time, model_.limits().dt, height, 0.0, weight};
+    double drop = 0;  // without a fluid nothing carries the bed but its bottom
+    if (const Coupling* coupling = model_.coupling()) {
+      drop = coupling->pressure_drop();
+      weight = 0;
+      for (std::size_t j = 0; j < species.size(); ++j)
+        weight -= mass[j] * coupling->motion().net_gravity(std::int32_t(j))[1] / slabs_.area;
+    }
+    std::vector<std::optional<double>> row{time, model_.limits().dt, height, drop, weight};
     for (std::size_t j = 0; j < species.size(); ++j) {
       row.push_back(fluid::centre(profile, j));
       row.push_back(mass[j]);

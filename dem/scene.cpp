@@ -6,7 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "closures/drag_turton_levenspiel.hpp"
+#include "closures/terminal_velocity.hpp"
 #include "core/error.hpp"
+#include "fluid/properties.hpp"
 
 namespace polybed::dem {
 
@@ -21,6 +24,22 @@ double most_contacts(double radius, double partner) {
 
 constexpr double most_walls = 3;  ///< that a particle touches at once
 
+/// Speed that a fluid lets particles have: twice the terminal velocity of the fastest, or twice what they start with,
+/// and what the fluid's inflow becomes between packed particles.
+double speed_in_fluid(const core::Scene& scene, const std::vector<Particle>& start) {
+  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const auto drag = [law = closures::DragTurtonLevenspiel{}](double eps, double re) { return law(eps, re).f; };
+  double fastest = 0, inflow = 0;
+  for (const core::Species& s : scene.species)
+    fastest = std::max(fastest, closures::terminal_velocity(drag, s.diameter, s.density - fluid.density, fluid.density,
+                                                            fluid.viscosity, scene.column.gravity));
+  for (const Particle& p : start) fastest = std::max(fastest, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
+  for (const auto& [t, u] : scene.inlet.superficial_velocity) inflow = std::max(inflow, u);
+  for (const core::Jet& jet : scene.jets)
+    for (const auto& [t, u] : jet.superficial_velocity) inflow = std::max(inflow, u);
+  return 2 * (fastest + inflow);
+}
+
 }  // namespace
 
 Box box_of(const core::Scene& scene) {
@@ -33,8 +52,10 @@ Box box_of(const core::Scene& scene) {
   for (int axis = 0; axis < 3; ++axis) {
     if (box.periodic[std::size_t(axis)]) continue;
     box.walls.push_back({axis, 0, 0});
-    // The top of a column lets particles fly beyond it, and gravity bring them back, unless it is closed.
-    if (axis != 1 || column.closed) box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
+    // The top of a column without a fluid lets particles fly beyond it, and gravity bring them back, unless it is
+    // closed; the screen of one with a fluid stops them.
+    if (axis != 1 || column.closed || scene.fluid.name != "none")
+      box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
   }
   return box;
 }
@@ -59,6 +80,7 @@ double greatest_speed(const core::Scene& scene, const Box& box, const std::vecto
     speed = std::max(speed, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
     least = std::min(least, 2 * p.place.radius);
   }
+  if (scene.fluid.name != "none") speed = std::min(speed, speed_in_fluid(scene, start));
   if (!(speed > 0) && scene.dem.fixed_step) speed = 0.01 * least / *scene.dem.fixed_step;
   if (!(speed > 0))
     throw core::CaseError(

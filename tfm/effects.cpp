@@ -16,15 +16,15 @@
 namespace polybed::tfm {
 
 std::vector<core::Role> roles() {
-  core::Role drag{"drag", "tfm", "Exchange", "force of the fluid on every species", "", {}};
+  core::Role drag{"drag", "tfm, dem", "Exchange", "force of the fluid on every species or particle", "", {}};
   for (const closures::DragLawInfo& law : closures::drag_laws())
     drag.laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [of a mixture: breaks the sum rule]")});
   return {drag,
           {"fluid_stress",
-           "tfm",
+           "tfm, dem",
            "Stress",
            "viscous stress of the averaged fluid",
-           "not in this version",
+           "",
            {{"newtonian", "mu (grad U + grad U^T - 2/3 div U I); T(1.16)"}}},
           {"solids_stress",
            "tfm",
