@@ -185,6 +185,7 @@ void Coupling::write(core::Checkpoint& checkpoint) const {
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
     checkpoint.arrays[fmt::format("fluid_velocity_{}", a)] = flow_.state().velocity[a];
   checkpoint.arrays["fluid_pressure"] = flow_.state().pressure;
+  checkpoint.arrays["fluid_impulse"] = phase_.impulse[1];  // what the pressure drop shows until the next step
   for (std::size_t j = 0; j < fraction_.size(); ++j)
     checkpoint.arrays[fmt::format("fluid_fraction_{}", j)] = fraction_[j];
   checkpoint.integers["fluid_steps"] = std::int64_t(steps_);
@@ -205,11 +206,19 @@ void Coupling::read(const core::Checkpoint& checkpoint) {
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
     take(fmt::format("fluid_velocity_{}", a), fluid.velocity[a]);
   take("fluid_pressure", fluid.pressure);
+  take("fluid_impulse", phase_.impulse[1]);
   for (std::size_t j = 0; j < fraction_.size(); ++j) take(fmt::format("fluid_fraction_{}", j), fraction_[j]);
   flow_.set_gradient();
   flow_.forget();
   take_fields();
-  steps_ = std::uint64_t(checkpoint.integers.contains("fluid_steps") ? checkpoint.integers.at("fluid_steps") : 0);
+  std::fill(phase_.voidage.begin(), phase_.voidage.end(), 1.0);
+  for (const Field& phi : fraction_)
+    for (std::size_t c = 0; c < phi.size(); ++c) phase_.voidage[c] -= phi[c];
+  const auto count = [&](const char* key) {
+    return std::uint64_t(checkpoint.integers.contains(key) ? checkpoint.integers.at(key) : 0);
+  };
+  steps_ = count("fluid_steps");
+  iterations_ = count("fluid_iterations");
 }
 
 }  // namespace polybed::dem
