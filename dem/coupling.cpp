@@ -44,6 +44,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, const c
       flow_(scene, core::grid_of(scene.column, nullptr), pressure_tolerance),
       phase_(flow_.grid(), false),
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
+      at_ends_(core::make_field(flow_.grid())),
       width_(width_of(scene, flow_.grid(), materials, count)),
       smoothing_(flow_.grid(), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
@@ -86,6 +87,7 @@ void Coupling::advance(Particles& particles, double t) {
   {
     const auto scope = timers_.scope("fluid");
     last_ = flow_.advance(t - dt, dt, phase_);
+    weigh();
   }
   ++steps_;
   iterations_ += std::uint64_t(last_.iterations);
@@ -163,15 +165,32 @@ void Coupling::answer(Particles& particles) {
   }
 }
 
+/// What the particles' halves of cells at the bottom, and at a closed top, take from the fluid: no fluid moves on those
+/// faces that could show it in its pressure.
+void Coupling::weigh() {
+  const core::Grid& grid = flow_.grid();
+  const double dt = every_ * dt_;
+  const auto rows = [&](int side) {
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        at_ends_[c] = phase_.impulse[1][c] / dt - (1 - phase_.voidage_on[1][c]) * flow_.gradient()[1][c];
+    });
+  };
+  rows(0);
+  if (flow_.boundaries().closed()) rows(1);
+}
+
 double Coupling::pressure_drop() const {
   const core::Grid& grid = flow_.grid();
-  const double dt = every_ * dt_, h = grid.spacing[1];
+  const double h = grid.spacing[1];
   const Field& p = flow_.state().pressure;
   double sum = 0;
+  for (const int side : {0, 1})
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += h * at_ends_[c];
+    });
   core::for_each_row(grid, {0, 0, 0}, {grid.cells[0], 1, grid.cells[2]}, [&](Index begin, Index end) {
-    // The particles of the lower half of the lowest cells rest on the fluid at the distributor.
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-      sum += p[c] + h * phase_.impulse[1][c] / (dt * phase_.voidage[c]);
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += p[c];
   });
   const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
   core::for_each_row(grid, {0, grid.cells[1] - 1, 0}, {grid.cells[0], grid.cells[1], grid.cells[2]},
@@ -185,7 +204,7 @@ void Coupling::write(core::Checkpoint& checkpoint) const {
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
     checkpoint.arrays[fmt::format("fluid_velocity_{}", a)] = flow_.state().velocity[a];
   checkpoint.arrays["fluid_pressure"] = flow_.state().pressure;
-  checkpoint.arrays["fluid_impulse"] = phase_.impulse[1];  // what the pressure drop shows until the next step
+  checkpoint.arrays["fluid_at_ends"] = at_ends_;
   for (std::size_t j = 0; j < fraction_.size(); ++j)
     checkpoint.arrays[fmt::format("fluid_fraction_{}", j)] = fraction_[j];
   checkpoint.integers["fluid_steps"] = std::int64_t(steps_);
@@ -206,14 +225,11 @@ void Coupling::read(const core::Checkpoint& checkpoint) {
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
     take(fmt::format("fluid_velocity_{}", a), fluid.velocity[a]);
   take("fluid_pressure", fluid.pressure);
-  take("fluid_impulse", phase_.impulse[1]);
+  take("fluid_at_ends", at_ends_);
   for (std::size_t j = 0; j < fraction_.size(); ++j) take(fmt::format("fluid_fraction_{}", j), fraction_[j]);
   flow_.set_gradient();
   flow_.forget();
   take_fields();
-  std::fill(phase_.voidage.begin(), phase_.voidage.end(), 1.0);
-  for (const Field& phi : fraction_)
-    for (std::size_t c = 0; c < phi.size(); ++c) phase_.voidage[c] -= phi[c];
   const auto count = [&](const char* key) {
     return std::uint64_t(checkpoint.integers.contains(key) ? checkpoint.integers.at(key) : 0);
   };

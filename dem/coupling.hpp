@@ -67,12 +67,14 @@ class Coupling {
   void smooth();
   void answer(Particles& particles);
   void take_fields();
+  void weigh();
 
   const core::Ranks* ranks_;
   core::Timers& timers_;
   fluid::Flow flow_;
   fluid::ParticlePhase phase_;
   std::vector<core::Field> fraction_;  ///< phi_j, [species][cell]
+  core::Field at_ends_;                ///< on the faces of bottom and top: force on particles per volume, N/m3
   double width_;
   fluid::Smoothing smoothing_;
   ParticleForces forces_;
