@@ -59,6 +59,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
             pressure_tolerance),
       phase_(flow_.grid(), false),
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
+      at_ends_(core::make_field(flow_.grid())),
       width_(width_of(scene, materials, count)),
       smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
@@ -124,6 +125,7 @@ void Coupling::advance(Particles& particles, double t) {
   {
     const auto scope = timers_.scope("fluid");
     last_ = flow_.advance(t - dt, dt, phase_);
+    weigh();
   }
   ++steps_;
   iterations_ += std::uint64_t(last_.iterations);
@@ -227,19 +229,36 @@ void Coupling::answer(Particles& particles) {
   }
 }
 
+/// What the particles' halves of cells at the bottom, and at a closed top, take from the fluid: no fluid moves on those
+/// faces that could show it in its pressure.
+void Coupling::weigh() {
+  const core::Grid& grid = flow_.grid();
+  const double dt = every_ * dt_;
+  const auto rows = [&](int side) {
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        at_ends_[c] = phase_.impulse[1][c] / dt - (1 - phase_.voidage_on[1][c]) * flow_.gradient()[1][c];
+    });
+  };
+  rows(0);
+  if (flow_.boundaries().closed()) rows(1);
+}
+
 double Coupling::pressure_drop() const {
   const core::Grid& grid = flow_.grid();
-  const double dt = every_ * dt_, h = grid.spacing[1];
+  const double h = grid.spacing[1];
   const Field& p = flow_.state().pressure;
   double sum = 0;
   const auto row = [&](int j, auto&& body) {
     core::for_each_row(grid, {0, j, 0}, {grid.cells[0], j + 1, grid.cells[2]}, body);
   };
+  for (const int side : {0, 1})
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += h * at_ends_[c];
+    });
   if (grid.ends(1, 0))
     row(0, [&](Index begin, Index end) {
-      // The particles of the lower half of the lowest cells rest on the fluid at the distributor.
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-        sum += p[c] + h * phase_.impulse[1][c] / (dt * phase_.voidage[c]);
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += p[c];
     });
   const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
   if (grid.ends(1, 1))

@@ -71,6 +71,7 @@ class Coupling {
   void take_fields();
   void here(std::initializer_list<core::FaceField*> fields) const;
   void fetch();
+  void weigh();
   [[nodiscard]] core::Field of_column(const core::Field& own) const;
   void take_own(const core::Field& column, core::Field& own) const;
 
@@ -79,9 +80,10 @@ class Coupling {
   fluid::Flow flow_;
   fluid::ParticlePhase phase_;
   std::vector<core::Field> fraction_;     ///< phi_j, [species][cell]
+  core::Field at_ends_;                   ///< on the faces of bottom and top: force on particles per volume, N/m3
   std::optional<GridExchange> exchange_;  ///< absent: every rank has the whole fluid
-  std::vector<core::Field>
-      fraction_here_;  ///< on what this rank's particles touch; empty without an exchange, as below
+  /// On what this rank's particles touch; empty without an exchange.
+  std::vector<core::Field> fraction_here_;
   core::FaceField velocity_here_, gradient_here_;
   double width_;
   fluid::Smoothing smoothing_;

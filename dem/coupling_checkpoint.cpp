@@ -41,6 +41,7 @@ void Coupling::write(core::Checkpoint& checkpoint) const {
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
     checkpoint.arrays[fmt::format("fluid_velocity_{}", a)] = of_column(flow_.state().velocity[a]);
   checkpoint.arrays["fluid_pressure"] = of_column(flow_.state().pressure);
+  checkpoint.arrays["fluid_at_ends"] = of_column(at_ends_);
   for (std::size_t j = 0; j < fraction_.size(); ++j)
     checkpoint.arrays[fmt::format("fluid_fraction_{}", j)] = of_column(fraction_[j]);
   checkpoint.integers["fluid_steps"] = std::int64_t(steps_);
@@ -63,6 +64,7 @@ void Coupling::read(const core::Checkpoint& checkpoint) {
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
     take(fmt::format("fluid_velocity_{}", a), fluid.velocity[a]);
   take("fluid_pressure", fluid.pressure);
+  take("fluid_at_ends", at_ends_);
   for (std::size_t j = 0; j < fraction_.size(); ++j) take(fmt::format("fluid_fraction_{}", j), fraction_[j]);
   flow_.set_gradient();
   flow_.forget();

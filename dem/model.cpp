@@ -138,7 +138,8 @@ void Model::move(double dt) {
 void Model::look_ahead() {
   const auto scope = timers_.scope("motion", timed_);
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
-  const Verlet::Drift drift = verlet_.next_drift(particles_, since, coupling_ ? &coupling_->motion() : nullptr);
+  const Verlet::Drift drift =
+      held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, coupling_ ? &coupling_->motion() : nullptr);
   hasty_ = drift.hasty;
   const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0;
   const Ahead here = troubled ? Ahead::trouble : (list_goes_stale(drift.distance, since) ? Ahead::stale : Ahead::clear);
