@@ -24,6 +24,7 @@ import lammps_run
 import liggghts_run
 from dem_goals import rate_goals, same_contacts, same_energy, speed_up, spread
 from dem_process import Failed, run
+from peer_report import print_verdicts
 
 WARM_UP, TRACED, SAMPLE = 200, 300, 100  # steps
 STEPS = {1: 4000, 3: 2000}  # by copies of the packing along each axis
@@ -152,12 +153,6 @@ def memory_per_particle(phases):
     small, large = phases[0], phases[-1]
     return {name: (r["memory_B"] - small["runs"][name, ranks]["memory_B"]) / (large["count"] - small["count"])
             for (name, ranks), r in large["runs"].items() if ranks == 1 and (name, ranks) in small["runs"]}
-
-
-def print_verdicts(lines):
-    print()
-    for sentence, met in lines:
-        print(f"- {'not judged' if met is None else 'met' if met else 'MISSED'}: {sentence}")
 
 
 def read_arguments():

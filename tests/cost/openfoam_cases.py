@@ -4,7 +4,8 @@ A bed is a dict of SI values: size (width, height), cells (nx, ny), fluid {name,
 (superficial), height of the bed at the start, solids [{name, diameter, density, fraction at the start}]; settled, the
 solids fraction when packed, if it is not that of the start; a gas bed also max_packing and restitution. The liquid bed
 is for reactingMultiphaseEulerFoam (any number of solids, but that program has no solids stress), the gas bed for
-twoPhaseEulerFoam (one species, kinetic theory). y is up, the column one cell deep.
+twoPhaseEulerFoam (one species, kinetic theory). y is up, the column one cell deep, unless the bed has depth, layers of
+cells along it, and patches {name: OpenFOAM's type} of its own.
 
 Settings: program, until, step, every (s, between stored fields), drag (OpenFOAM's name), outer (iterations of a time
 step), alpha_steps (parts of a time step in which the fractions move), and for the gas bed gas (constant | perfect).
@@ -44,7 +45,8 @@ def write_field(directory, name, dimensions, internal, boundary, **more):
         internal = f"nonuniform List<{item}>\n{len(values)}\n(\n" + "\n".join(values) + "\n)"
     else:
         internal = f"uniform {text(internal)}"
-    patches = {patch: boundary.get(patch, boundary.get("others")) for patch in PATCHES} | {"sides": {"type": "empty"}}
+    patches = {patch: boundary.get(patch, boundary.get("others")) for patch in PATCHES}
+    patches["sides"] = boundary.get("sides", {"type": "empty"})
     head = {"dimensions": f"[{dimensions} 0 0 0]", "internalField": internal}
     write(directory / "0" / name, head | more | {"boundaryField": patches}, kind)
 
@@ -55,15 +57,15 @@ def fixed(value):
 
 def write_mesh(directory, bed):
     (width, height), (nx, ny) = bed["size"], bed["cells"]
-    depth = width / nx
+    depth, layers = bed.get("depth", width / nx), bed.get("layers", 1)
     around = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
     corners = [(x, y, z) for z in (0.0, depth) for x, y in around]
     faces = {"inlet": [(0, 1, 5, 4)], "outlet": [(3, 7, 6, 2)], "walls": [(0, 4, 7, 3), (1, 2, 6, 5)],
              "sides": [(0, 3, 2, 1), (4, 5, 6, 7)]}
-    kinds = {"walls": "wall", "sides": "empty"}
+    kinds = {"walls": "wall", "sides": "empty"} | bed.get("patches", {})
     boundary = " ".join(f"{patch} {{ type {kinds.get(patch, 'patch')}; faces {text(f)}; }}"
                         for patch, f in faces.items())
-    block = f"(hex {text(tuple(range(8)))} {text((nx, ny, 1))} simpleGrading (1 1 1))"
+    block = f"(hex {text(tuple(range(8)))} {text((nx, ny, layers))} simpleGrading (1 1 1))"
     write(directory / "system/blockMeshDict", {"scale": 1, "vertices": corners, "blocks": block, "edges": [],
                                                "boundary": f"({boundary})", "mergePatchPairs": []})
 

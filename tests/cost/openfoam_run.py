@@ -18,9 +18,9 @@ class Failed(Exception):
     """A program ended with an error or passed its time limit."""
 
 
-def missing():
+def missing(programs=PROGRAMS):
     """Programs that are not on the path."""
-    return [program for program in PROGRAMS if shutil.which(program) is None]
+    return [program for program in programs if shutil.which(program) is None]
 
 
 def version():

@@ -21,6 +21,7 @@ import openfoam_cases
 import openfoam_run
 import peer_beds
 import polybed_case
+from peer_report import print_verdicts
 
 CHEAP = 15.0  # CPU s; dearer runs are not repeated
 
@@ -190,12 +191,6 @@ def equal_error(kind, mine, peers, goal):
         least = min(run["ratio"] * run[kind] / mine[kind] for run in judged.values())
         note = f"; extrapolated with first order in the step: {least:.0f} times"
     return f"{what}: no run of OpenFOAM{note}", None
-
-
-def print_verdicts(lines):
-    print()
-    for sentence, met in lines:
-        print(f"- {'not judged' if met is None else 'met' if met else 'MISSED'}: {sentence}")
 
 
 def main():
