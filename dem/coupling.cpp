@@ -100,15 +100,28 @@ void Coupling::collect(const Particles& particles) {
   scatter_.collect(particles, motion_.load, every_ * dt_, held_);
   scatter_.give(ranks_, !flow_.boundaries().closed(), phase_, fraction_);
   if (smoothing_.present()) smooth();
+  require_voidage();
+}
+
+/// \pre the voidage is that of now
+void Coupling::require_voidage() const {
+  const core::Grid& grid = flow_.grid();
   double least = 1;
-  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) least = std::min(least, phase_.voidage[std::size_t(c)]);
-  });
-  if (!(least > fluid::voidage_floor))
-    throw core::NumericsError(fmt::format(
-        "a cell has a voidage of {:.3g}: its particles do not fit into it; use dem.kernel = \"diffusion\", or "
-        "larger cells",
-        least));
+  std::array<int, 3> at{};
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        if (const double eps = phase_.voidage[std::size_t(grid.index(i, j, k))]; eps < least) {
+          least = eps;
+          at = {i, j, k};
+        }
+  if (least > fluid::voidage_floor) return;
+  const char* remedy =
+      smoothing_.present() ? "a wider dem.kernel_width" : "dem.kernel = \"diffusion\", or larger cells";
+  const auto centre = [&](std::size_t a) { return (at[a] + 0.5) * grid.spacing[a]; };
+  throw core::NumericsError(fmt::format(
+      "the cell near ({:.6g}, {:.6g}, {:.6g}) m has a voidage of {:.3g}: its particles do not fit into it; use {}",
+      centre(0), centre(1), centre(2), least, remedy));
 }
 
 void Coupling::smooth() {
@@ -209,7 +222,11 @@ void Coupling::read(const core::Checkpoint& checkpoint) {
   flow_.set_gradient();
   flow_.forget();
   take_fields();
-  steps_ = std::uint64_t(checkpoint.integers.contains("fluid_steps") ? checkpoint.integers.at("fluid_steps") : 0);
+  const auto count = [&](const char* key) {  // the first rank's
+    return std::uint64_t(checkpoint.integers.contains(key) ? checkpoint.integers.at(key) : 0);
+  };
+  steps_ = count("fluid_steps");
+  iterations_ = count("fluid_iterations");
 }
 
 }  // namespace polybed::dem

@@ -64,6 +64,7 @@ class Coupling {
 
  private:
   void collect(const Particles& particles);
+  void require_voidage() const;
   void smooth();
   void answer(Particles& particles);
   void take_fields();

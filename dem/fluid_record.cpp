@@ -8,7 +8,7 @@
 namespace polybed::dem {
 
 FluidRecord::FluidRecord(const Coupling& coupling, const core::Ranks* ranks, const FluidTotals& before)
-    : coupling_(coupling), ranks_(ranks), totals_(before), seen_(coupling.steps()) {
+    : coupling_(coupling), ranks_(ranks), totals_(before), seen_(coupling.steps()), begin_(coupling.forces().use()) {
   if (totals_.steps == 0) look();
 }
 
@@ -33,8 +33,9 @@ void FluidRecord::see() {
 FluidTotals FluidRecord::totals() const {
   FluidTotals all = totals_;
   const LawUse here = coupling_.forces().use();
-  std::array<std::int64_t, 3> sums{std::int64_t(here.evaluations), std::int64_t(here.guarded),
-                                   std::int64_t(here.clamped_voidage)};
+  std::array<std::int64_t, 3> sums{std::int64_t(here.evaluations - begin_.evaluations),
+                                   std::int64_t(here.guarded - begin_.guarded),
+                                   std::int64_t(here.clamped_voidage - begin_.clamped_voidage)};
   core::add_over_ranks(ranks_, sums);
   all.law.evaluations += std::uint64_t(sums[0]);
   all.law.guarded += std::uint64_t(sums[1]);

@@ -38,6 +38,7 @@ class FluidRecord {
   const core::Ranks* ranks_;
   FluidTotals totals_;  ///< those of the law: before this process
   std::uint64_t seen_;
+  LawUse begin_;  ///< of this rank before the first step, when a run that goes on asked for nothing it needs
 };
 
 void write(const FluidTotals& totals, core::Checkpoint& checkpoint);

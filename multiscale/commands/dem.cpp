@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/json.hpp"
+#include "dem/continuum_scene.hpp"
 #include "dem/observers.hpp"
 #include "dem/settling.hpp"
 #include "multiscale/commands/case_run.hpp"
@@ -168,6 +169,7 @@ class DemRun final : public CaseRun {
 
 void run_dem(const RunOptions& options) {
   core::Scene scene = read_scene(options);
+  dem::refuse_continuum_scene(scene);
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::on_first(ranks.get(), [&] { check_directory(directory, options); });
