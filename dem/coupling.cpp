@@ -7,6 +7,7 @@
 
 #include "core/blocks.hpp"
 #include "core/error.hpp"
+#include "dem/kernel.hpp"
 #include "fluid/properties.hpp"
 
 namespace polybed::dem {
@@ -25,16 +26,6 @@ std::vector<double> diameters(const Materials& materials) {
   return d;
 }
 
-double width_of(const core::Scene& scene, const core::Grid& grid, const Materials& materials, std::int64_t count) {
-  const std::string& kernel = scene.dem.kernel;
-  if (kernel == "bilinear") return 0;
-  if (scene.dem.kernel_width) return *scene.dem.kernel_width;
-  constexpr double in_beds = 4;
-  const double automatic =
-      fluid::smoothing_width(grid.smallest_spacing(), materials.greatest_diameter(), std::size_t(count));
-  return kernel == "auto" ? automatic : std::max(automatic, in_beds * materials.greatest_diameter());
-}
-
 }  // namespace
 
 Coupling::Coupling(const core::Scene& scene, const Materials& materials, const core::Ranks* ranks, core::Timers& timers,
@@ -44,7 +35,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, const c
       flow_(scene, core::grid_of(scene.column, nullptr), pressure_tolerance),
       phase_(flow_.grid(), false),
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
-      width_(width_of(scene, flow_.grid(), materials, count)),
+      width_(kernel_of(scene, flow_.grid().smallest_spacing(), materials.greatest_diameter(), count).width),
       smoothing_(flow_.grid(), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
       scatter_(flow_.grid(), materials, forces_.has_added_mass(), volume, speed),

@@ -40,7 +40,7 @@ std::vector<std::string> fluid_lines(const FluidReport& r) {
       fmt::format("fluid: {} steps of {:.3g} s, every {} of the particles', {:.3g} iterations each, residual up to "
                   "{:.1e}, Courant number up to {:.2g}; {}",
                   t.steps, r.step, r.every, per(t.iterations, t.steps), t.worst_residual, t.greatest_courant, kernel),
-      fmt::format("drag {}: {:.3g} evaluations, {:.2g} % guarded, {:.2g} % at the bounds of voidage; work of the "
+      fmt::format("drag {}: {:.3g} evaluations, {:.3g} % guarded, {:.3g} % at the bounds of voidage; work of the "
                   "fluid {:.3g} J",
                   r.law, double(t.law.evaluations), 100 * per(t.law.guarded, t.law.evaluations),
                   100 * per(t.law.clamped_voidage, t.law.evaluations), r.work)};

@@ -184,6 +184,45 @@ class GoOn(Bed):
         self.assertEqual(len(rows["time_s"]), 41)
 
 
+class Check(Bed):
+    def test_what_it_says_is_what_the_run_does(self):
+        words = ["--until", "15 ms"]
+        need = strict_json(self.ends(DONE, "check", self.case, "--json", "--set", "run.until=15e-3").stdout)["dem"]
+        record = strict_json(self.dem(DONE, "run", "--json", *words).stdout)
+        self.assertEqual(need["particles"], {"fine": 600, "coarse": 30})
+        self.assertEqual(need["step"], record["step"])
+        for key in ("every", "dt_s", "kernel", "kernel_width_m"):
+            self.assertEqual(need["fluid"][key], record["fluid"][key], key)
+        self.assertAlmostEqual(need["fluid"]["steps"], record["fluid"]["steps"], delta=1)
+        self.assertEqual(need["fluid"]["cells"], 54)
+
+    def test_the_kernel_and_why(self):
+        text = self.ends(DONE, "check", self.case).stdout
+        for line in (r"# as particles, polybed dem:", r"# 630 particles: 600 fine, 30 coarse", r"# memory about \d+ MB: .* fluid [\d.]+,",
+                     r"# fluid step [\d.e-]+ s, one in 16 of the particles': [\d.e+]+ steps on 54 cells",
+                     r"# kernel bilinear: the smallest cell has 1.67 of the largest diameters"):
+            self.assertRegex(text, line)
+        finer = self.ends(DONE, "check", self.case, "--set", "column.cells=[6,36]").stdout
+        self.assertIn("# kernel diffusion, 8 mm wide: 4 of the largest diameters, as the smallest cell has only 0.833", finer)
+
+    def test_what_keeps_it_from_running_is_told(self):
+        def notes(*words):
+            return strict_json(self.ends(DONE, "check", self.case, "--json", *words).stdout)["notes"]
+        self.assertFalse([n for n in notes() if "polybed dem" in n])
+        self.assertTrue([n for n in notes("--set", "column.outlet=open") if "polybed dem cannot run it: column.outlet" in n])
+        self.assertTrue([n for n in notes("--set", "column.depth=3e-3") if "polybed dem cannot run it: column.depth" in n])
+
+    def test_memory_is_that_of_a_run(self):
+        """Of many cells; 30 %, as for particles alone, for how the parts of the solver vary."""
+        if "sanitizers" in program.run("--version").stdout:
+            self.skipTest("the address sanitizer keeps memory that was given back")
+        words = ["--set", "column.cells=[120,720]", "--set", "run.until=3e-4"]
+        need = strict_json(self.ends(DONE, "check", self.case, "--json", *words).stdout)["dem"]
+        held = 1e-6 * program.peak_memory("dem", self.case, "--quiet", "--no-picture", *words, "-o", self.folder / "run")
+        self.assertGreater(need["memory"]["fluid_MB"], 0.4 * need["memory_MB"])
+        self.assertAlmostEqual(need["memory_MB"], held, delta=0.3 * held)
+
+
 class Refused(Bed):
     def test_what_particles_cannot_do_in_a_fluid(self):
         feed = '[[feed]]\nspecies = "fine"\nvelocity = 1\nsuperficial_velocity = 0.1\n'
