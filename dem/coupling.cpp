@@ -7,6 +7,7 @@
 
 #include "core/blocks.hpp"
 #include "core/error.hpp"
+#include "dem/kernel.hpp"
 #include "fluid/properties.hpp"
 
 namespace polybed::dem {
@@ -25,15 +26,10 @@ std::vector<double> diameters(const Materials& materials) {
   return d;
 }
 
+/// Full width of the kernel, m.
 double width_of(const core::Scene& scene, const Materials& materials, std::int64_t count) {
-  const core::Grid grid = core::grid_of(scene.column, nullptr);
-  const std::string& kernel = scene.dem.kernel;
-  if (kernel == "bilinear") return 0;
-  if (scene.dem.kernel_width) return *scene.dem.kernel_width;
-  constexpr double in_beds = 4;
-  const double automatic =
-      fluid::smoothing_width(grid.smallest_spacing(), materials.greatest_diameter(), std::size_t(count));
-  return kernel == "auto" ? automatic : std::max(automatic, in_beds * materials.greatest_diameter());
+  const double cell = core::grid_of(scene.column, nullptr).smallest_spacing();
+  return kernel_of(scene, cell, materials.greatest_diameter(), count).width;
 }
 
 /// Whether each rank solves for a block of the fluid. The kernel's smoothing wants the whole column.
@@ -141,16 +137,30 @@ void Coupling::collect(const Particles& particles) {
   if (exchange_) exchange_->choose(particles);
   scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
   if (smoothing_.present()) smooth();
+  require_voidage();
+}
+
+/// \pre the voidage is that of now
+void Coupling::require_voidage() const {
+  const core::Grid& grid = flow_.grid();
   double least = 1;
-  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) least = std::min(least, phase_.voidage[std::size_t(c)]);
-  });
-  least = core::least_of_ranks(flow_.grid(), least);
-  if (!(least > fluid::voidage_floor))
-    throw core::NumericsError(fmt::format(
-        "a cell has a voidage of {:.3g}: its particles do not fit into it; use dem.kernel = \"diffusion\", or "
-        "larger cells",
-        least));
+  std::array<int, 3> at{};
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        if (const double eps = phase_.voidage[std::size_t(grid.index(i, j, k))]; eps < least) {
+          least = eps;
+          at = {i, j, k};
+        }
+  const int worst = core::rank_of_greatest(grid, -least);
+  if (core::least_of_ranks(grid, least) > fluid::voidage_floor) return;
+  const char* remedy =
+      smoothing_.present() ? "a wider dem.kernel_width" : "dem.kernel = \"diffusion\", or larger cells";
+  const auto centre = [&](std::size_t a) { return grid.centre(int(a), at[a]); };
+  const std::string text = fmt::format(
+      "the cell near ({:.6g}, {:.6g}, {:.6g}) m has a voidage of {:.3g}: its particles do not fit into it; use {}",
+      centre(0), centre(1), centre(2), least, remedy);
+  throw core::NumericsError(core::said_by(grid, worst, text));
 }
 
 void Coupling::smooth() {
@@ -242,6 +252,18 @@ void Coupling::weigh() {
   };
   rows(0);
   if (flow_.boundaries().closed()) rows(1);
+}
+
+double Coupling::most_solids() const {
+  double most = 0;
+  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      double all = 0;
+      for (const Field& phi : fraction_) all += phi[c];
+      most = std::max(most, all);
+    }
+  });
+  return core::greatest_of_ranks(flow_.grid(), most);
 }
 
 double Coupling::pressure_drop() const {

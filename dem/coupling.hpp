@@ -55,6 +55,17 @@ class Coupling {
   [[nodiscard]] double kernel_width() const { return width_; }
   /// Mean net pressure on the distributor, less that at the outlet, Pa. Collective.
   [[nodiscard]] double pressure_drop() const;
+  /// Largest solids fraction of a cell. Collective.
+  [[nodiscard]] double most_solids() const;
+  /// The fluid of the whole column, on every rank. Collective.
+  struct Column {
+    core::Grid grid;
+    std::vector<core::Field> fraction;    ///< phi_j
+    core::FaceField velocity;             ///< U_f, m/s
+    core::Field pressure;                 ///< net, Pa
+    core::Field total_pressure, density;  ///< of a compressible fluid, Pa, kg/m3; else empty
+  };
+  [[nodiscard]] Column column() const;
   /// Steps and iterations since the start.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
@@ -66,6 +77,7 @@ class Coupling {
 
  private:
   void collect(const Particles& particles);
+  void require_voidage() const;
   void smooth();
   void answer(Particles& particles);
   void take_fields();
