@@ -8,6 +8,7 @@
 #include "core/blocks.hpp"
 #include "core/error.hpp"
 #include "fluid/properties.hpp"
+#include "fluid/vorticity.hpp"
 
 namespace polybed::dem {
 
@@ -47,7 +48,8 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, const c
       width_(width_of(scene, flow_.grid(), materials, count)),
       smoothing_(flow_.grid(), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
-      scatter_(flow_.grid(), materials, forces_.has_added_mass(), volume, speed),
+      sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, scene.dem.fluid_every * dt),
+      scatter_(flow_.grid(), materials, has_inertia(), volume, speed),
       gather_(flow_.grid(), diameters(materials)),
       motion_(materials, flow_.constants().density,
               {scene.column.gravity * scene.column.down[0], scene.column.gravity * scene.column.down[1],
@@ -56,7 +58,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, const c
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
-  phase_ = fluid::ParticlePhase(flow_.grid(), forces_.has_added_mass());
+  phase_ = fluid::ParticlePhase(flow_.grid(), has_inertia());
 }
 
 void Coupling::begin(const Particles& particles) {
@@ -65,16 +67,21 @@ void Coupling::begin(const Particles& particles) {
   collect(particles);
   flow_.begin(0, phase_);
   take_fields();
-  find_forces(particles);
+  forces_.find(particles, gather_, motion_.load);
+  sides_.begin(particles, gather_, motion_.load);
 }
 
-void Coupling::find_forces(const Particles& particles) { forces_.find(particles, gather_, motion_.load); }
+void Coupling::find_forces(const Particles& particles) {
+  forces_.find(particles, gather_, motion_.load);
+  sides_.find(particles, gather_, motion_.load);
+}
 
 void Coupling::hold(const Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
     FluidLoad& f = motion_.load[i];
     for (std::size_t k = 0; k < 3; ++k) f.impulse[k] += f.drag * dt_ * f.velocity[k];
   }
+  sides_.hold(motion_.load);
 }
 
 void Coupling::advance(Particles& particles, double t) {
@@ -93,7 +100,8 @@ void Coupling::advance(Particles& particles, double t) {
   if (!held_) answer(particles);
   for (FluidLoad& load : motion_.load) load.impulse = {};
   take_fields();
-  find_forces(particles);
+  forces_.find(particles, gather_, motion_.load);
+  sides_.refresh(particles, gather_, motion_.load);
 }
 
 void Coupling::collect(const Particles& particles) {
@@ -127,6 +135,7 @@ void Coupling::smooth() {
 void Coupling::take_fields() {
   if (!smoothing_.present()) {
     gather_.take(fraction_, flow_.state().velocity, flow_.gradient());
+    if (sides_.needs_vorticity()) take_vorticity(flow_.state().velocity);
     return;
   }
   core::FaceField velocity = flow_.state().velocity, gradient = flow_.gradient();
@@ -135,6 +144,15 @@ void Coupling::take_fields() {
     smoothing_.smooth_faces(gradient[std::size_t(axis)], axis);
   }
   gather_.take(fraction_, velocity, gradient);
+  if (sides_.needs_vorticity()) take_vorticity(std::move(velocity));
+}
+
+/// Of the velocity as particles see it, which holds at the walls.
+void Coupling::take_vorticity(core::FaceField velocity) {
+  flow_.boundaries().fill_velocity(velocity, fluid::WallSlip::no_slip);
+  std::array<Field, 3> vorticity;
+  fluid::find_vorticity(flow_.grid(), velocity, vorticity);
+  gather_.take_vorticity(vorticity);
 }
 
 /// What the change of the fluid would have done to the particles meanwhile: see fluid::ParticlePhase.

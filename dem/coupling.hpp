@@ -17,6 +17,7 @@
 #include "dem/gather.hpp"
 #include "dem/particle_forces.hpp"
 #include "dem/scatter.hpp"
+#include "dem/side_forces.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/smoothing.hpp"
 
@@ -35,6 +36,8 @@ class Coupling {
   void begin(const Particles& particles);
   /// Loads of the particles where they are now.
   void find_forces(const Particles& particles);
+  /// What the fluid does to their spins in a step.
+  void turn(Particles& particles) { sides_.turn(particles, motion_); }
   /// Whether the fluid takes its step after so many of the particles.
   [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
   /// The fluid's step that ends at time t, s, and the particles' answer to it.
@@ -48,6 +51,8 @@ class Coupling {
   [[nodiscard]] const fluid::FlowStep& last_step() const { return last_; }
   [[nodiscard]] const std::vector<core::Field>& fraction() const { return fraction_; }
   [[nodiscard]] const ParticleForces& forces() const { return forces_; }
+  [[nodiscard]] SideForces& sides() { return sides_; }
+  [[nodiscard]] const SideForces& sides() const { return sides_; }
   [[nodiscard]] int every() const { return every_; }
   /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
   [[nodiscard]] double kernel_width() const { return width_; }
@@ -67,6 +72,8 @@ class Coupling {
   void smooth();
   void answer(Particles& particles);
   void take_fields();
+  void take_vorticity(core::FaceField velocity);
+  [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
 
   const core::Ranks* ranks_;
   core::Timers& timers_;
@@ -76,6 +83,7 @@ class Coupling {
   double width_;
   fluid::Smoothing smoothing_;
   ParticleForces forces_;
+  SideForces sides_;
   Scatter scatter_;
   Gather gather_;
   FluidMotion motion_;

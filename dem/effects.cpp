@@ -19,6 +19,15 @@ std::string law_of(const core::Scene& scene, const std::string& role) {
   return found == scene.effects.end() ? "none" : found->second;
 }
 
+/// What acts through the fluid needs one, and what turns with it has to be able to turn.
+void require_fluid(const core::Scene& scene) {
+  for (const char* role : {"lift"})
+    if (const std::string law = law_of(scene, role); law != "none" && scene.fluid.name == "none")
+      throw core::CaseError(fmt::format(
+          "effects.{} = \"{}\" is what a fluid does, and there is none: name it under [fluid], or leave it out", role,
+          law));
+}
+
 std::unique_ptr<NormalLaw> make_normal(const core::Scene& scene, const Materials& materials,
                                        const std::string& contact) {
   if (contact == "none")
@@ -89,6 +98,7 @@ std::unique_ptr<CohesionLaw> make_cohesion(const core::Scene& scene, const Mater
 }  // namespace
 
 PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials) {
+  require_fluid(scene);
   PairLaws laws;
   const std::string contact = law_of(scene, "contact");
   laws.normal = make_normal(scene, materials, contact);
@@ -106,6 +116,12 @@ std::vector<core::Role> roles() {
            "fluid that a particle drags along when it accelerates",
            "not in this version",
            {{"zuber", "C_m = (1 + 2 phi)/(2 (1 - phi)), Zuber 1964"}, {"half", "C_m = 1/2, of one sphere"}}},
+          {"lift",
+           "dem",
+           "Force",
+           "force across a sheared fluid's stream",
+           "not in this version",
+           {{"saffman_mei", "Saffman 1965 with the share of Mei 1992, of one sphere"}}},
           {"contact",
            "dem",
            "Pair",
