@@ -21,11 +21,18 @@ std::string law_of(const core::Scene& scene, const std::string& role) {
 
 /// What acts through the fluid needs one, and what turns with it has to be able to turn.
 void require_fluid(const core::Scene& scene) {
-  for (const char* role : {"lift"})
+  for (const char* role : {"lift", "magnus", "history"})
     if (const std::string law = law_of(scene, role); law != "none" && scene.fluid.name == "none")
       throw core::CaseError(fmt::format(
           "effects.{} = \"{}\" is what a fluid does, and there is none: name it under [fluid], or leave it out", role,
           law));
+  if (const std::string law = law_of(scene, "magnus"); law != "none" && law_of(scene, "contact") == "hertz")
+    throw core::CaseError("effects.magnus = \"" + law +
+                          "\" is a force of rotation, and with effects.contact = \"hertz\" nothing rotates: use "
+                          "hertz_mindlin or linear, or leave it out");
+  if (const std::string law = law_of(scene, "history"); law != "none" && scene.dem.held)
+    throw core::CaseError("effects.history = \"" + law +
+                          "\" is a force on particles that accelerate, and dem.held holds them: leave one out");
 }
 
 std::unique_ptr<NormalLaw> make_normal(const core::Scene& scene, const Materials& materials,
@@ -122,6 +129,18 @@ std::vector<core::Role> roles() {
            "force across a sheared fluid's stream",
            "not in this version",
            {{"saffman_mei", "Saffman 1965 with the share of Mei 1992, of one sphere"}}},
+          {"magnus",
+           "dem",
+           "Force",
+           "force across the stream on spheres that spin, and the torque that ends the spin",
+           "not in this version",
+           {{"rubinow_keller", "Rubinow and Keller 1961, times 0.45 above Re_p 1"}}},
+          {"history",
+           "dem",
+           "Force",
+           "vorticity that past accelerations of a particle have left in the fluid",
+           "not in this version",
+           {{"basset", "Basset 1888, creeping flow, summed by exponentials; adds an inertia"}}},
           {"contact",
            "dem",
            "Pair",

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "dem/effects/history.hpp"
 #include "dem/effects/lift.hpp"
+#include "dem/effects/magnus.hpp"
 
 namespace polybed::dem {
 
@@ -18,8 +20,12 @@ bool calls_for(const core::Scene& scene, const std::string& role) {
 SideForces::SideForces(const core::Scene& scene, const Materials& materials, double density, double viscosity,
                        double dt, double interval)
     : dt_(dt) {
-  (void)interval;
   if (calls_for(scene, "lift")) effects_.push_back(std::make_unique<Lift>(materials, density, viscosity));
+  if (calls_for(scene, "magnus")) effects_.push_back(std::make_unique<Magnus>(materials, density, viscosity, dt));
+  // The only one with a memory: its place is behind the force.
+  if (calls_for(scene, "history"))
+    effects_.push_back(std::make_unique<History>(materials, density, viscosity, interval, SideRows::force_size,
+                                                 calls_for(scene, "added_mass")));
   if (effects_.empty()) return;
   rows_.width = SideRows::force_size;
   for (const auto& effect : effects_) {
@@ -81,7 +87,7 @@ void SideForces::hold(std::vector<FluidLoad>& loads) const {
 }
 
 void SideForces::turn(Particles& particles, FluidMotion& motion) {
-  for (const auto& effect : effects_) effect->turn(vorticity_, particles, motion, dt_);
+  for (const auto& effect : effects_) effect->turn(vorticity_, particles, motion);
 }
 
 }  // namespace polybed::dem

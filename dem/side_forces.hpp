@@ -37,8 +37,8 @@ class SideForce {
   virtual void end_interval(const SideView&, SideRows&) {}
   /// Adds its force on each particle to SideRows::force, and its inertia to the load.
   virtual void add(const SideView& view, SideRows& rows) = 0;
-  /// What it does to spins in a step of the particles. \param dt  s
-  virtual void turn(std::span<const Vector>, Particles&, FluidMotion&, double) {}
+  /// What it does to spins in a step of the particles. \param vorticity  as in SideView
+  virtual void turn(std::span<const Vector> /*vorticity*/, Particles&, FluidMotion&) {}
 };
 
 class SideForces {

@@ -14,8 +14,8 @@ void add_slope(const core::Grid& grid, const core::FaceField& velocity, int of, 
   const double scale = sign / (4 * grid.spacing[std::size_t(along)]);
   core::for_each_row(grid, core::owned_cells(grid), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c)
-      out[std::size_t(c)] += scale * (u[std::size_t(c + s)] + u[std::size_t(c + s + to_high)] - u[std::size_t(c - s)] -
-                                      u[std::size_t(c - s + to_high)]);
+      out[std::size_t(c)] += scale * ((u[std::size_t(c + s)] - u[std::size_t(c - s)]) +
+                                      (u[std::size_t(c + s + to_high)] - u[std::size_t(c - s + to_high)]));
   });
 }
 

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "dem/particle_forces.hpp"
 #include "dem/side_forces.hpp"
+#include "dem/verlet.hpp"
 #include "dem_scenes.hpp"
 #include "fluid/vorticity.hpp"
 
@@ -24,16 +25,19 @@ inline core::Scene sphere_in_water(double diameter, double density, dem::Vector 
   return scene;
 }
 
-/// The loops of the effects over one particle in the shear U_x = rate y that the test holds: no fluid is solved for.
+/// The loops of the effects over particles in the shear U_x = rate y that the test holds: no fluid is solved for.
+/// \param every  steps of dt, s, in one of the fluid
 class HeldShear {
  public:
-  HeldShear(const core::Scene& scene, double rate, double dt)
+  HeldShear(const core::Scene& scene, double rate, double dt, int every = 1, double gravity = 0)
       : materials_(scene),
         grid_(core::grid_of(scene.column, nullptr)),
         gather_(grid_, {2 * materials_.species()[0].radius}),
         drag_(scene, materials_, scene.fluid.density.value(), scene.fluid.viscosity.value()),
-        sides(scene, materials_, scene.fluid.density.value(), scene.fluid.viscosity.value(), dt, dt),
-        motion(materials_, scene.fluid.density.value(), {}, {1, 1}, dem::FixedPoint::for_sums_of(1, 1)) {
+        sides(scene, materials_, scene.fluid.density.value(), scene.fluid.viscosity.value(), dt, every * dt),
+        motion(materials_, scene.fluid.density.value(), {0, -gravity, 0}, {1, 1}, energy),
+        every_(every),
+        verlet_(false, dt, {}, {1, 1}, {1, 1}, 0) {
     core::FaceField velocity = core::make_face_field(grid_);
     for (int k = -2; k < grid_.cells[2] + 2; ++k)
       for (int j = -2; j < grid_.cells[1] + 2; ++j)
@@ -55,10 +59,18 @@ class HeldShear {
     drag_.find(particles, gather_, motion.load);
     sides.begin(particles, gather_, motion.load);
   }
-  void find() {
+  void step() {
+    verlet_.begin(particles, &motion);
     drag_.find(particles, gather_, motion.load);
     sides.find(particles, gather_, motion.load);
+    verlet_.end(particles, &motion);
+    sides.turn(particles, motion);
+    if (++steps_ % every_ != 0) return;
+    drag_.find(particles, gather_, motion.load);
+    sides.refresh(particles, gather_, motion.load);
   }
+
+  static constexpr dem::FixedPoint energy{0x1p80, 0x1p-80};  ///< J
 
  private:
   dem::Materials materials_;
@@ -70,6 +82,11 @@ class HeldShear {
   dem::SideForces sides;
   dem::FluidMotion motion;
   dem::Particles particles;
+
+ private:
+  int every_;
+  std::int64_t steps_ = 0;
+  dem::Verlet verlet_;
 };
 
 }  // namespace polybed::verification
