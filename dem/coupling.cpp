@@ -25,7 +25,8 @@ std::vector<double> diameters(const Materials& materials) {
   return d;
 }
 
-double width_of(const core::Scene& scene, const core::Grid& grid, const Materials& materials, std::int64_t count) {
+double width_of(const core::Scene& scene, const Materials& materials, std::int64_t count) {
+  const core::Grid grid = core::grid_of(scene.column, nullptr);
   const std::string& kernel = scene.dem.kernel;
   if (kernel == "bilinear") return 0;
   if (scene.dem.kernel_width) return *scene.dem.kernel_width;
@@ -35,21 +36,35 @@ double width_of(const core::Scene& scene, const core::Grid& grid, const Material
   return kernel == "auto" ? automatic : std::max(automatic, in_beds * materials.greatest_diameter());
 }
 
+/// Whether each rank solves for a block of the fluid. The kernel's smoothing wants the whole column.
+bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int64_t count) {
+  constexpr std::size_t worth_sharing = 20'000;  // cells: below, messages cost more than they save
+  const std::string& wish = scene.dem.fluid_ranks;
+  const bool wide = width_of(scene, materials, count) > 0;
+  if (wish == "shared" && wide)
+    throw core::CaseError(
+        "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
+        "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"");
+  if (wide || wish == "each") return false;
+  return wish == "shared" || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
+}
+
 }  // namespace
 
-Coupling::Coupling(const core::Scene& scene, const Materials& materials, const core::Ranks* ranks, core::Timers& timers,
-                   Units units, double dt, double speed, double volume, std::int64_t count)
+Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
+                   core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count)
     : ranks_(ranks),
       timers_(timers),
-      flow_(scene, core::grid_of(scene.column, nullptr), pressure_tolerance),
+      flow_(scene, core::grid_of(scene.column, shares_fluid(scene, materials, count) ? ranks : nullptr),
+            pressure_tolerance),
       phase_(flow_.grid(), false),
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
       at_ends_(core::make_field(flow_.grid())),
-      width_(width_of(scene, flow_.grid(), materials, count)),
-      smoothing_(flow_.grid(), width_, scene.column.closed),
+      width_(width_of(scene, materials, count)),
+      smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
-      scatter_(flow_.grid(), materials, forces_.has_added_mass(), volume, speed),
-      gather_(flow_.grid(), diameters(materials)),
+      scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, forces_.has_added_mass(), volume, speed),
+      gather_(core::whole_column(flow_.grid()), diameters(materials)),
       motion_(materials, flow_.constants().density,
               {scene.column.gravity * scene.column.down[0], scene.column.gravity * scene.column.down[1],
                scene.column.gravity * scene.column.down[2]},
@@ -58,6 +73,29 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, const c
       held_(scene.dem.held),
       dt_(dt) {
   phase_ = fluid::ParticlePhase(flow_.grid(), forces_.has_added_mass());
+  if (!flow_.grid().ranks) return;
+  const core::Grid column = core::whole_column(flow_.grid());
+  exchange_.emplace(column, flow_.grid(), ranks_);
+  fraction_here_.assign(fraction_.size(), core::make_field(column));
+  velocity_here_ = gradient_here_ = core::make_face_field(column);
+}
+
+void Coupling::settle_in(const Particles& particles) {
+  if (!exchange_) return;
+  exchange_->choose(particles);
+  fetch();
+  gather_.take(fraction_here_, velocity_here_, gradient_here_);
+}
+
+/// What this rank's particles see of the fluid.
+void Coupling::fetch() {
+  std::vector<std::pair<const Field*, Field*>> fields;
+  for (std::size_t j = 0; j < fraction_.size(); ++j) fields.push_back({&fraction_[j], &fraction_here_[j]});
+  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a) {
+    fields.push_back({&flow_.state().velocity[a], &velocity_here_[a]});
+    fields.push_back({&flow_.gradient()[a], &gradient_here_[a]});
+  }
+  exchange_->fetch(fields);
 }
 
 void Coupling::begin(const Particles& particles) {
@@ -100,12 +138,14 @@ void Coupling::advance(Particles& particles, double t) {
 
 void Coupling::collect(const Particles& particles) {
   scatter_.collect(particles, motion_.load, every_ * dt_, held_);
-  scatter_.give(ranks_, !flow_.boundaries().closed(), phase_, fraction_);
+  if (exchange_) exchange_->choose(particles);
+  scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
   if (smoothing_.present()) smooth();
   double least = 1;
   core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) least = std::min(least, phase_.voidage[std::size_t(c)]);
   });
+  least = core::least_of_ranks(flow_.grid(), least);
   if (!(least > fluid::voidage_floor))
     throw core::NumericsError(fmt::format(
         "a cell has a voidage of {:.3g}: its particles do not fit into it; use dem.kernel = \"diffusion\", or "
@@ -127,6 +167,11 @@ void Coupling::smooth() {
 
 /// The fields as particles see them.
 void Coupling::take_fields() {
+  if (exchange_) {
+    fetch();
+    gather_.take(fraction_here_, velocity_here_, gradient_here_);
+    return;
+  }
   if (!smoothing_.present()) {
     gather_.take(fraction_, flow_.state().velocity, flow_.gradient());
     return;
@@ -139,6 +184,24 @@ void Coupling::take_fields() {
   gather_.take(fraction_, velocity, gradient);
 }
 
+/// Fields on faces of the block become those on what this rank's particles touch.
+void Coupling::here(std::initializer_list<core::FaceField*> fields) const {
+  std::vector<std::pair<const Field*, Field*>> list;
+  std::vector<core::FaceField> column(fields.size());
+  std::size_t n = 0;
+  for (core::FaceField* field : fields) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if ((*field)[a].empty()) continue;
+      column[n][a].resize(velocity_here_[a].size());
+      list.push_back({&(*field)[a], &column[n][a]});
+    }
+    ++n;
+  }
+  exchange_->fetch(list);
+  n = 0;
+  for (core::FaceField* field : fields) *field = std::move(column[n++]);
+}
+
 /// What the change of the fluid would have done to the particles meanwhile: see fluid::ParticlePhase.
 void Coupling::answer(Particles& particles) {
   const double dt = every_ * dt_;
@@ -147,6 +210,7 @@ void Coupling::answer(Particles& particles) {
   for (int axis = 0; axis < flow_.grid().dimensions && smoothing_.present(); ++axis)
     for (core::FaceField* field : {&change, &push, &carried})
       if (!(*field)[0].empty()) smoothing_.smooth_faces((*field)[std::size_t(axis)], axis);
+  if (exchange_) here({&change, &push, &carried});
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const FluidLoad& f = motion_.load[i];
     Motion& m = particles.motion[i];
@@ -185,56 +249,23 @@ double Coupling::pressure_drop() const {
   const double h = grid.spacing[1];
   const Field& p = flow_.state().pressure;
   double sum = 0;
+  const auto row = [&](int j, auto&& body) {
+    core::for_each_row(grid, {0, j, 0}, {grid.cells[0], j + 1, grid.cells[2]}, body);
+  };
   for (const int side : {0, 1})
     fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += h * at_ends_[c];
     });
-  core::for_each_row(grid, {0, 0, 0}, {grid.cells[0], 1, grid.cells[2]}, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += p[c];
-  });
-  const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
-  core::for_each_row(grid, {0, grid.cells[1] - 1, 0}, {grid.cells[0], grid.cells[1], grid.cells[2]},
-                     [&](Index begin, Index end) {
-                       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum -= share * p[c];
-                     });
-  return sum / (double(grid.cells[0]) * grid.cells[2]);
-}
-
-void Coupling::write(core::Checkpoint& checkpoint) const {
-  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
-    checkpoint.arrays[fmt::format("fluid_velocity_{}", a)] = flow_.state().velocity[a];
-  checkpoint.arrays["fluid_pressure"] = flow_.state().pressure;
-  checkpoint.arrays["fluid_at_ends"] = at_ends_;
-  for (std::size_t j = 0; j < fraction_.size(); ++j)
-    checkpoint.arrays[fmt::format("fluid_fraction_{}", j)] = fraction_[j];
-  checkpoint.integers["fluid_steps"] = std::int64_t(steps_);
-  checkpoint.integers["fluid_iterations"] = std::int64_t(iterations_);
-}
-
-void Coupling::read(const core::Checkpoint& checkpoint) {
-  const auto take = [&](const std::string& name, Field& field) {
-    core::on_first(ranks_, [&] {
-      const auto found = checkpoint.arrays.find(name);
-      if (found == checkpoint.arrays.end() || found->second.size() != field.size())
-        throw core::FileError("the checkpoint is of a case without a fluid, or on another grid");
-      field = found->second;
+  if (grid.ends(1, 0))
+    row(0, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += p[c];
     });
-    core::take_from_first(ranks_, field);
-  };
-  fluid::FluidState& fluid = flow_.state();
-  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
-    take(fmt::format("fluid_velocity_{}", a), fluid.velocity[a]);
-  take("fluid_pressure", fluid.pressure);
-  take("fluid_at_ends", at_ends_);
-  for (std::size_t j = 0; j < fraction_.size(); ++j) take(fmt::format("fluid_fraction_{}", j), fraction_[j]);
-  flow_.set_gradient();
-  flow_.forget();
-  take_fields();
-  const auto count = [&](const char* key) {
-    return std::uint64_t(checkpoint.integers.contains(key) ? checkpoint.integers.at(key) : 0);
-  };
-  steps_ = count("fluid_steps");
-  iterations_ = count("fluid_iterations");
+  const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
+  if (grid.ends(1, 1))
+    row(grid.cells[1] - 1, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum -= share * p[c];
+    });
+  return core::sum_of_ranks(grid, sum) / (double(grid.column_cells(0)) * grid.column_cells(2));
 }
 
 }  // namespace polybed::dem

@@ -28,11 +28,13 @@ class Coupling {
     FixedPoint force, energy;
   };
   /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume  of all particles, m3
-  Coupling(const core::Scene& scene, const Materials& materials, const core::Ranks* ranks, core::Timers& timers,
-           Units units, double dt, double speed, double volume, std::int64_t count);
+  Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
+           core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count);
 
   /// The fluid between the particles at the start of a run. Collective, as are advance and write.
   void begin(const Particles& particles);
+  /// Collective: the particles have changed ranks.
+  void settle_in(const Particles& particles);
   /// Loads of the particles where they are now.
   void find_forces(const Particles& particles);
   /// Whether the fluid takes its step after so many of the particles.
@@ -51,7 +53,7 @@ class Coupling {
   [[nodiscard]] int every() const { return every_; }
   /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
   [[nodiscard]] double kernel_width() const { return width_; }
-  /// Mean net pressure on the distributor, less that at the outlet, Pa.
+  /// Mean net pressure on the distributor, less that at the outlet, Pa. Collective.
   [[nodiscard]] double pressure_drop() const;
   /// Steps and iterations since the start.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
@@ -67,14 +69,22 @@ class Coupling {
   void smooth();
   void answer(Particles& particles);
   void take_fields();
+  void here(std::initializer_list<core::FaceField*> fields) const;
+  void fetch();
   void weigh();
+  [[nodiscard]] core::Field of_column(const core::Field& own) const;
+  void take_own(const core::Field& column, core::Field& own) const;
 
-  const core::Ranks* ranks_;
+  std::shared_ptr<const core::Ranks> ranks_;
   core::Timers& timers_;
   fluid::Flow flow_;
   fluid::ParticlePhase phase_;
-  std::vector<core::Field> fraction_;  ///< phi_j, [species][cell]
-  core::Field at_ends_;                ///< on the faces of bottom and top: force on particles per volume, N/m3
+  std::vector<core::Field> fraction_;     ///< phi_j, [species][cell]
+  core::Field at_ends_;                   ///< on the faces of bottom and top: force on particles per volume, N/m3
+  std::optional<GridExchange> exchange_;  ///< absent: every rank has the whole fluid
+  /// On what this rank's particles touch; empty without an exchange.
+  std::vector<core::Field> fraction_here_;
+  core::FaceField velocity_here_, gradient_here_;
   double width_;
   fluid::Smoothing smoothing_;
   ParticleForces forces_;

@@ -69,7 +69,7 @@ void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
   if (scene.fluid.name == "none") return;
   double volume = 0;
   for (const Particle& p : all) volume += 4.0 / 3 * std::numbers::pi * std::pow(p.place.radius, 3);
-  coupling_.emplace(scene, materials_, ranks_.get(), timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
+  coupling_.emplace(scene, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
                     limits_.greatest_speed, volume, count_);
   coupling_->motion().load.resize(particles_.owned);
 }
@@ -203,7 +203,10 @@ void Model::list_pairs(std::vector<KeptContact>& kept) {
   const std::vector<std::int32_t> order = search_.order(particles_);
   const Particles before = particles_;
   for (std::size_t n = 0; n < order.size(); ++n) particles_.set(n, before.at(std::size_t(order[n])));
-  if (coupling_) recall(loads, particles_, coupling_->motion().load);
+  if (coupling_) {
+    recall(loads, particles_, coupling_->motion().load);
+    coupling_->settle_in(particles_);
+  }
   exchange_.choose_ghosts(particles_);
   search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(),
                      exchange_.decomposition().whole(materials_.greatest_diameter() + skin_ + laws_.reach()), pairs_);

@@ -85,11 +85,15 @@ void Observers::close_ledger() {
 void Observers::write_history(double time) {
   close_ledger();
   const std::vector<Particle> all = gathered_particles(model_.particles(), model_.share());
+  const double pressure_drop = model_.coupling() != nullptr ? model_.coupling()->pressure_drop() : 0;
   core::on_first(model_.ranks(), [&] {
     const auto& species = model_.materials().species();
-    std::vector<double> mass(species.size(), 0.0);
+    std::vector<double> mass(species.size(), 0.0), density;
+    for (const Species& s : species) density.push_back(s.density);
     for (const Particle& p : all) mass[std::size_t(p.species)] += species[std::size_t(p.species)].mass;
-    const fluid::Profile profile = fluid::particle_profile(Snapshot(all).view(), species.size(), slabs_).solids;
+    const Snapshot snapshot(all);
+    const fluid::Profile profile = fluid::particle_profile(snapshot.view(), species.size(), slabs_).solids;
+    const fluid::ParticleHeights heights = fluid::particle_heights(snapshot.view(), density);
     const auto height = fluid::bed_height(profile);
     bed_height_ = height.value_or(0);
     double weight = 0;
@@ -97,14 +101,14 @@ void Observers::write_history(double time) {
     weight *= std::abs(model_.gravity()[1]) / slabs_.area;
     double drop = 0;  // without a fluid nothing carries the bed but its bottom
     if (const Coupling* coupling = model_.coupling()) {
-      drop = coupling->pressure_drop();
+      drop = pressure_drop;
       weight = 0;
       for (std::size_t j = 0; j < species.size(); ++j)
         weight -= mass[j] * coupling->motion().net_gravity(std::int32_t(j))[1] / slabs_.area;
     }
     std::vector<std::optional<double>> row{time, model_.limits().dt, height, drop, weight};
     for (std::size_t j = 0; j < species.size(); ++j) {
-      row.push_back(fluid::centre(profile, j));
+      row.push_back(heights.mean[j]);
       row.push_back(mass[j]);
     }
     const Totals& t = totals_;
