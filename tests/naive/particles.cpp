@@ -43,7 +43,8 @@ ParticleRun::ParticleRun(const std::string& name, const core::Scene& scene, dem:
       phase_(flow_.grid(), forces_.has_added_mass() && treatment_ != Treatment::added_mass_lagged),
       fraction_(materials_.species().size(), core::make_field(flow_.grid())),
       smoothing_(flow_.grid(), scene.dem.kernel_width.value_or(0), scene.column.closed),
-      scatter_(flow_.grid(), materials_, phase_.added_mass(), volume_of(particles_), *scene.dem.greatest_speed),
+      scatter_(flow_.grid(), flow_.grid(), materials_, phase_.added_mass(), volume_of(particles_),
+               *scene.dem.greatest_speed),
       gather_(flow_.grid(), diameters(materials_)),
       motion_(materials_, flow_.constants().density, gravity_of(scene.column), {}, {}),
       last_(particles_.owned) {
@@ -118,7 +119,7 @@ void ParticleRun::move() {
 
 void ParticleRun::collect() {
   scatter_.collect(particles_, motion_.load, every_ * dt_, false);
-  scatter_.give(nullptr, !flow_.boundaries().closed(), phase_, fraction_);
+  scatter_.give(nullptr, nullptr, !flow_.boundaries().closed(), phase_, fraction_);
   if (treatment_ == Treatment::pcm_void) crowd_centres();
   if (!smoothing_.present()) return;
   std::fill(phase_.voidage.begin(), phase_.voidage.end(), 1.0);
