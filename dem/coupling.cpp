@@ -7,7 +7,9 @@
 
 #include "core/blocks.hpp"
 #include "core/error.hpp"
+#include "dem/kernel.hpp"
 #include "fluid/properties.hpp"
+#include "fluid/vorticity.hpp"
 
 namespace polybed::dem {
 
@@ -25,15 +27,10 @@ std::vector<double> diameters(const Materials& materials) {
   return d;
 }
 
+/// Full width of the kernel, m.
 double width_of(const core::Scene& scene, const Materials& materials, std::int64_t count) {
-  const core::Grid grid = core::grid_of(scene.column, nullptr);
-  const std::string& kernel = scene.dem.kernel;
-  if (kernel == "bilinear") return 0;
-  if (scene.dem.kernel_width) return *scene.dem.kernel_width;
-  constexpr double in_beds = 4;
-  const double automatic =
-      fluid::smoothing_width(grid.smallest_spacing(), materials.greatest_diameter(), std::size_t(count));
-  return kernel == "auto" ? automatic : std::max(automatic, in_beds * materials.greatest_diameter());
+  const double cell = core::grid_of(scene.column, nullptr).smallest_spacing();
+  return kernel_of(scene, cell, materials.greatest_diameter(), count).width;
 }
 
 /// Whether each rank solves for a block of the fluid. The kernel's smoothing wants the whole column.
@@ -63,7 +60,8 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       width_(width_of(scene, materials, count)),
       smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
-      scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, forces_.has_added_mass(), volume, speed),
+      sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, scene.dem.fluid_every * dt),
+      scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
       gather_(core::whole_column(flow_.grid()), diameters(materials)),
       motion_(materials, flow_.constants().density,
               {scene.column.gravity * scene.column.down[0], scene.column.gravity * scene.column.down[1],
@@ -72,7 +70,9 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
-  phase_ = fluid::ParticlePhase(flow_.grid(), forces_.has_added_mass());
+  phase_ = fluid::ParticlePhase(flow_.grid(), has_inertia());
+  for (Field& component : vorticity_)
+    if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
   if (!flow_.grid().ranks) return;
   const core::Grid column = core::whole_column(flow_.grid());
   exchange_.emplace(column, flow_.grid(), ranks_);
@@ -84,7 +84,6 @@ void Coupling::settle_in(const Particles& particles) {
   if (!exchange_) return;
   exchange_->choose(particles);
   fetch();
-  gather_.take(fraction_here_, velocity_here_, gradient_here_);
 }
 
 /// What this rank's particles see of the fluid.
@@ -95,7 +94,13 @@ void Coupling::fetch() {
     fields.push_back({&flow_.state().velocity[a], &velocity_here_[a]});
     fields.push_back({&flow_.gradient()[a], &gradient_here_[a]});
   }
+  for (std::size_t k = 0; k < 3 && sides_.needs_vorticity(); ++k) {
+    vorticity_here_[k].resize(velocity_here_[0].size());
+    fields.push_back({&vorticity_[k], &vorticity_here_[k]});
+  }
   exchange_->fetch(fields);
+  gather_.take(fraction_here_, velocity_here_, gradient_here_);
+  if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_here_);
 }
 
 void Coupling::begin(const Particles& particles) {
@@ -104,16 +109,21 @@ void Coupling::begin(const Particles& particles) {
   collect(particles);
   flow_.begin(0, phase_);
   take_fields();
-  find_forces(particles);
+  forces_.find(particles, gather_, motion_.load);
+  sides_.begin(particles, gather_, motion_.load);
 }
 
-void Coupling::find_forces(const Particles& particles) { forces_.find(particles, gather_, motion_.load); }
+void Coupling::find_forces(const Particles& particles) {
+  forces_.find(particles, gather_, motion_.load);
+  sides_.find(particles, gather_, motion_.load);
+}
 
 void Coupling::hold(const Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
     FluidLoad& f = motion_.load[i];
     for (std::size_t k = 0; k < 3; ++k) f.impulse[k] += f.drag * dt_ * f.velocity[k];
   }
+  sides_.hold(motion_.load);
 }
 
 void Coupling::advance(Particles& particles, double t) {
@@ -133,7 +143,8 @@ void Coupling::advance(Particles& particles, double t) {
   if (!held_) answer(particles);
   for (FluidLoad& load : motion_.load) load.impulse = {};
   take_fields();
-  find_forces(particles);
+  forces_.find(particles, gather_, motion_.load);
+  sides_.refresh(particles, gather_, motion_.load);
 }
 
 void Coupling::collect(const Particles& particles) {
@@ -141,16 +152,30 @@ void Coupling::collect(const Particles& particles) {
   if (exchange_) exchange_->choose(particles);
   scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
   if (smoothing_.present()) smooth();
+  require_voidage();
+}
+
+/// \pre the voidage is that of now
+void Coupling::require_voidage() const {
+  const core::Grid& grid = flow_.grid();
   double least = 1;
-  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) least = std::min(least, phase_.voidage[std::size_t(c)]);
-  });
-  least = core::least_of_ranks(flow_.grid(), least);
-  if (!(least > fluid::voidage_floor))
-    throw core::NumericsError(fmt::format(
-        "a cell has a voidage of {:.3g}: its particles do not fit into it; use dem.kernel = \"diffusion\", or "
-        "larger cells",
-        least));
+  std::array<int, 3> at{};
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        if (const double eps = phase_.voidage[std::size_t(grid.index(i, j, k))]; eps < least) {
+          least = eps;
+          at = {i, j, k};
+        }
+  const int worst = core::rank_of_greatest(grid, -least);
+  if (core::least_of_ranks(grid, least) > fluid::voidage_floor) return;
+  const char* remedy =
+      smoothing_.present() ? "a wider dem.kernel_width" : "dem.kernel = \"diffusion\", or larger cells";
+  const auto centre = [&](std::size_t a) { return grid.centre(int(a), at[a]); };
+  const std::string text = fmt::format(
+      "the cell near ({:.6g}, {:.6g}, {:.6g}) m has a voidage of {:.3g}: its particles do not fit into it; use {}",
+      centre(0), centre(1), centre(2), least, remedy);
+  throw core::NumericsError(core::said_by(grid, worst, text));
 }
 
 void Coupling::smooth() {
@@ -167,13 +192,11 @@ void Coupling::smooth() {
 
 /// The fields as particles see them.
 void Coupling::take_fields() {
-  if (exchange_) {
-    fetch();
-    gather_.take(fraction_here_, velocity_here_, gradient_here_);
-    return;
-  }
   if (!smoothing_.present()) {
+    if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity);
+    if (exchange_) return fetch();
     gather_.take(fraction_, flow_.state().velocity, flow_.gradient());
+    if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
     return;
   }
   core::FaceField velocity = flow_.state().velocity, gradient = flow_.gradient();
@@ -182,6 +205,15 @@ void Coupling::take_fields() {
     smoothing_.smooth_faces(gradient[std::size_t(axis)], axis);
   }
   gather_.take(fraction_, velocity, gradient);
+  if (!sides_.needs_vorticity()) return;
+  find_vorticity(std::move(velocity));
+  gather_.take_vorticity(vorticity_);
+}
+
+/// Of the velocity as particles see it, which holds at the walls.
+void Coupling::find_vorticity(core::FaceField velocity) {
+  flow_.boundaries().fill_velocity(velocity, fluid::WallSlip::no_slip);
+  fluid::find_vorticity(flow_.grid(), velocity, vorticity_);
 }
 
 /// Fields on faces of the block become those on what this rank's particles touch.
@@ -242,6 +274,18 @@ void Coupling::weigh() {
   };
   rows(0);
   if (flow_.boundaries().closed()) rows(1);
+}
+
+double Coupling::most_solids() const {
+  double most = 0;
+  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      double all = 0;
+      for (const Field& phi : fraction_) all += phi[c];
+      most = std::max(most, all);
+    }
+  });
+  return core::greatest_of_ranks(flow_.grid(), most);
 }
 
 double Coupling::pressure_drop() const {

@@ -20,6 +20,18 @@ Field Coupling::of_column(const Field& own) const {
   return column;
 }
 
+Coupling::Column Coupling::column() const {
+  Column all{core::whole_column(flow_.grid()), {}, {}, of_column(flow_.state().pressure), {}, {}};
+  for (const Field& phi : fraction_) all.fraction.push_back(of_column(phi));
+  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
+    all.velocity[a] = of_column(flow_.state().velocity[a]);
+  if (const fluid::Compressible* compressible = flow_.compressible()) {
+    all.total_pressure = of_column(compressible->total_pressure(flow_.state()));
+    all.density = of_column(flow_.state().compression.density);
+  }
+  return all;
+}
+
 /// What this rank's fluid has of a field of the whole column.
 void Coupling::take_own(const Field& column, Field& own) const {
   if (!exchange_) {
