@@ -118,7 +118,7 @@ void ParticleRun::move() {
 }
 
 void ParticleRun::collect() {
-  scatter_.collect(particles_, motion_.load, every_ * dt_, false);
+  scatter_.collect(particles_, motion_.load, every_ * dt_);
   scatter_.give(nullptr, nullptr, !flow_.boundaries().closed(), phase_, fraction_);
   if (treatment_ == Treatment::pcm_void) crowd_centres();
   if (!smoothing_.present()) return;
