@@ -148,7 +148,10 @@ void Coupling::advance(Particles& particles, double t) {
 }
 
 void Coupling::collect(const Particles& particles) {
-  scatter_.collect(particles, motion_.load, every_ * dt_, held_);
+  if (held_)
+    scatter_.collect_held(ranks_.get(), particles, motion_.load, every_ * dt_);
+  else
+    scatter_.collect(particles, motion_.load, every_ * dt_);
   if (exchange_) exchange_->choose(particles);
   scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
   if (smoothing_.present()) smooth();

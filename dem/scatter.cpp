@@ -1,6 +1,7 @@
 #include "dem/scatter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace polybed::dem {
@@ -35,18 +36,42 @@ Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Material
   sums_.resize(grid.padded_size() * width_);
 }
 
-void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt, bool held) {
+void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
   std::fill(sums_.begin(), sums_.end(), 0);
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Motion& m = particles.motion[i];
     const FluidLoad& f = loads[i];
     const double v = volume_of(particles.place[i].radius), mass = 1 / m.inverse_mass, inertia = mass + f.added;
     const double x = f.drag * dt / inertia, s = mean_decay(x), g = x * s, a = f.added / inertia * s;
-    std::array<double, 6> same{mass * (g + a),      v * (g + a), v * (1 - mass / inertia * s),
-                               v * v * s / inertia, mass * a,    v * a};
-    if (held) same = {f.drag * dt, 0, 0, 0, 0, 0};
+    const std::array<double, 6> same{mass * (g + a),      v * (g + a), v * (1 - mass / inertia * s),
+                                     v * v * s / inertia, mass * a,    v * a};
     add(particles.place[i], same, m.v, f.impulse, std::size_t(particles.species[i]));
   }
+}
+
+void Scatter::collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
+                           double dt) {
+  fit_units(ranks, loads, dt);
+  std::fill(sums_.begin(), sums_.end(), 0);
+  for (std::size_t i = 0; i < particles.owned; ++i)
+    add(particles.place[i], {loads[i].drag * dt, 0, 0, 0, 0, 0}, {}, loads[i].impulse,
+        std::size_t(particles.species[i]));
+}
+
+/// No mass bounds what held particles take in a step: units that hold the greatest of each, times their number, which
+/// are the same on any number of ranks.
+void Scatter::fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt) {
+  double most_drag = 0, most_impulse = 0;
+  for (const FluidLoad& f : loads) {
+    most_drag = std::max(most_drag, f.drag * dt);
+    for (const double i : f.impulse) most_impulse = std::max(most_impulse, std::abs(i));
+  }
+  std::array<double, 1> number{double(loads.size())};
+  core::add_over_ranks(ranks, number);
+  most_drag = core::greatest_of_ranks(ranks, most_drag);
+  most_impulse = core::greatest_of_ranks(ranks, most_impulse);
+  if (most_drag > 0) unit_[Sum::drag] = FixedPoint::for_sums_of(most_drag, number[0]);
+  if (most_impulse > 0) unit_[Sum::impulse] = FixedPoint::for_sums_of(most_impulse, number[0]);
 }
 
 /// \param same  drag, follow, slide, yield, carry, carry_flux: alike on the faces of all axes

@@ -20,8 +20,10 @@ class Scatter {
           double speed);
 
   /// Sums over this rank's particles. \param dt  of the fluid's step, s
-  /// \param held  the particles do not move: a fixed bed
-  void collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt, bool held);
+  void collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt);
+  /// The same of a fixed bed, whose particles take drag and do not move. Collective.
+  void collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
+                    double dt);
   /// Collective: sums over all ranks, per volume of a cell. \param open_top  the faces at the top move
   /// \param exchange  with the owners of the blocks; null: every rank has the whole column
   void give(const core::Ranks* ranks, const GridExchange* exchange, bool open_top, fluid::ParticlePhase& phase,
@@ -31,6 +33,7 @@ class Scatter {
   /// What stands on a face, in this order.
   enum Sum { volume, flux, impulse, drag, follow, slide, yield, carry, carry_flux };
 
+  void fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt);
   void add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
            std::size_t species);
   void give_faces(std::span<const std::int64_t> sums, bool open_top, fluid::ParticlePhase& phase) const;

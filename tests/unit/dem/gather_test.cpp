@@ -30,7 +30,7 @@ TEST(Gather, IsTheTransposeOfScatter) {
       Scatter scatter(cloud.grid, cloud.grid, cloud.materials, false, cloud.volume, 0.2);
       fluid::ParticlePhase phase(cloud.grid, false);
       std::vector<core::Field> fraction(2, core::make_field(cloud.grid));
-      scatter.collect(cloud.particles, cloud.loads, 1e-3, false);
+      scatter.collect(cloud.particles, cloud.loads, 1e-3);
       scatter.give(nullptr, nullptr, false, phase, fraction);
       const core::FaceField x = random_faces(cloud.grid, 11);
       const Gather gather(cloud.grid, {0.5e-3, 1.1e-3});

@@ -23,7 +23,10 @@ Given give(Cloud& cloud, double dt = 1e-3, bool held = false) {
       std::any_of(cloud.loads.begin(), cloud.loads.end(), [](const FluidLoad& f) { return f.added > 0; });
   Scatter scatter(cloud.grid, cloud.grid, cloud.materials, added, cloud.volume, 0.2);
   Given given{fluid::ParticlePhase(cloud.grid, added), {core::make_field(cloud.grid), core::make_field(cloud.grid)}};
-  scatter.collect(cloud.particles, cloud.loads, dt, held);
+  if (held)
+    scatter.collect_held(nullptr, cloud.particles, cloud.loads, dt);
+  else
+    scatter.collect(cloud.particles, cloud.loads, dt);
   scatter.give(nullptr, nullptr, false, given.phase, given.fraction);
   return given;
 }
@@ -123,6 +126,21 @@ TEST(Scatter, OfAFixedBedHasDragAlone) {
               whole_units(cloud.volume * 2500 * 64) + 1e-13 * drag);
   for (const core::FaceField* none : {&given.phase.follow, &given.phase.slide, &given.phase.yield})
     EXPECT_EQ(sum((*none)[1]), 0);
+}
+
+// A held particle is not stopped by its drag: over a step it may take a thousand times what would stop a free one.
+TEST(Scatter, OfOneHeldParticleHoldsStepsOfAThousandRelaxationTimes) {
+  for (const double relaxations : {1e-3, 1.0, 1e3, 1e6}) {
+    Cloud cloud(cloud_scene(3, true));
+    cloud.add(1, {5.3e-3, 4.2e-3, 5.1e-3});
+    const double mass = 1 / cloud.particles.motion[0].inverse_mass, dt = 1e-3;
+    cloud.loads[0].drag = relaxations * mass / dt;
+    cloud.loads[0].impulse = {0, relaxations * mass * 0.1, 0};
+    const Given given = give(cloud, dt, true);
+    const double psi = cloud.grid.cell_volume();
+    EXPECT_NEAR(sum(given.phase.drag[1]) * psi, relaxations * mass, 1e-12 * relaxations * mass) << relaxations;
+    EXPECT_NEAR(sum(given.phase.impulse[1]) * psi, relaxations * mass * 0.1, 1e-12 * relaxations * mass) << relaxations;
+  }
 }
 
 /// Fields of two runs, bit by bit.
