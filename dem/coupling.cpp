@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "dem/kernel.hpp"
 #include "fluid/properties.hpp"
+#include "fluid/vorticity.hpp"
 
 namespace polybed::dem {
 
@@ -59,7 +60,8 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       width_(width_of(scene, materials, count)),
       smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
-      scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, forces_.has_added_mass(), volume, speed),
+      sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, scene.dem.fluid_every * dt),
+      scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
       gather_(core::whole_column(flow_.grid()), diameters(materials)),
       motion_(materials, flow_.constants().density,
               {scene.column.gravity * scene.column.down[0], scene.column.gravity * scene.column.down[1],
@@ -68,7 +70,9 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
-  phase_ = fluid::ParticlePhase(flow_.grid(), forces_.has_added_mass());
+  phase_ = fluid::ParticlePhase(flow_.grid(), has_inertia());
+  for (Field& component : vorticity_)
+    if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
   if (!flow_.grid().ranks) return;
   const core::Grid column = core::whole_column(flow_.grid());
   exchange_.emplace(column, flow_.grid(), ranks_);
@@ -80,7 +84,6 @@ void Coupling::settle_in(const Particles& particles) {
   if (!exchange_) return;
   exchange_->choose(particles);
   fetch();
-  gather_.take(fraction_here_, velocity_here_, gradient_here_);
 }
 
 /// What this rank's particles see of the fluid.
@@ -91,7 +94,13 @@ void Coupling::fetch() {
     fields.push_back({&flow_.state().velocity[a], &velocity_here_[a]});
     fields.push_back({&flow_.gradient()[a], &gradient_here_[a]});
   }
+  for (std::size_t k = 0; k < 3 && sides_.needs_vorticity(); ++k) {
+    vorticity_here_[k].resize(velocity_here_[0].size());
+    fields.push_back({&vorticity_[k], &vorticity_here_[k]});
+  }
   exchange_->fetch(fields);
+  gather_.take(fraction_here_, velocity_here_, gradient_here_);
+  if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_here_);
 }
 
 void Coupling::begin(const Particles& particles) {
@@ -100,16 +109,21 @@ void Coupling::begin(const Particles& particles) {
   collect(particles);
   flow_.begin(0, phase_);
   take_fields();
-  find_forces(particles);
+  forces_.find(particles, gather_, motion_.load);
+  sides_.begin(particles, gather_, motion_.load);
 }
 
-void Coupling::find_forces(const Particles& particles) { forces_.find(particles, gather_, motion_.load); }
+void Coupling::find_forces(const Particles& particles) {
+  forces_.find(particles, gather_, motion_.load);
+  sides_.find(particles, gather_, motion_.load);
+}
 
 void Coupling::hold(const Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
     FluidLoad& f = motion_.load[i];
     for (std::size_t k = 0; k < 3; ++k) f.impulse[k] += f.drag * dt_ * f.velocity[k];
   }
+  sides_.hold(motion_.load);
 }
 
 void Coupling::advance(Particles& particles, double t) {
@@ -129,7 +143,8 @@ void Coupling::advance(Particles& particles, double t) {
   if (!held_) answer(particles);
   for (FluidLoad& load : motion_.load) load.impulse = {};
   take_fields();
-  find_forces(particles);
+  forces_.find(particles, gather_, motion_.load);
+  sides_.refresh(particles, gather_, motion_.load);
 }
 
 void Coupling::collect(const Particles& particles) {
@@ -177,13 +192,11 @@ void Coupling::smooth() {
 
 /// The fields as particles see them.
 void Coupling::take_fields() {
-  if (exchange_) {
-    fetch();
-    gather_.take(fraction_here_, velocity_here_, gradient_here_);
-    return;
-  }
   if (!smoothing_.present()) {
+    if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity);
+    if (exchange_) return fetch();
     gather_.take(fraction_, flow_.state().velocity, flow_.gradient());
+    if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
     return;
   }
   core::FaceField velocity = flow_.state().velocity, gradient = flow_.gradient();
@@ -192,6 +205,15 @@ void Coupling::take_fields() {
     smoothing_.smooth_faces(gradient[std::size_t(axis)], axis);
   }
   gather_.take(fraction_, velocity, gradient);
+  if (!sides_.needs_vorticity()) return;
+  find_vorticity(std::move(velocity));
+  gather_.take_vorticity(vorticity_);
+}
+
+/// Of the velocity as particles see it, which holds at the walls.
+void Coupling::find_vorticity(core::FaceField velocity) {
+  flow_.boundaries().fill_velocity(velocity, fluid::WallSlip::no_slip);
+  fluid::find_vorticity(flow_.grid(), velocity, vorticity_);
 }
 
 /// Fields on faces of the block become those on what this rank's particles touch.

@@ -17,6 +17,7 @@
 #include "dem/gather.hpp"
 #include "dem/particle_forces.hpp"
 #include "dem/scatter.hpp"
+#include "dem/side_forces.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/smoothing.hpp"
 
@@ -37,6 +38,8 @@ class Coupling {
   void settle_in(const Particles& particles);
   /// Loads of the particles where they are now.
   void find_forces(const Particles& particles);
+  /// What the fluid does to their spins in a step.
+  void turn(Particles& particles) { sides_.turn(particles, motion_); }
   /// Whether the fluid takes its step after so many of the particles.
   [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
   /// The fluid's step that ends at time t, s, and the particles' answer to it.
@@ -50,6 +53,8 @@ class Coupling {
   [[nodiscard]] const fluid::FlowStep& last_step() const { return last_; }
   [[nodiscard]] const std::vector<core::Field>& fraction() const { return fraction_; }
   [[nodiscard]] const ParticleForces& forces() const { return forces_; }
+  [[nodiscard]] SideForces& sides() { return sides_; }
+  [[nodiscard]] const SideForces& sides() const { return sides_; }
   [[nodiscard]] int every() const { return every_; }
   /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
   [[nodiscard]] double kernel_width() const { return width_; }
@@ -86,6 +91,8 @@ class Coupling {
   void weigh();
   [[nodiscard]] core::Field of_column(const core::Field& own) const;
   void take_own(const core::Field& column, core::Field& own) const;
+  void find_vorticity(core::FaceField velocity);
+  [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
 
   std::shared_ptr<const core::Ranks> ranks_;
   core::Timers& timers_;
@@ -97,9 +104,11 @@ class Coupling {
   /// On what this rank's particles touch; empty without an exchange.
   std::vector<core::Field> fraction_here_;
   core::FaceField velocity_here_, gradient_here_;
+  std::array<core::Field, 3> vorticity_, vorticity_here_;  ///< empty where no effect asks for it
   double width_;
   fluid::Smoothing smoothing_;
   ParticleForces forces_;
+  SideForces sides_;
   Scatter scatter_;
   Gather gather_;
   FluidMotion motion_;

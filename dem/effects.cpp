@@ -19,6 +19,22 @@ std::string law_of(const core::Scene& scene, const std::string& role) {
   return found == scene.effects.end() ? "none" : found->second;
 }
 
+/// What acts through the fluid needs one, and what turns with it has to be able to turn.
+void require_fluid(const core::Scene& scene) {
+  for (const char* role : {"lift", "magnus", "history"})
+    if (const std::string law = law_of(scene, role); law != "none" && scene.fluid.name == "none")
+      throw core::CaseError(fmt::format(
+          "effects.{} = \"{}\" is what a fluid does, and there is none: name it under [fluid], or leave it out", role,
+          law));
+  if (const std::string law = law_of(scene, "magnus"); law != "none" && law_of(scene, "contact") == "hertz")
+    throw core::CaseError("effects.magnus = \"" + law +
+                          "\" is a force of rotation, and with effects.contact = \"hertz\" nothing rotates: use "
+                          "hertz_mindlin or linear, or leave it out");
+  if (const std::string law = law_of(scene, "history"); law != "none" && scene.dem.held)
+    throw core::CaseError("effects.history = \"" + law +
+                          "\" is a force on particles that accelerate, and dem.held holds them: leave one out");
+}
+
 std::unique_ptr<NormalLaw> make_normal(const core::Scene& scene, const Materials& materials,
                                        const std::string& contact) {
   if (contact == "none")
@@ -89,6 +105,7 @@ std::unique_ptr<CohesionLaw> make_cohesion(const core::Scene& scene, const Mater
 }  // namespace
 
 PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials) {
+  require_fluid(scene);
   PairLaws laws;
   const std::string contact = law_of(scene, "contact");
   laws.normal = make_normal(scene, materials, contact);
@@ -106,6 +123,24 @@ std::vector<core::Role> roles() {
            "fluid that a particle drags along when it accelerates",
            "not in this version",
            {{"zuber", "C_m = (1 + 2 phi)/(2 (1 - phi)), Zuber 1964"}, {"half", "C_m = 1/2, of one sphere"}}},
+          {"lift",
+           "dem",
+           "Force",
+           "force across a sheared fluid's stream",
+           "not in this version",
+           {{"saffman_mei", "Saffman 1965 with the share of Mei 1992, of one sphere"}}},
+          {"magnus",
+           "dem",
+           "Force",
+           "force across the stream on spheres that spin, and the torque that ends the spin",
+           "not in this version",
+           {{"rubinow_keller", "Rubinow and Keller 1961, times 0.45 above Re_p 1"}}},
+          {"history",
+           "dem",
+           "Force",
+           "vorticity that past accelerations of a particle have left in the fluid",
+           "not in this version",
+           {{"basset", "Basset 1888, creeping flow, summed by exponentials; adds an inertia"}}},
           {"contact",
            "dem",
            "Pair",

@@ -124,6 +124,19 @@ void Exchange::send_ahead(const Particles& particles, std::vector<KeptLoad>& kep
   for (const KeptLoad& k : send(ranks_, leaving)) kept.push_back(k);
 }
 
+void Exchange::send_ahead(const Particles& particles, KeptRows& kept) {
+  if (!ranks_ || kept.width == 0) return;
+  std::vector<std::vector<double>> leaving(std::size_t(ranks_->count()));
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const int owner = decomposition_.owner(particles.place[i].x);
+    if (owner == ranks_->rank()) continue;
+    std::vector<double>& to = leaving[std::size_t(owner)];
+    to.insert(to.end(), kept.of(i), kept.of(i) + kept.width);
+  }
+  const std::vector<double> come = send(ranks_, leaving);
+  kept.numbers.insert(kept.numbers.end(), come.begin(), come.end());
+}
+
 void Exchange::choose_ghosts(Particles& particles) {
   particles.resize(particles.owned);
   if (!ranks_) return;

@@ -16,6 +16,7 @@
 #include "dem/kept_contacts.hpp"
 #include "dem/kept_loads.hpp"
 #include "dem/particles.hpp"
+#include "dem/side_rows.hpp"
 
 namespace polybed::dem {
 
@@ -30,6 +31,8 @@ class Exchange {
   void migrate(Particles& particles, std::vector<KeptContact>& kept);
   /// Sends what is kept of particles, in their order, to the ranks that own their places: before they migrate.
   void send_ahead(const Particles& particles, std::vector<KeptLoad>& kept);
+  /// Likewise; nothing where nothing is kept.
+  void send_ahead(const Particles& particles, KeptRows& kept);
   /// Sends copies of particles to ranks whose parts they are near, and adds those received as ghosts.
   void choose_ghosts(Particles& particles);
   /// Begins to tell the other ranks where their ghosts are now and how they move; between both calls the owned

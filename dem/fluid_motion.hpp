@@ -76,6 +76,9 @@ class FluidMotion {
     work_ += std::int64_t(work / m.inverse_mass * energy_.per_unit);
   }
 
+  /// Other work of the fluid, J.
+  void account_work(double work) { work_ += std::int64_t(work * energy_.per_unit); }
+
   /// Work of the fluid on this rank's particles since the start, its buoyancy included.
   [[nodiscard]] std::int64_t work() const { return work_; }
   void set_work(std::int64_t units) { work_ = units; }

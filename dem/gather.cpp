@@ -26,4 +26,10 @@ void Gather::take(const std::vector<core::Field>& fraction, const core::FaceFiel
     for (std::size_t f = 0; f < faces_[a].size(); ++f) faces_[a][f] = {velocity[a][f], gradient[a][f]};
 }
 
+void Gather::take_vorticity(const std::array<core::Field, 3>& vorticity) {
+  vorticity_.resize(vorticity[0].size());
+  for (std::size_t c = 0; c < vorticity_.size(); ++c)
+    for (std::size_t k = 0; k < 3; ++k) vorticity_[c][k] = vorticity[k][c];
+}
+
 }  // namespace polybed::dem

@@ -30,6 +30,9 @@ class Gather {
   /// Lays the fields out side by side. \param fraction  phi_j, [species][cell]
   void take(const std::vector<core::Field>& fraction, const core::FaceField& velocity, const core::FaceField& gradient);
 
+  /// omega in cells, 1/s, for effects that ask for it.
+  void take_vorticity(const std::array<core::Field, 3>& vorticity);
+
   [[nodiscard]] Lines lines(const Vector& x) const { return weights_(x); }
   [[nodiscard]] Surroundings solids(const Lines& lines, std::int32_t species) const {
     Surroundings s;
@@ -53,6 +56,14 @@ class Gather {
     }
     return s;
   }
+  /// Only where it was taken.
+  [[nodiscard]] Vector vorticity(const Lines& lines) const {
+    Vector omega{};
+    for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
+      for (std::size_t k = 0; k < 3; ++k) omega[k] += w * vorticity_[at][k];
+    });
+    return omega;
+  }
   /// Of one field on faces.
   [[nodiscard]] Vector vector(const Lines& lines, const core::FaceField& field) const {
     Vector v{};
@@ -69,6 +80,7 @@ class Gather {
   std::size_t width_;          ///< numbers in a cell
   std::vector<double> cells_;  ///< [cell]: phi, sum phi_j/D_j, sum phi_j D_j, phi_j of each species
   std::array<std::vector<std::array<double, 2>>, 3> faces_;  ///< [axis][face]: U_f, grad p
+  std::vector<Vector> vorticity_;                            ///< [cell]; empty unless an effect asks for it
 };
 
 }  // namespace polybed::dem

@@ -1,6 +1,7 @@
 #include "dem/gathered.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "core/messages.hpp"
@@ -36,6 +37,15 @@ std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
   std::vector<KeptLoad> all = on_first(loads, ranks);
   std::sort(all.begin(), all.end(), [](const KeptLoad& a, const KeptLoad& b) { return a.id < b.id; });
   return all;
+}
+
+KeptRows gathered_rows(const KeptRows& rows, const std::shared_ptr<const core::Ranks>& ranks) {
+  KeptRows all{rows.width, on_first(rows.numbers, ranks)}, sorted{rows.width, {}};
+  std::vector<std::size_t> order(all.count());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all.of(a)[0] < all.of(b)[0]; });
+  for (const std::size_t n : order) sorted.numbers.insert(sorted.numbers.end(), all.of(n), all.of(n) + all.width);
+  return sorted;
 }
 
 std::vector<KeptContact> gathered_contacts(const std::vector<KeptContact>& contacts,

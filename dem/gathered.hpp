@@ -18,6 +18,8 @@ namespace polybed::dem {
 /// What the fluid does to them, by id.
 [[nodiscard]] std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
                                                    const std::shared_ptr<const core::Ranks>& ranks);
+/// What side forces keep of them, by id.
+[[nodiscard]] KeptRows gathered_rows(const KeptRows& rows, const std::shared_ptr<const core::Ranks>& ranks);
 /// Contacts of all ranks, by ids; a pair across ranks, which both keep, once.
 [[nodiscard]] std::vector<KeptContact> gathered_contacts(const std::vector<KeptContact>& contacts,
                                                          const std::shared_ptr<const core::Ranks>& ranks);

@@ -72,6 +72,7 @@ void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
   coupling_.emplace(scene, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
                     limits_.greatest_speed, volume, count_);
   coupling_->motion().load.resize(particles_.owned);
+  coupling_->sides().rows().clear(particles_.owned);
 }
 
 /// Units of the sums over all particles.
@@ -132,6 +133,7 @@ void Model::move(double dt) {
   }
   const auto scope = timers_.scope("motion", timed_);
   verlet_.end(particles_, fluid_motion());
+  if (coupling_) coupling_->turn(particles_);
 }
 
 /// What the next step will need, or that there must be none: all that the ranks have to agree on.
@@ -195,9 +197,12 @@ void Model::rebuild() {
 void Model::list_pairs(std::vector<KeptContact>& kept) {
   particles_.resize(particles_.owned);
   std::vector<KeptLoad> loads;
+  KeptRows sides;
   if (coupling_) {
     loads = keep(particles_, coupling_->motion().load);
     exchange_.send_ahead(particles_, loads);
+    sides = keep(particles_, coupling_->sides().rows());
+    exchange_.send_ahead(particles_, sides);
   }
   exchange_.migrate(particles_, kept);
   const std::vector<std::int32_t> order = search_.order(particles_);
@@ -205,6 +210,7 @@ void Model::list_pairs(std::vector<KeptContact>& kept) {
   for (std::size_t n = 0; n < order.size(); ++n) particles_.set(n, before.at(std::size_t(order[n])));
   if (coupling_) {
     recall(loads, particles_, coupling_->motion().load);
+    recall(sides, particles_, coupling_->sides().rows());
     coupling_->settle_in(particles_);
   }
   exchange_.choose_ghosts(particles_);

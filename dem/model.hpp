@@ -94,6 +94,7 @@ class Model : public core::Simulation {
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
   void take_up(const core::Checkpoint& checkpoint, bool same_step);
   void take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all);
+  void take_up_sides(const core::Checkpoint& checkpoint, std::size_t count);
   void look_ahead();
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;

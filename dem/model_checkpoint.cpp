@@ -86,6 +86,8 @@ core::Checkpoint Model::checkpoint() const {
   if (coupling_) {
     const std::vector<KeptLoad> loads = gathered_loads(keep(particles_, coupling_->motion().load), ranks_);
     write_loads(checkpoint, loads);
+    if (coupling_->sides().present())
+      checkpoint.arrays["fluid_sides"] = gathered_rows(keep(particles_, coupling_->sides().rows()), ranks_).numbers;
     coupling_->write(checkpoint);
   }
   checkpoint.integers["steps"] = steps_;
@@ -147,6 +149,7 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   }
   place(all, work);
   if (coupling_) take_up_fluid(checkpoint, all);
+  if (coupling_ && same_step && coupling_->sides().present()) take_up_sides(checkpoint, all.size());
   list_pairs(kept);
 }
 
@@ -156,6 +159,7 @@ void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<
   const bool with_fluid =
       core::on_any_rank(ranks_.get(), core::is_first(ranks_.get()) && checkpoint.arrays.contains("fluid_loads"));
   coupling_->motion().load.assign(particles_.owned, FluidLoad{});
+  coupling_->sides().rows().clear(particles_.owned);
   if (!with_fluid) return;
   core::on_first(ranks_.get(), [&] { loads = checkpoint.arrays.at("fluid_loads"); });
   core::take_from_first(ranks_.get(), loads);
@@ -165,6 +169,20 @@ void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<
     coupling_->motion().load[i] = read_load(loads.data() + row.at(particles_.id[i]) * load_width);
   coupling_->read(checkpoint);
   coupling_->motion().set_work(core::is_first(ranks_.get()) ? checkpoint.integers.at("fluid_work") : 0);
+}
+
+/// What side forces had kept of the particles.
+void Model::take_up_sides(const core::Checkpoint& checkpoint, std::size_t count) {
+  SideRows& rows = coupling_->sides().rows();
+  KeptRows kept{rows.width + 1, std::vector<double>(count * (rows.width + 1))};
+  core::on_first(ranks_.get(), [&] {
+    const auto found = checkpoint.arrays.find("fluid_sides");
+    if (found == checkpoint.arrays.end() || found->second.size() != kept.numbers.size())
+      throw core::FileError("the checkpoint is of other effects.lift, magnus or history");
+    kept.numbers = found->second;
+  });
+  core::take_from_first(ranks_.get(), kept.numbers);
+  recall(kept, particles_, rows);
 }
 
 void Model::start_from(const core::Checkpoint& checkpoint) {

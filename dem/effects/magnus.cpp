@@ -1,0 +1,37 @@
+#include "dem/effects/magnus.hpp"
+
+#include <cmath>
+
+#include "closures/magnus_rubinow_keller.hpp"
+#include "dem/effects/side_vectors.hpp"
+
+namespace polybed::dem {
+
+using closures::Vec3;
+
+Magnus::Magnus(const Materials& materials, double density, double viscosity, double dt)
+    : density_(density), viscosity_(viscosity) {
+  for (const Species& s : materials.species())
+    constants_.push_back(
+        {2 * s.radius, -std::expm1(-closures::spin_resistance(viscosity, 2 * s.radius) * dt / s.inertia)});
+}
+
+void Magnus::add(const SideView& view, SideRows& rows) {
+  for (std::size_t i = 0; i < view.loads.size(); ++i) {
+    const Vec3 spin = closures::spin_relative_to_fluid(to_vec3(view.particles.motion[i].w), to_vec3(view.vorticity[i]));
+    const double d = constants_[std::size_t(view.particles.species[i])].diameter;
+    add_to(rows.of(i), closures::magnus_rubinow_keller(slip_of(view, i), spin, d, density_, viscosity_));
+  }
+}
+
+void Magnus::turn(std::span<const Vector> vorticity, Particles& particles, FluidMotion& motion) {
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    Motion& m = particles.motion[i];
+    const Vec3 before = to_vec3(m.w), relative = closures::spin_relative_to_fluid(before, to_vec3(vorticity[i]));
+    const Vec3 change = -constants_[std::size_t(particles.species[i])].turned * relative;
+    motion.account_work(closures::dot(before + 0.5 * change, change) / m.inverse_inertia);
+    put(m.w.data(), before + change);
+  }
+}
+
+}  // namespace polybed::dem

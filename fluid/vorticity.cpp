@@ -1,0 +1,35 @@
+#include "fluid/vorticity.hpp"
+
+namespace polybed::fluid {
+
+using core::Field;
+using core::Index;
+
+namespace {
+
+/// Adds sign dU_of/dx_along: the mean of U on a cell's two faces, from the cell behind to the one before.
+void add_slope(const core::Grid& grid, const core::FaceField& velocity, int of, int along, double sign, Field& out) {
+  const Field& u = velocity[std::size_t(of)];
+  const Index to_high = grid.stride(of), s = grid.stride(along);
+  const double scale = sign / (4 * grid.spacing[std::size_t(along)]);
+  core::for_each_row(grid, core::owned_cells(grid), [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c)
+      out[std::size_t(c)] += scale * ((u[std::size_t(c + s)] - u[std::size_t(c - s)]) +
+                                      (u[std::size_t(c + s + to_high)] - u[std::size_t(c - s + to_high)]));
+  });
+}
+
+}  // namespace
+
+void find_vorticity(const core::Grid& grid, const core::FaceField& velocity, std::array<Field, 3>& vorticity) {
+  for (Field& component : vorticity) component.assign(grid.padded_size(), 0.0);
+  add_slope(grid, velocity, 1, 0, 1, vorticity[2]);
+  add_slope(grid, velocity, 0, 1, -1, vorticity[2]);
+  if (grid.dimensions < 3) return;
+  add_slope(grid, velocity, 2, 1, 1, vorticity[0]);
+  add_slope(grid, velocity, 1, 2, -1, vorticity[0]);
+  add_slope(grid, velocity, 0, 2, 1, vorticity[1]);
+  add_slope(grid, velocity, 2, 0, -1, vorticity[1]);
+}
+
+}  // namespace polybed::fluid
