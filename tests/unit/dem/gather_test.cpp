@@ -27,11 +27,11 @@ TEST(Gather, IsTheTransposeOfScatter) {
   for (const int dimensions : {2, 3})
     for (const bool periodic : {false, true}) {
       Cloud cloud(cloud_scene(dimensions, periodic), number);
-      Scatter scatter(cloud.grid, cloud.materials, false, cloud.volume, 0.2);
+      Scatter scatter(cloud.grid, cloud.grid, cloud.materials, false, cloud.volume, 0.2);
       fluid::ParticlePhase phase(cloud.grid, false);
       std::vector<core::Field> fraction(2, core::make_field(cloud.grid));
       scatter.collect(cloud.particles, cloud.loads, 1e-3, false);
-      scatter.give(nullptr, false, phase, fraction);
+      scatter.give(nullptr, nullptr, false, phase, fraction);
       const core::FaceField x = random_faces(cloud.grid, 11);
       const Gather gather(cloud.grid, {0.5e-3, 1.1e-3});
       for (std::size_t a = 0; a < std::size_t(dimensions); ++a) {

@@ -21,10 +21,10 @@ struct Given {
 Given give(Cloud& cloud, double dt = 1e-3, bool held = false) {
   const bool added =
       std::any_of(cloud.loads.begin(), cloud.loads.end(), [](const FluidLoad& f) { return f.added > 0; });
-  Scatter scatter(cloud.grid, cloud.materials, added, cloud.volume, 0.2);
+  Scatter scatter(cloud.grid, cloud.grid, cloud.materials, added, cloud.volume, 0.2);
   Given given{fluid::ParticlePhase(cloud.grid, added), {core::make_field(cloud.grid), core::make_field(cloud.grid)}};
   scatter.collect(cloud.particles, cloud.loads, dt, held);
-  scatter.give(nullptr, false, given.phase, given.fraction);
+  scatter.give(nullptr, nullptr, false, given.phase, given.fraction);
   return given;
 }
 
