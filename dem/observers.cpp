@@ -67,6 +67,13 @@ struct Snapshot {
   [[nodiscard]] core::ParticleSnapshot view() const { return {id, species, radius, position, velocity, spin}; }
 };
 
+/// An earlier run of the same directory may have had a fluid.
+void remove_fields(const std::filesystem::path& directory) {
+  if (!std::filesystem::remove(directory / "fields.h5")) return;
+  std::filesystem::remove(directory / "fields.xdmf");
+  std::filesystem::remove_all(directory / "fields");
+}
+
 std::vector<double> slab_centres(const fluid::Slabs& slabs) {
   std::vector<double> y;
   for (std::size_t k = 0; k < slabs.count; ++k) y.push_back((double(k) + 0.5) * slabs.thickness());
@@ -91,6 +98,7 @@ Observers::Observers(const Model& model, const core::Scene& scene, const std::fi
                            {directory, slab_centres(slabs_), profile_names(model), resume_time},
                            {directory, particles, resume_time},
                            nullptr});
+    if (coupling == nullptr && !resume_time) remove_fields(directory);
     if (coupling != nullptr)
       files_->fluid = std::make_unique<FluidOutput>(*coupling, particles.species, directory, resume_time);
   });

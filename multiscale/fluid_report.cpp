@@ -12,6 +12,7 @@ FluidReport fluid_report(const core::Scene& scene, const dem::Coupling& coupling
   return {totals,
           coupling.kernel_width() > 0 ? "diffusion" : "bilinear",
           drag == scene.effects.end() ? "none" : drag->second,
+          coupling.flow().grid().ranks != nullptr,
           coupling.kernel_width(),
           coupling.every(),
           coupling.every() * dt,
@@ -22,7 +23,9 @@ void write_fluid(core::Json& json, const FluidReport& r) {
   json.key("fluid").begin_object().member("every", std::int64_t(r.every)).member("dt_s", r.step);
   json.member("steps", r.totals.steps).member("iterations", r.totals.iterations);
   json.member("worst_residual", r.totals.worst_residual).member("greatest_courant", r.totals.greatest_courant);
-  json.member("kernel", r.kernel).member("kernel_width_m", r.kernel_width);
+  json.member("ranks", r.shared ? "shared" : "each")
+      .member("kernel", r.kernel)
+      .member("kernel_width_m", r.kernel_width);
   json.key("drag").begin_object().member("law", r.law).member("evaluations", r.totals.law.evaluations);
   json.member("guarded", r.totals.law.guarded).member("clamped_voidage", r.totals.law.clamped_voidage).end_object();
   json.member("work_J", r.work).end_object();

@@ -14,6 +14,7 @@ namespace polybed::multiscale {
 struct FluidReport {
   dem::FluidTotals totals;
   std::string kernel, law;  ///< diffusion | bilinear; of drag, or none
+  bool shared = false;      ///< each rank solves for a block of the fluid, not for all of it
   double kernel_width = 0;  ///< m; 0 of bilinear weights
   int every = 1;            ///< steps of the particles in one of the fluid
   double step = 0;          ///< of the fluid, s

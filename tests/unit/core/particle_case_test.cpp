@@ -223,8 +223,11 @@ std::string message_in_fluid(const std::string& column, const std::string& dem, 
                              const std::string& fluid = "water") {
   std::string text = dry_case({column, "temperature = 288", {}, {}, dem, more});
   text.replace(text.find("\"none\""), 6, "\"" + fluid + "\"");
-  const std::array<Role, 2> roles{Role{"drag", "dem", "Exchange", "", "", {{"cello", ""}}},
-                                  Role{"added_mass", "dem", "Inertia", "", "", {{"half", ""}}}};
+  const std::array<Role, 5> roles{Role{"drag", "dem", "Exchange", "", "", {{"cello", ""}}},
+                                  Role{"added_mass", "dem", "Inertia", "", "", {{"half", ""}}},
+                                  Role{"lift", "dem", "Force", "", "", {{"saffman_mei", ""}}},
+                                  Role{"magnus", "dem", "Force", "", "", {{"rubinow_keller", ""}}},
+                                  Role{"history", "dem", "Force", "", "", {{"basset", ""}}}};
   try {
     (void)parse_case(text, "case.toml", {}, roles);
   } catch (const CaseError& error) {
@@ -260,10 +263,13 @@ TEST(ParticleCaseInAFluid, IsTiltedOnlyWhereNothingFlowsInAndDensityIsConstant) 
 }
 
 TEST(ParticleCaseInAFluid, IsToldAllThatItsEffectsLackWithoutOne) {
-  const std::string effects = "[effects]\ndrag = \"cello\"\nadded_mass = \"half\"";
+  const std::string effects =
+      "[effects]\ndrag = \"cello\"\nadded_mass = \"half\"\nlift = \"saffman_mei\"\n"
+      "magnus = \"rubinow_keller\"\nhistory = \"basset\"";
   EXPECT_EQ(message_in_fluid(closed, "", effects), "");
   const std::string message = message_in_fluid(closed, "", effects, "none");
-  for (const char* key : {"effects.drag", "effects.added_mass", "fluid.temperature"})
+  for (const char* key :
+       {"effects.drag", "effects.added_mass", "effects.lift", "effects.magnus", "effects.history", "fluid.temperature"})
     EXPECT_THAT(message, HasSubstr(std::string(key) + " cannot act: fluid.name = \"none\""));
 }
 
