@@ -30,6 +30,7 @@ class NormalLaw {
   /// dF_n/d(overlap) at an overlap, N/m, and the damping ratio (both constants of the linear law).
   [[nodiscard]] virtual double stiffness_at(int kind, double overlap) const = 0;
   [[nodiscard]] virtual double damping_ratio(int kind) const = 0;
+  [[nodiscard]] virtual int memory_size() const { return 0; }
 };
 
 /// Slot Pair, friction: keeps a displacement or a force from step to step.
@@ -81,13 +82,14 @@ struct PairLaws {
   [[nodiscard]] double reach() const { return cohesion ? cohesion->reach() : 0; }
   /// Of what ends with the overlap, the first in a contact's memory.
   [[nodiscard]] int contact_memory() const {
-    return (tangential ? tangential->memory_size() : 0) + (rolling ? rolling->memory_size() : 0);
+    return normal->memory_size() + (tangential ? tangential->memory_size() : 0) +
+           (rolling ? rolling->memory_size() : 0);
   }
   [[nodiscard]] int memory_size() const { return contact_memory() + (cohesion ? cohesion->memory_size() : 0); }
 };
 
 /// The laws that a scene names; throws core::CaseError for what contradicts itself or lacks a number. Each law is given
-/// its place in the memory of a contact: friction's first, then rolling's, then cohesion's.
+/// its place in the memory of a contact: that of the normal force first, then friction's, rolling's, cohesion's.
 [[nodiscard]] PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials);
 
 /// The roles that act in the particle model, with their laws.
