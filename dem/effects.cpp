@@ -6,6 +6,7 @@
 #include "dem/effects/cohesion.hpp"
 #include "dem/effects/contact_hertz.hpp"
 #include "dem/effects/contact_linear.hpp"
+#include "dem/effects/film.hpp"
 #include "dem/effects/friction.hpp"
 #include "dem/effects/friction_partial_slip.hpp"
 #include "dem/effects/rolling.hpp"
@@ -124,6 +125,8 @@ PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials) {
   laws.tangential = make_tangential(scene, materials, contact, laws.normal->memory_size());
   laws.rolling = make_rolling(scene, materials, contact, laws.contact_memory());
   laws.cohesion = make_cohesion(scene, materials, contact, laws.contact_memory());
+  if (law_of(scene, "lubrication") == "film")
+    laws.film = std::make_unique<Film>(materials, fluid::fluid_constants(scene.fluid).viscosity, scene.dem.roughness);
   return laws;
 }
 
@@ -166,7 +169,8 @@ std::vector<core::Role> roles() {
            "Pair",
            "fluid that is squeezed out between particles that meet",
            absent,
-           {{"wet_restitution", "restitution times exp(-35/St*) by the speed at first touch, Legendre et al. 2005"}}},
+           {{"wet_restitution", "restitution times exp(-35/St*) by the speed at first touch, Legendre et al. 2005"},
+            {"film", "6 pi mu R*^2 v_n/h from a gap h of 0.1 R* down to dem.roughness"}}},
           {"rolling",
            "dem",
            "Pair",

@@ -2,6 +2,7 @@
 // call for is not made: it has no memory in a contact, no loop and no reach.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -73,13 +74,26 @@ class CohesionLaw {
   [[nodiscard]] virtual double pull_off() const = 0;
 };
 
+/// Slot Pair, resistance of the fluid between surfaces that nearly touch, along n; no energy is stored.
+class FilmLaw {
+ public:
+  virtual ~FilmLaw() = default;
+  /// Step for which it has to be stable, s; before the first act().
+  virtual void set_step(double dt) = 0;
+  /// The force on the first of each pair, N.
+  virtual void act(const ContactBatch& batch, ContactBatch::Row& force) const = 0;
+  /// m, beyond contact.
+  [[nodiscard]] virtual double reach() const = 0;
+};
+
 struct PairLaws {
   std::unique_ptr<NormalLaw> normal;  ///< the one that always is
   std::unique_ptr<TangentialLaw> tangential;
   std::unique_ptr<RollingLaw> rolling;
   std::unique_ptr<CohesionLaw> cohesion;
+  std::unique_ptr<FilmLaw> film;
 
-  [[nodiscard]] double reach() const { return cohesion ? cohesion->reach() : 0; }
+  [[nodiscard]] double reach() const { return std::max(cohesion ? cohesion->reach() : 0, film ? film->reach() : 0); }
   /// Of what ends with the overlap, the first in a contact's memory.
   [[nodiscard]] int contact_memory() const {
     return normal->memory_size() + (tangential ? tangential->memory_size() : 0) +
