@@ -123,6 +123,7 @@ std::vector<Key> make_keys() {
   k.push_back({"dem", "cohesion_energy", at<double>([](S& s, N) -> auto& { return s.dem.cohesion_energy; }), "W of cohesion of the kinds DMT and JKR, J/m2", dimension::surface_energy, 0, 1e6, false, "0 J/m2", {}, false, "pull-off: DMT 2 pi W R*, JKR 1.5 pi W R*"});
   k.push_back({"dem", "hamaker_constant", at<double>([](S& s, N) -> auto& { return s.dem.hamaker_constant; }), "A of the van der Waals force", dimension::energy, 0, 1e-6, false, "0 J", {}, false, "F = A R*/(6 z^2)"});
   k.push_back({"dem", "cohesion_gap", at<double>([](S& s, N) -> auto& { return s.dem.cohesion_gap; }), "z_0, cut-off of the van der Waals force: nearer than this it grows no more", dimension::length, 0, 1, true, "0.165 nm", {}, false, "F = A R*/(6 max(z, z_0)^2)"});
+  k.push_back({"dem", "roughness", at<double>([](S& s, N) -> auto& { return s.dem.roughness; }), "of surfaces: the film between them is not thinner (effects.lubrication = film)", dimension::length, 0, 1, true, "0.1 um", {}, false, "F = -6 pi mu R*^2 v_n/max(h, roughness)"});
 
   k.push_back({"jet", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].from; }), "low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, depth) in three dimensions", dimension::length, 0, 1e3, false, {}, {}, true});
   k.push_back({"jet", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].to; }), "high corner", dimension::length, 0, 1e3, false, {}, {}, true});

@@ -146,6 +146,7 @@ struct Dem {
   double cohesion_energy = 0;              ///< W of DMT and JKR, J/m2
   double hamaker_constant = 0;             ///< A, J
   double cohesion_gap = 1.65e-10;          ///< z_0, least gap of the van der Waals force, m
+  double roughness = 1e-7;                 ///< least thickness of a film between surfaces, m
 };
 
 struct ContactPair {

@@ -6,9 +6,12 @@
 #include "dem/effects/cohesion.hpp"
 #include "dem/effects/contact_hertz.hpp"
 #include "dem/effects/contact_linear.hpp"
+#include "dem/effects/film.hpp"
 #include "dem/effects/friction.hpp"
 #include "dem/effects/friction_partial_slip.hpp"
 #include "dem/effects/rolling.hpp"
+#include "dem/effects/wet_contact.hpp"
+#include "fluid/properties.hpp"
 
 namespace polybed::dem {
 
@@ -21,7 +24,7 @@ std::string law_of(const core::Scene& scene, const std::string& role) {
 
 /// What acts through the fluid needs one, and what turns with it has to be able to turn.
 void require_fluid(const core::Scene& scene) {
-  for (const char* role : {"lift", "magnus", "history"})
+  for (const char* role : {"lift", "magnus", "history", "lubrication"})
     if (const std::string law = law_of(scene, role); law != "none" && scene.fluid.name == "none")
       throw core::CaseError(fmt::format(
           "effects.{} = \"{}\" is what a fluid does, and there is none: name it under [fluid], or leave it out", role,
@@ -35,14 +38,24 @@ void require_fluid(const core::Scene& scene) {
                           "\" is a force on particles that accelerate, and dem.held holds them: leave one out");
 }
 
-std::unique_ptr<NormalLaw> make_normal(const core::Scene& scene, const Materials& materials,
-                                       const std::string& contact) {
+std::unique_ptr<NormalLaw> make_dry(const core::Scene& scene, const Materials& materials, const std::string& contact,
+                                    const std::string& tail) {
   if (contact == "none")
     throw core::CaseError("effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear");
-  if (contact != "linear") return std::make_unique<HertzContact>(materials, scene.dem.tail);
+  if (contact != "linear") return std::make_unique<HertzContact>(materials, tail);
   if (!scene.dem.normal_stiffness)
     throw core::CaseError("dem.normal_stiffness: effects.contact = \"linear\" needs it, as in \"1000 N/m\"");
-  return std::make_unique<LinearContact>(materials, *scene.dem.normal_stiffness, scene.dem.tail);
+  return std::make_unique<LinearContact>(materials, *scene.dem.normal_stiffness, tail);
+}
+
+/// Its memory, if any, is the first in a contact's.
+std::unique_ptr<NormalLaw> make_normal(const core::Scene& scene, const Materials& materials,
+                                       const std::string& contact) {
+  if (law_of(scene, "lubrication") != "wet_restitution") return make_dry(scene, materials, contact, scene.dem.tail);
+  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const Materials whole = materials.with_restitution(0);  // whose damping ratio is 1, with the tail kept
+  return std::make_unique<WetContact>(make_dry(scene, whole, contact, "keep"), materials,
+                                      WetContact::Fluid{fluid.density, fluid.viscosity}, scene.dem.tail, 0);
 }
 
 std::unique_ptr<TangentialLaw> make_tangential(const core::Scene& scene, const Materials& materials,
@@ -109,9 +122,11 @@ PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials) {
   PairLaws laws;
   const std::string contact = law_of(scene, "contact");
   laws.normal = make_normal(scene, materials, contact);
-  laws.tangential = make_tangential(scene, materials, contact, 0);
+  laws.tangential = make_tangential(scene, materials, contact, laws.normal->memory_size());
   laws.rolling = make_rolling(scene, materials, contact, laws.contact_memory());
   laws.cohesion = make_cohesion(scene, materials, contact, laws.contact_memory());
+  if (law_of(scene, "lubrication") == "film")
+    laws.film = std::make_unique<Film>(materials, fluid::fluid_constants(scene.fluid).viscosity, scene.dem.roughness);
   return laws;
 }
 
@@ -149,6 +164,13 @@ std::vector<core::Role> roles() {
            {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential"},
             {"hertz", "Hertz's normal force alone: no friction, no rotation"},
             {"linear", "linear springs, dem.normal_stiffness"}}},
+          {"lubrication",
+           "dem",
+           "Pair",
+           "fluid that is squeezed out between particles that meet",
+           absent,
+           {{"wet_restitution", "restitution times exp(-35/St*) by the speed at first touch, Legendre et al. 2005"},
+            {"film", "6 pi mu R*^2 v_n/h from a gap h of 0.1 R* down to dem.roughness"}}},
           {"rolling",
            "dem",
            "Pair",

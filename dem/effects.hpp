@@ -2,6 +2,7 @@
 // call for is not made: it has no memory in a contact, no loop and no reach.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ class NormalLaw {
   /// dF_n/d(overlap) at an overlap, N/m, and the damping ratio (both constants of the linear law).
   [[nodiscard]] virtual double stiffness_at(int kind, double overlap) const = 0;
   [[nodiscard]] virtual double damping_ratio(int kind) const = 0;
+  [[nodiscard]] virtual int memory_size() const { return 0; }
 };
 
 /// Slot Pair, friction: keeps a displacement or a force from step to step.
@@ -72,22 +74,36 @@ class CohesionLaw {
   [[nodiscard]] virtual double pull_off() const = 0;
 };
 
+/// Slot Pair, resistance of the fluid between surfaces that nearly touch, along n; no energy is stored.
+class FilmLaw {
+ public:
+  virtual ~FilmLaw() = default;
+  /// Step for which it has to be stable, s; before the first act().
+  virtual void set_step(double dt) = 0;
+  /// The force on the first of each pair, N.
+  virtual void act(const ContactBatch& batch, ContactBatch::Row& force) const = 0;
+  /// m, beyond contact.
+  [[nodiscard]] virtual double reach() const = 0;
+};
+
 struct PairLaws {
   std::unique_ptr<NormalLaw> normal;  ///< the one that always is
   std::unique_ptr<TangentialLaw> tangential;
   std::unique_ptr<RollingLaw> rolling;
   std::unique_ptr<CohesionLaw> cohesion;
+  std::unique_ptr<FilmLaw> film;
 
-  [[nodiscard]] double reach() const { return cohesion ? cohesion->reach() : 0; }
+  [[nodiscard]] double reach() const { return std::max(cohesion ? cohesion->reach() : 0, film ? film->reach() : 0); }
   /// Of what ends with the overlap, the first in a contact's memory.
   [[nodiscard]] int contact_memory() const {
-    return (tangential ? tangential->memory_size() : 0) + (rolling ? rolling->memory_size() : 0);
+    return normal->memory_size() + (tangential ? tangential->memory_size() : 0) +
+           (rolling ? rolling->memory_size() : 0);
   }
   [[nodiscard]] int memory_size() const { return contact_memory() + (cohesion ? cohesion->memory_size() : 0); }
 };
 
 /// The laws that a scene names; throws core::CaseError for what contradicts itself or lacks a number. Each law is given
-/// its place in the memory of a contact: friction's first, then rolling's, then cohesion's.
+/// its place in the memory of a contact: that of the normal force first, then friction's, rolling's, cohesion's.
 [[nodiscard]] PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials);
 
 /// The roles that act in the particle model, with their laws.

@@ -76,10 +76,25 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
   units_ += units_of(lost, counted, batch.count, unit_.per_unit);
 }
 
+void Ledger::act_film(ContactBatch& batch, const Row& force, const Row& counted, double dt) {
+  Row &due = batch.memory[place_ + before_film(laws_)], &if_parted = batch.memory[place_ + before_film(laws_) + 1];
+  alignas(64) Row lost = {};
+  const double half = -0.5 * dt;
+  for (int c = 0; c < batch.padded(); ++c) {
+    const double now = half * force[c] * batch.speed[c];
+    lost[c] = (synchronised_ ? due[c] : half * due[c] * batch.speed[c]) + now;
+    due[c] = synchronised_ ? now : force[c];
+    if_parted[c] = now;
+  }
+  units_ += units_of(lost, counted, batch.count, unit_.per_unit);
+}
+
 void Ledger::part(const Contacts& contacts, std::size_t owned) {
   contacts.each_parted([&](std::int32_t pair) {
-    if (std::size_t(contacts.pairs[std::size_t(pair)].first) < owned)
-      units_ += std::int64_t(contacts.memory_of(pair)[place_ + 1] * unit_.per_unit);
+    if (std::size_t(contacts.pairs[std::size_t(pair)].first) >= owned) return;
+    const double* memory = contacts.memory_of(pair) + place_;
+    units_ += std::int64_t(memory[1] * unit_.per_unit);
+    if (laws_.film) units_ += std::int64_t(memory[before_film(laws_) + 1] * unit_.per_unit);
   });
 }
 

@@ -29,10 +29,9 @@ namespace polybed::dem {
 class Ledger {
  public:
   /// The dashpot's force of the last step, or the synchronised scheme's work still due; what is lost if the contact
-  /// parts; with friction F_t of the last step and its energy; with rolling the moment and its energy.
-  [[nodiscard]] static int memory_size(const PairLaws& laws) {
-    return 2 + (laws.tangential ? 4 : 0) + (laws.rolling ? 4 : 0);
-  }
+  /// parts; with friction F_t of the last step and its energy; with rolling the moment and its energy; with a film as
+  /// of the dashpot.
+  [[nodiscard]] static int memory_size(const PairLaws& laws) { return before_film(laws) + (laws.film ? 2 : 0); }
 
   /// \param place  of its memory in a batch   \param synchronised  velocities of the batch are those at the time of the
   /// force   \param unit  of the sum, J
@@ -40,6 +39,8 @@ class Ledger {
 
   /// After the contact's laws and before cohesion. \param counted  1, or 0 for pairs that another rank counts
   void act(ContactBatch& batch, const ContactBatch::Row& counted, double dt);
+  /// The film's part, beside act().
+  void act_film(ContactBatch& batch, const ContactBatch::Row& force, const ContactBatch::Row& counted, double dt);
   /// Before the memory of contacts that have parted is forgotten.
   /// \param owned  pairs whose first particle is below it are counted here
   void part(const Contacts& contacts, std::size_t owned);
@@ -49,6 +50,10 @@ class Ledger {
   void set_units(std::int64_t units) { units_ = units; }
 
  private:
+  [[nodiscard]] static int before_film(const PairLaws& laws) {
+    return 2 + (laws.tangential ? 4 : 0) + (laws.rolling ? 4 : 0);
+  }
+
   const PairLaws& laws_;
   int place_;
   bool synchronised_;

@@ -34,6 +34,12 @@ class Materials {
   [[nodiscard]] std::int32_t kind(std::int32_t a, std::int32_t b) const { return a * stride_ + b; }
   /// Likewise of a species and the walls.
   [[nodiscard]] std::int32_t wall_kind(std::int32_t a) const { return a * stride_ + stride_ - 1; }
+  /// The same with one restitution for all pairs.
+  [[nodiscard]] Materials with_restitution(double restitution) const {
+    Materials changed = *this;
+    for (PairMaterial& pair : changed.kinds_) pair.restitution = restitution;
+    return changed;
+  }
   [[nodiscard]] double least_diameter() const;
   [[nodiscard]] double greatest_diameter() const;
 

@@ -45,6 +45,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
+  if (laws_.film) laws_.film->set_step(limits_.dt);
   const std::vector<Particle> all = std::move(start_);
   measure(all);
   place(all, std::vector<std::int32_t>(all.size(), 1));

@@ -89,9 +89,17 @@ void PairForces::act(double dt) {
   if (laws_.reach() > 0) forget_open(batch_, laws_.contact_memory());
   if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
   if (laws_.cohesion) laws_.cohesion->act(batch_);
+  if (laws_.film) add_film(dt);
   count_units(batch_, force_.per_unit, torque_.per_unit);
   if (laws_.rolling) add_moment(batch_, torque_.per_unit);
   contact_steps_ += std::uint64_t(batch_.count);
+}
+
+void PairForces::add_film(double dt) {
+  alignas(64) ContactBatch::Row force;
+  laws_.film->act(batch_, force);
+  if (ledger_ != nullptr) ledger_->act_film(batch_, force, counted_, dt);
+  for (int c = 0; c < batch_.padded(); ++c) batch_.normal[c] += force[c];
 }
 
 /// A pair across ranks is computed on both, and counted where its first particle is at home.

@@ -36,6 +36,10 @@ void find_force(const PairLaws& laws, ContactBatch& batch) {
   laws.normal->act(batch);
   if (laws.tangential) laws.tangential->act(batch, 0);
   if (laws.cohesion) laws.cohesion->act(batch);
+  if (!laws.film) return;
+  alignas(64) ContactBatch::Row force;
+  laws.film->act(batch, force);
+  for (int c = 0; c < batch.padded(); ++c) batch.normal[c] += force[c];
 }
 
 /// Adds the contacts that this rank counts. Returns how many touch.

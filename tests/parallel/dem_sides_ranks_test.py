@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Lift, spin and history of particles in a fluid on 1, 2 and 3 ranks: the same bits of all that is kept of them, with and
+"""Lift, spin, history and lubrication of particles in a fluid on 1, 2 and 3 ranks: the same bits of all that is kept of them, with and
 without a restart on another number of ranks."""
 import h5py
 
@@ -31,6 +31,7 @@ lift = "saffman_mei"
 magnus = "rubinow_keller"
 history = "basset"
 added_mass = "zuber"
+lubrication = "LUBRICATION"
 [dem]
 friction = 0.3
 greatest_speed = "1 m/s"
@@ -60,13 +61,20 @@ class SideRanks(Scratch):
             return {name: file["arrays"][name][()].tobytes() for name in file["arrays"]}
 
     def test_the_same_bits_on_any_number_of_ranks(self):
+        self.check("film")
+
+    def test_likewise_with_wet_contacts(self):
+        self.check("wet_restitution")
+
+    def check(self, lubrication):
         self.write("particles.csv", "\n".join(["species,x,y,z,vx,vy,vz,wx,wy,wz", *crowd()]) + "\n")
-        case = self.write("case.toml", CASE)
+        case = self.write("case.toml", CASE.replace("LUBRICATION", lubrication))
         runs = {}
         for ranks in (1, 2, 3):
             self.on(ranks, case, "-o", self.folder / str(ranks))
             runs[ranks] = self.arrays(self.folder / str(ranks))
         self.assertEqual(len(runs[1]["fluid_sides"]), 8 * 52 * 72)
+        self.assertGreater(len(runs[1]["contacts"]), 0)
         for ranks in (2, 3):
             for name, numbers in runs[1].items():
                 self.assertEqual(numbers, runs[ranks][name], f"{name} on {ranks} ranks")

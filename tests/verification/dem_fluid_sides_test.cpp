@@ -233,6 +233,31 @@ TEST(SideForces, GoOnWithTheSameBitsAfterARestart) {
   }
 }
 
+// Contacts and films are in the memory of pairs.
+TEST(Lubrication, GoesOnWithTheSameBitsAfterARestart) {
+  std::vector<core::Checkpoint> ends;
+  for (const char* law : {"none", "wet_restitution", "film"}) {
+    const core::Scene scene = flight_scene({{"lubrication", law}});
+    Flight through(scene), taken_up(scene);
+    std::int64_t steps = 0;
+    while (through.beads.model.pairs().touching.empty() && steps < 1000) {
+      through.beads.steps(1);
+      ++steps;
+    }
+    ASSERT_FALSE(through.beads.model.pairs().touching.empty()) << law;
+    through.beads.model.restart();
+    taken_up.beads.model.resume(through.beads.model.checkpoint());
+    for (Flight* flight : {&through, &taken_up}) flight->beads.steps(700 - steps);
+    SCOPED_TRACE(law);
+    expect_same_bits(through.beads.model.checkpoint(), taken_up.beads.model.checkpoint());
+    ends.push_back(through.beads.model.checkpoint());
+  }
+  EXPECT_NE(ends[0].arrays.at("particles"), ends[1].arrays.at("particles"));
+  EXPECT_NE(ends[0].arrays.at("particles"), ends[2].arrays.at("particles"));
+  EXPECT_EQ(ends[0].integers.at("memory_size") + 1, ends[1].integers.at("memory_size"));
+  EXPECT_EQ(ends[0].integers.at("memory_size") + 2, ends[2].integers.at("memory_size"));
+}
+
 TEST(SideForces, RefuseACheckpointWithoutThem) {
   Flight bare(flight_scene({}));
   for (const Side& side : sides) {

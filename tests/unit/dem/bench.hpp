@@ -49,6 +49,7 @@ class Bench {
         torque(torque_unit(force, materials)),
         verlet(synchronised, time_step, gravity, force, torque, 0),
         forces(box, materials, laws, force, torque, scene.dem.max_overlap) {
+    if (laws.film) laws.film->set_step(time_step);
     walls.memory_size = laws.memory_size();
   }
   Bench(const Bench&) = delete;
