@@ -49,6 +49,13 @@ TEST(Slots, EachLawHasItsOwnMemory) {
   EXPECT_EQ(laws_of(scene).memory_size(), 12);
   EXPECT_EQ(laws_of(scene).contact_memory(), 11);
   EXPECT_LE(laws_of(scene).memory_size() + Ledger::memory_size(laws_of(scene)), ContactBatch::most_memory);
+  scene.fluid.name = "test liquid";
+  scene.fluid.density = 1000;
+  scene.fluid.viscosity = 1e-3;
+  for (const char* law : {"wet_restitution", "film"}) {
+    scene.effects["lubrication"] = law;
+    EXPECT_LE(laws_of(scene).memory_size() + Ledger::memory_size(laws_of(scene)), ContactBatch::most_memory) << law;
+  }
 }
 
 TEST(Slots, OnlyWhatPullsAcrossAGapReaches) {
