@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "dem/kernel.hpp"
 #include "fluid/properties.hpp"
-#include "fluid/vorticity.hpp"
 
 namespace polybed::dem {
 
@@ -80,29 +79,6 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
   velocity_here_ = gradient_here_ = core::make_face_field(column);
 }
 
-void Coupling::settle_in(const Particles& particles) {
-  if (!exchange_) return;
-  exchange_->choose(particles);
-  fetch();
-}
-
-/// What this rank's particles see of the fluid.
-void Coupling::fetch() {
-  std::vector<std::pair<const Field*, Field*>> fields;
-  for (std::size_t j = 0; j < fraction_.size(); ++j) fields.push_back({&fraction_[j], &fraction_here_[j]});
-  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a) {
-    fields.push_back({&flow_.state().velocity[a], &velocity_here_[a]});
-    fields.push_back({&flow_.gradient()[a], &gradient_here_[a]});
-  }
-  for (std::size_t k = 0; k < 3 && sides_.needs_vorticity(); ++k) {
-    vorticity_here_[k].resize(velocity_here_[0].size());
-    fields.push_back({&vorticity_[k], &vorticity_here_[k]});
-  }
-  exchange_->fetch(fields);
-  gather_.take(fraction_here_, velocity_here_, gradient_here_);
-  if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_here_);
-}
-
 void Coupling::begin(const Particles& particles) {
   motion_.load.assign(particles.owned, FluidLoad{});
   take_fields();
@@ -154,7 +130,7 @@ void Coupling::collect(const Particles& particles) {
     scatter_.collect(particles, motion_.load, every_ * dt_);
   if (exchange_) exchange_->choose(particles);
   scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
-  if (smoothing_.present()) smooth();
+  if (smoothing_.present()) smooth_sums();
   require_voidage();
 }
 
@@ -181,70 +157,12 @@ void Coupling::require_voidage() const {
   throw core::NumericsError(core::said_by(grid, worst, text));
 }
 
-void Coupling::smooth() {
-  std::fill(phase_.voidage.begin(), phase_.voidage.end(), 1.0);
-  for (Field& phi : fraction_) {
-    smoothing_.smooth_cells(phi);
-    for (std::size_t c = 0; c < phi.size(); ++c) phase_.voidage[c] -= phi[c];
-  }
-  for (core::FaceField* field : {&phase_.voidage_on, &phase_.flux, &phase_.impulse, &phase_.drag, &phase_.follow,
-                                 &phase_.slide, &phase_.yield, &phase_.carry, &phase_.carry_flux})
-    for (int axis = 0; axis < flow_.grid().dimensions; ++axis)
-      if (Field& component = (*field)[std::size_t(axis)]; !component.empty()) smoothing_.smooth_faces(component, axis);
-}
-
-/// The fields as particles see them.
-void Coupling::take_fields() {
-  if (!smoothing_.present()) {
-    if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity);
-    if (exchange_) return fetch();
-    gather_.take(fraction_, flow_.state().velocity, flow_.gradient());
-    if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
-    return;
-  }
-  core::FaceField velocity = flow_.state().velocity, gradient = flow_.gradient();
-  for (int axis = 0; axis < flow_.grid().dimensions; ++axis) {
-    smoothing_.smooth_faces(velocity[std::size_t(axis)], axis);
-    smoothing_.smooth_faces(gradient[std::size_t(axis)], axis);
-  }
-  gather_.take(fraction_, velocity, gradient);
-  if (!sides_.needs_vorticity()) return;
-  find_vorticity(std::move(velocity));
-  gather_.take_vorticity(vorticity_);
-}
-
-/// Of the velocity as particles see it, which holds at the walls.
-void Coupling::find_vorticity(core::FaceField velocity) {
-  flow_.boundaries().fill_velocity(velocity, fluid::WallSlip::no_slip);
-  fluid::find_vorticity(flow_.grid(), velocity, vorticity_);
-}
-
-/// Fields on faces of the block become those on what this rank's particles touch.
-void Coupling::here(std::initializer_list<core::FaceField*> fields) const {
-  std::vector<std::pair<const Field*, Field*>> list;
-  std::vector<core::FaceField> column(fields.size());
-  std::size_t n = 0;
-  for (core::FaceField* field : fields) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      if ((*field)[a].empty()) continue;
-      column[n][a].resize(velocity_here_[a].size());
-      list.push_back({&(*field)[a], &column[n][a]});
-    }
-    ++n;
-  }
-  exchange_->fetch(list);
-  n = 0;
-  for (core::FaceField* field : fields) *field = std::move(column[n++]);
-}
-
 /// What the change of the fluid would have done to the particles meanwhile: see fluid::ParticlePhase.
 void Coupling::answer(Particles& particles) {
   const double dt = every_ * dt_;
   core::FaceField change = flow_.velocity_change(), push = flow_.gradient_change(), carried;
   if (phase_.added_mass()) carried = flow_.convected();
-  for (int axis = 0; axis < flow_.grid().dimensions && smoothing_.present(); ++axis)
-    for (core::FaceField* field : {&change, &push, &carried})
-      if (!(*field)[0].empty()) smoothing_.smooth_faces((*field)[std::size_t(axis)], axis);
+  for (core::FaceField* field : {&change, &push, &carried}) smooth(*field);
   if (exchange_) here({&change, &push, &carried});
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const FluidLoad& f = motion_.load[i];
@@ -262,57 +180,6 @@ void Coupling::answer(Particles& particles) {
     motion_.account_answer(m, dv);
     for (std::size_t k = 0; k < 3; ++k) m.v[k] += dv[k];
   }
-}
-
-/// What the particles' halves of cells at the bottom, and at a closed top, take from the fluid: no fluid moves on those
-/// faces that could show it in its pressure.
-void Coupling::weigh() {
-  const core::Grid& grid = flow_.grid();
-  const double dt = every_ * dt_;
-  const auto rows = [&](int side) {
-    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-        at_ends_[c] = phase_.impulse[1][c] / dt - (1 - phase_.voidage_on[1][c]) * flow_.gradient()[1][c];
-    });
-  };
-  rows(0);
-  if (flow_.boundaries().closed()) rows(1);
-}
-
-double Coupling::most_solids() const {
-  double most = 0;
-  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-      double all = 0;
-      for (const Field& phi : fraction_) all += phi[c];
-      most = std::max(most, all);
-    }
-  });
-  return core::greatest_of_ranks(flow_.grid(), most);
-}
-
-double Coupling::pressure_drop() const {
-  const core::Grid& grid = flow_.grid();
-  const double h = grid.spacing[1];
-  const Field& p = flow_.state().pressure;
-  double sum = 0;
-  const auto row = [&](int j, auto&& body) {
-    core::for_each_row(grid, {0, j, 0}, {grid.cells[0], j + 1, grid.cells[2]}, body);
-  };
-  for (const int side : {0, 1})
-    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += h * at_ends_[c];
-    });
-  if (grid.ends(1, 0))
-    row(0, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += p[c];
-    });
-  const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
-  if (grid.ends(1, 1))
-    row(grid.cells[1] - 1, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum -= share * p[c];
-    });
-  return core::sum_of_ranks(grid, sum) / (double(grid.column_cells(0)) * grid.column_cells(2));
 }
 
 }  // namespace polybed::dem

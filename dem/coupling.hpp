@@ -83,7 +83,8 @@ class Coupling {
  private:
   void collect(const Particles& particles);
   void require_voidage() const;
-  void smooth();
+  void smooth(core::FaceField& field) const;
+  void smooth_sums();
   void answer(Particles& particles);
   void take_fields();
   void here(std::initializer_list<core::FaceField*> fields) const;
