@@ -56,9 +56,28 @@ void shear(const Scene& scene, Messages& wrong) {
   needs(scene.column.gravity == 0, fmt::format("column.gravity = 0, it is {:g} m/s2", scene.column.gravity));
 }
 
+/// Particles in a fluid: what it cannot be, and what needs it.
 void in_fluid(const Scene& scene, Messages& wrong) {
-  if (scene.fluid.name == "none" && scene.dem.held)
-    wrong.push_back("dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"");
+  const auto say = [&](bool set, const char* what) {
+    if (set) wrong.emplace_back(what);
+  };
+  const Column& column = scene.column;
+  const bool fluid = scene.fluid.name != "none", drag = scene.effects.contains("drag");
+  const bool tilted = column.down[0] != 0 || column.down[2] != 0 || !(column.down[1] < 0);
+  const bool inflow = !scene.inlet.superficial_velocity.empty() || !scene.jets.empty();
+  say(scene.dem.held && !fluid, "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"");
+  say(scene.dem.held && fluid && !drag,
+      "dem.held = true without drag: nothing resists the flow through the bed; name a law in effects.drag");
+  say(scene.dem.kernel == "bilinear" && scene.dem.kernel_width.has_value(),
+      "dem.kernel_width cannot act: dem.kernel = \"bilinear\" has the width of the cells; use \"diffusion\" or "
+      "\"auto\"");
+  say(fluid && tilted && scene.fluid.equation_of_state != "incompressible",
+      "column.gravity_direction other than down and a compressible fluid contradict each other: its density at rest "
+      "falls with height; use fluid.equation_of_state = \"incompressible\"");
+  say(fluid && tilted && inflow && !column.closed,
+      "column.gravity_direction other than down needs a fluid that does not flow in, since the pressure at the outlet "
+      "is "
+      "that of a level surface: use column.closed = true, without inlet.superficial_velocity and [[jet]]");
 }
 
 void no_fluid(const Scene& scene, Messages& wrong) {
@@ -68,6 +87,8 @@ void no_fluid(const Scene& scene, Messages& wrong) {
   };
   idle(!scene.inlet.superficial_velocity.empty(), "inlet.superficial_velocity");
   idle(!scene.jets.empty(), "[[jet]]");
+  for (const char* role : {"drag", "fluid_stress", "added_mass", "lift", "magnus", "history"})
+    idle(scene.effects.contains(role), (std::string("effects.") + role).c_str());
   idle(scene.fluid.temperature.has_value(), "fluid.temperature");
   idle(scene.fluid.density.has_value(), "fluid.density");
   idle(scene.fluid.viscosity.has_value(), "fluid.viscosity");

@@ -125,9 +125,10 @@ struct Dem {
   double steps_per_contact = 20;
   double youngs_modulus = 5e6, poisson_ratio = 0.25, friction = 0.3, restitution = 0.9;
   int fluid_every = 16;
-  std::string kernel = "auto";         ///< auto | bilinear | diffusion: how particles are averaged for the fluid
-  std::optional<double> kernel_width;  ///< of diffusion, full width at half height, m
-  bool held = false;                   ///< particles do not move: a fixed bed
+  std::string kernel = "auto";             ///< auto | bilinear | diffusion: how particles are averaged for the fluid
+  std::optional<double> kernel_width;      ///< of diffusion, full width at half height, m
+  std::string fluid_ranks = "auto";        ///< auto | each | shared: who solves for the fluid
+  bool held = false;                       ///< particles do not move: a fixed bed
   std::string tangential = "hdd";          ///< hdd | mindlin | mindlin_deresiewicz | linear
   std::string tail = "clip";               ///< clip | keep: whether a dashpot may pull
   std::string integrator = "auto";         ///< auto | thesis | synchronised

@@ -7,6 +7,7 @@
 
 #include "core/blocks.hpp"
 #include "core/error.hpp"
+#include "dem/kernel.hpp"
 #include "fluid/properties.hpp"
 #include "fluid/vorticity.hpp"
 
@@ -26,31 +27,42 @@ std::vector<double> diameters(const Materials& materials) {
   return d;
 }
 
-double width_of(const core::Scene& scene, const core::Grid& grid, const Materials& materials, std::int64_t count) {
-  const std::string& kernel = scene.dem.kernel;
-  if (kernel == "bilinear") return 0;
-  if (scene.dem.kernel_width) return *scene.dem.kernel_width;
-  constexpr double in_beds = 4;
-  const double automatic =
-      fluid::smoothing_width(grid.smallest_spacing(), materials.greatest_diameter(), std::size_t(count));
-  return kernel == "auto" ? automatic : std::max(automatic, in_beds * materials.greatest_diameter());
+/// Full width of the kernel, m.
+double width_of(const core::Scene& scene, const Materials& materials, std::int64_t count) {
+  const double cell = core::grid_of(scene.column, nullptr).smallest_spacing();
+  return kernel_of(scene, cell, materials.greatest_diameter(), count).width;
+}
+
+/// Whether each rank solves for a block of the fluid. The kernel's smoothing wants the whole column.
+bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int64_t count) {
+  constexpr std::size_t worth_sharing = 20'000;  // cells: below, messages cost more than they save
+  const std::string& wish = scene.dem.fluid_ranks;
+  const bool wide = width_of(scene, materials, count) > 0;
+  if (wish == "shared" && wide)
+    throw core::CaseError(
+        "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
+        "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"");
+  if (wide || wish == "each") return false;
+  return wish == "shared" || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
 }
 
 }  // namespace
 
-Coupling::Coupling(const core::Scene& scene, const Materials& materials, const core::Ranks* ranks, core::Timers& timers,
-                   Units units, double dt, double speed, double volume, std::int64_t count)
+Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
+                   core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count)
     : ranks_(ranks),
       timers_(timers),
-      flow_(scene, core::grid_of(scene.column, nullptr), pressure_tolerance),
+      flow_(scene, core::grid_of(scene.column, shares_fluid(scene, materials, count) ? ranks : nullptr),
+            pressure_tolerance),
       phase_(flow_.grid(), false),
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
-      width_(width_of(scene, flow_.grid(), materials, count)),
-      smoothing_(flow_.grid(), width_, scene.column.closed),
+      at_ends_(core::make_field(flow_.grid())),
+      width_(width_of(scene, materials, count)),
+      smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
       sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, scene.dem.fluid_every * dt),
-      scatter_(flow_.grid(), materials, has_inertia(), volume, speed),
-      gather_(flow_.grid(), diameters(materials)),
+      scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
+      gather_(core::whole_column(flow_.grid()), diameters(materials)),
       motion_(materials, flow_.constants().density,
               {scene.column.gravity * scene.column.down[0], scene.column.gravity * scene.column.down[1],
                scene.column.gravity * scene.column.down[2]},
@@ -59,6 +71,36 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, const c
       held_(scene.dem.held),
       dt_(dt) {
   phase_ = fluid::ParticlePhase(flow_.grid(), has_inertia());
+  for (Field& component : vorticity_)
+    if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
+  if (!flow_.grid().ranks) return;
+  const core::Grid column = core::whole_column(flow_.grid());
+  exchange_.emplace(column, flow_.grid(), ranks_);
+  fraction_here_.assign(fraction_.size(), core::make_field(column));
+  velocity_here_ = gradient_here_ = core::make_face_field(column);
+}
+
+void Coupling::settle_in(const Particles& particles) {
+  if (!exchange_) return;
+  exchange_->choose(particles);
+  fetch();
+}
+
+/// What this rank's particles see of the fluid.
+void Coupling::fetch() {
+  std::vector<std::pair<const Field*, Field*>> fields;
+  for (std::size_t j = 0; j < fraction_.size(); ++j) fields.push_back({&fraction_[j], &fraction_here_[j]});
+  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a) {
+    fields.push_back({&flow_.state().velocity[a], &velocity_here_[a]});
+    fields.push_back({&flow_.gradient()[a], &gradient_here_[a]});
+  }
+  for (std::size_t k = 0; k < 3 && sides_.needs_vorticity(); ++k) {
+    vorticity_here_[k].resize(velocity_here_[0].size());
+    fields.push_back({&vorticity_[k], &vorticity_here_[k]});
+  }
+  exchange_->fetch(fields);
+  gather_.take(fraction_here_, velocity_here_, gradient_here_);
+  if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_here_);
 }
 
 void Coupling::begin(const Particles& particles) {
@@ -93,6 +135,7 @@ void Coupling::advance(Particles& particles, double t) {
   {
     const auto scope = timers_.scope("fluid");
     last_ = flow_.advance(t - dt, dt, phase_);
+    weigh();
   }
   ++steps_;
   iterations_ += std::uint64_t(last_.iterations);
@@ -105,18 +148,37 @@ void Coupling::advance(Particles& particles, double t) {
 }
 
 void Coupling::collect(const Particles& particles) {
-  scatter_.collect(particles, motion_.load, every_ * dt_, held_);
-  scatter_.give(ranks_, !flow_.boundaries().closed(), phase_, fraction_);
+  if (held_)
+    scatter_.collect_held(ranks_.get(), particles, motion_.load, every_ * dt_);
+  else
+    scatter_.collect(particles, motion_.load, every_ * dt_);
+  if (exchange_) exchange_->choose(particles);
+  scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
   if (smoothing_.present()) smooth();
+  require_voidage();
+}
+
+/// \pre the voidage is that of now
+void Coupling::require_voidage() const {
+  const core::Grid& grid = flow_.grid();
   double least = 1;
-  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) least = std::min(least, phase_.voidage[std::size_t(c)]);
-  });
-  if (!(least > fluid::voidage_floor))
-    throw core::NumericsError(fmt::format(
-        "a cell has a voidage of {:.3g}: its particles do not fit into it; use dem.kernel = \"diffusion\", or "
-        "larger cells",
-        least));
+  std::array<int, 3> at{};
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        if (const double eps = phase_.voidage[std::size_t(grid.index(i, j, k))]; eps < least) {
+          least = eps;
+          at = {i, j, k};
+        }
+  const int worst = core::rank_of_greatest(grid, -least);
+  if (core::least_of_ranks(grid, least) > fluid::voidage_floor) return;
+  const char* remedy =
+      smoothing_.present() ? "a wider dem.kernel_width" : "dem.kernel = \"diffusion\", or larger cells";
+  const auto centre = [&](std::size_t a) { return grid.centre(int(a), at[a]); };
+  const std::string text = fmt::format(
+      "the cell near ({:.6g}, {:.6g}, {:.6g}) m has a voidage of {:.3g}: its particles do not fit into it; use {}",
+      centre(0), centre(1), centre(2), least, remedy);
+  throw core::NumericsError(core::said_by(grid, worst, text));
 }
 
 void Coupling::smooth() {
@@ -134,8 +196,10 @@ void Coupling::smooth() {
 /// The fields as particles see them.
 void Coupling::take_fields() {
   if (!smoothing_.present()) {
+    if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity);
+    if (exchange_) return fetch();
     gather_.take(fraction_, flow_.state().velocity, flow_.gradient());
-    if (sides_.needs_vorticity()) take_vorticity(flow_.state().velocity);
+    if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
     return;
   }
   core::FaceField velocity = flow_.state().velocity, gradient = flow_.gradient();
@@ -144,15 +208,33 @@ void Coupling::take_fields() {
     smoothing_.smooth_faces(gradient[std::size_t(axis)], axis);
   }
   gather_.take(fraction_, velocity, gradient);
-  if (sides_.needs_vorticity()) take_vorticity(std::move(velocity));
+  if (!sides_.needs_vorticity()) return;
+  find_vorticity(std::move(velocity));
+  gather_.take_vorticity(vorticity_);
 }
 
 /// Of the velocity as particles see it, which holds at the walls.
-void Coupling::take_vorticity(core::FaceField velocity) {
+void Coupling::find_vorticity(core::FaceField velocity) {
   flow_.boundaries().fill_velocity(velocity, fluid::WallSlip::no_slip);
-  std::array<Field, 3> vorticity;
-  fluid::find_vorticity(flow_.grid(), velocity, vorticity);
-  gather_.take_vorticity(vorticity);
+  fluid::find_vorticity(flow_.grid(), velocity, vorticity_);
+}
+
+/// Fields on faces of the block become those on what this rank's particles touch.
+void Coupling::here(std::initializer_list<core::FaceField*> fields) const {
+  std::vector<std::pair<const Field*, Field*>> list;
+  std::vector<core::FaceField> column(fields.size());
+  std::size_t n = 0;
+  for (core::FaceField* field : fields) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if ((*field)[a].empty()) continue;
+      column[n][a].resize(velocity_here_[a].size());
+      list.push_back({&(*field)[a], &column[n][a]});
+    }
+    ++n;
+  }
+  exchange_->fetch(list);
+  n = 0;
+  for (core::FaceField* field : fields) *field = std::move(column[n++]);
 }
 
 /// What the change of the fluid would have done to the particles meanwhile: see fluid::ParticlePhase.
@@ -163,6 +245,7 @@ void Coupling::answer(Particles& particles) {
   for (int axis = 0; axis < flow_.grid().dimensions && smoothing_.present(); ++axis)
     for (core::FaceField* field : {&change, &push, &carried})
       if (!(*field)[0].empty()) smoothing_.smooth_faces((*field)[std::size_t(axis)], axis);
+  if (exchange_) here({&change, &push, &carried});
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const FluidLoad& f = motion_.load[i];
     Motion& m = particles.motion[i];
@@ -181,53 +264,55 @@ void Coupling::answer(Particles& particles) {
   }
 }
 
+/// What the particles' halves of cells at the bottom, and at a closed top, take from the fluid: no fluid moves on those
+/// faces that could show it in its pressure.
+void Coupling::weigh() {
+  const core::Grid& grid = flow_.grid();
+  const double dt = every_ * dt_;
+  const auto rows = [&](int side) {
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        at_ends_[c] = phase_.impulse[1][c] / dt - (1 - phase_.voidage_on[1][c]) * flow_.gradient()[1][c];
+    });
+  };
+  rows(0);
+  if (flow_.boundaries().closed()) rows(1);
+}
+
+double Coupling::most_solids() const {
+  double most = 0;
+  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      double all = 0;
+      for (const Field& phi : fraction_) all += phi[c];
+      most = std::max(most, all);
+    }
+  });
+  return core::greatest_of_ranks(flow_.grid(), most);
+}
+
 double Coupling::pressure_drop() const {
   const core::Grid& grid = flow_.grid();
-  const double dt = every_ * dt_, h = grid.spacing[1];
+  const double h = grid.spacing[1];
   const Field& p = flow_.state().pressure;
   double sum = 0;
-  core::for_each_row(grid, {0, 0, 0}, {grid.cells[0], 1, grid.cells[2]}, [&](Index begin, Index end) {
-    // The particles of the lower half of the lowest cells rest on the fluid at the distributor.
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-      sum += p[c] + h * phase_.impulse[1][c] / (dt * phase_.voidage[c]);
-  });
-  const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
-  core::for_each_row(grid, {0, grid.cells[1] - 1, 0}, {grid.cells[0], grid.cells[1], grid.cells[2]},
-                     [&](Index begin, Index end) {
-                       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum -= share * p[c];
-                     });
-  return sum / (double(grid.cells[0]) * grid.cells[2]);
-}
-
-void Coupling::write(core::Checkpoint& checkpoint) const {
-  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
-    checkpoint.arrays[fmt::format("fluid_velocity_{}", a)] = flow_.state().velocity[a];
-  checkpoint.arrays["fluid_pressure"] = flow_.state().pressure;
-  for (std::size_t j = 0; j < fraction_.size(); ++j)
-    checkpoint.arrays[fmt::format("fluid_fraction_{}", j)] = fraction_[j];
-  checkpoint.integers["fluid_steps"] = std::int64_t(steps_);
-  checkpoint.integers["fluid_iterations"] = std::int64_t(iterations_);
-}
-
-void Coupling::read(const core::Checkpoint& checkpoint) {
-  const auto take = [&](const std::string& name, Field& field) {
-    core::on_first(ranks_, [&] {
-      const auto found = checkpoint.arrays.find(name);
-      if (found == checkpoint.arrays.end() || found->second.size() != field.size())
-        throw core::FileError("the checkpoint is of a case without a fluid, or on another grid");
-      field = found->second;
-    });
-    core::take_from_first(ranks_, field);
+  const auto row = [&](int j, auto&& body) {
+    core::for_each_row(grid, {0, j, 0}, {grid.cells[0], j + 1, grid.cells[2]}, body);
   };
-  fluid::FluidState& fluid = flow_.state();
-  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
-    take(fmt::format("fluid_velocity_{}", a), fluid.velocity[a]);
-  take("fluid_pressure", fluid.pressure);
-  for (std::size_t j = 0; j < fraction_.size(); ++j) take(fmt::format("fluid_fraction_{}", j), fraction_[j]);
-  flow_.set_gradient();
-  flow_.forget();
-  take_fields();
-  steps_ = std::uint64_t(checkpoint.integers.contains("fluid_steps") ? checkpoint.integers.at("fluid_steps") : 0);
+  for (const int side : {0, 1})
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += h * at_ends_[c];
+    });
+  if (grid.ends(1, 0))
+    row(0, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += p[c];
+    });
+  const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
+  if (grid.ends(1, 1))
+    row(grid.cells[1] - 1, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum -= share * p[c];
+    });
+  return core::sum_of_ranks(grid, sum) / (double(grid.column_cells(0)) * grid.column_cells(2));
 }
 
 }  // namespace polybed::dem

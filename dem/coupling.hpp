@@ -29,11 +29,13 @@ class Coupling {
     FixedPoint force, energy;
   };
   /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume  of all particles, m3
-  Coupling(const core::Scene& scene, const Materials& materials, const core::Ranks* ranks, core::Timers& timers,
-           Units units, double dt, double speed, double volume, std::int64_t count);
+  Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
+           core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count);
 
   /// The fluid between the particles at the start of a run. Collective, as are advance and write.
   void begin(const Particles& particles);
+  /// Collective: the particles have changed ranks.
+  void settle_in(const Particles& particles);
   /// Loads of the particles where they are now.
   void find_forces(const Particles& particles);
   /// What the fluid does to their spins in a step.
@@ -56,8 +58,19 @@ class Coupling {
   [[nodiscard]] int every() const { return every_; }
   /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
   [[nodiscard]] double kernel_width() const { return width_; }
-  /// Mean net pressure on the distributor, less that at the outlet, Pa.
+  /// Mean net pressure on the distributor, less that at the outlet, Pa. Collective.
   [[nodiscard]] double pressure_drop() const;
+  /// Largest solids fraction of a cell. Collective.
+  [[nodiscard]] double most_solids() const;
+  /// The fluid of the whole column, on every rank. Collective.
+  struct Column {
+    core::Grid grid;
+    std::vector<core::Field> fraction;    ///< phi_j
+    core::FaceField velocity;             ///< U_f, m/s
+    core::Field pressure;                 ///< net, Pa
+    core::Field total_pressure, density;  ///< of a compressible fluid, Pa, kg/m3; else empty
+  };
+  [[nodiscard]] Column column() const;
   /// Steps and iterations since the start.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
@@ -69,17 +82,29 @@ class Coupling {
 
  private:
   void collect(const Particles& particles);
+  void require_voidage() const;
   void smooth();
   void answer(Particles& particles);
   void take_fields();
-  void take_vorticity(core::FaceField velocity);
+  void here(std::initializer_list<core::FaceField*> fields) const;
+  void fetch();
+  void weigh();
+  [[nodiscard]] core::Field of_column(const core::Field& own) const;
+  void take_own(const core::Field& column, core::Field& own) const;
+  void find_vorticity(core::FaceField velocity);
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
 
-  const core::Ranks* ranks_;
+  std::shared_ptr<const core::Ranks> ranks_;
   core::Timers& timers_;
   fluid::Flow flow_;
   fluid::ParticlePhase phase_;
-  std::vector<core::Field> fraction_;  ///< phi_j, [species][cell]
+  std::vector<core::Field> fraction_;     ///< phi_j, [species][cell]
+  core::Field at_ends_;                   ///< on the faces of bottom and top: force on particles per volume, N/m3
+  std::optional<GridExchange> exchange_;  ///< absent: every rank has the whole fluid
+  /// On what this rank's particles touch; empty without an exchange.
+  std::vector<core::Field> fraction_here_;
+  core::FaceField velocity_here_, gradient_here_;
+  std::array<core::Field, 3> vorticity_, vorticity_here_;  ///< empty where no effect asks for it
   double width_;
   fluid::Smoothing smoothing_;
   ParticleForces forces_;

@@ -70,7 +70,7 @@ void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
   if (scene.fluid.name == "none") return;
   double volume = 0;
   for (const Particle& p : all) volume += 4.0 / 3 * std::numbers::pi * std::pow(p.place.radius, 3);
-  coupling_.emplace(scene, materials_, ranks_.get(), timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
+  coupling_.emplace(scene, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
                     limits_.greatest_speed, volume, count_);
   coupling_->motion().load.resize(particles_.owned);
   coupling_->sides().rows().clear(particles_.owned);
@@ -141,7 +141,8 @@ void Model::move(double dt) {
 void Model::look_ahead() {
   const auto scope = timers_.scope("motion", timed_);
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
-  const Verlet::Drift drift = verlet_.next_drift(particles_, since, coupling_ ? &coupling_->motion() : nullptr);
+  const Verlet::Drift drift =
+      held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, coupling_ ? &coupling_->motion() : nullptr);
   hasty_ = drift.hasty;
   const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0;
   const Ahead here = troubled ? Ahead::trouble : (list_goes_stale(drift.distance, since) ? Ahead::stale : Ahead::clear);
@@ -211,6 +212,7 @@ void Model::list_pairs(std::vector<KeptContact>& kept) {
   if (coupling_) {
     recall(loads, particles_, coupling_->motion().load);
     recall(sides, particles_, coupling_->sides().rows());
+    coupling_->settle_in(particles_);
   }
   exchange_.choose_ghosts(particles_);
   search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(),

@@ -11,23 +11,40 @@ namespace polybed::dem {
 
 namespace {
 
-std::vector<std::string> history_columns(const Materials& materials, bool ledger) {
+std::vector<std::string> history_columns(const Model& model, bool ledger) {
+  const Materials& materials = model.materials();
   std::vector<std::string> columns{"time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"};
   for (const Species& s : materials.species()) {
     columns.push_back("centre_" + s.name + "_m");
     columns.push_back("mass_" + s.name + "_kg");
   }
-  columns.insert(columns.end(), {"interface_m", "kinetic_J", "rotational_J", "elastic_J", "potential_J"});
+  columns.insert(columns.end(), {"interface_m", "mixing", "kinetic_J", "rotational_J", "elastic_J", "potential_J"});
   if (ledger) columns.insert(columns.end(), {"dissipated_J", "work_J"});
   columns.insert(columns.end(), {"contacts", "max_overlap_m", "max_contact_force_N"});
+  if (const Coupling* coupling = model.coupling()) {
+    columns.emplace_back("max_solids_fraction");
+    if (coupling->flow().compressible() != nullptr) columns.emplace_back("mass_fluid_kg");
+  }
   return columns;
 }
 
-std::vector<std::string> profile_names(const Materials& materials) {
+std::vector<std::string> profile_names(const Model& model) {
   std::vector<std::string> names{"voidage"};
-  for (const Species& s : materials.species())
+  for (const Species& s : model.materials().species())
     for (const char* what : {"phi_", "u_", "theta_"}) names.push_back(what + s.name);
+  if (model.coupling() != nullptr)
+    for (const std::string& name : FluidOutput::profile_names()) names.push_back(name);
   return names;
+}
+
+/// Weight of the particles less that of the fluid that they displace, if there is one, over the area, Pa.
+double weight_of(const Model& model, const std::vector<double>& mass, double area) {
+  double weight = 0;
+  for (std::size_t j = 0; j < mass.size(); ++j) {
+    const double displaced = model.coupling() == nullptr ? 0 : model.coupling()->flow().constants().density;
+    weight += mass[j] * (1 - displaced / model.materials().species()[j].density);
+  }
+  return weight * std::abs(model.gravity()[1]) / area;
 }
 
 /// Particles by component, as the files want them.
@@ -50,6 +67,13 @@ struct Snapshot {
   [[nodiscard]] core::ParticleSnapshot view() const { return {id, species, radius, position, velocity, spin}; }
 };
 
+/// An earlier run of the same directory may have had a fluid.
+void remove_fields(const std::filesystem::path& directory) {
+  if (!std::filesystem::remove(directory / "fields.h5")) return;
+  std::filesystem::remove(directory / "fields.xdmf");
+  std::filesystem::remove_all(directory / "fields");
+}
+
 std::vector<double> slab_centres(const fluid::Slabs& slabs) {
   std::vector<double> y;
   for (std::size_t k = 0; k < slabs.count; ++k) y.push_back((double(k) + 0.5) * slabs.thickness());
@@ -59,19 +83,29 @@ std::vector<double> slab_centres(const fluid::Slabs& slabs) {
 }  // namespace
 
 Observers::Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
-                     std::optional<double> initial_energy, std::optional<double> resume_time)
+                     std::optional<double> initial_energy, const FluidTotals& fluid, std::optional<double> resume_time)
     : model_(model),
       slabs_{model.box().size[0] * model.box().size[2], model.box().size[1], std::size_t(scene.column.cells[1])},
       has_ledger_(scene.dem.ledger),
       totals_(totals_of(model)) {
   initial_energy_ = initial_energy.value_or(totals_.sum());
+  const Coupling* coupling = model.coupling();
+  if (coupling != nullptr) fluid_.emplace(*coupling, model.ranks(), fluid);
   core::on_first(model.ranks(), [&] {
     core::ParticleScene particles{model.box().size, model.box().periodic, {}};
     for (const Species& s : model.materials().species()) particles.species.push_back(s.name);
-    files_.reset(new Files{{directory, history_columns(model.materials(), has_ledger_), resume_time},
-                           {directory, slab_centres(slabs_), profile_names(model.materials()), resume_time},
-                           {directory, particles, resume_time}});
+    files_.reset(new Files{{directory, history_columns(model, has_ledger_), resume_time},
+                           {directory, slab_centres(slabs_), profile_names(model), resume_time},
+                           {directory, particles, resume_time},
+                           nullptr});
+    if (coupling == nullptr && !resume_time) remove_fields(directory);
+    if (coupling != nullptr)
+      files_->fluid = std::make_unique<FluidOutput>(*coupling, particles.species, directory, resume_time);
   });
+}
+
+void Observers::see_step() {
+  if (fluid_) fluid_->see();
 }
 
 void Observers::close_ledger() {
@@ -84,39 +118,48 @@ void Observers::close_ledger() {
 
 void Observers::write_history(double time) {
   close_ledger();
+  see_step();
   const std::vector<Particle> all = gathered_particles(model_.particles(), model_.share());
+  const double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
   core::on_first(model_.ranks(), [&] {
     const auto& species = model_.materials().species();
-    std::vector<double> mass(species.size(), 0.0);
+    std::vector<double> mass(species.size(), 0.0), density;
+    for (const Species& s : species) density.push_back(s.density);
     for (const Particle& p : all) mass[std::size_t(p.species)] += species[std::size_t(p.species)].mass;
-    const fluid::Profile profile = fluid::particle_profile(Snapshot(all).view(), species.size(), slabs_).solids;
-    const auto height = fluid::bed_height(profile);
-    bed_height_ = height.value_or(0);
-    double weight = 0;
-    for (const double m : mass) weight += m;
-    weight *= std::abs(model_.gravity()[1]) / slabs_.area;
-    double drop = 0;  // without a fluid nothing carries the bed but its bottom
-    if (const Coupling* coupling = model_.coupling()) {
-      drop = coupling->pressure_drop();
-      weight = 0;
-      for (std::size_t j = 0; j < species.size(); ++j)
-        weight -= mass[j] * coupling->motion().net_gravity(std::int32_t(j))[1] / slabs_.area;
-    }
-    std::vector<std::optional<double>> row{time, model_.limits().dt, height, drop, weight};
-    for (std::size_t j = 0; j < species.size(); ++j) {
-      row.push_back(fluid::centre(profile, j));
-      row.push_back(mass[j]);
-    }
-    const Totals& t = totals_;
-    row.insert(row.end(), {fluid::interface_height(profile), t.kinetic, t.rotational, t.elastic, t.potential});
-    if (has_ledger_) row.insert(row.end(), {t.dissipated, t.work});
-    row.insert(row.end(), {double(t.contacts), t.max_overlap, t.max_force});
-    files_->history.write_row(row);
+    const Snapshot snapshot(all);
+    const fluid::Profile profile = fluid::particle_profile(snapshot.view(), species.size(), slabs_).solids;
+    const fluid::ParticleHeights heights = fluid::particle_heights(snapshot.view(), density);
+    bed_height_ = fluid::bed_height(profile).value_or(0);
+    files_->history.write_row(row_of(time, profile, heights, mass, most_solids));
   });
+}
+
+/// On the first rank. Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
+std::vector<std::optional<double>> Observers::row_of(double time, const fluid::Profile& profile,
+                                                     const fluid::ParticleHeights& heights,
+                                                     const std::vector<double>& mass, double most_solids) const {
+  const double drop = fluid_ ? fluid_->pressure_drop() : 0, weight = weight_of(model_, mass, slabs_.area);
+  std::vector<std::optional<double>> row{time, model_.limits().dt, fluid::bed_height(profile), drop, weight};
+  for (std::size_t j = 0; j < mass.size(); ++j) {
+    row.push_back(heights.mean[j]);
+    row.push_back(mass[j]);
+  }
+  const Totals& t = totals_;
+  row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), t.kinetic, t.rotational, t.elastic,
+                         t.potential});
+  if (has_ledger_) row.insert(row.end(), {t.dissipated, t.work});
+  row.insert(row.end(), {double(t.contacts), t.max_overlap, t.max_force});
+  if (fluid_) {
+    row.push_back(most_solids);
+    if (model_.coupling()->flow().compressible() != nullptr) row.push_back(fluid_->mass());
+  }
+  return row;
 }
 
 void Observers::write_particles(double time) {
   const std::vector<Particle> all = gathered_particles(model_.particles(), model_.share());
+  std::optional<Coupling::Column> column;
+  if (model_.coupling() != nullptr) column = model_.coupling()->column();
   core::on_first(model_.ranks(), [&] {
     const Snapshot snapshot(all);
     const std::size_t species = model_.materials().species().size();
@@ -128,8 +171,11 @@ void Observers::write_particles(double time) {
       rows.push_back(profile.velocity[j]);
       rows.push_back(profile.temperature[j]);
     }
+    if (column)
+      for (std::vector<double>& row : FluidOutput::profiles(*column)) rows.push_back(std::move(row));
     files_->profiles.write_row(time, rows);
     files_->particles.write_step(time, snapshot.view());
+    if (column) files_->fluid->write(time, *column, snapshot.view());
   });
 }
 

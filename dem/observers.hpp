@@ -1,14 +1,17 @@
-// Writes the files of a particle run: history.csv, profiles.h5, particles.h5.
+// Writes the files of a particle run: history.csv, profiles.h5, particles.h5, and with a fluid fields.h5.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/output_history.hpp"
 #include "core/output_particles.hpp"
 #include "core/output_profiles.hpp"
 #include "core/scene.hpp"
+#include "dem/fluid_output.hpp"
+#include "dem/fluid_record.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "fluid/particle_profile.hpp"
@@ -20,12 +23,16 @@ class Observers {
  public:
   /// Starts the files of a run directory, or goes on with them from a time.
   /// \param initial_energy  J, that the ledger is checked against; empty: that of now
+  /// \param fluid  what the fluid of a run that goes on had taken before; the first rank's counts
   Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
-            std::optional<double> initial_energy, std::optional<double> resume_time);
+            std::optional<double> initial_energy, const FluidTotals& fluid, std::optional<double> resume_time);
+
+  /// After each step.
+  void see_step();
 
   /// One row of history.csv; also measures the ledgers.
   void write_history(double time);
-  /// One row of profiles.h5 and one step of particles.h5.
+  /// One row of profiles.h5, one step of particles.h5 and, with a fluid, of fields.h5.
   void write_particles(double time);
 
   /// Of the last row of the history.
@@ -34,6 +41,8 @@ class Observers {
   [[nodiscard]] double initial_energy() const { return initial_energy_; }
   /// Largest difference of the ledger from the energy at the start, against the greatest energy met: V5.
   [[nodiscard]] double ledger_error() const { return ledger_error_; }
+  /// Null without a fluid.
+  [[nodiscard]] const FluidRecord* fluid() const { return fluid_ ? &*fluid_ : nullptr; }
 
  private:
   /// What the first rank has open.
@@ -41,12 +50,17 @@ class Observers {
     core::HistoryWriter history;
     core::ProfileWriter profiles;
     core::ParticleWriter particles;
+    std::unique_ptr<FluidOutput> fluid;  ///< null without one
   };
   void close_ledger();
+  [[nodiscard]] std::vector<std::optional<double>> row_of(double time, const fluid::Profile& profile,
+                                                          const fluid::ParticleHeights& heights,
+                                                          const std::vector<double>& mass, double most_solids) const;
 
   const Model& model_;
   fluid::Slabs slabs_;
   bool has_ledger_;
+  std::optional<FluidRecord> fluid_;  ///< absent: there is no fluid
   std::unique_ptr<Files> files_;
   Totals totals_;
   double bed_height_ = 0, initial_energy_ = 0, greatest_energy_ = 0, ledger_error_ = 0;

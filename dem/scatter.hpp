@@ -7,6 +7,7 @@
 
 #include "core/ranks.hpp"
 #include "dem/fluid_motion.hpp"
+#include "dem/grid_exchange.hpp"
 #include "dem/weights.hpp"
 #include "fluid/particle_phase.hpp"
 
@@ -14,32 +15,35 @@ namespace polybed::dem {
 
 class Scatter {
  public:
-  /// \param grid  of the whole column  \param volume  of all particles, m3  \param speed  greatest expected, m/s
-  Scatter(const core::Grid& grid, const Materials& materials, bool added_mass, double volume, double speed);
+  /// \param grid  of the whole column  \param block  that this rank's fluid has, or the column  \param volume  of all particles, m3  \param speed  greatest expected, m/s
+  Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass, double volume,
+          double speed);
 
   /// Sums over this rank's particles. \param dt  of the fluid's step, s
-  /// \param held  the particles do not move: a fixed bed
-  void collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt, bool held);
+  void collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt);
+  /// The same of a fixed bed, whose particles take drag and do not move. Collective.
+  void collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
+                    double dt);
   /// Collective: sums over all ranks, per volume of a cell. \param open_top  the faces at the top move
-  void give(const core::Ranks* ranks, bool open_top, fluid::ParticlePhase& phase, std::vector<core::Field>& fraction);
+  /// \param exchange  with the owners of the blocks; null: every rank has the whole column
+  void give(const core::Ranks* ranks, const GridExchange* exchange, bool open_top, fluid::ParticlePhase& phase,
+            std::vector<core::Field>& fraction);
 
  private:
   /// What stands on a face, in this order.
   enum Sum { volume, flux, impulse, drag, follow, slide, yield, carry, carry_flux };
 
+  void fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt);
   void add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
            std::size_t species);
-  void give_faces(bool open_top, fluid::ParticlePhase& phase) const;
-  [[nodiscard]] std::int64_t* face(int axis, std::size_t at) {
-    return sums_.data() + (std::size_t(axis) * grid_.padded_size() + at) * count_;
-  }
+  void give_faces(std::span<const std::int64_t> sums, bool open_top, fluid::ParticlePhase& phase) const;
 
-  core::Grid grid_;
+  core::Grid grid_, block_;
   Weights weights_;
   std::vector<Species> species_;
-  std::size_t count_;               ///< sums on a face
-  std::vector<FixedPoint> unit_;    ///< of each
-  std::vector<std::int64_t> sums_;  ///< [axis][face][sum], then [species][cell]
+  std::size_t count_, width_;                ///< sums on a face, and on all faces and the cell of an entry
+  std::vector<FixedPoint> unit_;             ///< of each
+  std::vector<std::int64_t> sums_, shared_;  ///< [entry][axis, sum; species]; of the column, and of a block
 };
 
 }  // namespace polybed::dem

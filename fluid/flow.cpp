@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 #include "fluid/convection.hpp"
 #include "fluid/density.hpp"
 #include "fluid/pressure.hpp"
@@ -90,8 +91,8 @@ FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
   step.courant = courant(dt);
   if (!(step.courant <= 1))
     throw core::NumericsError(
-        fmt::format("t = {:.6g} s: the fluid moves by {:.3g} cells in its step of {:.3g} s; lower dem.fluid_every", t + dt,
-                    step.courant, dt));
+        fmt::format("t = {:.6g} s: the fluid moves by {:.3g} cells in its step of {:.3g} s; lower dem.fluid_every",
+                    t + dt, step.courant, dt));
   return step;
 }
 
@@ -178,8 +179,8 @@ void Flow::close_pressure(double t, double dt, const ParticlePhase&, FlowStep& s
   step.iterations = result.iterations;
   step.residual = result.residual;
   if (!result.converged)
-    throw core::NumericsError(fmt::format("t = {:.6g} s: the pressure of the fluid was not found, residual {:.2e}", t + dt,
-                                          result.residual));
+    throw core::NumericsError(
+        fmt::format("t = {:.6g} s: the pressure of the fluid was not found, residual {:.2e}", t + dt, result.residual));
 }
 
 /// The change of pressure acts.
@@ -238,6 +239,7 @@ double Flow::courant(double dt) const {
       }
     });
   }
+  most = core::greatest_of_ranks(grid_, most);
   return viscous_ ? std::max(most, 2 * constants_.viscosity / constants_.density * dt * per_square) : most;
 }
 

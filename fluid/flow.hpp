@@ -26,14 +26,14 @@ namespace polybed::fluid {
 
 /// What a step of the fluid took.
 struct FlowStep {
-  int iterations = 0;    ///< of the linear solver
-  double residual = 0;   ///< its true relative residual
-  double courant = 0;    ///< greatest |U| dt/h, and of the viscous stress 2 nu dt sum(1/h^2)
+  int iterations = 0;   ///< of the linear solver
+  double residual = 0;  ///< its true relative residual
+  double courant = 0;   ///< greatest |U| dt/h, and of the viscous stress 2 nu dt sum(1/h^2)
 };
 
 class Flow {
  public:
-  /// \param grid  the column; on one rank, as all of this class  \param tolerance  relative residual of the pressure
+  /// Collective, as is all that changes it. \param grid  the column or this rank's block of it  \param tolerance  relative residual of the pressure
   Flow(const core::Scene& scene, const core::Grid& grid, double tolerance);
 
   /// A fluid that enters at time t, s, between particles that do not answer: its velocity is made to fit the inlet and

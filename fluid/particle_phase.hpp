@@ -8,8 +8,8 @@ namespace polybed::fluid {
 
 /// Per volume of a cell, psi; w: weight of a particle on a face. Over an interval dt the particles have moved through a
 /// frozen fluid and got the impulse I from it by drag and added mass. What the fluid's change dU, its own convection
-/// (U.grad)U and a change dG of the pressure's gradient do to a particle of velocity U_p and inertia M = m + m_a follows
-/// in one kick at the end of the interval,
+/// (U.grad)U and a change dG of the pressure's gradient do to a particle of velocity U_p and inertia M = m + m_a
+/// follows in one kick at the end of the interval,
 ///
 ///   dU_p = g dU + (m_a/M) s (dU + dt (U.grad)U) - (V/M) s dt dG,   g = 1 - exp(-k dt/M),  s = g M/(k dt),
 ///

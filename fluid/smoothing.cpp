@@ -29,10 +29,12 @@ void for_each_entry(int count, core::Index stride, const core::Index* starts, in
 }  // namespace
 
 double smoothing_width(double smallest_cell, double largest_diameter, std::size_t particles) {
-  constexpr double resolved = 1.5, bed = 4, single = 6;
   constexpr std::size_t fewest_of_a_bed = 10;
-  if (smallest_cell >= resolved * largest_diameter) return 0;
-  return (particles < fewest_of_a_bed ? single : bed) * largest_diameter;
+  const bool single = particles < fewest_of_a_bed;
+  // In cells of 2.5 diameters a sphere alone stirs its own cell so much that it falls 4.7 % too fast, with the wide
+  // kernel 0.6 %.
+  if (smallest_cell >= (single ? 5 : 1.5) * largest_diameter) return 0;
+  return (single ? 6 : 4) * largest_diameter;
 }
 
 double smoothing_time(double width) { return width * width / (16 * std::numbers::ln2); }

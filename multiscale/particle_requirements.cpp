@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/blocks.hpp"
 #include "core/memory.hpp"
 #include "core/progress.hpp"
 #include "dem/packing.hpp"
@@ -21,6 +22,12 @@ namespace {
 constexpr double particle_steps_per_second = 1e7, seconds_per_step = 3e-6, band = 4;
 /// Memory that the peak of a run grows by with each particle of a dense bed, and what output takes at any size; bytes.
 constexpr double bytes_per_particle = 2400, output = 12e6;
+
+/// The same with a fluid: particles are slower, as each asks the fields and the drag law at every step; of the fluid's
+/// step, what each particle gives and answers, and each cell.
+constexpr double particle_steps_in_fluid = 6e6, seconds_per_exchange = 2e-7, seconds_per_cell = 8e-7;
+/// Memory that the peak of a run grows by with each cell of the fluid.
+constexpr double bytes_per_cell = 1100;
 
 /// A sphere that moves as fast as any of n does in random motion of the speed s per component: the mean of the
 /// greatest of n magnitudes is s sqrt(2 ln n) and a little more, which hardly moves the step.
@@ -52,6 +59,38 @@ std::vector<std::int64_t> numbers_of(const core::Scene& scene, const dem::Materi
 
 constexpr double mega = 1e-6;
 
+std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materials& materials, std::int64_t particles,
+                                    double dt, double steps) {
+  if (scene.fluid.name == "none") return {};
+  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  FluidNeed need;
+  need.every = scene.dem.fluid_every;
+  need.step = need.every * dt;
+  need.steps = std::floor(steps / need.every);
+  need.cells = grid.cell_count();
+  need.kernel = dem::kernel_of(scene, grid.smallest_spacing(), materials.greatest_diameter(), particles);
+  need.memory = bytes_per_cell * double(need.cells);
+  return need;
+}
+
+/// CPU time, s: of the particles, and of the fluid's steps.
+double expected_time(const ParticleRequirements& need) {
+  const double particles = need.particle_steps / (need.fluid ? particle_steps_in_fluid : particle_steps_per_second) +
+                           need.steps * seconds_per_step;
+  if (!need.fluid) return particles;
+  return particles + need.fluid->steps *
+                         (seconds_per_exchange * double(need.count()) + seconds_per_cell * double(need.fluid->cells));
+}
+
+void print_fluid(const FluidNeed& fluid) {
+  fmt::print("# fluid step {:.3g} s, one in {} of the particles': {:.3g} steps on {} cells\n", fluid.step, fluid.every,
+             fluid.steps, fluid.cells);
+  if (fluid.kernel.width > 0)
+    fmt::print("# kernel diffusion, {:.3g} mm wide: {}\n", 1e3 * fluid.kernel.width, fluid.kernel.reason);
+  else
+    fmt::print("# kernel bilinear: {}\n", fluid.kernel.reason);
+}
+
 }  // namespace
 
 std::int64_t ParticleRequirements::count() const {
@@ -71,7 +110,8 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene) {
   need.particles = bytes_per_particle * double(need.count());
   need.steps = std::ceil(scene.run.until / need.limits.dt);
   need.particle_steps = need.steps * double(need.count());
-  need.expected = need.particle_steps / particle_steps_per_second + need.steps * seconds_per_step;
+  need.fluid = fluid_need(scene, materials, need.count(), need.limits.dt, need.steps);
+  need.expected = expected_time(need);
   need.least = need.expected / band;
   need.most = need.expected * band;
   return need;
@@ -82,7 +122,15 @@ void write_particle_requirements(core::Json& json, const core::Scene& scene, con
   for (std::size_t j = 0; j < need.numbers.size(); ++j) json.member(scene.species[j].name, need.numbers[j]);
   json.end_object().member("memory_MB", mega * need.memory());
   json.key("memory").begin_object().member("particles_MB", mega * need.particles);
+  if (need.fluid) json.member("fluid_MB", mega * need.fluid->memory);
   json.member("program_MB", mega * need.program).end_object();
+  if (need.fluid) {
+    const FluidNeed& fluid = *need.fluid;
+    json.key("fluid").begin_object().member("every", std::int64_t(fluid.every)).member("dt_s", fluid.step);
+    json.member("steps", fluid.steps).member("cells", std::uint64_t(fluid.cells));
+    json.member("kernel", fluid.kernel.width > 0 ? "diffusion" : "bilinear");
+    json.member("kernel_width_m", fluid.kernel.width).member("kernel_reason", fluid.kernel.reason).end_object();
+  }
   json.member("integrator", need.limits.synchronised ? "synchronised" : "thesis");
   json.key("step").begin_object().member("dt_s", need.limits.dt).member("limited_by", need.limits.limited_by);
   json.member("greatest_speed_expected_m_s", need.limits.greatest_speed).key("limits").begin_array();
@@ -98,12 +146,14 @@ void print_particle_requirements(const core::Scene& scene, const ParticleRequire
   for (std::size_t j = 0; j < need.numbers.size(); ++j)
     each += fmt::format("{}{} {}", j == 0 ? "" : ", ", need.numbers[j], scene.species[j].name);
   fmt::print("# {} particles: {}\n", need.count(), each);
-  fmt::print("# memory about {:.0f} MB: particles and contacts {:.1f}, program {:.0f}\n", mega * need.memory(),
-             mega * need.particles, mega * need.program);
+  const std::string fluid = need.fluid ? fmt::format("fluid {:.1f}, ", mega * need.fluid->memory) : "";
+  fmt::print("# memory about {:.0f} MB: particles and contacts {:.1f}, {}program {:.0f}\n", mega * need.memory(),
+             mega * need.particles, fluid, mega * need.program);
   fmt::print("# time step {:.3g} s, limited by {}; greatest speed expected {:.3g} m/s; {} integrator ({})\n",
              need.limits.dt, need.limits.limited_by, need.limits.greatest_speed,
              need.limits.synchronised ? "synchronised" : "thesis", need.limits.integrator_reason);
   for (const dem::StepLimit& limit : need.limits.all) fmt::print("#   {}: {:.3g} s\n", limit.name, limit.dt);
+  if (need.fluid) print_fluid(*need.fluid);
   const auto text = [](double seconds) {
     return seconds < 9.5 ? fmt::format("{:.1g} s", seconds) : core::duration_text(seconds);
   };

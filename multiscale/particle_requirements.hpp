@@ -2,23 +2,36 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/json.hpp"
 #include "core/scene.hpp"
+#include "dem/kernel.hpp"
 #include "dem/step_limits.hpp"
 
 namespace polybed::multiscale {
+
+/// The fluid between the particles.
+struct FluidNeed {
+  int every = 1;     ///< steps of the particles in one of the fluid
+  double step = 0;   ///< s
+  double steps = 0;  ///< in the whole run
+  std::size_t cells = 0;
+  dem::Kernel kernel;
+  double memory = 0;  ///< bytes
+};
 
 struct ParticleRequirements {
   std::vector<std::int64_t> numbers;  ///< of each species
   dem::StepLimits limits;             ///< the step and what sets it
   double program = 0, particles = 0;  ///< memory, bytes: the program itself; what grows with the number
+  std::optional<FluidNeed> fluid;     ///< absent without one
   double steps = 0, particle_steps = 0;
   double least = 0, expected = 0, most = 0;  ///< CPU time of the run, s: the middle of a band and its ends
   [[nodiscard]] std::int64_t count() const;
-  [[nodiscard]] double memory() const { return program + particles; }
+  [[nodiscard]] double memory() const { return program + particles + (fluid ? fluid->memory : 0); }
 };
 
 /// From the case alone: nothing is packed and nothing is stepped, so that it is known at once for any number. Throws

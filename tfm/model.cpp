@@ -65,10 +65,11 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
     : timers_(timers),
       options_(scene.tfm),
       momentum_((refuse_particle_scene(scene), momentum_form(scene))),
-      equations_(scene, make_constants(scene, ranks),
-                 fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
-                 fluid::Inlet(core::grid_of(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_.name),
-                 timers) {
+      equations_(
+          scene, make_constants(scene, ranks),
+          fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
+          fluid::Inlet(core::grid_of(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_.name),
+          timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
   layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible(),

@@ -1,5 +1,8 @@
 #!/usr/bin/python3
-"""When two falling spheres draw near, touch and part sideways: events.py RUN; code 1 if one is missing or they come in another order."""
+"""When two falling spheres draw near, touch and part sideways: events.py RUN
+
+Until the lower one is a diameter over the floor. Code 1 if an event is missing or they come in another order.
+"""
 import sys
 from pathlib import Path
 
@@ -17,7 +20,10 @@ def first(time, happens):
 
 
 def events(time, position, diameter):
-    """First times of drafting, kissing and tumbling; position [step][sphere][x, y, z]."""
+    """First times of drafting, kissing and tumbling; position [step][sphere][x, y, z], y over the floor."""
+    landed = np.flatnonzero(position[:, :, 1].min(axis=1) < 1.5 * diameter)
+    if len(landed):
+        time, position = time[:landed[0]], position[:landed[0]]
     apart = position[:, 1] - position[:, 0]
     gap, aside = np.linalg.norm(apart, axis=1) - diameter, np.hypot(apart[:, 0], apart[:, 2])
     return {"drafting": first(time, gap < NEAR * gap[0]), "kissing": first(time, gap < 1e-3 * diameter),

@@ -7,9 +7,11 @@
 #include "closures/drag.hpp"
 #include "closures/mixture.hpp"
 #include "core/case_file.hpp"
+#include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/progress.hpp"
 #include "core/timers.hpp"
+#include "dem/continuum_scene.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/requirements.hpp"
@@ -197,17 +199,35 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   for (const std::string& reason : reasons) fmt::print("# {}\n", reason);
 }
 
+/// What a case that both models run will need as particles: of one that says how they touch. What keeps it from there
+/// goes to the notes.
+std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::vector<std::string>& notes) {
+  if (!scene.effects.contains("contact")) return {};
+  std::vector<std::string> reasons = dem::only_for_continuum(scene);
+  try {
+    if (reasons.empty()) return particle_requirements_of(scene);
+  } catch (const core::CaseError& error) {
+    reasons.emplace_back(error.what());
+  }
+  for (const std::string& reason : reasons) notes.push_back("polybed dem cannot run it: " + reason);
+  return {};
+}
+
 }  // namespace
 
 void run_check(const CaseOptions& options) {
   const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
   if (const auto reasons = tfm::only_for_particles(scene); !reasons.empty())
     return check_particle_scene(scene, reasons, options.json);
+  std::vector<std::string> hindrances;
+  const std::optional<ParticleRequirements> particles =
+      as_particles(scene, hindrances);  // while memory is the program's
   core::Timers timers;
   std::unique_ptr<tfm::Model> part;
   const Requirements need = requirements_of(scene, timers, part);
   refuse_beyond_memory(scene, need.memory, core::available_memory());
-  const Derived derived = derive(scene, *part);
+  Derived derived = derive(scene, *part);
+  derived.notes.insert(derived.notes.end(), hindrances.begin(), hindrances.end());
   const std::string text = core::resolved_case(scene);
   if (options.json) {
     core::Json json;
@@ -216,6 +236,11 @@ void run_check(const CaseOptions& options) {
     if (derived.sound > 0) json.member("speed_of_sound_m_s", derived.sound);
     json.member("buoyant_weight_Pa", derived.weight);
     write_requirements(json, need);
+    if (particles) {
+      json.key("dem").begin_object();
+      write_particle_requirements(json, scene, *particles);
+      json.end_object();
+    }
     write_size_classes(json, scene);
     json.key("notes").begin_array();
     for (const std::string& note : derived.notes) json.value(note);
@@ -233,6 +258,10 @@ void run_check(const CaseOptions& options) {
   fmt::print("# buoyant weight of the bed {:.5g} Pa per area\n", derived.weight);
   if (derived.max_packing > 0) fmt::print("# maximum packing {:.4f}\n", derived.max_packing);
   print_requirements(scene, need);
+  if (particles) {
+    fmt::print("# as particles, polybed dem:\n");
+    print_particle_requirements(scene, *particles);
+  }
   for (const std::string& note : derived.notes) fmt::print("# {}\n", note);
 }
 

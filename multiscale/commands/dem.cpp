@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include "core/json.hpp"
+#include "dem/continuum_scene.hpp"
 #include "dem/observers.hpp"
 #include "dem/settling.hpp"
 #include "multiscale/commands/case_run.hpp"
+#include "multiscale/fluid_report.hpp"
 #include "multiscale/run_record.hpp"
 
 namespace polybed::multiscale {
@@ -23,12 +25,14 @@ class DemRun final : public CaseRun {
   DemRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
       : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks)), model_(scene_, timers_, ranks_) {
     std::optional<double> initial_energy;
+    dem::FluidTotals fluid;
     prepare(
         [&](core::Checkpoint& checkpoint, const fs::path&) {
           model_.resume(checkpoint);
           std::array<double, 1> energy{first_ ? checkpoint.numbers["initial_energy"] : 0.0};
           core::take_from_first(ranks_.get(), energy);
           initial_energy = energy[0];
+          if (first_) fluid = dem::read_fluid_totals(checkpoint);
         },
         [&](core::Checkpoint& checkpoint, const fs::path&) { model_.start_from(checkpoint); });
     if (scene_.bed.start == "settled" && !options_.resume) {
@@ -36,7 +40,7 @@ class DemRun final : public CaseRun {
       model_.start_from(dem::settled(scene_, model_.limits().dt, ranks_));
     }
     const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
-    observers_.emplace(model_, scene_, directory_, initial_energy, resume_time);
+    observers_.emplace(model_, scene_, directory_, initial_energy, fluid, resume_time);
   }
 
  private:
@@ -51,7 +55,10 @@ class DemRun final : public CaseRun {
   }
 
   /// Steps are short: asking all ranks at each whether the user wants to stop would cost more than some of them.
-  bool after_step() override { return model_.steps() % 64 != 0 || CaseRun::after_step(); }
+  bool after_step() override {
+    observers_->see_step();
+    return model_.steps() % 64 != 0 || CaseRun::after_step();
+  }
 
   core::ProgressLine line() override {
     return {model_.time(),
@@ -66,6 +73,7 @@ class DemRun final : public CaseRun {
   core::Checkpoint checkpoint() override {
     core::Checkpoint checkpoint = model_.checkpoint();
     checkpoint.numbers["initial_energy"] = observers_->initial_energy();
+    if (observers_->fluid() != nullptr) dem::write(observers_->fluid()->totals(), checkpoint);
     return checkpoint;
   }
 
@@ -80,6 +88,7 @@ class DemRun final : public CaseRun {
     core::add_over_ranks(ranks_.get(), cpu);
     cpu_ = cpu[0];
     work_ = model_.work();
+    find_fluid();
     const int ranks = ranks_ ? ranks_->count() : 1;
     core::Json json;
     begin_record(json, scene_, "dem", state, ranks);
@@ -89,9 +98,19 @@ class DemRun final : public CaseRun {
     write_step(json);
     write_work(json);
     write_timers(json, timers_);
+    if (fluid_) write_fluid(json, *fluid_);
     if (observers_) write_ledger(json);
     json.key("warnings").begin_array().end_array().end_object();
     return json.text();
+  }
+
+  /// Collective.
+  void find_fluid() {
+    if (!observers_ || observers_->fluid() == nullptr) return;
+    std::array<std::int64_t, 1> work{model_.fluid_work()};
+    core::add_over_ranks(ranks_.get(), work);
+    fluid_ = fluid_report(scene_, *model_.coupling(), observers_->fluid()->totals(), model_.limits().dt,
+                          double(work[0]) * model_.energy_unit().unit);
   }
 
   void write_step(core::Json& json) const {
@@ -132,6 +151,8 @@ class DemRun final : public CaseRun {
     fmt::print(stderr, "step {:.3g} s, limited by {}; {} integrator ({})\n", model_.limits().dt,
                model_.limits().limited_by, model_.synchronised() ? "synchronised" : "thesis",
                model_.limits().integrator_reason);
+    if (fluid_)
+      for (const std::string& line : fluid_lines(*fluid_)) fmt::print(stderr, "{}\n", line);
     if (scene_.dem.ledger)
       fmt::print(stderr, "energy ledger: worst {:.2e}, limit {:.0e}{}\n", observers_->ledger_error(), ledger_limit,
                  observers_->ledger_error() > ledger_limit ? "  <-- exceeded" : "");
@@ -140,6 +161,7 @@ class DemRun final : public CaseRun {
   dem::Model model_;
   std::optional<dem::Observers> observers_;
   dem::Work work_;
+  std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
   double cpu_ = 0;
 };
 
@@ -147,6 +169,7 @@ class DemRun final : public CaseRun {
 
 void run_dem(const RunOptions& options) {
   core::Scene scene = read_scene(options);
+  dem::refuse_continuum_scene(scene);
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::on_first(ranks.get(), [&] { check_directory(directory, options); });

@@ -22,7 +22,6 @@ start = "list:beads.csv"
 [run]
 until = 1
 [effects]
-drag = "cello"
 contact = "hertz_mindlin"
 """
 

@@ -114,6 +114,35 @@ fixed_step = "4 us"
 youngs_modulus = "20 MPa"
 """
 
+# two sizes in water that rises through them, with drag and added mass
+WET = """
+[column]
+size = ["12 mm", "24 mm"]
+cells = [5, 10]
+depth = "6 mm"
+[[species]]
+name = "a"
+diameter = "1.2 mm"
+density = 2500
+[[species]]
+name = "b"
+diameter = "0.8 mm"
+density = 1400
+[bed]
+particles = [200, 300]
+start = "mixed"
+solids_fraction = 0.55
+start_solids_fraction = 0.4
+[inlet]
+superficial_velocity = "50 mm/s"
+[dem]
+friction = 0.4
+greatest_speed = "0.5 m/s"
+fixed_step = "4 us"
+youngs_modulus = "2 MPa"
+fluid_every = 16
+"""
+
 COMMON = """
 [fluid]
 name = "none"
@@ -126,6 +155,9 @@ every = "8 ms"
 history_every = "8 ms"
 checkpoint_every = "4 ms"
 """
+
+WITH_FLUID = COMMON.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"').replace(
+    "[effects]", '[effects]\ndrag = "cello"\nadded_mass = "zuber"\nfluid_stress = "newtonian"')
 
 
 def in_corner():
@@ -149,13 +181,15 @@ def crossing():
 
 
 def hash_of(checkpoint):
-    """SHA-256 of places, velocities and spins by id, and of the histories of all contacts."""
+    """SHA-256 of places, velocities and spins by id, of the histories of all contacts, and of the fluid."""
     with h5py.File(checkpoint) as file:
         particles = file["arrays/particles"][()].reshape(-1, 23)
         contacts = file["arrays/contacts"][()]
+        fluid = [file[f"arrays/{name}"][()].tobytes() for name in sorted(file["arrays"]) if name.startswith("fluid_")]
     assert list(particles[:, 0]) == list(range(len(particles)))
     assert np.isfinite(particles).all() and np.isfinite(contacts).all()
-    return hashlib.sha256(particles[:, :11].tobytes() + contacts.tobytes()).hexdigest(), len(particles), len(contacts)
+    seen = particles[:, :11].tobytes() + contacts.tobytes() + b"".join(fluid)
+    return hashlib.sha256(seen).hexdigest(), len(particles), len(contacts)
 
 
 def ulps_up(value, count=1):
@@ -179,16 +213,16 @@ class DemRanks(Scratch):
         self.assertEqual(process.returncode, code, f"{ranks} ranks: {words}\n{out[-500:]}\n{err[-1500:]}")
         return err
 
-    def scene(self, text, rows=None):
+    def scene(self, text, rows=None, common=COMMON):
         if rows is not None:
             self.write("particles.csv", "\n".join(["species,x,y,z,vx,vy,vz,wx,wy,wz", *rows]) + "\n")
-        return self.write("case.toml", text + COMMON)
+        return self.write("case.toml", text + common)
 
-    def check_same(self, case, restart, touching=True):
+    def check_same(self, case, restart, touching=True, numbers=RANKS):
         """One hash on all numbers of ranks, and with a restart on another number; the records of the runs.
         :param touching: whether contacts have to be there at the end, so that histories are compared"""
         hashes, records = {}, {}
-        for ranks in RANKS:
+        for ranks in numbers:
             run = self.folder / f"on{ranks}"
             self.on(ranks, case, "-o", run)
             hashes[f"{ranks} ranks"], *sizes = hash_of(run / "checkpoint.h5")
@@ -221,6 +255,10 @@ class DemRanks(Scratch):
 
     def test_contacts_across_faces_and_corners(self):
         records = self.check_same(self.scene(CROSSING, crossing()), restart=(4, 8))
+        self.assertGreater(records[1]["work"]["contact_steps"], STEPS)
+
+    def test_with_a_fluid_between_them(self):
+        records = self.check_same(self.scene(WET, common=WITH_FLUID), restart=(3, 2), numbers=(1, 2, 3, 4))
         self.assertGreater(records[1]["work"]["contact_steps"], STEPS)
 
     def test_fewer_particles_than_ranks(self):

@@ -14,6 +14,7 @@ import math
 import sys
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 GRAVITY = 9.81
@@ -83,14 +84,16 @@ def events(time, height, speed, radius):
     return {name: float(value) for name, value in found.items()}
 
 
-def compare(run, expected, radius):
-    """Prints run and equation side by side; whether the run is accepted."""
-    import h5py
-
+def motion(run, radius=STEEL["diameter"] / 2):
+    """Events of a stored run of one sphere."""
     with h5py.File(Path(run) / "particles.h5") as file:
         steps = [file[f"step/{n + 1:06d}"] for n in range(len(file["time_s"]))]
-        motion = (np.array([step[name][0, 1] for step in steps]) for name in ("position", "velocity"))
-        found = events(file["time_s"][()], *motion, radius)
+        height, speed = (np.array([step[name][0, 1] for step in steps]) for name in ("position", "velocity"))
+        return events(file["time_s"][()], height, speed, radius)
+
+
+def compare(found, expected):
+    """Prints run and equation side by side; whether the run is accepted."""
     errors = {name: found[name] / expected[name] - 1 for name in found}
     for name, error in errors.items():
         print(f"{name}: run {found[name]:.5g}, equation {expected[name]:.5g}, {error:+.2%}")
@@ -190,7 +193,7 @@ def main():
     if not arguments.run:
         return table()
     expected = reference(arguments.height, law=arguments.drag, added_mass=0.0 if arguments.no_added_mass else 0.5)
-    sys.exit(not compare(arguments.run, expected, STEEL["diameter"] / 2))
+    sys.exit(not compare(motion(arguments.run), expected))
 
 
 if __name__ == "__main__":

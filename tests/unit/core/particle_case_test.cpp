@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 
 #include "core/case_file.hpp"
@@ -213,6 +214,63 @@ TEST(ParticleCase, EndsAreJoinedOnlyWithoutAFluid) {
   feed.column = "ends = \"periodic\"";
   feed.more = "[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1";
   EXPECT_THAT(message_of(dry_case(feed)), HasSubstr("column.ends = \"periodic\" and [[feed]] contradict"));
+}
+
+const std::string closed = "closed = true\n";
+
+/// The same particles in a fluid, with roles that act there.
+std::string message_in_fluid(const std::string& column, const std::string& dem, const std::string& more,
+                             const std::string& fluid = "water") {
+  std::string text = dry_case({column, "temperature = 288", {}, {}, dem, more});
+  text.replace(text.find("\"none\""), 6, "\"" + fluid + "\"");
+  const std::array<Role, 5> roles{Role{"drag", "dem", "Exchange", "", "", {{"cello", ""}}},
+                                  Role{"added_mass", "dem", "Inertia", "", "", {{"half", ""}}},
+                                  Role{"lift", "dem", "Force", "", "", {{"saffman_mei", ""}}},
+                                  Role{"magnus", "dem", "Force", "", "", {{"rubinow_keller", ""}}},
+                                  Role{"history", "dem", "Force", "", "", {{"basset", ""}}}};
+  try {
+    (void)parse_case(text, "case.toml", {}, roles);
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ParticleCaseInAFluid, IsHeldOnlyAgainstADrag) {
+  const std::string drag = "[effects]\ndrag = \"cello\"";
+  EXPECT_EQ(message_in_fluid(closed, "held = true", drag), "");
+  EXPECT_THAT(message_in_fluid(closed, "held = true", ""), HasSubstr("dem.held = true without drag"));
+  EXPECT_THAT(message_in_fluid(closed, "held = true", "[effects]\ndrag = \"none\""), HasSubstr("without drag"));
+  EXPECT_THAT(message_of(dry_case({{}, {}, {}, {}, "held = true", {}})),
+              HasSubstr("dem.held = true is a fixed bed for a fluid"));
+}
+
+TEST(ParticleCaseInAFluid, HasAWidthOnlyWithAKernelThatTakesOne) {
+  EXPECT_EQ(message_in_fluid(closed, "kernel_width = \"5 mm\"", ""), "");
+  EXPECT_THAT(message_in_fluid(closed, "kernel = \"bilinear\"\nkernel_width = \"5 mm\"", ""),
+              HasSubstr("dem.kernel_width cannot act: dem.kernel = \"bilinear\""));
+}
+
+TEST(ParticleCaseInAFluid, IsTiltedOnlyWhereNothingFlowsInAndDensityIsConstant) {
+  const std::string tilted = "gravity_direction = [1, -1]\n", inlet = "[inlet]\nsuperficial_velocity = 0.1";
+  EXPECT_EQ(message_in_fluid(tilted + "closed = true", "", ""), "");
+  EXPECT_EQ(message_in_fluid("gravity_direction = [0, -2]", "", inlet), "");
+  EXPECT_THAT(message_in_fluid(tilted, "", inlet), HasSubstr("column.gravity_direction other than down needs a fluid"));
+  std::string gas =
+      dry_case({tilted + "closed = true", "temperature = 300\nequation_of_state = \"ideal_gas\"", {}, {}, {}, {}});
+  gas.replace(gas.find("\"none\""), 6, "\"air\"");
+  EXPECT_THAT(message_of(gas), HasSubstr("column.gravity_direction other than down and a compressible fluid"));
+}
+
+TEST(ParticleCaseInAFluid, IsToldAllThatItsEffectsLackWithoutOne) {
+  const std::string effects =
+      "[effects]\ndrag = \"cello\"\nadded_mass = \"half\"\nlift = \"saffman_mei\"\n"
+      "magnus = \"rubinow_keller\"\nhistory = \"basset\"";
+  EXPECT_EQ(message_in_fluid(closed, "", effects), "");
+  const std::string message = message_in_fluid(closed, "", effects, "none");
+  for (const char* key :
+       {"effects.drag", "effects.added_mass", "effects.lift", "effects.magnus", "effects.history", "fluid.temperature"})
+    EXPECT_THAT(message, HasSubstr(std::string(key) + " cannot act: fluid.name = \"none\""));
 }
 
 /// A list of particles in a folder of its own, with the case beside it.

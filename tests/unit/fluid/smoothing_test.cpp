@@ -308,7 +308,8 @@ TEST(Smoothing, WidthsUnlessTheCaseSays) {
   EXPECT_EQ(smoothing_width(1.4, 1, 10), 4);
   EXPECT_EQ(smoothing_width(1.4, 1, 9), 6);
   EXPECT_DOUBLE_EQ(smoothing_width(5e-3, 9.5e-3, 1), 57e-3);
-  EXPECT_EQ(smoothing_width(2, 1, 1), 0);
+  EXPECT_EQ(smoothing_width(4.9, 1, 1), 6);
+  EXPECT_EQ(smoothing_width(5, 1, 1), 0);
 }
 
 TEST(Smoothing, TimeIsThatOfTheWidthAtHalfHeight) {

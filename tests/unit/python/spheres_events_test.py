@@ -22,7 +22,8 @@ def motion(closing, parting):
     """Two spheres 30 mm apart in line: the gap closes at 50 mm/s after `closing`, they part sideways at 20 mm/s."""
     time = np.linspace(0, 2, 201)
     position = np.zeros((201, 2, 3))
-    position[:, 1, 1] = np.maximum(0.030 - 0.05 * np.maximum(0, time - closing), DIAMETER)
+    position[:, :, 1] = 1.0  # over the floor
+    position[:, 1, 1] += np.maximum(0.030 - 0.05 * np.maximum(0, time - closing), DIAMETER)
     position[:, 1, 0] = 1.5e-4 + 0.02 * np.maximum(0, time - parting)
     return time, position
 
@@ -41,6 +42,13 @@ class Events(unittest.TestCase):
         self.assertIsNone(events.events(time, position, DIAMETER)["tumbling"])
         self.assertIsNone(events.events(time, position * [1, 1.5, 1], DIAMETER)["kissing"])
 
+    def test_what_happens_on_the_floor_does_not_count(self):
+        time, position = motion(0.1, 0.5)
+        position[:, :, 1] -= np.where(time > 0.2, 0.99, 0)[:, None]  # the lower one at 10 mm, a diameter is 15 mm
+        found = events.events(time, position, DIAMETER)
+        self.assertAlmostEqual(found["drafting"], 0.14, delta=0.011)
+        self.assertEqual((found["kissing"], found["tumbling"]), (None, None))
+
     def ends(self, time, position):
         with tempfile.TemporaryDirectory() as folder:
             with h5py.File(Path(folder) / "particles.h5", "w") as file:
@@ -55,7 +63,7 @@ class Events(unittest.TestCase):
         self.assertEqual(self.ends(*motion(0.1, 3.0)), 1)  # they never part
         time, position = motion(1.0, 0.0)
         position[:, 1, 0] = np.minimum(position[:, 1, 0], 0.008)  # aside at 8 mm, then down to 12 mm: they touch at last
-        position[time > 1.5, 1, 1] = 0.012
+        position[time > 1.5, 1, 1] = 1.012
         self.assertNotIn(None, events.events(time, position, DIAMETER).values())
         self.assertEqual(self.ends(time, position), 1)
 

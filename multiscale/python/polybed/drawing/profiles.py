@@ -46,6 +46,9 @@ def draw_fractions(axes, run, row, factor):
 
 def draw_velocities(axes, run, row, factor):
     draw_quantity(axes, run, row, "u", factor, 1e3)
+    if "u_fluid" in run.profiles:
+        height = run.profiles["y_m"] * factor
+        axes.plot(run.profiles["u_fluid"][row] * 1e3, height, color="black", linestyle=(0, (3, 1)), linewidth=1, label="fluid")
     axes.axvline(0, color=PALE, linewidth=0.8, zorder=0)
     most = max(1e-3, 1.1 * max(np.abs(axes.get_xlim())))
     axes.set_xlim(-most, most)
@@ -129,7 +132,7 @@ def draw(run, time):
         ax.tick_params(labelleft=False)
     side = upper.add_subplot(grid[3])
     side.set_axis_off()
-    lines = {label: line for ax in (axes[0], axes[2]) for line, label in zip(*ax.get_legend_handles_labels())}
+    lines = {label: line for ax in axes for line, label in zip(*ax.get_legend_handles_labels())}
     side.legend(lines.values(), lines.keys(), loc="center left")
     most = max(0.1, max(float(profiles[f"phi_{name}"].max()) for name in shown))
     below = lower.subplots(1, len(shown), sharey=True, squeeze=False)[0]

@@ -1,0 +1,17 @@
+// What a scene may say that the particle model cannot run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+
+namespace polybed::dem {
+
+/// What keeps a scene from the particle model, each with its key; empty if nothing does.
+[[nodiscard]] std::vector<std::string> only_for_continuum(const core::Scene& scene);
+
+/// Throws core::CaseError with all of it.
+void refuse_continuum_scene(const core::Scene& scene);
+
+}  // namespace polybed::dem

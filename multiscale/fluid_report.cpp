@@ -1,0 +1,52 @@
+#include "multiscale/fluid_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace polybed::multiscale {
+
+FluidReport fluid_report(const core::Scene& scene, const dem::Coupling& coupling, const dem::FluidTotals& totals,
+                         double dt, double work) {
+  const auto drag = scene.effects.find("drag");
+  return {totals,
+          coupling.kernel_width() > 0 ? "diffusion" : "bilinear",
+          drag == scene.effects.end() ? "none" : drag->second,
+          coupling.flow().grid().ranks != nullptr,
+          coupling.kernel_width(),
+          coupling.every(),
+          coupling.every() * dt,
+          work};
+}
+
+void write_fluid(core::Json& json, const FluidReport& r) {
+  json.key("fluid").begin_object().member("every", std::int64_t(r.every)).member("dt_s", r.step);
+  json.member("steps", r.totals.steps).member("iterations", r.totals.iterations);
+  json.member("worst_residual", r.totals.worst_residual).member("greatest_courant", r.totals.greatest_courant);
+  json.member("ranks", r.shared ? "shared" : "each")
+      .member("kernel", r.kernel)
+      .member("kernel_width_m", r.kernel_width);
+  json.key("drag").begin_object().member("law", r.law).member("evaluations", r.totals.law.evaluations);
+  json.member("guarded", r.totals.law.guarded).member("clamped_voidage", r.totals.law.clamped_voidage).end_object();
+  json.member("work_J", r.work).end_object();
+}
+
+std::vector<std::string> fluid_lines(const FluidReport& r) {
+  const dem::FluidTotals& t = r.totals;
+  const auto per = [](std::uint64_t part, std::uint64_t all) {
+    return double(part) / double(std::max<std::uint64_t>(all, 1));
+  };
+  const std::string kernel = r.kernel_width > 0
+                                 ? fmt::format("kernel {}, {:.3g} mm wide", r.kernel, 1e3 * r.kernel_width)
+                                 : "kernel " + r.kernel;
+  return {
+      fmt::format("fluid: {} steps of {:.3g} s, every {} of the particles', {:.3g} iterations each, residual up to "
+                  "{:.1e}, Courant number up to {:.2g}; {}",
+                  t.steps, r.step, r.every, per(t.iterations, t.steps), t.worst_residual, t.greatest_courant, kernel),
+      fmt::format("drag {}: {:.3g} evaluations, {:.3g} % guarded, {:.3g} % at the bounds of voidage; work of the "
+                  "fluid {:.3g} J",
+                  r.law, double(t.law.evaluations), 100 * per(t.law.guarded, t.law.evaluations),
+                  100 * per(t.law.clamped_voidage, t.law.evaluations), r.work)};
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""Particles in a fluid on several ranks: what a run stores of both. Usage: dem_fluid_ranks_test.py PROGRAM"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
+import open_mpi  # noqa: E402
+import program  # noqa: E402
+from program import Scratch, datasets, main, same_bits  # noqa: E402
+
+# 630 spheres of two sizes in rising water, on few cells.
+BED = """[column]
+size = ["27 mm", "60 mm"]
+cells = [8, 18]
+[fluid]
+name = "water"
+temperature = "15 degC"
+[[species]]
+name = "fine"
+diameter = "0.8 mm"
+density = 1395
+[[species]]
+name = "coarse"
+diameter = "2 mm"
+density = 1170
+[bed]
+particles = [600, 30]
+solids_fraction = 0.6
+start = "mixed"
+start_solids_fraction = 0.45
+[inlet]
+superficial_velocity = "20 mm/s"
+[effects]
+drag = "cello"
+contact = "hertz_mindlin"
+[dem]
+youngs_modulus = "0.3 MPa"
+kernel = "bilinear"
+[run]
+until = "10 ms"
+[output]
+every = "5 ms"
+history_every = "0.5 ms"
+checkpoint_every = "5 ms"
+"""
+FILES = ("fields.h5", "particles.h5", "profiles.h5", "checkpoint.h5")
+
+
+class FluidOnRanks(Scratch):
+    def on(self, ranks, *words):
+        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
+        done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "dem", self.folder / "case.toml", "--quiet",
+                               "--no-picture", *map(str, words)], env=settings, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr[-1500:])
+
+    def setUp(self):
+        super().setUp()
+        self.write("case.toml", BED)
+        self.one = self.folder / "one"
+        self.on(1, "-o", self.one)
+
+    def record(self, run):
+        return json.loads((run / "run.json").read_text())["fluid"]
+
+    def test_each_with_the_whole_fluid_stores_the_same_bits(self):
+        for ranks in (2, 3):
+            run = self.folder / f"on{ranks}"
+            self.on(ranks, "-o", run, "--set", "dem.fluid_ranks=auto")  # of few cells
+            for name in FILES[:3]:
+                self.assertEqual(same_bits(self.one / name, run / name), [], name)
+            self.assertEqual((self.one / "history.csv").read_bytes(), (run / "history.csv").read_bytes())
+            self.assertEqual(self.record(run), self.record(self.one))
+            self.assertEqual(self.record(run)["ranks"], "each")
+
+    def test_a_shared_fluid_stores_the_same_to_the_solver(self):
+        """Pressure to 1e-8 of the imbalance of each of some 40 steps; contacts do not yet make more of it."""
+        run = self.folder / "on2"
+        self.on(2, "-o", run, "--set", "dem.fluid_ranks=shared")
+        self.assertEqual(self.record(run)["ranks"], "shared")
+        for name in ("fields.h5", "profiles.h5"):
+            ours, other = datasets(self.one / name), datasets(run / name)
+            self.assertEqual(set(ours), set(other))
+            for path, values in ours.items():
+                np.testing.assert_allclose(other[path], values, rtol=0, atol=1e-6 * max(np.abs(values).max(), 1e-12),
+                                           err_msg=path)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,28 @@
+// The particle model refuses what only the continuum model can run, naming the key.
+#include "dem/continuum_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace polybed::dem {
+namespace {
+
+TEST(ContinuumScene, IsToldWithAllItsKeysAtOnce) {
+  core::Scene scene;
+  EXPECT_THAT(only_for_continuum(scene), testing::IsEmpty());
+  EXPECT_NO_THROW(refuse_continuum_scene(scene));
+  scene.column.outlet = "open";
+  scene.feeds.emplace_back();
+  try {
+    refuse_continuum_scene(scene);
+    FAIL() << "not refused";
+  } catch (const core::CaseError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("column.outlet = \"open\" is for the TFM only"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("[[feed]] is for the TFM only"));
+  }
+}
+
+}  // namespace
+}  // namespace polybed::dem
