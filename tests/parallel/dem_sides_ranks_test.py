@@ -10,6 +10,7 @@ from dem_ranks_test import Scratch, main
 CASE = """
 [column]
 size = ["12 mm", "24 mm"]
+depth = "2.4 mm"
 cells = [6, 12]
 [fluid]
 name = "test liquid"
