@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
+#include "closures/sphere.hpp"
 #include "core/blocks.hpp"
 #include "core/error.hpp"
 #include "dem/kernel.hpp"
@@ -167,7 +165,7 @@ void Coupling::answer(Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const FluidLoad& f = motion_.load[i];
     Motion& m = particles.motion[i];
-    const double r = particles.place[i].radius, volume = 4.0 / 3 * M_PI * r * r * r;
+    const double volume = closures::sphere_volume(particles.place[i].radius);
     const double inertia = 1 / m.inverse_mass + f.added, x = f.drag * dt / inertia, s = mean_decay(x);
     const Lines lines = gather_.lines(particles.place[i].x);
     const Vector du = gather_.vector(lines, change), dg = gather_.vector(lines, push);

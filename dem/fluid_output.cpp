@@ -1,8 +1,8 @@
 #include "dem/fluid_output.hpp"
 
 #include <algorithm>
-#include <numbers>
 
+#include "closures/sphere.hpp"
 #include "core/blocks.hpp"
 #include "fluid/profile.hpp"
 
@@ -47,7 +47,7 @@ std::vector<core::FaceField> mean_velocities(const core::Grid& grid, const fluid
   const Weights weights(grid);
   const double least = no_particles * grid.cell_volume();
   for (std::size_t i = 0; i < particles.id.size(); ++i) {
-    const double r = particles.radius[i], v = 4.0 / 3 * std::numbers::pi * r * r * r;
+    const double v = closures::sphere_volume(particles.radius[i]);
     const auto j = std::size_t(particles.species[i]);
     for_each_cell(grid.dimensions, weights(particles.position[i]), [&](std::size_t at, double w) {
       volume[j][at] += w * v;

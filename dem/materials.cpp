@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include "closures/contact_pair.hpp"
 #include "closures/rolling_friction.hpp"
+#include "closures/sphere.hpp"
 #include "core/contact_properties.hpp"
 
 namespace polybed::dem {
@@ -13,7 +13,7 @@ namespace polybed::dem {
 Materials::Materials(const core::Scene& scene) : stride_(std::int32_t(scene.species.size()) + 1) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const core::Species& s : scene.species) {
-    const double mass = std::numbers::pi / 6 * s.diameter * s.diameter * s.diameter * s.density;
+    const double mass = closures::sphere_volume(0.5 * s.diameter) * s.density;
     species_.push_back(
         {s.name, 0.5 * s.diameter, mass, closures::moment_of_inertia(mass, 0.5 * s.diameter), s.density});
   }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "dem/packing.hpp"
 #include "dem/scene.hpp"
@@ -69,7 +69,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
 void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
   if (scene.fluid.name == "none") return;
   double volume = 0;
-  for (const Particle& p : all) volume += 4.0 / 3 * std::numbers::pi * std::pow(p.place.radius, 3);
+  for (const Particle& p : all) volume += closures::sphere_volume(p.place.radius);
   coupling_.emplace(scene, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
                     limits_.greatest_speed, volume, count_);
   coupling_->motion().load.resize(particles_.owned);

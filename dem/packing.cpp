@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "core/particle_list.hpp"
 #include "core/random.hpp"
@@ -19,8 +19,6 @@ namespace {
 constexpr double loose = 0.55;
 
 enum Sequence : std::uint64_t { place_x, place_y, place_z, speed_x, speed_y, speed_z };
-
-double volume(const Species& s) { return 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius; }
 
 Particle particle(const Materials& materials, std::int32_t species, std::int64_t id) {
   const Species& s = materials.species()[std::size_t(species)];
@@ -53,7 +51,7 @@ std::vector<Layer> layers(const core::Scene& scene, const Materials& materials, 
   double sum = 0;
   const double wanted = scene.bed.start_solids_fraction > 0 ? std::min(loose, scene.bed.start_solids_fraction) : loose;
   for (std::size_t j = 0; j < numbers.size(); ++j) {
-    height.push_back(double(numbers[j]) * volume(materials.species()[j]) / (area * wanted));
+    height.push_back(double(numbers[j]) * closures::sphere_volume(materials.species()[j].radius) / (area * wanted));
     sum += height.back();
   }
   if (scene.bed.start == "random") sum = box.size[1];
@@ -100,7 +98,8 @@ std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Mater
   const double solids = scene.bed.static_height * box.size[0] * box.size[2] * scene.bed.solids_fraction;
   std::vector<std::int64_t> numbers;
   for (std::size_t j = 0; j < materials.species().size(); ++j)
-    numbers.push_back(std::llround(scene.bed.volume_share[j] * solids / volume(materials.species()[j])));
+    numbers.push_back(
+        std::llround(scene.bed.volume_share[j] * solids / closures::sphere_volume(materials.species()[j].radius)));
   return numbers;
 }
 

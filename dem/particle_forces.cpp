@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "closures/added_mass.hpp"
+#include "closures/sphere.hpp"
 
 namespace polybed::dem {
 
@@ -43,7 +44,7 @@ void ParticleForces::see(const Particles& particles, const Gather& gather, std::
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = begin + n;
     const auto j = std::size_t(particles.species[i]);
-    const double d = diameter_[j], volume = std::numbers::pi / 6 * d * d * d;
+    const double d = diameter_[j], volume = closures::sphere_volume(0.5 * d);
     const Lines lines = gather.lines(particles.place[i].x);
     const Surroundings solids = gather.solids(lines, particles.species[i]);
     const Stream stream = gather.stream(lines);

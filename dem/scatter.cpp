@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "closures/sphere.hpp"
 
 namespace polybed::dem {
 
 using core::Field;
-
-namespace {
-
-double volume_of(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
-
-}  // namespace
 
 Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass,
                  double all, double speed)
@@ -41,7 +36,8 @@ void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& 
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Motion& m = particles.motion[i];
     const FluidLoad& f = loads[i];
-    const double v = volume_of(particles.place[i].radius), mass = 1 / m.inverse_mass, inertia = mass + f.added;
+    const double v = closures::sphere_volume(particles.place[i].radius), mass = 1 / m.inverse_mass,
+                 inertia = mass + f.added;
     const double x = f.drag * dt / inertia, s = mean_decay(x), g = x * s, a = f.added / inertia * s;
     const std::array<double, 6> same{mass * (g + a),      v * (g + a), v * (1 - mass / inertia * s),
                                      v * v * s / inertia, mass * a,    v * a};
@@ -78,7 +74,7 @@ void Scatter::fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& 
 void Scatter::add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
                   std::size_t species) {
   const Lines lines = weights_(place.x);
-  const double v = volume_of(place.radius);
+  const double v = closures::sphere_volume(place.radius);
   std::array<double, 9> units{};
   units[Sum::volume] = v * unit_[Sum::volume].per_unit;
   for (std::size_t q = drag; q < count_; ++q) units[q] = same[q - drag] * unit_[q].per_unit;
