@@ -11,6 +11,7 @@
 #include "multiscale/case_differences.hpp"
 #include "multiscale/commands/run_directory.hpp"
 #include "multiscale/comparison_text.hpp"
+#include "multiscale/python_module.hpp"
 #include "multiscale/roles.hpp"
 #include "tfm/particle_scene.hpp"
 
@@ -69,6 +70,16 @@ void warn_if_unfinished(Comparison& comparison, const std::string& model, const 
     comparison.warnings.push_back(fmt::format("{}: the run is not done ({})", model, state));
 }
 
+/// comparison.html; a comparison without Python is complete but for it.
+void make_page(const CompareOptions& options, const fs::path& directory) {
+  const PythonEnd end = run_python("polybed.comparison", {"--", directory.string()}, PythonOutput::keep);
+  if (options.json || options.quiet) return;
+  if (end.not_started.empty() && end.code == 0)
+    fmt::print("{}", end.output);
+  else
+    fmt::print(stderr, "no page: {}\n", end.not_started.empty() ? end.output : end.not_started);
+}
+
 void compare_runs(const CompareOptions& options, const core::Scene& scene, const fs::path& tfm_directory,
                   const fs::path& dem_directory) {
   const ComparedRun tfm = read_run(tfm_directory, "tfm"), dem = read_run(dem_directory, "dem");
@@ -80,13 +91,15 @@ void compare_runs(const CompareOptions& options, const core::Scene& scene, const
   warn_if_unfinished(comparison, "tfm", tfm);
   warn_if_unfinished(comparison, "dem", dem);
   const fs::path directory = run_directory(options, "compare"), path = directory / "comparison.json";
-  const std::string text = comparison_json(comparison, tfm, dem, options.case_path.string());
+  const std::string text =
+      comparison_json(comparison, tfm, dem, {options.case_path.string(), scene.overrides, directory});
   core::make_directories(directory);
   core::write_atomically(path, text + "\n");
   if (options.json)
     fmt::print("{}\n", text);
   else
     fmt::print("{}{}\n", comparison_table(comparison, tfm, dem), path.string());
+  if (options.picture) make_page(options, directory);
 }
 
 }  // namespace
