@@ -137,6 +137,10 @@ class Comparison(Scratch):
         self.assertIn("bed.seed: 1 and 2", told)
         self.assertNotIn("friction", told)
         self.assertFalse((self.folder / "again").exists())
+        # one that is given is looked at before the other is run
+        told = self.compare(WRONG_CASE, "--dem", self.folder / "both/dem").stderr
+        self.assertIn("bed.seed: 1 and 2", told)
+        self.assertFalse((self.folder / "new").exists())
 
     def test_runs_of_another_case_than_the_one_named_are_refused(self):
         told = self.given("--set", "bed.seed=3", code=WRONG_CASE).stderr
