@@ -116,10 +116,13 @@ std::string score_line(const Score& score) {
 }  // namespace
 
 std::string comparison_json(const Comparison& comparison, const ComparedRun& tfm, const ComparedRun& dem,
-                            const std::string& case_file) {
+                            const ComparisonRequest& request) {
   Json json;
   json.begin_object().member("filetype", "polybed comparison").member("version", 1);
-  json.member("git_commit", core::git_commit()).member("case", case_file);
+  json.member("git_commit", core::git_commit()).member("case", request.case_file);
+  json.member("directory", request.directory.string()).key("overrides").begin_array();
+  for (const std::string& override : request.overrides) json.value(override);
+  json.end_array();
   json.key("window").begin_object();
   json.member("begin_s", comparison.window.begin).member("end_s", comparison.window.end);
   json.member("shortened", comparison.window.shortened).member("confidence", fluid::confidence).end_object();

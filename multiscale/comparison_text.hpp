@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/json_value.hpp"
 #include "multiscale/compare.hpp"
@@ -15,9 +16,16 @@ struct ComparedRun {
   core::JsonValue record;  ///< its run.json
 };
 
-/// comparison.json. \param case_file  as given
+/// What was compared, as it was asked for.
+struct ComparisonRequest {
+  std::string case_file;
+  std::vector<std::string> overrides;  ///< --set
+  std::filesystem::path directory;     ///< of the comparison
+};
+
+/// comparison.json.
 [[nodiscard]] std::string comparison_json(const Comparison& comparison, const ComparedRun& tfm, const ComparedRun& dem,
-                                          const std::string& case_file);
+                                          const ComparisonRequest& request);
 
 /// The same as tables for the screen.
 [[nodiscard]] std::string comparison_table(const Comparison& comparison, const ComparedRun& tfm,

@@ -83,7 +83,8 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
   command.add_flag("--resume", options.resume, "go on from the checkpoint in the run directory");
   command.add_flag("--force", options.force, "replace a run directory that exists");
   command.add_flag("--quiet", options.quiet, "no progress");
-  command.add_flag("!--no-picture", options.picture, "no picture.png at the end, which takes a second");
+  command.add_flag("!--no-picture", options.picture,
+                   "no picture.png (or comparison.html) at the end, which takes a second");
   return command;
 }
 

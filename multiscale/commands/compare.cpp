@@ -11,6 +11,7 @@
 #include "multiscale/case_differences.hpp"
 #include "multiscale/commands/run_directory.hpp"
 #include "multiscale/comparison_text.hpp"
+#include "multiscale/python_module.hpp"
 #include "multiscale/roles.hpp"
 #include "tfm/particle_scene.hpp"
 
@@ -64,9 +65,28 @@ void refuse_before_running(const CompareOptions& options, const core::Scene& sce
   if (options.dem.empty()) dem::refuse_continuum_scene(scene);
 }
 
+/// Refuses a given run that is none of this case, likewise.
+void look_at_given(const CompareOptions& options, const core::Scene& scene, const fs::path& directory,
+                   const std::string& model) {
+  if (directory.empty()) return;
+  const ComparedRun run = read_run(directory, model);
+  refuse_difference(options.case_path.string(), core::resolved_case(scene), directory.string(),
+                    run.record.of("case").text());
+}
+
 void warn_if_unfinished(Comparison& comparison, const std::string& model, const ComparedRun& run) {
   if (const std::string& state = run.record.of("state").text(); state != "done")
     comparison.warnings.push_back(fmt::format("{}: the run is not done ({})", model, state));
+}
+
+/// comparison.html; a comparison without Python is complete but for it.
+void make_page(const CompareOptions& options, const fs::path& directory) {
+  const PythonEnd end = run_python("polybed.comparison", {"--", directory.string()}, PythonOutput::keep);
+  if (options.json || options.quiet) return;
+  if (end.not_started.empty() && end.code == 0)
+    fmt::print("{}", end.output);
+  else
+    fmt::print(stderr, "no page: {}\n", end.not_started.empty() ? end.output : end.not_started);
 }
 
 void compare_runs(const CompareOptions& options, const core::Scene& scene, const fs::path& tfm_directory,
@@ -74,19 +94,20 @@ void compare_runs(const CompareOptions& options, const core::Scene& scene, const
   const ComparedRun tfm = read_run(tfm_directory, "tfm"), dem = read_run(dem_directory, "dem");
   const std::string tfm_case = tfm.record.of("case").text(), dem_case = dem.record.of("case").text();
   refuse_difference(tfm_directory.string(), tfm_case, dem_directory.string(), dem_case);
-  refuse_difference(options.case_path.string(), core::resolved_case(scene), tfm_directory.string(), tfm_case);
   Comparison comparison = compare({core::read_history(tfm_directory), core::read_profiles(tfm_directory)},
                                   {core::read_history(dem_directory), core::read_profiles(dem_directory)});
   warn_if_unfinished(comparison, "tfm", tfm);
   warn_if_unfinished(comparison, "dem", dem);
   const fs::path directory = run_directory(options, "compare"), path = directory / "comparison.json";
-  const std::string text = comparison_json(comparison, tfm, dem, options.case_path.string());
+  const std::string text =
+      comparison_json(comparison, tfm, dem, {options.case_path.string(), scene.overrides, directory});
   core::make_directories(directory);
   core::write_atomically(path, text + "\n");
   if (options.json)
     fmt::print("{}\n", text);
   else
     fmt::print("{}{}\n", comparison_table(comparison, tfm, dem), path.string());
+  if (options.picture) make_page(options, directory);
 }
 
 }  // namespace
@@ -95,9 +116,10 @@ void run_compare(const CompareOptions& options) {
   const core::Scene scene = read_scene(options);
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   refuse_before_running(options, scene);
-  // What is given is looked at before anything is run.
-  if (!options.tfm.empty()) core::on_first(ranks.get(), [&] { (void)read_run(options.tfm, "tfm"); });
-  if (!options.dem.empty()) core::on_first(ranks.get(), [&] { (void)read_run(options.dem, "dem"); });
+  core::on_first(ranks.get(), [&] {
+    look_at_given(options, scene, options.tfm, "tfm");
+    look_at_given(options, scene, options.dem, "dem");
+  });
   const fs::path tfm = options.tfm.empty() ? run_model(options, "tfm", run_tfm) : options.tfm;
   const fs::path dem = options.dem.empty() ? run_model(options, "dem", run_dem) : options.dem;
   core::on_first(ranks.get(), [&] { compare_runs(options, scene, tfm, dem); });

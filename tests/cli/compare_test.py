@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 """polybed compare as its user meets it: both models run or given, the table, the file, refusals. Usage: compare_test.py PROGRAM"""
+import html
 import pathlib
+import re
+import shlex
 import shutil
 import tempfile
 
@@ -134,6 +137,10 @@ class Comparison(Scratch):
         self.assertIn("bed.seed: 1 and 2", told)
         self.assertNotIn("friction", told)
         self.assertFalse((self.folder / "again").exists())
+        # one that is given is looked at before the other is run
+        told = self.compare(WRONG_CASE, "--dem", self.folder / "both/dem").stderr
+        self.assertIn("bed.seed: 1 and 2", told)
+        self.assertFalse((self.folder / "new").exists())
 
     def test_runs_of_another_case_than_the_one_named_are_refused(self):
         told = self.given("--set", "bed.seed=3", code=WRONG_CASE).stderr
@@ -161,6 +168,22 @@ class Comparison(Scratch):
         told = self.compare(WRONG_CASE, "--set", "column.outlet=open").stderr
         self.assertIn("column.outlet", told)
         self.assertFalse((self.folder / "new").exists())
+
+    def test_the_page_stands_alone_and_says_how_to_make_it_again(self):
+        self.ends(DONE, "compare", self.case, "--tfm", self.folder / "both/tfm", "--dem", self.folder / "both/dem", "-o",
+                  self.folder / "page")
+        text = (self.folder / "page/comparison.html").read_text()
+        self.assertEqual(text.count('src="data:image/png;base64,'), 5)  # three instants, profiles, history
+        self.assertEqual(re.findall(r'(?:src|href)="(?!data:)[^"]*"', text), [])
+        found = strict_json((self.folder / "page/comparison.json").read_text())
+        for measure in found["measures"].values():
+            self.assertIn(f"<td>{measure['tfm']:.4g}", text)
+        for line in found["warnings"]:
+            self.assertIn(html.escape(line), text)
+        tfm, dem, last = [shlex.split(html.unescape(line)) for line in re.search("<pre>(.*)</pre>", text, re.S)[1].splitlines()]
+        self.assertEqual((tfm[:3], dem[:3]), (["polybed", "tfm", str(self.case)], ["polybed", "dem", str(self.case)]))
+        again = self.ends(DONE, *last[1:], "--json", "--no-picture").stdout
+        self.assertEqual(strict_json(again)["measures"], found["measures"])
 
     def test_resumed_it_goes_on_with_what_is_there(self):
         first = strict_json(self.compare(DONE, "--json", "--until", "2 ms").stdout)

@@ -23,6 +23,7 @@ VERSIONS = {
     "polybed particles step": 1,
     "polybed profiles": 1,
     "polybed run": 1,
+    "polybed comparison": 1,
 }
 
 

@@ -196,7 +196,7 @@ TEST(Compare, TheFileHasTheContractsForm) {
       R"({"work": {"steps": 3}, "cpu_s": 1.5, "time_s": 100, "ranks": 1, "state": "done", "case_hash": "1", "git_commit": "2"})";
   const ComparedRun run{"here", core::parse_json(record)};
   const Comparison c = compare(at_rest(0.03, 0.066), at_rest(0.03, 0.06));
-  const core::JsonValue json = core::parse_json(comparison_json(c, run, run, "case.toml"));
+  const core::JsonValue json = core::parse_json(comparison_json(c, run, run, {"case.toml", {"bed.seed=2"}, "out"}));
   const core::JsonValue& height = json.of("measures").of("bed_height_m");
   EXPECT_EQ(height.of("tfm").number(), c.measures[0].tfm->mean);
   EXPECT_EQ(height.of("tfm_error").number(), *c.measures[0].tfm->error);
@@ -205,6 +205,7 @@ TEST(Compare, TheFileHasTheContractsForm) {
   EXPECT_EQ(json.of("scores").of("order").of("tfm").of("species").text(), "coarse");
   EXPECT_EQ(json.of("models").of("dem").of("work").of("steps").number(), 3);
   EXPECT_EQ(json.of("models").of("dem").of("cpu_s").number(), 1.5);
+  EXPECT_EQ(json.of("overrides").array().at(0).text(), "bed.seed=2");
   EXPECT_THAT(comparison_table(c, run, run), HasSubstr("goal 0.05: missed"));
 }
 

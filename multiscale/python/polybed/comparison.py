@@ -1,0 +1,178 @@
+"""Makes comparison.html of a comparison.json: one page that stands alone, what `polybed compare` hands over to.
+
+    python3 -m polybed.comparison DIR
+
+Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing.
+"""
+
+import argparse
+import base64
+import html
+import io
+import json
+import os
+import shlex
+import sys
+from pathlib import Path
+
+try:
+    import matplotlib.pyplot as plt
+
+    from polybed.drawing import comparison as drawing
+    from polybed.drawing.profiles import shown_top
+    from polybed.drawing.style import STYLE
+    from polybed.read import FormatError, check_kind, read
+except ImportError as missing:
+    if (missing.name or "").startswith("polybed"):
+        raise
+    if __name__ == "__main__":
+        print(f"Python's package {missing.name} is missing, which the page needs: "
+              "apt-get install python3-numpy python3-h5py python3-matplotlib", file=sys.stderr)
+        sys.exit(4)
+    raise
+
+NO_FILE = 4
+NAMES = drawing.NAMES
+LOOKS = """body{font:15px/1.45 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
+table{border-collapse:collapse;margin:.6rem 0}th,td{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #ddd}
+th:first-child,td:first-child{text-align:left}img{max-width:100%}code{background:#f3f3f3}pre{background:#f3f3f3;padding:.6rem;
+overflow-x:auto;white-space:pre-wrap}.source{color:#666;font-size:85%}.missed,.warning{color:#a33}"""
+
+
+def number(value, error=None):
+    if value is None:
+        return "&ndash;"
+    return f"{value:.4g}" + ("" if error is None else f" &plusmn; {error:.1g}")
+
+
+def table(head, rows):
+    """Cells are HTML already."""
+    cells = "".join(f"<th>{cell}</th>" for cell in head)
+    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table><tr>{cells}</tr>{body}</table>"
+
+
+def source(text):
+    return f'<p class="source">{text}</p>'
+
+
+def file_name(*parts):
+    return f"<code>{html.escape(str(Path(*parts)))}</code>"
+
+
+def picture(figure, told):
+    """A figure in the page itself, with what it was drawn from; nothing for no figure."""
+    if figure is None:
+        return ""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", bbox_inches="tight")
+    plt.close(figure)
+    data = base64.b64encode(buffer.getvalue()).decode()
+    return f'<p><img alt="" src="data:image/png;base64,{data}"></p>' + source(told)
+
+
+def commands(found, records):
+    """The lines that make the runs and the comparison again, from the folder in which they were made."""
+    case = found["case"]
+    lines = []
+    for model, record in records.items():
+        words = ["polybed", model, case]
+        for override in record["overrides"]:
+            words += ["--set", override]
+        lines.append(words + ["-o", found["models"][model]["directory"]])
+    words = ["polybed", "compare", case]
+    for override in found["overrides"]:
+        words += ["--set", override]
+    for model in records:
+        words += [f"--{model}", found["models"][model]["directory"]]
+    return "\n".join(shlex.join(words) for words in [*lines, words + ["-o", found["directory"]]])
+
+
+def measures(found):
+    rows = [[name, number(m["tfm"], m["tfm_error"]), number(m["dem"], m["dem_error"]),
+             number(m["difference"], m["difference_error"]),
+             ("profiles.h5" if name == "interface_m" else "history.csv")]
+            for name, m in found["measures"].items()]
+    folders = [file_name(found["models"][model]["directory"]) for model in ("tfm", "dem")]
+    return table(["", "tfm", "dem", "tfm &minus; dem", "from"], [[html.escape(row[0]), *row[1:]] for row in rows]) + source(
+        f"time means from {found['window']['begin_s']:.4g} to {found['window']['end_s']:.4g} s, with the half-width of their "
+        f"95 % interval; files of {folders[0]} and of {folders[1]}")
+
+
+def scores(found):
+    rows = []
+    for name, score in found["scores"].items():
+        if name == "order":
+            continue
+        verdict = {True: "reached", False: '<span class="missed">missed</span>', None: ""}[score["reached"]]
+        rows.append([html.escape(name), number(score["value"], score["error"]), number(score["goal"]) if score["goal"] else "", verdict])
+    order = found["scores"]["order"]
+    top = [f"{NAMES[model]}: {html.escape(order[model]['species'])}" + ("" if order[model]["certain"] else " (within the uncertainty)")
+           for model in ("tfm", "dem") if order[model]]
+    verdict = {True: "the same", False: '<span class="missed">not the same</span>', None: ""}[order["same"]]
+    told = f"<p>On top: {'; '.join(top)}; {verdict}.</p>" if top else ""
+    return table(["", "", "goal", ""], rows) + told + source("e_H and e_b from history.csv, D1 and profile_ from profiles.h5 of both runs")
+
+
+def models(found):
+    rows = [[NAMES[model], html.escape(run["state"]), number(run["time_s"]), number(run["cpu_s"]),
+             html.escape(", ".join(f"{name} {value:.4g}" for name, value in run["work"].items())),
+             file_name(run["directory"], "run.json")] for model, run in found["models"].items()]
+    return table(["", "state", "simulated s", "CPU s", "work", "from"], rows)
+
+
+def pictures(found, runs):
+    window, folders = found["window"], {model: run.directory for model, run in runs.items()}
+    both = [file_name(folders[model]) for model in ("tfm", "dem")]
+    tops = [shown_top(run) for run in runs.values() if run.profiles and len(run.profiles["time_s"])]
+    parts = []
+    for time in (0.0, window["begin_s"], window["end_s"]) if tops else ():
+        shown = [f"{NAMES[model]} at {times[drawing.nearest(times, time)]:.4g} s" for model, run in runs.items()
+                 if len(times := run.particles.time if len(run.particles) else run.time)]
+        parts.append(picture(drawing.draw_instant(runs, time, max(tops)),
+                             f"stored nearest to {time:.4g} s: {', '.join(shown)}; fields.h5 and particles.h5 of {both[0]} and {both[1]}"))
+    parts.append(picture(drawing.draw_profiles(runs, window),
+                         f"mean over the window, band: standard deviation in time; profiles.h5 of {both[0]} and {both[1]}"))
+    parts.append(picture(drawing.draw_history(runs, window), f"the window is shaded; history.csv of {both[0]} and {both[1]}"))
+    return "".join(parts)
+
+
+def page(directory):
+    """The page as text."""
+    path = Path(directory) / "comparison.json"
+    found = json.loads(path.read_text())
+    check_kind(found, "polybed comparison", path)
+    runs = {model: read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
+    records = {model: run.record for model, run in runs.items()}
+    warnings = "".join(f'<p class="warning">{html.escape(text)}</p>' for text in found["warnings"])
+    title = html.escape(f"{found['case']}: two-fluid model and particles")
+    with plt.rc_context(STYLE):
+        drawn = pictures(found, runs)
+    return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{LOOKS}</style></head>'
+            f"<body><h1>{title}</h1>{warnings}<h2>Measures</h2>{measures(found)}<h2>Scores</h2>{scores(found)}<h2>Cost</h2>"
+            f"{models(found)}<h2>Pictures</h2>{drawn}<h2>How to make it again</h2><pre>{html.escape(commands(found, records))}</pre>"
+            + source(f"all numbers: {file_name(path)}; program of commit {html.escape(found['git_commit'])}") + "</body></html>\n")
+
+
+def write_page(directory):
+    """Puts DIR/comparison.html in place whole and returns its path."""
+    path = Path(directory) / "comparison.html"
+    temporary = path.with_name(path.name + ".temporary")
+    temporary.write_text(page(directory), encoding="utf-8")
+    os.replace(temporary, path)
+    return path
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="polybed.comparison", description="Makes the page of a comparison.")
+    parser.add_argument("directory", help="folder of comparison.json")
+    try:
+        print(write_page(parser.parse_args(arguments).directory))
+    except (OSError, FormatError) as error:
+        print(f"no page: {error}", file=sys.stderr)
+        return NO_FILE
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

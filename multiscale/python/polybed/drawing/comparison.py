@@ -1,0 +1,133 @@
+"""Two runs of one case beside each other: maps and particles at an instant, mean profiles, and what is measured in time.
+
+The two-fluid model is drawn in full lines, the particles in broken ones, a species in its colour in both.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from polybed.drawing import particles
+from polybed.drawing.fields import fractions
+from polybed.drawing.maps import draw_bar, draw_map, frame, map_size
+from polybed.drawing.profiles import shown_top
+from polybed.drawing.style import COLOURS, GREY, PALE, length_unit
+
+LINES = {"tfm": "-", "dem": "--"}
+NAMES = {"tfm": "two-fluid", "dem": "particles"}
+MAP_HEIGHT = 4.0  # inches
+GAP, LEFT, HEAD, BARS = 0.35, 0.75, 0.7, 0.9  # inches
+
+
+def colour(n):
+    return COLOURS[n % len(COLOURS)]
+
+
+def nearest(times, time):
+    """Number of the stored time nearest to a time; None without any."""
+    return int(np.argmin(np.abs(times - time))) if len(times) else None
+
+
+def panels_at(runs, time):
+    """What there is to draw at a time: ("map", run, title, values, group) and ("particles", run, title, step, None); the
+    volume fractions of both models on one scale."""
+    found, groups = [], []
+    for model, run in runs.items():
+        step = nearest(run.time, time)
+        if step is not None and run.species:
+            group = fractions(run, step)
+            groups.append(group)
+            found += [("map", run, f"{NAMES[model]}: $\\phi$ {name}", values, group) for name, values in group.maps]
+    most = max((group.limits[1] for group in groups), default=1)
+    for group in groups:
+        group.limits = (0, most)
+    run = runs["dem"]
+    step = nearest(run.particles.time, time) if len(run.particles) else None
+    if step is not None:
+        found.append(("particles", run, NAMES["dem"], run.particles[step], None))
+    return found
+
+
+def draw_instant(runs, time, top):
+    """Both models at the stored times nearest to a time, up to a height, m. None if nothing is stored."""
+    panels = panels_at(runs, time)
+    if not panels:
+        return None
+    wide, high = map_size(panels[0][1], top, MAP_HEIGHT)
+    wide = max(wide, 1.25)  # room for a title
+    width, height = LEFT + len(panels) * (wide + GAP), HEAD + high + BARS
+    figure = plt.figure(figsize=(width, height))
+    for n, (kind, run, title, shown, group) in enumerate(panels):
+        left = (LEFT + n * (wide + GAP)) / width
+        axes = figure.add_axes((left, BARS / height, wide / width, high / height))
+        if kind == "map":
+            mesh = draw_map(axes, run, group, title, shown, top, first=n == 0)
+        else:
+            frame(axes, run, title, top, first=n == 0)
+            particles.circles(axes, run, shown, particles.species_colours(run, shown))
+            particles.name_species(figure.add_axes((left, 0.3 / height, wide / width, 0.1 / height)), run)
+        axes.set_title(title, fontsize=8)
+    if panels[0][0] == "map":
+        draw_bar(figure, mesh, figure.add_axes((LEFT / width, 0.38 / height, wide / width, 0.1 / height)), panels[0][4])
+    return figure
+
+
+def rows_in(times, window):
+    slack = 1e-9 * window["end_s"]
+    return (times >= window["begin_s"] - slack) & (times <= window["end_s"] + slack)
+
+
+def draw_profiles(runs, window):
+    """Mean profile of each species over the window, with a band of the standard deviation in time. None if no run has
+    stored a profile in the window."""
+    species = runs["tfm"].species or runs["dem"].species
+    figure, all_axes = plt.subplots(1, len(species), figsize=(1 + 2.6 * len(species), 4.2), sharey=True, squeeze=False,
+                                    constrained_layout=True)
+    factor, unit = length_unit(runs["tfm"])
+    drawn, top = False, 0
+    for model, run in runs.items():
+        profiles = run.profiles
+        at = rows_in(profiles["time_s"], window)
+        if not at.any():
+            continue
+        drawn, top = True, max(top, shown_top(run))
+        for n, name in enumerate(species):
+            rows, height = profiles[f"phi_{name}"][at], profiles["y_m"] * factor
+            mean, spread = rows.mean(axis=0), rows.std(axis=0)
+            axes = all_axes[0][n]
+            axes.plot(mean, height, color=colour(n), linestyle=LINES[model], label=NAMES[model])
+            axes.fill_betweenx(height, mean - spread, mean + spread, color=colour(n), alpha=0.2, linewidth=0)
+            axes.set_title(name)
+            axes.set_xlabel("volume fraction")
+            axes.legend(fontsize=8)
+    if not drawn:
+        plt.close(figure)
+        return None
+    all_axes[0][0].set_ylabel(f"height ({unit})")
+    all_axes[0][0].set_ylim(0, top * factor)
+    return figure
+
+
+def draw_history(runs, window):
+    """Centres and bed height in time, above the pressure drop over the buoyant weight; the window is shaded."""
+    figure, (heights, drop) = plt.subplots(2, 1, figsize=(8, 5.4), sharex=True, height_ratios=[2, 1],
+                                           constrained_layout=True)
+    factor, unit = length_unit(runs["tfm"])
+    for model, run in runs.items():
+        history, line = run.history, LINES[model]
+        t = history["time_s"]
+        for n, name in enumerate(run.species):
+            heights.plot(t, history[f"centre_{name}_m"] * factor, color=colour(n), linestyle=line,
+                         label=f"centre of {name}, {NAMES[model]}")
+        heights.plot(t, history["bed_height_m"] * factor, color=GREY, linestyle=line, linewidth=1,
+                     label=f"bed height, {NAMES[model]}")
+        weight = history["buoyant_weight_Pa"]
+        ratio = np.divide(history["pressure_drop_Pa"], weight, out=np.full(len(t), np.nan), where=weight > 0)
+        drop.plot(t, ratio, color="black", linestyle=line, linewidth=1, label=NAMES[model])
+    for axes in (heights, drop):
+        axes.axvspan(window["begin_s"], window["end_s"], color=PALE, alpha=0.3, linewidth=0, zorder=0)
+        axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
+    heights.set_ylim(bottom=0)
+    heights.set_ylabel(f"height ({unit})")
+    drop.set_ylabel("pressure drop\nover weight")
+    drop.set_xlabel("time (s)")
+    return figure
