@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace polybed::fluid {
 
@@ -147,6 +148,29 @@ std::optional<double> mixing(const Profile& profile) {
     ++counted;
   }
   return counted > 0 ? std::optional(sum / double(counted)) : std::nullopt;
+}
+
+std::optional<double> profile_distance(const Profile& profile, const Profile& reference, std::size_t species) {
+  const std::vector<double>&phi = profile.fraction.at(species), &phi_ref = reference.fraction.at(species);
+  if (phi.size() != phi_ref.size() || std::abs(profile.slab - reference.slab) > 1e-9 * reference.slab)
+    throw std::invalid_argument("profiles of other slabs");
+  double difference = 0, sum = 0;
+  for (std::size_t k = 0; k < phi.size(); ++k) {
+    difference += std::abs(phi[k] - phi_ref[k]);
+    sum += phi_ref[k];
+  }
+  return sum > 0 ? std::optional(difference / sum) : std::nullopt;
+}
+
+std::optional<double> composition_distance(const Profile& profile, const Profile& reference) {
+  if (profile.fraction.size() < 2 || profile.fraction.size() != reference.fraction.size()) return std::nullopt;
+  const auto slices = slices_of(profile), slices_ref = slices_of(reference);
+  if (!slices || !slices_ref) return std::nullopt;
+  double sum = 0;
+  for (std::size_t n = 0; n < slice_count; ++n)
+    for (std::size_t j = 0; j < profile.fraction.size(); ++j)
+      sum += 0.5 * std::abs(slices->share[n][j] - slices_ref->share[n][j]);
+  return sum / slice_count;
 }
 
 double pressure_drop(const Profile& profile) {

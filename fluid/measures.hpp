@@ -27,6 +27,16 @@ namespace polybed::fluid {
 /// 1 - mean over the 50 slices of (x - x_mean)^2 / (x_mean (1 - x_mean)), mean over species: 1 mixed, 0 separated.
 [[nodiscard]] std::optional<double> mixing(const Profile& profile);
 
+/// Integral over z of |phi_j - phi_j,ref| over that of phi_j,ref; 0 alike, 2 nowhere together. Empty if the reference
+/// has none of the species. Throws std::invalid_argument for other slabs.
+[[nodiscard]] std::optional<double> profile_distance(const Profile& profile, const Profile& reference,
+                                                     std::size_t species);
+
+/// How differently two beds are layered: half the sum over the species of the integral of |x_j - x_j,ref| over h, the
+/// share of the solids volume counted from below, 0 to 1; of two species the integral of |x_2 - x_2,ref|. By the 50
+/// slices of equal solids volume, so a difference within a slice does not count. Empty for one species or an empty bed.
+[[nodiscard]] std::optional<double> composition_distance(const Profile& profile, const Profile& reference);
+
 /// Net pressure at the bottom less that at the top, Pa: linear continuation of the outermost two slabs.
 [[nodiscard]] double pressure_drop(const Profile& profile);
 

@@ -74,8 +74,8 @@ void add_case(CLI::App& command, multiscale::CaseOptions& options) {
   command.add_flag("--json", options.json, "one JSON object on standard output, nothing else there");
 }
 
-/// A command that runs a case by a model of that name.
-void add_run(CLI::App& app, const std::string& model, const std::string& help, multiscale::RunOptions& options) {
+/// A command that runs a case, by a model of that name or by both.
+CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& help, multiscale::RunOptions& options) {
   CLI::App& command = *app.add_subcommand(model, help);
   add_case(command, options);
   command.add_option("-o,--output", options.output, "run directory; default runs/<case name>-" + model);
@@ -84,6 +84,7 @@ void add_run(CLI::App& app, const std::string& model, const std::string& help, m
   command.add_flag("--force", options.force, "replace a run directory that exists");
   command.add_flag("--quiet", options.quiet, "no progress");
   command.add_flag("!--no-picture", options.picture, "no picture.png at the end, which takes a second");
+  return command;
 }
 
 int exit_code(core::ExitCode code) { return static_cast<int>(code); }
@@ -128,6 +129,12 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   RunOptions tfm, dem;
   add_run(app, "tfm", "run the case as a continuum (two-fluid model)", tfm);
   add_run(app, "dem", "run the case particle by particle", dem);
+
+  CompareOptions compare;
+  CLI::App& compare_command =
+      add_run(app, "compare", "run the case by both models, or take runs of it: how far they agree", compare);
+  compare_command.add_option("--tfm", compare.tfm, "directory of a run of polybed tfm, finished or not");
+  compare_command.add_option("--dem", compare.dem, "directory of a run of polybed dem, finished or not");
 
   CaseOptions check;
   add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);
@@ -185,9 +192,11 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   drag.guard = guard == "on";
   if (app.got_subcommand("plot")) return exit_code(run_plot(plot));
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
-  if (app.got_subcommand("tfm") || app.got_subcommand("dem") || app.got_subcommand("check")) mpi.emplace(argc, argv);
+  for (const char* command : {"tfm", "dem", "compare", "check"})
+    if (app.got_subcommand(command)) mpi.emplace(argc, argv);
   if (app.got_subcommand("tfm")) run_tfm(tfm);
   if (app.got_subcommand("dem")) run_dem(dem);
+  if (app.got_subcommand("compare")) run_compare(compare);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);

@@ -25,6 +25,11 @@ struct RunOptions : CaseOptions {
   bool picture = true;  ///< drawn at the end
 };
 
+/// Options of the comparison of both models; those of a run are for the models that it runs itself.
+struct CompareOptions : RunOptions {
+  std::filesystem::path tfm, dem;  ///< runs to compare; empty: it is run
+};
+
 /// Options of the pictures of a run.
 struct PlotOptions {
   std::filesystem::path run;     ///< a run directory, or a case that has one in runs/
@@ -49,6 +54,7 @@ struct InversionOptions : CaseOptions {
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
+void run_compare(const CompareOptions& options);
 void run_check(const CaseOptions& options);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);

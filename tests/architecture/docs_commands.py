@@ -2,7 +2,7 @@
 """Every command in a ```sh block of the README, the docs and the cases runs and ends with 0; so does every ```python block.
 
 A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
-`polybed tfm` line gets `--until 0.1s` in place of its own end, a `polybed dem` line 1 ms, and replaces an earlier run of the same page. Each page
+`polybed tfm` line gets `--until 0.1s` in place of its own end, a `polybed dem` or `polybed compare` line 1 ms, and replaces an earlier run of the same page. Each page
 has a folder of its own, so that it must stand alone. Usage: docs_commands.py PROGRAM
 """
 import os
@@ -40,7 +40,7 @@ def shortened(command, program):
     if words[0] == program and words[1] == "-n":  # as the launcher does it
         on_ranks = ["mpirun", "-q", "-n", words[2]]
         del words[1:3]
-    if len(words) > 1 and words[1] in ("tfm", "dem"):
+    if len(words) > 1 and words[1] in ("tfm", "dem", "compare"):
         if "--until" in words:
             at = words.index("--until")
             del words[at:at + 2]
@@ -61,6 +61,7 @@ def self_test():
     assert shortened("./polybed tfm x --until '20 s'", "p") == ["p", "tfm", "x", *SHORT, "--force"]
     assert shortened("./polybed dem x --until '20 s'", "p") == ["p", "dem", "x", *SHORT_DEM, "--force"]
     assert shortened("./polybed -n 2 check x", "p") == ["mpirun", "-q", "-n", "2", "p", "check", "x"]
+    assert shortened("./polybed compare x", "p") == ["p", "compare", "x", *SHORT_DEM, "--force"]
     assert "--force" not in shortened("./polybed tfm x --resume", "p")
     assert run("false", "p", ".")
 

@@ -113,5 +113,32 @@ TEST(Measures, ThePressureDropContinuesToBothEnds) {
   EXPECT_NEAR(pressure_drop(p), 200 * 0.2, 1e-10);  // exact for a straight line
 }
 
+TEST(Measures, DistanceOfTwoProfiles) {
+  const Profile low = profile_of([](double z) { return step(z, 0, 0.1, 0.5); });
+  const Profile shifted = profile_of([](double z) { return step(z, 0.02, 0.12, 0.5); });
+  EXPECT_EQ(*profile_distance(low, low, 0), 0);
+  EXPECT_NEAR(*profile_distance(shifted, low, 0), 0.4, 1e-12);  // a fifth is missing below, as much is too much above
+  EXPECT_NEAR(*profile_distance(profile_of([](double) { return 0.0; }), low, 0), 1, 1e-12);
+  EXPECT_FALSE(profile_distance(low, profile_of([](double) { return 0.0; }), 0));
+  Profile others = low;
+  others.slab *= 2;
+  EXPECT_THROW((void)profile_distance(low, others, 0), std::invalid_argument);
+}
+
+TEST(Measures, DistanceOfTwoOrders) {
+  const auto below = [](double z) { return step(z, 0, 0.06, 0.5); };
+  const auto above = [](double z) { return step(z, 0.06, 0.12, 0.5); };
+  const auto half = [](double z) { return step(z, 0, 0.12, 0.25); };
+  const Profile layered = profile_of(below, above), inverted = profile_of(above, below), mixed = profile_of(half, half);
+  EXPECT_NEAR(*composition_distance(layered, layered), 0, 1e-12);
+  EXPECT_NEAR(*composition_distance(layered, inverted), 1, 1e-12);
+  EXPECT_NEAR(*composition_distance(mixed, layered), 0.5, 1e-12);
+  // The same order at half the density: the height does not count.
+  const Profile expanded =
+      profile_of([](double z) { return step(z, 0, 0.1, 0.3); }, [](double z) { return step(z, 0.1, 0.2, 0.3); });
+  EXPECT_NEAR(*composition_distance(expanded, layered), 0, 1e-12);
+  EXPECT_FALSE(composition_distance(profile_of(half), profile_of(half)));
+}
+
 }  // namespace
 }  // namespace polybed::fluid

@@ -1,0 +1,106 @@
+// polybed compare: both models on one case, or two runs of it, measured over the same window.
+#include "multiscale/compare.hpp"
+
+#include <fmt/format.h>
+
+#include "core/case_file.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/ranks.hpp"
+#include "dem/continuum_scene.hpp"
+#include "multiscale/case_differences.hpp"
+#include "multiscale/commands/run_directory.hpp"
+#include "multiscale/comparison_text.hpp"
+#include "multiscale/roles.hpp"
+#include "tfm/particle_scene.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A run's record; throws FileError if it is none of this model's.
+ComparedRun read_run(const fs::path& directory, const std::string& model) {
+  const fs::path path = directory / "run.json";
+  if (!fs::exists(path)) throw core::FileError(fmt::format("{}: no run (it has no run.json)", directory.string()));
+  const core::Bytes bytes = core::read_whole_file(path);
+  ComparedRun run{directory, {}};
+  try {
+    run.record = core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (run.record.of("filetype").text() != "polybed run" || run.record.of("version").number() != 1)
+      throw core::FileError("no \"polybed run\" of version 1");
+    if (run.record.of("model").text() != model)
+      throw core::FileError(fmt::format("a run of {}, not of {}", run.record.of("model").text(), model));
+  } catch (const core::FileError& error) {
+    throw core::FileError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+  return run;
+}
+
+void refuse_difference(const std::string& name, const std::string& text, const std::string& other_name,
+                       const std::string& other) {
+  const std::vector<core::Role> roles = all_roles();
+  const std::vector<Difference> found = case_differences(text, other, roles);
+  if (found.empty()) return;
+  std::string message = fmt::format("{} and {} are not of one case:", name, other_name);
+  for (const Difference& d : found) message += fmt::format("\n  {}: {} and {}", d.key, d.first, d.second);
+  throw core::CaseError(message);
+}
+
+/// Runs a model into a folder of the comparison. One that has a checkpoint there is gone on with, if asked for.
+fs::path run_model(const CompareOptions& options, const std::string& model, void (&run)(const RunOptions&)) {
+  RunOptions of_model = options;
+  of_model.output = run_directory(options, "compare") / model;
+  of_model.json = false;
+  of_model.resume = options.resume && fs::exists(checkpoint_path(of_model.output));
+  run(of_model);
+  return of_model.output;
+}
+
+/// Refuses what one of the models to be run cannot, before the other takes its hours.
+void refuse_before_running(const CompareOptions& options, const core::Scene& scene) {
+  if (options.tfm.empty()) tfm::refuse_particle_scene(scene);
+  if (options.dem.empty()) dem::refuse_continuum_scene(scene);
+}
+
+void warn_if_unfinished(Comparison& comparison, const std::string& model, const ComparedRun& run) {
+  if (const std::string& state = run.record.of("state").text(); state != "done")
+    comparison.warnings.push_back(fmt::format("{}: the run is not done ({})", model, state));
+}
+
+void compare_runs(const CompareOptions& options, const core::Scene& scene, const fs::path& tfm_directory,
+                  const fs::path& dem_directory) {
+  const ComparedRun tfm = read_run(tfm_directory, "tfm"), dem = read_run(dem_directory, "dem");
+  const std::string tfm_case = tfm.record.of("case").text(), dem_case = dem.record.of("case").text();
+  refuse_difference(tfm_directory.string(), tfm_case, dem_directory.string(), dem_case);
+  refuse_difference(options.case_path.string(), core::resolved_case(scene), tfm_directory.string(), tfm_case);
+  Comparison comparison = compare({core::read_history(tfm_directory), core::read_profiles(tfm_directory)},
+                                  {core::read_history(dem_directory), core::read_profiles(dem_directory)});
+  warn_if_unfinished(comparison, "tfm", tfm);
+  warn_if_unfinished(comparison, "dem", dem);
+  const fs::path directory = run_directory(options, "compare"), path = directory / "comparison.json";
+  const std::string text = comparison_json(comparison, tfm, dem, options.case_path.string());
+  core::make_directories(directory);
+  core::write_atomically(path, text + "\n");
+  if (options.json)
+    fmt::print("{}\n", text);
+  else
+    fmt::print("{}{}\n", comparison_table(comparison, tfm, dem), path.string());
+}
+
+}  // namespace
+
+void run_compare(const CompareOptions& options) {
+  const core::Scene scene = read_scene(options);
+  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  refuse_before_running(options, scene);
+  // What is given is looked at before anything is run.
+  if (!options.tfm.empty()) core::on_first(ranks.get(), [&] { (void)read_run(options.tfm, "tfm"); });
+  if (!options.dem.empty()) core::on_first(ranks.get(), [&] { (void)read_run(options.dem, "dem"); });
+  const fs::path tfm = options.tfm.empty() ? run_model(options, "tfm", run_tfm) : options.tfm;
+  const fs::path dem = options.dem.empty() ? run_model(options, "dem", run_dem) : options.dem;
+  core::on_first(ranks.get(), [&] { compare_runs(options, scene, tfm, dem); });
+}
+
+}  // namespace polybed::multiscale

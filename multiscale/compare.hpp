@@ -1,0 +1,50 @@
+// Two runs of one case, one by each model, measured over the same window and scored: pure functions of what the runs
+// have left on the disk.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fluid/time_mean.hpp"
+#include "multiscale/compare_window.hpp"
+
+namespace polybed::multiscale {
+
+/// A time mean by both models; empty where a run has none.
+struct ComparedMeasure {
+  std::string name;  ///< with its unit: "bed_height_m"
+  std::optional<fluid::TimeMean> tfm, dem;
+
+  [[nodiscard]] std::optional<double> difference() const;        ///< TFM less DEM
+  [[nodiscard]] std::optional<double> difference_error() const;  ///< half-width of its 95 % interval
+};
+
+/// How far apart the models are, and how far they may be.
+struct Score {
+  std::string name;                          ///< as in the contract: e_H, e_b, D1, profile_<name>
+  std::optional<double> value, error, goal;  ///< error: half-width of the 95 % interval
+  /// Whether the value itself, whatever its interval, is within the goal; empty without one of them.
+  [[nodiscard]] std::optional<bool> reached() const;
+};
+
+/// The species with the highest centre.
+struct OnTop {
+  std::string species;
+  bool certain = false;  ///< the centres of the two highest differ by more than the interval of their difference
+};
+
+struct Comparison {
+  Window window;
+  std::vector<ComparedMeasure> measures;
+  std::vector<Score> scores;
+  std::optional<OnTop> tfm_top, dem_top;           ///< empty for one species
+  std::size_t tfm_profiles = 0, dem_profiles = 0;  ///< stored profiles in the window
+  std::vector<std::string> warnings;
+};
+
+/// Measures and scores of two runs of one case (calibration.md, section 8). Throws core::FileError if the species or
+/// the slabs of the profiles are not the same.
+[[nodiscard]] Comparison compare(const Measured& tfm, const Measured& dem);
+
+}  // namespace polybed::multiscale

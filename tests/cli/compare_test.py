@@ -1,0 +1,175 @@
+#!/usr/bin/python3
+"""polybed compare as its user meets it: both models run or given, the table, the file, refusals. Usage: compare_test.py PROGRAM"""
+import pathlib
+import shutil
+import tempfile
+
+import h5py
+import numpy as np
+
+import program
+from program import DONE, FILE, WRONG_CASE, Scratch, history, strict_json
+
+# 157 spheres of two sizes in rising water: both models take well below a second.
+BED = """[column]
+size = ["5 mm", "30 mm"]
+cells = [2, 12]
+sides = "periodic"
+[fluid]
+name = "water"
+density = 999
+viscosity = "1.14e-3 Pa s"
+[[species]]
+name = "fine"
+diameter = "0.8 mm"
+density = 1395
+[[species]]
+name = "coarse"
+diameter = "2 mm"
+density = 1170
+[bed]
+particles = [150, 7]
+solids_fraction = 0.6
+start = "mixed"
+start_solids_fraction = 0.4
+[inlet]
+superficial_velocity = "20 mm/s"
+[effects]
+drag = "cello"
+solids_stress = "frictional"
+contact = "hertz_mindlin"
+[dem]
+youngs_modulus = "0.3 MPa"
+[run]
+until = "20 ms"
+[output]
+every = "1 ms"
+history_every = "0.1 ms"
+"""
+QUIET = ["--quiet", "--no-picture"]
+MEASURES = {"bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", "centre_fine_m", "centre_coarse_m",
+            "centre_difference", "mixing", "interface_m"}
+
+
+class Comparison(Scratch):
+    """Both models have been run once, into a folder that each test has a copy of."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.run_once = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.run_once.cleanup)
+        folder = pathlib.Path(cls.run_once.name)
+        (folder / "case.toml").write_text(BED)
+        cls.first = program.run("compare", folder / "case.toml", *QUIET, "--json", "-o", folder / "both")
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(self.run_once.name, self.folder, dirs_exist_ok=True)
+        self.case = self.folder / "case.toml"
+        self.assertEqual(self.first.returncode, DONE, self.first.stderr)
+        self.found = strict_json(self.first.stdout)
+
+    def compare(self, code, *words):
+        return self.ends(code, "compare", self.case, *QUIET, "-o", self.folder / "new", *words)
+
+    def given(self, *words, code=DONE):
+        return self.ends(code, "compare", self.case, "--tfm", self.folder / "both/tfm", "--dem", self.folder / "both/dem",
+                         "-o", self.folder / "again", *words)
+
+    def test_runs_both_and_says_the_same_of_them_afterwards(self):
+        found = self.found
+        self.assertEqual(found, strict_json((self.folder / "both/comparison.json").read_text()))
+        for model in ("tfm", "dem"):
+            record = strict_json((self.folder / "both" / model / "run.json").read_text())
+            self.assertEqual(found["models"][model]["cpu_s"], record["cpu_s"])
+            self.assertEqual(found["models"][model]["state"], "done")
+            for counter, value in found["models"][model]["work"].items():
+                self.assertEqual(value, record["work"][counter])
+        again = strict_json(self.given("--json").stdout)
+        for part in ("measures", "scores", "window", "warnings"):
+            self.assertEqual(found[part], again[part])
+
+    def test_means_are_those_of_the_histories(self):
+        found = self.found
+        self.assertEqual(set(found["measures"]), MEASURES)
+        begin, end = found["window"]["begin_s"], found["window"]["end_s"]
+        self.assertGreaterEqual(begin, 0.015 - 1e-9)
+        self.assertAlmostEqual(end, 0.02, delta=1e-9)
+        for model in ("tfm", "dem"):
+            rows = {name: np.array(values, float) for name, values in history(self.folder / "both" / model).items()}
+            at = (rows["time_s"] > begin - 1e-9) & (rows["time_s"] < end + 1e-9)
+            for name in ("bed_height_m", "pressure_drop_Pa", "centre_fine_m", "centre_coarse_m", "mixing"):
+                # a sum of some 50 rows in another order
+                np.testing.assert_allclose(found["measures"][name][model], rows[name][at].mean(), rtol=1e-12)
+            b = (rows["centre_coarse_m"] - rows["centre_fine_m"]) / rows["bed_height_m"]
+            np.testing.assert_allclose(found["measures"]["centre_difference"][model], b[at].mean(), rtol=1e-10)
+        height = found["measures"]["bed_height_m"]
+        self.assertAlmostEqual(found["scores"]["e_H"]["value"], height["tfm"] / height["dem"] - 1, delta=1e-12)
+        self.assertGreater(height["tfm_error"], 0)
+
+    def test_profile_distances_are_those_of_the_mean_profiles(self):
+        found = self.found
+        begin, end = found["window"]["begin_s"], found["window"]["end_s"]
+        for species in ("fine", "coarse"):
+            mean = {}
+            for model in ("tfm", "dem"):
+                with h5py.File(self.folder / "both" / model / "profiles.h5") as file:
+                    at = (file["time_s"][:] > begin - 1e-9) & (file["time_s"][:] < end + 1e-9)
+                    mean[model] = file[f"phi_{species}"][:][at].mean(axis=0)
+                    self.assertEqual(found["models"][model]["profiles_in_window"], at.sum())
+            distance = np.abs(mean["tfm"] - mean["dem"]).sum() / mean["dem"].sum()
+            np.testing.assert_allclose(found["scores"][f"profile_{species}"]["value"], distance, rtol=1e-10)
+
+    def test_the_table_for_people(self):
+        told = self.given().stdout
+        for line in ("bed_height_m .*[+]-", "on top", "e_H .*goal 0.05", "CPU s; .*particle_steps", "comparison.json$"):
+            self.assertRegex(told, f"(?m){line}")
+        self.assertIn("warning: tfm: not steady", told)  # after 20 ms no bed is
+
+    def test_runs_of_different_cases_are_refused_with_the_keys(self):
+        self.ends(DONE, "dem", self.case, *QUIET, "-o", self.folder / "both/dem", "--force", "--set",
+                  "inlet.superficial_velocity=0.021", "--set", "bed.seed=2", "--set", "dem.friction=0.2")
+        told = self.given(code=WRONG_CASE).stderr
+        self.assertIn("inlet.superficial_velocity: [[0.0, 0.02]] and [[0.0, 0.021]]", told)
+        self.assertIn("bed.seed: 1 and 2", told)
+        self.assertNotIn("friction", told)
+        self.assertFalse((self.folder / "again").exists())
+
+    def test_runs_of_another_case_than_the_one_named_are_refused(self):
+        told = self.given("--set", "bed.seed=3", code=WRONG_CASE).stderr
+        self.assertIn("bed.seed: 3 and 1", told)
+
+    def test_what_is_no_run_of_the_model_is_refused(self):
+        dem = self.folder / "both/dem"
+        told = self.ends(FILE, "compare", self.case, "--tfm", dem, "--dem", dem, "-o", self.folder / "again").stderr
+        self.assertIn("a run of dem, not of tfm", told)
+        (dem / "run.json").write_text('{"filetype": "polybed run", ')
+        self.assertIn("run.json: no JSON at byte", self.given(code=FILE).stderr)
+        (dem / "run.json").unlink()
+        self.assertIn("no run", self.given(code=FILE).stderr)
+
+    def test_an_unfinished_run_is_compared_as_far_as_it_goes(self):
+        path = self.folder / "both/dem/run.json"
+        path.write_text(path.read_text().replace('"state": "done"', '"state": "stopped by the user"'))
+        rows = (self.folder / "both/dem/history.csv").read_text().splitlines(True)
+        (self.folder / "both/dem/history.csv").write_text("".join(rows[:102]))  # to 10 ms
+        found = strict_json(self.given("--json").stdout)
+        self.assertAlmostEqual(found["window"]["end_s"], 0.01, delta=1e-9)
+        self.assertIn("dem: the run is not done (stopped by the user)", found["warnings"])
+
+    def test_what_one_model_cannot_run_is_told_before_the_other_begins(self):
+        told = self.compare(WRONG_CASE, "--set", "column.outlet=open").stderr
+        self.assertIn("column.outlet", told)
+        self.assertFalse((self.folder / "new").exists())
+
+    def test_resumed_it_goes_on_with_what_is_there(self):
+        first = strict_json(self.compare(DONE, "--json", "--until", "2 ms").stdout)
+        self.assertAlmostEqual(first["window"]["end_s"], 0.002, delta=1e-9)
+        self.assertIn("--resume", self.compare(WRONG_CASE).stderr)  # a run is there already
+        shutil.rmtree(self.folder / "new/dem")  # as if stopped before it began
+        second = strict_json(self.compare(DONE, "--json", "--resume", "--until", "4 ms").stdout)
+        self.assertAlmostEqual(second["window"]["end_s"], 0.004, delta=1e-9)
+
+
+if __name__ == "__main__":
+    program.main()
