@@ -51,13 +51,13 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       timers_(timers),
       flow_(scene, core::grid_of(scene.column, shares_fluid(scene, materials, count) ? ranks : nullptr),
             pressure_tolerance),
-      phase_(flow_.grid(), false),
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
       at_ends_(core::make_field(flow_.grid())),
       width_(width_of(scene, materials, count)),
       smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
       sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, scene.dem.fluid_every * dt),
+      phase_(flow_.grid(), has_inertia()),
       scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
       gather_(core::whole_column(flow_.grid()), diameters(materials)),
       motion_(materials, flow_.constants().density,
@@ -67,7 +67,6 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
-  phase_ = fluid::ParticlePhase(flow_.grid(), has_inertia());
   for (Field& component : vorticity_)
     if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
   if (!flow_.grid().ranks) return;
@@ -101,7 +100,7 @@ void Coupling::hold(const Particles& particles) {
 }
 
 void Coupling::advance(Particles& particles, double t) {
-  const double dt = every_ * dt_;
+  const double dt = interval();
   {
     const auto scope = timers_.scope("fluid: particles' sums");
     collect(particles);
@@ -123,9 +122,9 @@ void Coupling::advance(Particles& particles, double t) {
 
 void Coupling::collect(const Particles& particles) {
   if (held_)
-    scatter_.collect_held(ranks_.get(), particles, motion_.load, every_ * dt_);
+    scatter_.collect_held(ranks_.get(), particles, motion_.load, interval());
   else
-    scatter_.collect(particles, motion_.load, every_ * dt_);
+    scatter_.collect(particles, motion_.load, interval());
   if (exchange_) exchange_->choose(particles);
   scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
   if (smoothing_.present()) smooth_sums();
@@ -157,7 +156,7 @@ void Coupling::require_voidage() const {
 
 /// What the change of the fluid would have done to the particles meanwhile: see fluid::ParticlePhase.
 void Coupling::answer(Particles& particles) {
-  const double dt = every_ * dt_;
+  const double dt = interval();
   core::FaceField change = flow_.velocity_change(), push = flow_.gradient_change(), carried;
   if (phase_.added_mass()) carried = flow_.convected();
   for (core::FaceField* field : {&change, &push, &carried}) smooth(*field);

@@ -26,9 +26,10 @@ namespace polybed::dem {
 class Coupling {
  public:
   struct Units {
-    FixedPoint force, energy;
+    FixedPoint force, energy;  ///< N, J
   };
-  /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume  of all particles, m3
+  /// \param ranks  that share the box; null: it is all here  \param units  of the loads and of the fluid's work
+  /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume, count  of all particles, m3
   Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
            core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count);
 
@@ -94,11 +95,12 @@ class Coupling {
   void take_own(const core::Field& column, core::Field& own) const;
   void find_vorticity(core::FaceField velocity);
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
+  /// Step of the fluid, s.
+  [[nodiscard]] double interval() const { return every_ * dt_; }
 
   std::shared_ptr<const core::Ranks> ranks_;
   core::Timers& timers_;
   fluid::Flow flow_;
-  fluid::ParticlePhase phase_;
   std::vector<core::Field> fraction_;     ///< phi_j, [species][cell]
   core::Field at_ends_;                   ///< on the faces of bottom and top: force on particles per volume, N/m3
   std::optional<GridExchange> exchange_;  ///< absent: every rank has the whole fluid
@@ -110,6 +112,7 @@ class Coupling {
   fluid::Smoothing smoothing_;
   ParticleForces forces_;
   SideForces sides_;
+  fluid::ParticlePhase phase_;
   Scatter scatter_;
   Gather gather_;
   FluidMotion motion_;

@@ -27,11 +27,14 @@ void Coupling::smooth_sums() {
 
 /// The fields as particles see them.
 void Coupling::take_fields() {
+  if (exchange_) {  // never with a kernel of diffusion
+    if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity);
+    return fetch();
+  }
   core::FaceField velocity = flow_.state().velocity, gradient = flow_.gradient();
   smooth(velocity);
   smooth(gradient);
   if (sides_.needs_vorticity()) find_vorticity(velocity);
-  if (exchange_) return fetch();
   gather_.take(fraction_, velocity, gradient);
   if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
 }

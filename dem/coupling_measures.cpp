@@ -13,7 +13,7 @@ using core::Index;
 /// faces that could show it in its pressure.
 void Coupling::weigh() {
   const core::Grid& grid = flow_.grid();
-  const double dt = every_ * dt_;
+  const double dt = interval();
   const auto rows = [&](int side) {
     fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c)

@@ -24,7 +24,7 @@ struct FluidLoad {
 /// (1 - exp(-x))/x, 1 at 0; x >= 0.
 [[nodiscard]] inline double mean_decay(double x) {
   constexpr double small = 0.02;  // below it the next term of the series is under 1e-16
-  if (x < small) {  // in pairs, as each product waits for the one before
+  if (x < small) {                // in pairs, as each product waits for the one before
     const double xx = x * x;
     return ((1 - x * (1.0 / 2)) + xx * (1.0 / 6 - x * (1.0 / 24))) +
            xx * xx * ((1.0 / 120 - x * (1.0 / 720)) + xx * (1.0 / 5040));

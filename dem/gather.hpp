@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "core/field.hpp"
 #include "dem/weights.hpp"
-#include "fluid/flow.hpp"
 
 namespace polybed::dem {
 

@@ -28,8 +28,8 @@ class GridExchange {
   /// From now on this rank touches the whole column.
   void choose_all();
   /// Sends sums over this rank's particles to the owners of the entries, who add them up.
-  /// \param width  numbers of an entry, one beside the other  \param column  over the padded column  \param block  likewise
-  /// of the block, set to the sums
+  /// \param width  numbers of an entry, one beside the other  \param column  over the padded column
+  /// \param block  likewise of the block, set to the sums
   void add(std::size_t width, std::span<const std::int64_t> column, std::span<std::int64_t> block) const;
   /// Fetches fields of the blocks: on entries that this rank touches, from their owners.
   void fetch(std::span<const std::pair<const core::Field*, core::Field*>> block_to_column) const;
@@ -42,8 +42,8 @@ class GridExchange {
   [[nodiscard]] static Region common(const Region& a, const Region& b);
   [[nodiscard]] std::vector<Region> of_all(const Region& own) const;
   void choose(const Region& own);
-  /// Calls body(column entry, block entry) for the rows of entries that a region has in this rank's block, or in the
-  /// column alone.
+  /// Calls body(column entry, block entry) for the entries of a region. The second is one only where the region is in
+  /// this rank's block.
   template <class Body>
   void for_each_entry(const Region& region, Body&& body) const;
   [[nodiscard]] static std::size_t size(const Region& region);

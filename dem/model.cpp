@@ -109,7 +109,8 @@ void Model::step(double stop) {
     const auto scope = timers_.scope("neighbours");
     rebuild();
   }
-  timed_ = steps_ < 64 ? 1 : (steps_ % 16 == 0 ? 16 : 0);
+  constexpr std::int64_t all_timed = 64, sampled = 16;  // so many first steps, and then one of so many
+  timed_ = steps_ < all_timed ? 1 : (steps_ % sampled == 0 ? std::uint64_t(sampled) : 0);
   ++steps_;
   if (held_)
     coupling_->hold(particles_);

@@ -81,11 +81,12 @@ class Model : public core::Simulation {
   /// Units of the loads of a particle.
   [[nodiscard]] FixedPoint unit_of_force() const { return force_unit_; }
   [[nodiscard]] FixedPoint unit_of_torque() const { return torque_unit_; }
-  /// Units of the energies and momenta of all particles together, and what this rank's contacts have dissipated.
+  /// Units of the energies and momenta of all particles together.
   [[nodiscard]] FixedPoint energy_unit() const { return energy_unit_; }
   [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
+  /// In the unit of energy: what this rank's contacts have dissipated, what the fluid has done on its particles, and
+  /// its part of a sheared box.
   [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
-  /// In the same unit, what this rank's part of a sheared box has done on the particles.
   [[nodiscard]] std::int64_t fluid_work() const { return coupling_ ? coupling_->motion().work() : 0; }
   [[nodiscard]] std::int64_t flow_work() const { return flow_work_ ? flow_work_->units() : 0; }
 

@@ -53,6 +53,28 @@ Particle read_particle(const double* in, const Materials& materials) {
   return p;
 }
 
+std::vector<KeptContact> read_contacts(const std::vector<double>& numbers, std::size_t memory_size) {
+  std::vector<KeptContact> kept;
+  for (std::size_t n = 0; n < numbers.size(); n += 2 + memory_size) {
+    KeptContact c{std::int64_t(numbers[n]), std::int64_t(numbers[n + 1]), {}};
+    std::copy_n(numbers.data() + n + 2, memory_size, c.memory.begin());
+    kept.push_back(c);
+  }
+  return kept;
+}
+
+/// What each particle costs: itself and its contacts.
+std::vector<std::int32_t> work_of(const std::vector<Particle>& particles, const std::vector<KeptContact>& contacts) {
+  std::unordered_map<std::int64_t, std::size_t> where;
+  for (std::size_t n = 0; n < particles.size(); ++n) where[particles[n].id] = n;
+  std::vector<std::int32_t> work(particles.size(), 1);
+  for (const KeptContact& c : contacts) {
+    ++work.at(where.at(c.low));
+    if (c.high >= 0) ++work.at(where.at(c.high));
+  }
+  return work;
+}
+
 constexpr std::size_t load_width = 11;
 
 void write_loads(core::Checkpoint& checkpoint, const std::vector<KeptLoad>& loads) {
@@ -132,22 +154,10 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   steps_ = std::int64_t(head[2]);
   reported_ = head[4];
   std::vector<Particle> all;
-  std::unordered_map<std::int64_t, std::size_t> where;
-  for (std::size_t n = 0; n < particles.size(); n += particle_width) {
+  for (std::size_t n = 0; n < particles.size(); n += particle_width)
     all.push_back(read_particle(particles.data() + n, materials_));
-    where[all.back().id] = all.size() - 1;
-  }
-  std::vector<std::int32_t> work(all.size(), 1);
-  std::vector<KeptContact> kept;
-  const auto width = std::size_t(pairs_.memory_size) + 2;
-  for (std::size_t n = 0; n < contacts.size(); n += width) {
-    KeptContact c{std::int64_t(contacts[n]), std::int64_t(contacts[n + 1]), {}};
-    std::copy_n(contacts.data() + n + 2, pairs_.memory_size, c.memory.begin());
-    kept.push_back(c);
-    ++work.at(where.at(c.low));
-    if (c.high >= 0) ++work.at(where.at(c.high));
-  }
-  place(all, work);
+  std::vector<KeptContact> kept = read_contacts(contacts, std::size_t(pairs_.memory_size));
+  place(all, work_of(all, kept));
   if (coupling_) take_up_fluid(checkpoint, all);
   if (coupling_ && same_step && coupling_->sides().present()) take_up_sides(checkpoint, all.size());
   list_pairs(kept);

@@ -35,8 +35,7 @@ std::string Model::trouble_of_haste() const {
   const Vector &x = particles_.place[i].x, &v = particles_.motion[i].v;
   return fmt::format(
       "t = {:.6g} s: particle {} moves by more than a tenth of its diameter in one step of {:.3g} s, at {:.4g} m/s, "
-      "near "
-      "({:.6g}, {:.6g}, {:.6g}) m; state a higher dem.greatest_speed, or look at the start",
+      "near ({:.6g}, {:.6g}, {:.6g}) m; state a higher dem.greatest_speed, or look at the start",
       time(), hasty_, limits_.dt, std::hypot(v[0], v[1], v[2]), x[0], x[1], x[2]);
 }
 

@@ -15,7 +15,8 @@ namespace polybed::dem {
 
 class Scatter {
  public:
-  /// \param grid  of the whole column  \param block  that this rank's fluid has, or the column  \param volume  of all particles, m3  \param speed  greatest expected, m/s
+  /// \param grid  of the whole column  \param block  that this rank's fluid has, or the column
+  /// \param volume  of all particles, m3  \param speed  greatest expected, m/s
   Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass, double volume,
           double speed);
 

@@ -32,8 +32,9 @@ class SideForce {
   [[nodiscard]] virtual bool has_inertia() const { return false; }
   /// Numbers that it keeps of each particle.
   [[nodiscard]] virtual std::size_t memory_size() const { return 0; }
-  /// At the start of a run, and after each step of the fluid.
+  /// At the start of a run.
   virtual void begin(const SideView&, SideRows&) {}
+  /// After each step of the fluid.
   virtual void end_interval(const SideView&, SideRows&) {}
   /// Adds its force on each particle to SideRows::force, and its inertia to the load.
   virtual void add(const SideView& view, SideRows& rows) = 0;
@@ -54,6 +55,7 @@ class SideForces {
 
   // What follows adds the forces to loads that have been found for the same places; nothing happens without an effect.
 
+  /// At the start of a run: memories are cleared.
   void begin(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads);
   /// Within a step of the particles, after their first half kick.
   void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads);

@@ -39,6 +39,8 @@ class Verlet {
   [[nodiscard]] Drift next_drift(const Particles& particles, double time, const FluidMotion* fluid) const;
 
  private:
+  // Push is what moves particles beside their spin, FluidMotion or the lack of it: kick() tells what a time does to one
+  // of them, account() keeps what of that was the fluid's.
   template <class Push>
   void begin_with(Particles& particles, Push&& push);
   template <class Push>

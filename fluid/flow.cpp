@@ -67,13 +67,11 @@ void Flow::begin(double t, const ParticlePhase& particles) {
       }
     });
   }
-  FlowStep step;
-  ParticlePhase still = particles;
-  clear(still.yield);
   clear(velocity_change_);
-  std::fill(shift_.begin(), shift_.end(), 0.0);
-  close_pressure(t, 1, still, step);
-  correct(1);
+  constexpr double any = 1;  // s: an impulse has no duration
+  FlowStep step;
+  close_pressure(t, any, step);
+  correct(any);
   std::fill(fluid_.pressure.begin(), fluid_.pressure.end(), 0.0);
   clear(gradient_);
   clear(gradient_change_);
@@ -86,7 +84,7 @@ FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
   set_inlet(t + dt);
   find_acceleration(dt);
   with_density(fluid_, constants_.density, [&](const auto& density) { push(density, dt, particles); });
-  close_pressure(t, dt, particles, step);
+  close_pressure(t, dt, step);
   correct(dt);
   step.courant = courant(dt);
   if (!(step.courant <= 1))
@@ -150,29 +148,32 @@ void Flow::push(const Density& density, double dt, const ParticlePhase& particle
   }
 }
 
+/// What a fluid that yields to pressure adds to the constraint, over dt: div J = -kappa (dP/dt + U.grad P).
+void Flow::add_compression(double dt) {
+  const double hydrostatic = constants_.density * gravity_;
+  core::for_each_row(grid_, [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      const double kappa = fluid_.compression.kappa[c];
+      double along = 0;  // U.grad P
+      for (int axis = 0; axis < grid_.dimensions; ++axis) {
+        const auto a = std::size_t(axis);
+        const auto next = c + std::size_t(grid_.stride(axis));
+        const double fall = axis == 1 ? hydrostatic : 0;
+        along += 0.5 * (fluid_.velocity[a][c] * (gradient_[a][c] - fall) +
+                        fluid_.velocity[a][next] * (gradient_[a][next] - fall));
+      }
+      shift_[c] = kappa / (dt * dt);
+      source_[c] -= kappa * along / dt;
+    }
+  });
+}
+
 /// The change of pressure that makes J what the constraint asks for: -dt div(B grad dp) [+ kappa dp/dt] = -div J.
-void Flow::close_pressure(double t, double dt, const ParticlePhase&, FlowStep& step) {
+void Flow::close_pressure(double t, double dt, FlowStep& step) {
   boundaries_.join(fluid_.flux, mobility_);
   core::divergence(grid_, fluid_.flux, source_);
   for (double& s : source_) s = -s / dt;
-  if (compressible_) {
-    const double still = constants_.density * gravity_;
-    core::for_each_row(grid_, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        const double kappa = fluid_.compression.kappa[c];
-        double along = 0;  // U.grad P
-        for (int axis = 0; axis < grid_.dimensions; ++axis) {
-          const auto a = std::size_t(axis);
-          const auto next = c + std::size_t(grid_.stride(axis));
-          const double fall = axis == 1 ? still : 0;
-          along += 0.5 * (fluid_.velocity[a][c] * (gradient_[a][c] - fall) +
-                          fluid_.velocity[a][next] * (gradient_[a][next] - fall));
-        }
-        shift_[c] = kappa / (dt * dt);
-        source_[c] -= kappa * along / dt;
-      }
-    });
-  }
+  if (compressible_) add_compression(dt);
   std::fill(change_.begin(), change_.end(), 0.0);
   const core::PoissonResult result =
       solver_.solve({mobility_[0], mobility_[1], mobility_[2]}, shift_, source_, change_, tolerance_);
@@ -203,13 +204,14 @@ void Flow::correct(double dt) {
   boundaries_.join(fluid_.velocity, fluid_.flux);
 }
 
-void Flow::gradient_of(const Field& p, core::FaceField& out) const {
-  Field with_ghosts = p;
-  set_outlet_pressure(grid_, boundaries_, with_ghosts);
+/// G of a pressure, on all faces.
+void Flow::gradient_of(const Field& p, core::FaceField& out) {
+  with_ghosts_ = p;
+  set_outlet_pressure(grid_, boundaries_, with_ghosts_);
   clear(out);
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
     Field& g = out[std::size_t(axis)];
-    for_each_gradient_row(grid_, boundaries_.moving_faces(axis, true), axis, with_ghosts,
+    for_each_gradient_row(grid_, boundaries_.moving_faces(axis, true), axis, with_ghosts_,
                           [&](Index begin, Index end, auto gradient) {
                             for (Index c = begin; c < end; ++c) g[std::size_t(c)] = gradient(c);
                           });

@@ -2,10 +2,11 @@
 // with the particles' answer taken implicitly.
 //
 //   (m + K) dU = dt [m a - eps G - I/dt - C (U.grad)U] - dt (eps + S) dG,   m = eps rho_f
-//   J = eps (U + dU) + F + Y (dU + ...) - dt Q dG,   div J = 0  (or -kappa dP/dt of a compressible fluid)
+//   J = eps (U + dU) + F + Y dU + D dt (U.grad)U - dt Q dG,   div J = 0  (or -kappa dP/dt of a compressible fluid)
 //
-// a = -(U.grad)U + div(eps tau)/(eps rho_f), G the gradient of the net pressure, dG its change; F, I, K, S, Y, Q, C of
-// ParticlePhase. The pressure's change follows from the constraint, with the mobility
+// a = -(U.grad)U + div(eps tau)/(eps rho_f), G the gradient of the net pressure, dG its change. Of ParticlePhase: F
+// flux, I impulse, K drag, Y follow, S slide, Q yield, C carry, D carry_flux. The pressure's change follows from the
+// constraint, with the mobility
 //
 //   B = (eps + Y)(eps + S)/(m + K) + Q.
 //
@@ -33,7 +34,8 @@ struct FlowStep {
 
 class Flow {
  public:
-  /// Collective, as is all that changes it. \param grid  the column or this rank's block of it  \param tolerance  relative residual of the pressure
+  /// Collective, as is all that changes it.
+  /// \param grid  the column or this rank's block of it  \param tolerance  relative residual of the pressure
   Flow(const core::Scene& scene, const core::Grid& grid, double tolerance);
 
   /// A fluid that enters at time t, s, between particles that do not answer: its velocity is made to fit the inlet and
@@ -68,24 +70,27 @@ class Flow {
   void find_acceleration(double dt);
   template <class Density>
   void push(const Density& density, double dt, const ParticlePhase& particles);
-  void close_pressure(double t, double dt, const ParticlePhase& particles, FlowStep& step);
+  void add_compression(double dt);
+  void close_pressure(double t, double dt, FlowStep& step);
   void correct(double dt);
   [[nodiscard]] double courant(double dt) const;
-  void gradient_of(const core::Field& p, core::FaceField& out) const;
+  void gradient_of(const core::Field& p, core::FaceField& out);
 
   core::Grid grid_;
   Boundaries boundaries_;
   Inlet inlet_;
   FluidConstants constants_;
-  double gravity_, tolerance_;
-  bool viscous_, limited_;
+  double gravity_, tolerance_;  ///< m/s2; of the pressure's residual
+  bool viscous_, limited_;      ///< with a stress of its own; convection of second order, with a limiter
   std::optional<Compressible> compressible_;
   core::PoissonSolver solver_;
   FluidState fluid_;
   core::FaceField convected_, acceleration_, velocity_change_, gradient_, gradient_change_;
   core::FaceField per_inertia_;  ///< (eps + S)/(m + K), 1/(kg/m3): what dU gains by -dt dG
   core::FaceField mobility_;     ///< B, m3/kg
-  core::Field source_, change_, shift_;
+  core::Field source_, change_;  ///< of the pressure's equation: right-hand side, 1/s2, and solution, Pa
+  core::Field shift_;            ///< kappa/dt^2; empty without compression
+  core::Field with_ghosts_;      ///< a pressure whose gradient is being taken
 };
 
 }  // namespace polybed::fluid

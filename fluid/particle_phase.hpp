@@ -26,7 +26,6 @@ struct ParticlePhase {
   core::FaceField carry;       ///< sum w m (m_a/M) s, kg/m3: times dt (U.grad)U; empty without added mass
   core::FaceField carry_flux;  ///< sum w V (m_a/M) s likewise
 
-  ParticlePhase() = default;
   ParticlePhase(const core::Grid& grid, bool added_mass)
       : voidage(core::make_field(grid, 1)),
         voidage_on(core::make_face_field(grid, 1)),

@@ -1,7 +1,6 @@
 #include "dem/effects/film.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "closures/lubrication.hpp"
 

@@ -1,7 +1,6 @@
 // History force of spheres, closures/history_basset.hpp: Basset's kernel, creeping flow.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "closures/history_basset.hpp"
