@@ -180,4 +180,10 @@ struct Scene {
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
 };
 
+/// The law that a scene gives a role of [effects]; "none" if it names none.
+[[nodiscard]] inline std::string law_of(const Scene& scene, const std::string& role) {
+  const auto found = scene.effects.find(role);
+  return found == scene.effects.end() ? "none" : found->second;
+}
+
 }  // namespace polybed::core

@@ -17,23 +17,18 @@ namespace polybed::dem {
 
 namespace {
 
-std::string law_of(const core::Scene& scene, const std::string& role) {
-  const auto found = scene.effects.find(role);
-  return found == scene.effects.end() ? "none" : found->second;
-}
-
 /// What acts through the fluid needs one, and what turns with it has to be able to turn.
 void require_fluid(const core::Scene& scene) {
   for (const char* role : {"lift", "magnus", "history", "lubrication"})
-    if (const std::string law = law_of(scene, role); law != "none" && scene.fluid.name == "none")
+    if (const std::string law = core::law_of(scene, role); law != "none" && scene.fluid.name == "none")
       throw core::CaseError(fmt::format(
           "effects.{} = \"{}\" is what a fluid does, and there is none: name it under [fluid], or leave it out", role,
           law));
-  if (const std::string law = law_of(scene, "magnus"); law != "none" && law_of(scene, "contact") == "hertz")
+  if (const std::string law = core::law_of(scene, "magnus"); law != "none" && core::law_of(scene, "contact") == "hertz")
     throw core::CaseError("effects.magnus = \"" + law +
                           "\" is a force of rotation, and with effects.contact = \"hertz\" nothing rotates: use "
                           "hertz_mindlin or linear, or leave it out");
-  if (const std::string law = law_of(scene, "history"); law != "none" && scene.dem.held)
+  if (const std::string law = core::law_of(scene, "history"); law != "none" && scene.dem.held)
     throw core::CaseError("effects.history = \"" + law +
                           "\" is a force on particles that accelerate, and dem.held holds them: leave one out");
 }
@@ -51,7 +46,8 @@ std::unique_ptr<NormalLaw> make_dry(const core::Scene& scene, const Materials& m
 /// Its memory, if any, is the first in a contact's.
 std::unique_ptr<NormalLaw> make_normal(const core::Scene& scene, const Materials& materials,
                                        const std::string& contact) {
-  if (law_of(scene, "lubrication") != "wet_restitution") return make_dry(scene, materials, contact, scene.dem.tail);
+  if (core::law_of(scene, "lubrication") != "wet_restitution")
+    return make_dry(scene, materials, contact, scene.dem.tail);
   const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
   const Materials whole = materials.with_restitution(0);  // whose damping ratio is 1, with the tail kept
   return std::make_unique<WetContact>(make_dry(scene, whole, contact, "keep"), materials,
@@ -80,7 +76,7 @@ std::unique_ptr<TangentialLaw> make_tangential(const core::Scene& scene, const M
 
 std::unique_ptr<RollingLaw> make_rolling(const core::Scene& scene, const Materials& materials,
                                          const std::string& contact, int place) {
-  const std::string law = law_of(scene, "rolling");
+  const std::string law = core::law_of(scene, "rolling");
   if (law == "none") return nullptr;
   if (contact == "hertz")
     throw core::CaseError("effects.rolling = \"" + law +
@@ -98,7 +94,7 @@ std::unique_ptr<RollingLaw> make_rolling(const core::Scene& scene, const Materia
 
 std::unique_ptr<CohesionLaw> make_cohesion(const core::Scene& scene, const Materials& materials,
                                            const std::string& contact, int place) {
-  const std::string law = law_of(scene, "cohesion");
+  const std::string law = core::law_of(scene, "cohesion");
   if (law == "none") return nullptr;
   if (law == "van_der_waals") {
     if (!(scene.dem.hamaker_constant > 0))
@@ -120,12 +116,12 @@ std::unique_ptr<CohesionLaw> make_cohesion(const core::Scene& scene, const Mater
 PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials) {
   require_fluid(scene);
   PairLaws laws;
-  const std::string contact = law_of(scene, "contact");
+  const std::string contact = core::law_of(scene, "contact");
   laws.normal = make_normal(scene, materials, contact);
   laws.tangential = make_tangential(scene, materials, contact, laws.normal->memory_size());
   laws.rolling = make_rolling(scene, materials, contact, laws.contact_memory());
   laws.cohesion = make_cohesion(scene, materials, contact, laws.contact_memory());
-  if (law_of(scene, "lubrication") == "film")
+  if (core::law_of(scene, "lubrication") == "film")
     laws.film = std::make_unique<Film>(materials, fluid::fluid_constants(scene.fluid).viscosity, scene.dem.roughness);
   return laws;
 }

@@ -11,11 +11,6 @@ namespace polybed::dem {
 
 namespace {
 
-std::string law_of(const core::Scene& scene, const std::string& role) {
-  const auto found = scene.effects.find(role);
-  return found == scene.effects.end() ? "none" : found->second;
-}
-
 /// Voidages that closures are asked about: that of the densest packing of equal spheres, and clear fluid.
 constexpr double least_voidage = 0.26, most_voidage = 1;
 
@@ -25,8 +20,9 @@ ParticleForces::ParticleForces(const core::Scene& scene, const Materials& materi
                                double viscosity)
     : largest_(materials.greatest_diameter()), fluid_density_(fluid_density), viscosity_(viscosity) {
   for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
-  if (const std::string law = law_of(scene, "drag"); law != "none") law_ = closures::drag_law(law, closures::Guard::on);
-  if (const std::string law = law_of(scene, "added_mass"); law != "none")
+  if (const std::string law = core::law_of(scene, "drag"); law != "none")
+    law_ = closures::drag_law(law, closures::Guard::on);
+  if (const std::string law = core::law_of(scene, "added_mass"); law != "none")
     added_ = law == "zuber" ? Added::zuber : Added::half;
 }
 

@@ -10,10 +10,7 @@ namespace polybed::dem {
 
 namespace {
 
-bool calls_for(const core::Scene& scene, const std::string& role) {
-  const auto found = scene.effects.find(role);
-  return found != scene.effects.end() && found->second != "none";
-}
+bool calls_for(const core::Scene& scene, const std::string& role) { return core::law_of(scene, role) != "none"; }
 
 }  // namespace
 

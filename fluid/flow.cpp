@@ -33,7 +33,7 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       constants_(fluid_constants(scene.fluid)),
       gravity_(scene.column.gravity),
       tolerance_(tolerance),
-      viscous_(scene.effects.contains("fluid_stress") && scene.effects.at("fluid_stress") != "none"),
+      viscous_(core::law_of(scene, "fluid_stress") != "none"),
       limited_(scene.tfm.momentum != "upwind"),
       solver_(grid),
       fluid_(grid),

@@ -58,12 +58,6 @@ std::vector<core::Role> roles() {
 
 namespace {
 
-/// The law that a scene gives a role; "none" if it names none.
-std::string law_of(const core::Scene& scene, const char* role) {
-  const auto found = scene.effects.find(role);
-  return found == scene.effects.end() ? std::string("none") : found->second;
-}
-
 [[noreturn]] void refuse(const char* role, const std::string& name) {
   throw core::CaseError(std::string("effects.") + role + " = \"" + name +
                         "\": not in the continuum model; see polybed list");
@@ -73,8 +67,8 @@ std::string law_of(const core::Scene& scene, const char* role) {
 void make_solids_stress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                         Fields& fields, Effects& effects) {
   constexpr std::string_view table = "table:";
-  const std::string stress = law_of(scene, "solids_stress"), viscosity = law_of(scene, "solids_viscosity"),
-                    temperature = law_of(scene, "granular_temperature");
+  const std::string stress = core::law_of(scene, "solids_stress"), viscosity = core::law_of(scene, "solids_viscosity"),
+                    temperature = core::law_of(scene, "granular_temperature");
   if (stress == "frictional" || stress == "kinetic")
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else if (stress.starts_with(table))
@@ -104,14 +98,14 @@ void make_solids_stress(const core::Scene& scene, const Constants& constants, co
 Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                      Fields& fields) {
   Effects effects;
-  if (const std::string name = law_of(scene, "drag"); name != "none")
+  if (const std::string name = core::law_of(scene, "drag"); name != "none")
     effects.drag = std::make_unique<Drag>(constants, boundaries, name);
-  if (const std::string name = law_of(scene, "fluid_stress"); name == "newtonian")
+  if (const std::string name = core::law_of(scene, "fluid_stress"); name == "newtonian")
     effects.fluid_stress = std::make_unique<NewtonianStress>(constants, boundaries);
   else if (name != "none")
     refuse("fluid_stress", name);
   make_solids_stress(scene, constants, boundaries, fields, effects);
-  if (const std::string name = law_of(scene, "species_exchange"); name == "syamlal") {
+  if (const std::string name = core::law_of(scene, "species_exchange"); name == "syamlal") {
     if (constants.species() > 1)
       effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);
   } else if (name != "none") {
