@@ -6,6 +6,7 @@
 #include "core/blocks.hpp"
 #include "core/error.hpp"
 #include "dem/kernel.hpp"
+#include "dem/scene.hpp"
 #include "fluid/properties.hpp"
 
 namespace polybed::dem {
@@ -60,10 +61,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       phase_(flow_.grid(), has_inertia()),
       scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
       gather_(core::whole_column(flow_.grid()), diameters(materials)),
-      motion_(materials, flow_.constants().density,
-              {scene.column.gravity * scene.column.down[0], scene.column.gravity * scene.column.down[1],
-               scene.column.gravity * scene.column.down[2]},
-              units.force, units.energy),
+      motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy),
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
@@ -111,7 +109,6 @@ void Coupling::advance(Particles& particles, double t) {
     weigh();
   }
   ++steps_;
-  iterations_ += std::uint64_t(last_.iterations);
   const auto scope = timers_.scope("fluid: particles' answer");
   if (!held_) answer(particles);
   for (FluidLoad& load : motion_.load) load.impulse = {};

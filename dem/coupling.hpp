@@ -72,9 +72,8 @@ class Coupling {
     core::Field total_pressure, density;  ///< of a compressible fluid, Pa, kg/m3; else empty
   };
   [[nodiscard]] Column column() const;
-  /// Steps and iterations since the start.
+  /// Steps of the fluid since the start.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
-  [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
 
   /// What comes next does not depend on earlier solves.
   void restart() { flow_.forget(); }
@@ -120,7 +119,7 @@ class Coupling {
   bool held_;
   double dt_;  ///< of the particles, s
   fluid::FlowStep last_;
-  std::uint64_t steps_ = 0, iterations_ = 0;
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace polybed::dem

@@ -57,7 +57,6 @@ void Coupling::write(core::Checkpoint& checkpoint) const {
   for (std::size_t j = 0; j < fraction_.size(); ++j)
     checkpoint.arrays[fmt::format("fluid_fraction_{}", j)] = of_column(fraction_[j]);
   checkpoint.integers["fluid_steps"] = std::int64_t(steps_);
-  checkpoint.integers["fluid_iterations"] = std::int64_t(iterations_);
 }
 
 void Coupling::read(const core::Checkpoint& checkpoint) {
@@ -85,7 +84,6 @@ void Coupling::read(const core::Checkpoint& checkpoint) {
     return checkpoint.integers.contains(name) ? std::uint64_t(checkpoint.integers.at(name)) : 0;
   };
   steps_ = count("fluid_steps");
-  iterations_ = count("fluid_iterations");
 }
 
 }  // namespace polybed::dem
