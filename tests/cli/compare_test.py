@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, WRONG_CASE, Scratch, history, strict_json
+from program import DONE, FILE, WRONG_CASE, TWO_SIZES, Scratch, history, strict_json
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
 BED = """[column]
@@ -22,15 +22,7 @@ sides = "periodic"
 name = "water"
 density = 999
 viscosity = "1.14e-3 Pa s"
-[[species]]
-name = "fine"
-diameter = "0.8 mm"
-density = 1395
-[[species]]
-name = "coarse"
-diameter = "2 mm"
-density = 1170
-[bed]
+""" + TWO_SIZES + """[bed]
 particles = [150, 7]
 solids_fraction = 0.6
 start = "mixed"

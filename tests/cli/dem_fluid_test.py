@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, ROOT, WRONG_CASE, Scratch, history, same_bits, strict_json
+from program import DONE, ROOT, WRONG_CASE, TWO_SIZES, Scratch, history, same_bits, strict_json
 
 # 630 spheres of two sizes in rising water; a step takes about 100 microseconds.
 BED = """[column]
@@ -15,15 +15,7 @@ sides = "periodic"
 name = "water"
 density = 999
 viscosity = "1.14e-3 Pa s"
-[[species]]
-name = "fine"
-diameter = "0.8 mm"
-density = 1395
-[[species]]
-name = "coarse"
-diameter = "2 mm"
-density = 1170
-[bed]
+""" + TWO_SIZES + """[bed]
 particles = [600, 30]
 solids_fraction = 0.6
 start = "mixed"

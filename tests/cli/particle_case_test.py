@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A case for the particle model, as its user meets it. Usage: particle_case_test.py PROGRAM"""
 import program
-from program import CASE, DONE, WRONG_CASE, Scratch, strict_json
+from program import CASE, DONE, WRONG_CASE, TWO_SIZES, Scratch, strict_json
 
 DRY = """[column]
 size = [0.06, 0.6]
@@ -9,15 +9,7 @@ cells = [12, 120]
 gravity_direction = [1, -2]
 [fluid]
 name = "none"
-[[species]]
-name = "fine"
-diameter = "0.8 mm"
-density = 1395
-[[species]]
-name = "coarse"
-diameter = "2 mm"
-density = 1170
-[bed]
+""" + TWO_SIZES + """[bed]
 start = "list:beads.csv"
 [run]
 until = 1

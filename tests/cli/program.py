@@ -25,6 +25,17 @@ DONE, WRONG_CASE, NUMBERS, FILE, STOPPED = 0, 2, 3, 4, 130
 SMALL = ["--set", "column.cells=[6,60]", "--set", "output.every=0.1", "--set", "output.history_every=0.01",
          "--set", "output.checkpoint_every=0.1"]
 
+# Species of a case of few particles.
+TWO_SIZES = """[[species]]
+name = "fine"
+diameter = "0.8 mm"
+density = 1395
+[[species]]
+name = "coarse"
+diameter = "2 mm"
+density = 1170
+"""
+
 
 def environment(scratch):
     """One rank needs neither network nor daemon: without them MPI starts in a sixth of the time, if each process has a

@@ -12,7 +12,7 @@ TESTS = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
 import open_mpi  # noqa: E402
 import program  # noqa: E402
-from program import Scratch, datasets, main, same_bits  # noqa: E402
+from program import TWO_SIZES, Scratch, datasets, main, same_bits  # noqa: E402
 
 # 630 spheres of two sizes in rising water, on few cells.
 BED = """[column]
@@ -21,15 +21,7 @@ cells = [8, 18]
 [fluid]
 name = "water"
 temperature = "15 degC"
-[[species]]
-name = "fine"
-diameter = "0.8 mm"
-density = 1395
-[[species]]
-name = "coarse"
-diameter = "2 mm"
-density = 1170
-[bed]
+""" + TWO_SIZES + """[bed]
 particles = [600, 30]
 solids_fraction = 0.6
 start = "mixed"
