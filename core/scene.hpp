@@ -127,6 +127,7 @@ struct Dem {
   int fluid_every = 16;
   std::string kernel = "auto";             ///< auto | bilinear | diffusion: how particles are averaged for the fluid
   std::optional<double> kernel_width;      ///< of diffusion, full width at half height, m
+  std::string own_share = "kept";          ///< kept | removed: a particle's own part in the averages it feels
   std::string fluid_ranks = "auto";        ///< auto | each | shared: who solves for the fluid
   bool held = false;                       ///< particles do not move: a fixed bed
   std::string tangential = "hdd";          ///< hdd | mindlin | mindlin_deresiewicz | linear
