@@ -140,6 +140,11 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   CaseOptions check;
   add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);
 
+  CaseOptions effects;
+  CLI::App* effects_command =
+      app.add_subcommand("effects", "which effects the scene calls for, with the number that decides each");
+  add_case(*effects_command, effects);
+
   DragOptions drag;
   std::string guard = "on";
   CLI::App* drag_command =
@@ -199,6 +204,7 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   if (app.got_subcommand("dem")) run_dem(dem);
   if (app.got_subcommand("compare")) run_compare(compare);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
+  if (app.got_subcommand("effects")) run_effects(effects);
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);

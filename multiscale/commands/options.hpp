@@ -56,6 +56,7 @@ void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
 void run_compare(const CompareOptions& options);
 void run_check(const CaseOptions& options);
+void run_effects(const CaseOptions& options);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);
 void run_schema(bool json, bool markdown);

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Which effects a scene calls for, as a user asks and gets told; and a case that leaves them to the program."""
+import json
+
+import program
+from program import CASE, DONE, NUMBERS, WRONG_CASE, Scratch, run, same_bits, strict_json
+
+# Three seconds of settling take a second; a few hundred particles in water.
+BEADS = """title = "beads in water"
+[column]
+size = ["12 mm", "60 mm"]
+cells = [6, 30]
+[fluid]
+name = "water"
+temperature = "20 degC"
+[[species]]
+name = "beads"
+diameter = "1 mm"
+density = 2500
+[bed]
+volume_share = [1]
+static_height = "12 mm"
+solids_fraction = 0.6
+[inlet]
+superficial_velocity = "30 mm/s"
+[run]
+until = "0.05 s"
+[output]
+every = "0.05 s"
+"""
+KEYS = {"effect", "model", "on", "number", "value", "threshold", "neglected_bound", "reason"}
+CATALOGUE = {"drag", "added_mass", "history", "lift", "magnus", "brownian", "gas_slip", "fluid_stress", "solids_stress",
+             "granular_temperature", "species_exchange", "contact", "rolling", "lubrication", "cohesion", "weight",
+             "pressure_gradient", "equation_of_state", "coupling", "walls", "level", "turbulence", "clusters",
+             "temperature", "charge", "sintering"}
+
+
+class Table(Scratch):
+    def table(self, case, *words):
+        answer = strict_json(self.ends(DONE, "effects", case, "--json", *words).stdout)
+        return answer, {row["effect"]: row for row in answer["effects"]}
+
+    def test_every_row_of_the_catalogue_has_its_reason(self):
+        answer, rows = self.table(CASE)
+        self.assertLessEqual(CATALOGUE, set(rows))
+        for row in answer["effects"]:
+            self.assertLessEqual(KEYS, set(row))
+            self.assertTrue(row["reason"], row["effect"])
+        self.assertLessEqual(answer["neglected_sum"], 0.02)
+        text = self.ends(DONE, "effects", CASE).stdout
+        for effect in CATALOGUE:
+            self.assertIn(f"\n{effect} ", "\n" + text)
+
+    def test_missing_data_are_said_to_be_unknown(self):
+        rows = self.table(CASE)[1]
+        self.assertIsNone(rows["charge"]["on"])
+        self.assertIn("unknown: needs charge", rows["charge"]["reason"])
+        self.assertIsNotNone(self.table(CASE, "--set", "chooser.charge=1e-12")[1]["charge"]["value"])
+
+    def test_ranges_widen_and_tolerance_decides(self):
+        case = self.write("beads.toml", BEADS)
+        narrow, wide = self.table(case)[1], self.table(case, "--set", 'chooser.velocity_range=["0 mm/s", "2 m/s"]')[1]
+        self.assertGreater(wide["lift"]["zones"]["freeboard"], narrow["lift"]["zones"]["freeboard"])
+        strict, strict_rows = self.table(case, "--set", "chooser.tolerance=1e-4")
+        self.assertTrue(strict_rows["lift"]["on"] or "band" in strict_rows["lift"])
+        transient = self.table(case, "--set", "chooser.purpose=transient")[1]
+        self.assertTrue(transient["added_mass"]["on"])
+        self.assertFalse(self.table(case)[1]["added_mass"]["on"])
+
+    def test_zones_can_be_chosen(self):
+        rows = self.table(CASE, "--set", 'chooser.zones=["wall"]')[1]
+        self.assertEqual(list(rows["lift"]["zones"]), ["wall"])
+
+    def test_what_is_wrong_is_told(self):
+        done = self.ends(WRONG_CASE, "effects", CASE, "--set", 'chooser.velocity_range=["5 mm/s", "1 mm/s"]')
+        self.assertIn("chooser.velocity_range", done.stderr)
+
+
+class Auto(Scratch):
+    def test_the_resolved_case_of_an_auto_run_gives_the_same_bits(self):
+        for model, files in (("tfm", ["fields.h5", "profiles.h5"]), ("dem", ["particles.h5", "fields.h5"])):
+            case = self.write("auto.toml", 'effects = "auto"\n' + BEADS)
+            first, second = self.folder / f"{model}-auto", self.folder / f"{model}-resolved"
+            self.ends(DONE, model, case, "-o", first, "--quiet", "--no-picture")
+            record = strict_json((first / "run.json").read_text())
+            resolved = self.write(f"{model}.toml", record["case"])
+            self.assertNotIn('"auto"', record["case"].split("[effects]")[1].split("[")[0])
+            self.assertIn('drag = "cello"', record["case"])
+            self.ends(DONE, model, resolved, "-o", second, "--quiet", "--no-picture")
+            for name in files:
+                self.assertEqual(same_bits(first / name, second / name), [], name)
+            self.assertEqual(record["case"], strict_json((second / "run.json").read_text())["case"])
+
+    def test_one_role_can_be_left_to_it(self):
+        case = self.write("one.toml", BEADS + '[effects]\ndrag = "ergun"\nlubrication = "auto"\ncontact = "hertz_mindlin"\n')
+        shown = self.ends(DONE, "check", case).stdout
+        self.assertIn('lubrication = "wet_restitution"', shown)
+        self.assertIn('drag = "ergun"', shown)
+        self.assertIn('chosen = ["lubrication"]', shown)
+
+
+if __name__ == "__main__":
+    program.main()
