@@ -4,6 +4,7 @@
 
 #include "closures/relevance.hpp"
 #include "core/case_file.hpp"
+#include "multiscale/effects/conflicts.hpp"
 #include "multiscale/effects/situation.hpp"
 #include "multiscale/effects/weigh.hpp"
 #include "multiscale/roles.hpp"
@@ -105,7 +106,9 @@ core::Scene with_choice(core::Scene scene) {
 }
 
 core::Scene read_chosen_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return with_choice(core::read_case(path, overrides, all_roles(), size_classes));
+  const core::Scene scene = core::read_case(path, overrides, all_roles(), size_classes);
+  refuse_role_conflicts(scene, path);
+  return with_choice(scene);
 }
 
 }  // namespace polybed::multiscale

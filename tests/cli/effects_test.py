@@ -75,6 +75,14 @@ class Table(Scratch):
         done = self.ends(WRONG_CASE, "effects", CASE, "--set", 'chooser.velocity_range=["5 mm/s", "1 mm/s"]')
         self.assertIn("chooser.velocity_range", done.stderr)
 
+    def test_roles_that_contradict_each_other_are_told_with_both_lines(self):
+        case = self.write("wrong.toml", BEADS + '[effects]\ncontact = "hertz"\ndrag = "cello"\nmagnus = "rubinow_keller"\n')
+        line = len(BEADS.splitlines()) + 2
+        for command in ("effects", "check", "dem"):
+            told = self.ends(WRONG_CASE, command, case).stderr
+            self.assertIn(f"wrong.toml:{line}:1: effects.contact", told)
+            self.assertIn(f"wrong.toml:{line + 2}:1: effects.magnus", told)
+
 
 class Auto(Scratch):
     def test_the_resolved_case_of_an_auto_run_gives_the_same_bits(self):
@@ -97,6 +105,62 @@ class Auto(Scratch):
         self.assertIn('lubrication = "wet_restitution"', shown)
         self.assertIn('drag = "ergun"', shown)
         self.assertIn('chosen = ["lubrication"]', shown)
+
+
+# What the bed of beads has by hand; the spin of particles and the lift are left out.
+BY_HAND = BEADS + """[effects]
+drag = "cello"
+solids_stress = "frictional"
+contact = "hertz_mindlin"
+"""
+
+
+class Promise(Scratch):
+    def test_an_audit_holds_what_was_left_out_against_the_promise(self):
+        case = self.write("hand.toml", BY_HAND)
+        kept, broken = self.folder / "kept", self.folder / "broken"
+        # Of the same flow twice: a fifth of the weight is not left out, two hundredths are.
+        self.ends(DONE, "tfm", case, "-o", kept, "--quiet", "--until", "0.1 s", "--set", "chooser.tolerance=0.2")
+        self.ends(DONE, "tfm", case, "-o", broken, "--quiet", "--until", "0.1 s")
+        fine = strict_json(self.ends(DONE, "effects", "audit", kept, "--json").stdout)["promise"]
+        told = strict_json(self.ends(NUMBERS, "effects", "audit", broken, "--json").stdout)["promise"]
+        self.assertTrue(fine["kept"])
+        self.assertFalse(told["kept"])
+        for row in fine["observed"]:
+            self.assertLessEqual(row["greatest"], row["bound"], row["effect"])
+            self.assertGreater(row["encounters"], 50)
+        self.assertIn("broken", self.ends(NUMBERS, "effects", "audit", broken).stdout)
+
+    def test_an_auto_run_of_particles_keeps_its_promise(self):
+        case, run = self.write("auto.toml", 'effects = "auto"\n' + BEADS), self.folder / "run"
+        self.ends(DONE, "dem", case, "-o", run, "--quiet", "--no-picture")
+        self.assertTrue(strict_json((run / "run.json").read_text())["promise"]["kept"])
+        self.ends(DONE, "effects", "audit", run)
+
+    def ramp(self, name, monitor):
+        """The bed is weighed packed, where nothing shears; the inlet then lifts it."""
+        words = ["--set", 'chooser.zones=["packed"]', "--set", f"chooser.monitor={monitor}", "--set",
+                 "chooser.monitor_every=20", "--set", "chooser.monitor_sample=4", "--set", "chooser.tolerance=0.01",
+                 "--set", 'inlet.superficial_velocity=[["0 s", "1 mm/s"], ["0.05 s", "80 mm/s"]]']
+        case, run = self.write("ramp.toml", BY_HAND), self.folder / name
+        code = NUMBERS if monitor == "stop" else DONE
+        return self.ends(code, "dem", case, "-o", run, "--no-picture", *words), strict_json((run / "run.json").read_text()), run
+
+    def test_the_monitor_warns_stops_and_is_absent_when_off(self):
+        warned, record, run = self.ramp("warn", "warn")
+        lines = [line for line in warned.stderr.splitlines() if "neglected (bound" in line]
+        self.assertTrue(any(line.startswith("magnus") for line in lines), warned.stderr)
+        self.assertEqual(len(lines), len({line.split()[0] for line in lines}))  # each once
+        self.assertEqual([w for w in record["warnings"] if "neglected" in w], lines)
+        self.assertFalse(record["promise"]["kept"])
+        stopped, stopped_record, _ = self.ramp("stop", "stop")
+        self.assertIn("chooser.monitor", stopped.stderr)
+        self.assertLess(stopped_record["time_s"], 0.05)
+        _, off_record, off = self.ramp("off", "off")
+        self.assertNotIn("promise", off_record)
+        self.assertNotIn("monitor", off_record["timers"])
+        self.assertIn("monitor", record["timers"])
+        self.assertEqual(same_bits(run / "particles.h5", off / "particles.h5"), [])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,152 @@
+#include "multiscale/effects/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/case_file.hpp"
+#include "core/timers.hpp"
+#include "dem/model.hpp"
+#include "multiscale/roles.hpp"
+#include "tfm/model.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+const char* const bench_case = R"(
+title = "what effects cost"
+column = { size = ["24 mm", "60 mm"], cells = [12, 30] }
+fluid = { name = "water", temperature = "20 degC" }
+bed = { volume_share = [0.5, 0.5], static_height = "16 mm", solids_fraction = 0.6 }
+inlet = { superficial_velocity = "25 mm/s" }
+effects = { drag = "cello", contact = "hertz_mindlin", solids_stress = "frictional" }
+run = { until = "10 s" }
+tfm = { integrator = "explicit" }
+dem = { rolling_friction = 0.1, hamaker_constant = 1e-20, cohesion_gap = "0.4 nm", asperity_radius = "50 nm" }
+[[species]]
+name = "fine"
+diameter = "0.8 mm"
+density = 2500
+[[species]]
+name = "coarse"
+diameter = "1.1 mm"
+density = 2000
+)";
+
+/// An effect and the one case whose cost it is added to.
+struct Benched {
+  const char *effect, *law, *model, *per;
+};
+
+constexpr Benched effects[] = {{"drag", "none", "dem", "particle"},
+                               {"added_mass", "zuber", "dem", "particle"},
+                               {"lift", "saffman_mei", "dem", "particle"},
+                               {"magnus", "rubinow_keller", "dem", "particle"},
+                               {"history", "basset", "dem", "particle"},
+                               {"lubrication", "wet_restitution", "dem", "contact"},
+                               {"lubrication", "film", "dem", "contact"},
+                               {"rolling", "cdt", "dem", "contact"},
+                               {"rolling", "epsd", "dem", "contact"},
+                               {"cohesion", "van_der_waals", "dem", "contact"},
+                               {"drag", "none", "tfm", "cell"},
+                               {"fluid_stress", "newtonian", "tfm", "cell"},
+                               {"solids_viscosity", "schaeffer", "tfm", "cell"},
+                               {"solids_stress", "kinetic", "tfm", "cell"},
+                               {"species_exchange", "syamlal", "tfm", "cell"}};
+
+struct Timing {
+  double per_unit = 0;  ///< s
+  std::size_t bytes = 0;
+};
+
+core::Scene scene_with(const Benched* effect) {
+  core::Scene scene = core::parse_case(bench_case, "bench", {}, all_roles());
+  if (effect == nullptr) return scene;
+  const std::string law = effect->law;
+  law == "none" ? void(scene.effects.erase(effect->effect)) : void(scene.effects[effect->effect] = law);
+  return scene;
+}
+
+Timing time_particles(const Benched* effect, const std::string& per) {
+  core::Timers timers;
+  dem::Model model(scene_with(effect), timers);
+  constexpr int warm = 64, steps = 512;
+  for (int n = 0; n < warm; ++n) model.step(1e300);
+  const std::uint64_t contacts = model.work().contact_steps;
+  const double begin = core::cpu_seconds();
+  for (int n = 0; n < steps; ++n) model.step(1e300);
+  const double seconds = core::cpu_seconds() - begin;
+  const double units =
+      per == "contact" ? double(model.work().contact_steps - contacts) : double(steps) * double(model.particle_count());
+  const std::size_t numbers =
+      per == "contact" ? std::size_t(model.laws().memory_size()) : model.coupling()->sides().rows().width;
+  return {seconds / std::max(units, 1.0), numbers * sizeof(double)};
+}
+
+Timing time_cells(const Benched* effect) {
+  core::Timers timers;
+  tfm::Model model(scene_with(effect), timers);
+  constexpr int warm = 4, steps = 24;
+  for (int n = 0; n < warm; ++n) model.step(1e300);
+  const std::uint64_t sides = model.work().right_hand_sides;
+  const double begin = core::cpu_seconds();
+  for (int n = 0; n < steps; ++n) model.step(1e300);
+  const double seconds = core::cpu_seconds() - begin;
+  const double units = double(model.work().right_hand_sides - sides) * double(model.constants().grid.cell_count());
+  return {seconds / std::max(units, 1.0), 0};
+}
+
+Timing time_of(const Benched* effect, const std::string& model, const std::string& per) {
+  return model == "dem" ? time_particles(effect, per) : time_cells(effect);
+}
+
+}  // namespace
+
+std::vector<EffectCost> bench_effects(int rounds) {
+  std::vector<EffectCost> costs;
+  std::vector<std::vector<double>> samples(std::size(effects));
+  for (const Benched& e : effects) costs.push_back({e.effect, e.law, e.model, e.per, 0, 0, 0});
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t n = 0; n < std::size(effects); ++n) {
+      const Benched& e = effects[n];
+      const Timing without = time_of(nullptr, e.model, e.per), with = time_of(&e, e.model, e.per);
+      const double sign = std::string(e.law) == "none" ? -1 : 1;
+      samples[n].push_back(1e9 * sign * (with.per_unit - without.per_unit));
+      costs[n].bytes = with.bytes > without.bytes ? with.bytes - without.bytes : 0;
+    }
+  for (std::size_t n = 0; n < costs.size(); ++n) {
+    std::sort(samples[n].begin(), samples[n].end());
+    costs[n].nanoseconds = samples[n][samples[n].size() / 2];
+    costs[n].spread = 0.5 * (samples[n].back() - samples[n].front());
+    if (costs[n].law == "none") costs[n].law = "cello";
+  }
+  return costs;
+}
+
+std::string bench_table(const std::vector<EffectCost>& costs) {
+  std::string text =
+      fmt::format("{:18} {:16} {:6} {:>10} {:>10} {:>8}  {}\n", "effect", "law", "model", "ns", "+-", "bytes", "per");
+  for (const EffectCost& c : costs)
+    text += fmt::format("{:18} {:16} {:6} {:10.1f} {:10.1f} {:8}  {} and {}\n", c.effect, c.law, c.model, c.nanoseconds,
+                        c.spread, c.bytes, c.per, c.model == "dem" ? "step" : "right-hand side");
+  return text;
+}
+
+void write_bench(core::Json& json, const std::vector<EffectCost>& costs) {
+  json.key("costs").begin_array();
+  for (const EffectCost& c : costs)
+    json.begin_object()
+        .member("effect", c.effect)
+        .member("law", c.law)
+        .member("model", c.model)
+        .member("per", c.per)
+        .member("ns", c.nanoseconds)
+        .member("spread_ns", c.spread)
+        .member("bytes", std::uint64_t(c.bytes))
+        .end_object();
+  json.end_array();
+}
+
+}  // namespace polybed::multiscale
