@@ -1,9 +1,7 @@
 #!/usr/bin/python3
 """Which effects a scene calls for, as a user asks and gets told; and a case that leaves them to the program."""
-import json
-
 import program
-from program import CASE, DONE, NUMBERS, WRONG_CASE, Scratch, run, same_bits, strict_json
+from program import CASE, DONE, NUMBERS, WRONG_CASE, Scratch, datasets, same_bits, strict_json
 
 # Three seconds of settling take a second; a few hundred particles in water.
 BEADS = """title = "beads in water"
@@ -161,6 +159,19 @@ class Promise(Scratch):
         self.assertNotIn("monitor", off_record["timers"])
         self.assertIn("monitor", record["timers"])
         self.assertEqual(same_bits(run / "particles.h5", off / "particles.h5"), [])
+
+    def test_an_effect_without_strength_is_as_one_that_is_off(self):
+        case = self.write("hand.toml", BY_HAND)
+        runs = {"off": [], "weak": ["--set", "effects.cohesion=van_der_waals", "--set", "dem.hamaker_constant=1e-300"],
+                "history": ["--set", "effects.history=basset"]}
+        names = {}
+        for name, words in runs.items():
+            self.ends(DONE, "dem", case, "-o", self.folder / name, "--quiet", "--no-picture", "--until", "0.01 s", *words)
+            names[name] = set(datasets(self.folder / name / "checkpoint.h5"))
+        self.assertEqual(same_bits(self.folder / "off/particles.h5", self.folder / "weak/particles.h5"), [])
+        # What an effect keeps is in the checkpoint of a run that has it, and of no other.
+        self.assertEqual(names["off"], names["weak"])
+        self.assertGreater(names["history"], names["off"])
 
 
 if __name__ == "__main__":
