@@ -16,10 +16,11 @@ const char* const text = R"(
 title = "absent"
 column = { size = ["6 mm", "4 mm", "10 mm"], cells = [3, 2, 5] }
 fluid = { name = "water", temperature = "20 degC" }
-bed = { volume_share = [1], static_height = "4 mm", solids_fraction = 0.5, start_solids_fraction = 0.35 }
+bed = { volume_share = [1], static_height = "2 mm", solids_fraction = 0.5, start_solids_fraction = 0.35 }
 inlet = { superficial_velocity = "20 mm/s" }
 effects = { contact = "hertz_mindlin", lubrication = "wet_restitution" }
 run = { until = "1 s" }
+dem = { start_speed = "0.5 m/s" }
 [[species]]
 name = "beads"
 diameter = "1 mm"

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
-OURS = re.compile(r"^polybed::")
+OURS = re.compile(r"\bpolybed::")
 # What makes effects, once: here the registries themselves differ.
 REGISTRIES = re.compile(r"SideForces::SideForces|make_pair_laws|make_cohesion|calls_for|PairLaws::|dem::roles")
 CONTROL = "polybed::absent::control_kernel(int)"
@@ -45,7 +45,7 @@ def counted(program, folder, name):
     done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", program], text=True,
                           capture_output=True, env=environment)
     assert done.returncode == 0, done.stderr[-2000:]
-    return done.stdout, {f: n for f, n in self_counts(out).items() if OURS.match(f)}
+    return done.stdout, {f: n for f, n in self_counts(out).items() if OURS.search(f)}
 
 
 def differences(one, other):
