@@ -156,7 +156,8 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   bool bench_json = false;
   CLI::App* bench_command =
       effects_command->add_subcommand("bench", "what each effect costs per particle, contact or cell on this machine");
-  bench_command->add_option("--rounds", bench_rounds, "repetitions; the median is told")->check(CLI::Range(1, 1000));
+  bench_command->add_option("--rounds", bench_rounds, "repetitions; the least times are told")
+      ->check(CLI::Range(1, 1000));
   bench_command->add_flag("--json", bench_json, "one JSON object");
 
   DragOptions drag;

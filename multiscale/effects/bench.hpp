@@ -12,7 +12,7 @@ struct EffectCost {
   std::string effect, law, model;
   std::string per;         ///< particle | contact | cell
   double nanoseconds = 0;  ///< of each step (of the two-fluid model: of each right-hand side), over the same without
-  double spread = 0;       ///< half of the range of the repetitions
+  double spread = 0;       ///< of the least times from the next: less than this is nothing
   std::size_t bytes = 0;   ///< kept of each particle or contact
 };
 

@@ -20,7 +20,7 @@ bed = { volume_share = [1], static_height = "2 mm", solids_fraction = 0.5, start
 inlet = { superficial_velocity = "20 mm/s" }
 effects = { contact = "hertz_mindlin", lubrication = "wet_restitution" }
 run = { until = "1 s" }
-dem = { start_speed = "0.5 m/s" }
+dem = { start_speed = "0.2 m/s", greatest_speed = "2 m/s" }
 [[species]]
 name = "beads"
 diameter = "1 mm"
@@ -46,6 +46,7 @@ int main() {
              model.laws().memory_size(), model.coupling()->sides().rows().width,
              model.coupling()->sides().needs_vorticity());
   for (const dem::StepLimit& limit : model.limits().all) fmt::print("limit {} {}\n", limit.name, limit.dt);
+  fmt::print("contact steps {}\n", model.work().contact_steps);
   fmt::print("checkpoint {}\n", bytes_of(model.checkpoint()));
   fmt::print("control {}\n", absent::control_kernel(1000));
 }

@@ -59,6 +59,7 @@ def main():
         (text, whole), (bare_text, bare) = pool.map(lambda p: counted(*p), [
             (sys.argv[1], folder, "whole"), (sys.argv[2], folder, "bare")])
     assert text == bare_text, f"the lists differ:\n{text}\nwithout the effects:\n{bare_text}"
+    assert int(re.search(r"contact steps (\d+)", text)[1]) > 0, "no particles met: the kernel of contacts did nothing"
     found = differences(whole, bare)
     assert found.pop(CONTROL, None), "the control, a kernel with a flag, was not told apart: the test sees nothing"
     kernels = {f: n for f, n in whole.items() if n >= LEAST and not REGISTRIES.search(f) and f != CONTROL}
