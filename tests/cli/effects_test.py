@@ -166,7 +166,8 @@ class Promise(Scratch):
                 "history": ["--set", "effects.history=basset"]}
         names = {}
         for name, words in runs.items():
-            self.ends(DONE, "dem", case, "-o", self.folder / name, "--quiet", "--no-picture", "--until", "0.01 s", *words)
+            self.ends(DONE, "dem", case, "-o", self.folder / name, "--quiet", "--no-picture", "--until", "0.01 s",
+                      "--set", "column.depth=0.0025", *words)
             names[name] = set(datasets(self.folder / name / "checkpoint.h5"))
         self.assertEqual(same_bits(self.folder / "off/particles.h5", self.folder / "weak/particles.h5"), [])
         # What an effect keeps is in the checkpoint of a run that has it, and of no other.
