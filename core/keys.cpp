@@ -68,6 +68,22 @@ std::vector<Key> make_keys() {
 
   k.push_back({"inlet", "superficial_velocity", at<Points>([](S& s, N) -> auto& { return s.inlet.superficial_velocity; }), "a velocity, or a table [[time, velocity], ...]: linear between, constant beyond; two equal times make a jump", dimension::velocity, -1e3, 1e3});
 
+  k.push_back({"chooser", "tolerance", at<double>([](S& s, N) -> auto& { return s.chooser.tolerance; }), "what is left out sums to at most this share of the buoyant weight", {}, 1e-6, 1, false, "0.02"});
+  k.push_back({"chooser", "purpose", at<std::string>([](S& s, N) -> auto& { return s.chooser.purpose; }), "steady leaves out forces of acceleration, whose means vanish", {}, -infinity, infinity, false, "steady", {"steady", "transient"}});
+  k.push_back({"chooser", "roughness", at<std::optional<double>>([](S& s, N) -> auto& { return s.chooser.roughness; }), "radius of asperities of the surfaces; default: dem.roughness", dimension::length, 0, 1, true});
+  k.push_back({"chooser", "hamaker", at<std::optional<double>>([](S& s, N) -> auto& { return s.chooser.hamaker; }), "A of the van der Waals force; default: dem.hamaker_constant, else 1e-20 J in a liquid, 1e-19 J in a gas", dimension::energy, 0, 1e-6, true});
+  k.push_back({"chooser", "free_liquid", at<std::optional<double>>([](S& s, N) -> auto& { return s.chooser.free_liquid; }), "particles in a gas are wet: surface tension of the liquid between them", dimension::stiffness, 0, 10, true});
+  k.push_back({"chooser", "static_heap", at<bool>([](S& s, N) -> auto& { return s.chooser.static_heap; }), "a heap at rest matters: rolling needs a spring", {}, -infinity, infinity, false, "false"});
+  k.push_back({"chooser", "charge", at<std::optional<double>>([](S& s, N) -> auto& { return s.chooser.charge; }), "electric charge of a particle, C; without it nothing can be said of its force", {}, -1, 1});
+  k.push_back({"chooser", "voidage", at<std::optional<double>>([](S& s, N) -> auto& { return s.chooser.voidage; }), "of the bulk, where it is known; default: by the balance of drag and weight at each velocity", {}, 0.2, 1, true});
+  k.push_back({"chooser", "velocity_range", at<std::vector<double>>([](S& s, N) -> auto& { return s.chooser.velocity_range; }), "superficial velocities that the scene may meet, least and greatest: widens what the inlet says", dimension::velocity, -1e3, 1e3});
+  k.push_back({"chooser", "temperature_range", at<std::vector<double>>([](S& s, N) -> auto& { return s.chooser.temperature_range; }), "likewise of the fluid", dimension::temperature, 0, 5000, true});
+  k.push_back({"chooser", "zones", at<std::vector<std::string>>([](S& s, N) -> auto& { return s.chooser.zones; }), "where effects are weighed: packed, bulk, wall, freeboard; default: all", {}, -infinity, infinity, false, {}, {"packed", "bulk", "wall", "freeboard"}});
+  k.push_back({"chooser", "monitor", at<std::string>([](S& s, N) -> auto& { return s.chooser.monitor; }), "what to do where forces that were left out exceed the tolerance during the run; auto: warn where a role is auto, else off", {}, -infinity, infinity, false, "auto", {"auto", "off", "warn", "stop"}});
+  k.push_back({"chooser", "monitor_every", at<int>([](S& s, N) -> auto& { return s.chooser.monitor_every; }), "steps between samples", {}, 1, 1e9, false, "200"});
+  k.push_back({"chooser", "monitor_sample", at<int>([](S& s, N) -> auto& { return s.chooser.monitor_sample; }), "one in so many particles or cells is looked at, chosen by its number", {}, 1, 1e9, false, "64"});
+  k.push_back({"chooser", "chosen", at<std::vector<std::string>>([](S& s, N) -> auto& { return s.chooser.chosen; }), "a record: the roles that were auto before the case was resolved"});
+
   k.push_back({"run", "until", at<double>([](S& s, N) -> auto& { return s.run.until; }), "simulated time", dimension::time, 0, 1e9, true, {}, {}, true});
 
   k.push_back({"output", "every", at<std::optional<double>>([](S& s, N) -> auto& { return s.output.every; }), "between stored fields and profiles; default: a twentieth of the run", dimension::time, 0, 1e9, true});
@@ -124,6 +140,7 @@ std::vector<Key> make_keys() {
   k.push_back({"dem", "cohesion_energy", at<double>([](S& s, N) -> auto& { return s.dem.cohesion_energy; }), "W of cohesion of the kinds DMT and JKR, J/m2", dimension::surface_energy, 0, 1e6, false, "0 J/m2", {}, false, "pull-off: DMT 2 pi W R*, JKR 1.5 pi W R*"});
   k.push_back({"dem", "hamaker_constant", at<double>([](S& s, N) -> auto& { return s.dem.hamaker_constant; }), "A of the van der Waals force", dimension::energy, 0, 1e-6, false, "0 J", {}, false, "F = A R*/(6 z^2)"});
   k.push_back({"dem", "cohesion_gap", at<double>([](S& s, N) -> auto& { return s.dem.cohesion_gap; }), "z_0, cut-off of the van der Waals force: nearer than this it grows no more", dimension::length, 0, 1, true, "0.165 nm", {}, false, "F = A R*/(6 max(z, z_0)^2)"});
+  k.push_back({"dem", "asperity_radius", at<std::optional<double>>([](S& s, N) -> auto& { return s.dem.asperity_radius; }), "R* of the van der Waals force of rough surfaces; default: that of the spheres", dimension::length, 0, 1, true, {}, {}, false, "F = A R*/(6 max(z, z_0)^2)"});
   k.push_back({"dem", "roughness", at<double>([](S& s, N) -> auto& { return s.dem.roughness; }), "of surfaces: the film between them is not thinner (effects.lubrication = film)", dimension::length, 0, 1, true, "0.1 um", {}, false, "F = -6 pi mu R*^2 v_n/max(h, roughness)"});
 
   k.push_back({"jet", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].from; }), "low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, depth) in three dimensions", dimension::length, 0, 1e3, false, {}, {}, true});

@@ -140,6 +140,26 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   CaseOptions check;
   add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);
 
+  CaseOptions effects;
+  CLI::App* effects_command =
+      app.add_subcommand("effects", "which effects the scene calls for, with the number that decides each");
+  add_case(*effects_command, effects);
+  effects_command->get_option("CASE")->required(false);
+  effects_command->require_subcommand(0, 1);
+  std::string audited;
+  bool audit_json = false;
+  CLI::App* audit_command = effects_command->add_subcommand(
+      "audit", "what a run has left out, evaluated on all that it stored; code 3 if that breaks the promise");
+  audit_command->add_option("RUN", audited, "run directory")->required();
+  audit_command->add_flag("--json", audit_json, "one JSON object");
+  int bench_rounds = 3;
+  bool bench_json = false;
+  CLI::App* bench_command =
+      effects_command->add_subcommand("bench", "what each effect costs per particle, contact or cell on this machine");
+  bench_command->add_option("--rounds", bench_rounds, "repetitions; the least times are told")
+      ->check(CLI::Range(1, 1000));
+  bench_command->add_flag("--json", bench_json, "one JSON object");
+
   DragOptions drag;
   std::string guard = "on";
   CLI::App* drag_command =
@@ -199,6 +219,15 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   if (app.got_subcommand("dem")) run_dem(dem);
   if (app.got_subcommand("compare")) run_compare(compare);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
+  if (app.got_subcommand("effects")) {
+    if (audit_command->parsed()) return exit_code(run_effects_audit(audited, audit_json));
+    if (bench_command->parsed())
+      run_effects_bench(bench_rounds, bench_json);
+    else if (effects.case_path.empty())
+      throw core::CaseError("effects: name a CASE, audit RUN, or bench");
+    else
+      run_effects(effects);
+  }
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);

@@ -6,11 +6,16 @@
 #include <vector>
 
 #include "core/json.hpp"
+#include "core/json_value.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
+#include "multiscale/effects/neglected.hpp"
 #include "tfm/observers.hpp"
 
 namespace polybed::multiscale {
+
+/// The record of a run, run.json. Throws FileError if there is none, or of another version.
+[[nodiscard]] core::JsonValue read_run_record(const std::filesystem::path& directory);
 
 /// What the ranks of a run have done together.
 struct RunTotals {
@@ -34,6 +39,8 @@ struct RunRecord {
   std::string state;  ///< running | done | stopped by the user | failed: ...
   double begin;       ///< simulated time at which this process began, s
   RunTotals totals;
+  const Neglected* promise = nullptr;  ///< what a monitor has seen; null without one
+  std::vector<std::string> warnings;   ///< its own
 };
 
 /// Writes "size_classes": what became of the species with a distribution; nothing if there is none.

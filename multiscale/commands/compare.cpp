@@ -13,6 +13,7 @@
 #include "multiscale/comparison_text.hpp"
 #include "multiscale/python_module.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/run_record.hpp"
 #include "tfm/particle_scene.hpp"
 
 namespace polybed::multiscale {
@@ -23,19 +24,9 @@ namespace fs = std::filesystem;
 
 /// A run's record; throws FileError if it is none of this model's.
 ComparedRun read_run(const fs::path& directory, const std::string& model) {
-  const fs::path path = directory / "run.json";
-  if (!fs::exists(path)) throw core::FileError(fmt::format("{}: no run (it has no run.json)", directory.string()));
-  const core::Bytes bytes = core::read_whole_file(path);
-  ComparedRun run{directory, {}};
-  try {
-    run.record = core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    if (run.record.of("filetype").text() != "polybed run" || run.record.of("version").number() != 1)
-      throw core::FileError("no \"polybed run\" of version 1");
-    if (run.record.of("model").text() != model)
-      throw core::FileError(fmt::format("a run of {}, not of {}", run.record.of("model").text(), model));
-  } catch (const core::FileError& error) {
-    throw core::FileError(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  ComparedRun run{directory, read_run_record(directory)};
+  if (const std::string& found = run.record.of("model").text(); found != model)
+    throw core::FileError(fmt::format("{}: a run of {}, not of {}", (directory / "run.json").string(), found, model));
   return run;
 }
 

@@ -9,7 +9,7 @@
 #include "core/json.hpp"
 #include "fluid/properties.hpp"
 #include "multiscale/commands/options.hpp"
-#include "multiscale/roles.hpp"
+#include "multiscale/effects/choice.hpp"
 
 namespace polybed::multiscale {
 
@@ -90,7 +90,7 @@ void run_inversion(const InversionOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (!options.temperature.empty()) overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
   if (!options.law.empty()) overrides.push_back("effects.drag=\"" + options.law + "\"");
-  const core::Scene scene = core::read_case(options.case_path, overrides, all_roles(), size_classes);
+  const core::Scene scene = read_chosen_case(options.case_path, overrides);
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
   const closures::DragLaw law = closures::drag_law(named->second, closures::Guard::on);

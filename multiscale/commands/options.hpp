@@ -56,6 +56,10 @@ void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
 void run_compare(const CompareOptions& options);
 void run_check(const CaseOptions& options);
+void run_effects(const CaseOptions& options);
+void run_effects_bench(int rounds, bool json);
+/// The code to end with: of numbers that failed where the promise is broken.
+core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
