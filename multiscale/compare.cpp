@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "fluid/drift.hpp"
 #include "fluid/measures.hpp"
-#include "multiscale/run_record.hpp"
 
 namespace polybed::multiscale {
 
@@ -170,16 +168,8 @@ class Comparer {
   }
 
   void warn_of_drift(const std::string& model, const core::History& history) {
-    std::vector<std::string> names{"bed_height"};
-    for (const std::string& name : species_) names.push_back("centre_" + name);
-    fluid::Drifts drifts(names);
-    const Series& time = history.of("time_s");
-    for (std::size_t n = 0; n < time.size() && time[n] <= window_.end; ++n) {
-      std::vector<std::optional<double>> row;
-      for (const std::string& name : names) row.emplace_back(history.of(name + "_m")[n]);
-      drifts.see(time[n], row);
-    }
-    for (const std::string& line : drift_lines(drifts)) result_.warnings.push_back(model + ": " + line);
+    for (const std::string& line : drifts_in(history, species_, window_))
+      result_.warnings.push_back(model + ": " + line);
   }
 
   const Measured &tfm_, &dem_;

@@ -153,12 +153,22 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   drag_command->add_flag("--json", drag.json, "one JSON object");
 
   InversionOptions inversion;
-  CLI::App* inversion_command = app.add_subcommand("inversion", "the inversion point by force balance, without a run");
+  CLI::App* inversion_command =
+      app.add_subcommand("inversion", "the inversion point of two species: by force balance, or by a scan of runs");
   add_case(*inversion_command, inversion);
   inversion_command->add_option("--law", inversion.law, "drag law in place of the case's");
   inversion_command->add_option("--temperature", inversion.temperature, "in place of the case's, e.g. \"20 degC\"");
   inversion_command->add_option("--method", inversion.method,
                                 "force_balance | bulk_density | expansion | density_maximum");
+  inversion_command->add_option("--scan", inversion.scan, "by runs instead: tfm | dem | both")
+      ->check(CLI::IsMember({"tfm", "dem", "both"}));
+  inversion_command->add_option("--from", inversion.from, "lowest velocity of the first bracket, e.g. \"30 mm/s\"");
+  inversion_command->add_option("--to", inversion.to, "highest; default a quarter about the force balance");
+  inversion_command->add_option("-o,--output", inversion.output,
+                                "folder of a scan; default runs/<case name>-inversion");
+  inversion_command->add_option("--until", inversion.until, "simulated time of each run, e.g. \"20 s\"");
+  inversion_command->add_flag("--quiet", inversion.quiet, "no line for each run");
+  inversion_command->add_flag("!--no-picture", inversion.picture, "no inversion.png at the end");
 
   PlotOptions plot;
   CLI::App* plot_command = app.add_subcommand("plot", "pictures of a finished or a running run");
@@ -195,12 +205,14 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
   for (const char* command : {"tfm", "dem", "compare", "check"})
     if (app.got_subcommand(command)) mpi.emplace(argc, argv);
+  if (!inversion.scan.empty()) mpi.emplace(argc, argv);
   if (app.got_subcommand("tfm")) run_tfm(tfm);
   if (app.got_subcommand("dem")) run_dem(dem);
   if (app.got_subcommand("compare")) run_compare(compare);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
   if (app.got_subcommand("drag")) run_drag(drag);
-  if (app.got_subcommand("inversion")) run_inversion(inversion);
+  if (app.got_subcommand("inversion"))
+    inversion.scan.empty() ? run_inversion(inversion) : run_inversion_scan(inversion);
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);
   if (app.got_subcommand("explain")) run_explain(key, explain_json);
   if (app.got_subcommand("list")) run_list(list_json);

@@ -1,5 +1,5 @@
 // polybed inversion: the inversion point of a binary case, with the bands of its inputs.
-#include "multiscale/inversion.hpp"
+#include "multiscale/inversion/models.hpp"
 
 #include <fmt/format.h>
 
@@ -7,29 +7,12 @@
 
 #include "core/case_file.hpp"
 #include "core/json.hpp"
-#include "fluid/properties.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {
 
 namespace {
-
-BinaryBed binary_bed(const core::Scene& scene) {
-  if (scene.species.size() != 2)
-    throw core::CaseError(fmt::format("inversion needs two species, the case has {}", scene.species.size()));
-  if (scene.bed.volume_share.size() != 2)
-    throw core::CaseError("inversion needs bed.volume_share: bed.start = \"" + scene.bed.start + "\" has none");
-  BinaryBed bed;
-  for (std::size_t j = 0; j < 2; ++j) {
-    bed.diameter[j] = scene.species[j].diameter;
-    bed.density[j] = scene.species[j].density;
-    bed.share[j] = scene.bed.volume_share[j];
-  }
-  bed.fluid = fluid::fluid_constants(scene.fluid);
-  bed.gravity = scene.column.gravity;
-  return bed;
-}
 
 /// How far one uncertain input moves the answer.
 struct Band {

@@ -47,8 +47,11 @@ struct DragOptions {
   bool guard = true, json = false;
 };
 
-struct InversionOptions : CaseOptions {
+/// Options of the inversion point; those of a run are for the runs of a scan.
+struct InversionOptions : RunOptions {
   std::string law, temperature, method = "force_balance";
+  std::string scan;      ///< tfm | dem | both; empty: without a run
+  std::string from, to;  ///< velocities to begin the scan at; empty: about the force balance
 };
 
 /// Each command writes its answer to standard output; errors are thrown.
@@ -58,6 +61,7 @@ void run_compare(const CompareOptions& options);
 void run_check(const CaseOptions& options);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);
+void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "closures/drag.hpp"
+#include "core/scene.hpp"
 #include "fluid/fluid_state.hpp"
 
 namespace polybed::multiscale {
@@ -19,6 +20,9 @@ struct BinaryBed {
   fluid::FluidConstants fluid;
   double gravity = 9.81;  ///< m/s2
 };
+
+/// The bed of a case; throws core::CaseError if it has not two species with their shares.
+[[nodiscard]] BinaryBed binary_bed(const core::Scene& scene);
 
 struct InversionPoint {
   double velocity;  ///< superficial, m/s
