@@ -21,6 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Part of a run in which the velocity goes from that of the run before to its own; far from the window, the last
+/// quarter.
+constexpr double ramp_share = 0.02;
+
 core::JsonValue read_record(const fs::path& directory) {
   const core::Bytes bytes = core::read_whole_file(directory / "run.json");
   return core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -39,8 +43,9 @@ fluid::TimeMean mean_of(const fs::path& directory, const core::History& history,
 /// The runs of a scan by one model, each in a folder called by its velocity and the hash of its case.
 class RunsOfModel {
  public:
-  RunsOfModel(const InversionOptions& options, std::string model, fs::path directory)
+  RunsOfModel(const InversionOptions& options, std::string model, fs::path directory, double until)
       : options_(options),
+        until_(until),
         model_(std::move(model)),
         directory_(std::move(directory)),
         ranks_(core::Ranks::of_program()) {}
@@ -55,10 +60,8 @@ class RunsOfModel {
     RunOptions run = options_;
     run.json = run.picture = false;
     run.quiet = true;
-    run.overrides.push_back(fmt::format("inlet.superficial_velocity={}", velocity));
-    if (from)
-      run.overrides.push_back(
-          fmt::format("bed.start=\"checkpoint:{}\"", checkpoint_path(runs_[*from].directory).string()));
+    const std::vector<std::string> start = start_of(velocity, from);
+    run.overrides.insert(run.overrides.end(), start.begin(), start.end());
     const std::string hash = core::text_hash(core::resolved_case(read_scene(run)));
     run.output = directory_ / model_ / fmt::format("{:.3f}mm_s-{}", 1e3 * velocity, hash.substr(0, 10));
     RunOfScan found;
@@ -78,6 +81,14 @@ class RunsOfModel {
       std::fflush(stdout);
     }
     return found.mean;
+  }
+
+  /// What a run begins with. One that goes on from another has its velocity at first, which its fields are of.
+  [[nodiscard]] std::vector<std::string> start_of(double velocity, std::optional<std::size_t> from) const {
+    if (!from) return {fmt::format("inlet.superficial_velocity={}", velocity)};
+    return {
+        fmt::format("inlet.superficial_velocity=[[0.0,{}],[{},{}]]", velocities_[*from], ramp_share * until_, velocity),
+        fmt::format("bed.start=\"checkpoint:{}\"", checkpoint_path(runs_[*from].directory).string())};
   }
 
   /// Whether a folder holds a finished run; its name says of which case. Collective.
@@ -112,6 +123,7 @@ class RunsOfModel {
   }
 
   const InversionOptions& options_;
+  double until_;  ///< s
   std::string model_;
   fs::path directory_;
   std::shared_ptr<const core::Ranks> ranks_;
@@ -181,7 +193,8 @@ void run_inversion_scan(const InversionOptions& options) {
   const bool speaks = core::is_first(ranks.get()) && !options.json;
   if (speaks && !options.quiet) fmt::print("{}", scan_head());
   std::vector<ScanOfModel> scans;
-  for (const std::string& model : models) scans.push_back(RunsOfModel(options, model, request.directory).scan(range));
+  for (const std::string& model : models)
+    scans.push_back(RunsOfModel(options, model, request.directory, scene.run.until).scan(range));
   core::on_first(ranks.get(), [&] {
     const std::string text = scan_json(scans, request);
     core::write_atomically(request.directory / "inversion.json", text + "\n");
