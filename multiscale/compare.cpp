@@ -12,8 +12,9 @@ namespace polybed::multiscale {
 
 namespace {
 
-constexpr double enough = 30;       // autocorrelation times in a window: cost.md, section 6
-constexpr double window_parts = 4;  // windows in a run, likewise
+constexpr double enough = 30;                            // autocorrelation times in a window: cost.md, section 6
+constexpr double composition_goal_near_inversion = 0.1;  // calibration.md, section 8
+constexpr double window_parts = 4;                       // windows in a run, likewise
 
 using Series = std::vector<double>;
 
@@ -191,6 +192,13 @@ std::optional<double> ComparedMeasure::difference_error() const {
 
 std::optional<bool> Score::reached() const {
   return value && goal ? std::optional(std::abs(*value) <= *goal) : std::nullopt;
+}
+
+void take_up(Comparison& comparison, const FoundInversion& found, double velocity) {
+  for (Score& score : comparison.scores)
+    if (score.name == "D1" && found.near(velocity)) score.goal = composition_goal_near_inversion;
+  comparison.scores.push_back({"u_inv", found.agreement.difference, found.agreement.error, found.agreement.goal});
+  comparison.inversion_file = found.file.string();
 }
 
 Comparison compare(const Measured& tfm, const Measured& dem) {

@@ -136,6 +136,8 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
       add_run(app, "compare", "run the case by both models, or take runs of it: how far they agree", compare);
   compare_command.add_option("--tfm", compare.tfm, "directory of a run of polybed tfm, finished or not");
   compare_command.add_option("--dem", compare.dem, "directory of a run of polybed dem, finished or not");
+  compare_command.add_option("--inversion", compare.inversion,
+                             "folder of polybed inversion --scan both; default that of the case in runs/");
 
   CaseOptions check;
   add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);
@@ -159,7 +161,7 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   inversion_command->add_option("--law", inversion.law, "drag law in place of the case's");
   inversion_command->add_option("--temperature", inversion.temperature, "in place of the case's, e.g. \"20 degC\"");
   inversion_command->add_option("--method", inversion.method,
-                                "force_balance | bulk_density | expansion | density_maximum");
+                                "force_balance | bulk_density | expansion | density_maximum | all");
   inversion_command->add_option("--scan", inversion.scan, "by runs instead: tfm | dem | both")
       ->check(CLI::IsMember({"tfm", "dem", "both"}));
   inversion_command->add_option("--from", inversion.from, "lowest velocity of the first bracket, e.g. \"30 mm/s\"");
@@ -211,8 +213,7 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   if (app.got_subcommand("compare")) run_compare(compare);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
   if (app.got_subcommand("drag")) run_drag(drag);
-  if (app.got_subcommand("inversion"))
-    inversion.scan.empty() ? run_inversion(inversion) : run_inversion_scan(inversion);
+  if (app.got_subcommand("inversion")) run_inversion(inversion);
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);
   if (app.got_subcommand("explain")) run_explain(key, explain_json);
   if (app.got_subcommand("list")) run_list(list_json);

@@ -2,6 +2,7 @@
 // reads, writes and speaks.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -48,6 +49,9 @@ class CaseRun {
   [[nodiscard]] virtual bool after_step();
   [[nodiscard]] virtual std::vector<double> kinks() { return {}; }
 
+  /// Time by the clock since this process took up the run, s.
+  [[nodiscard]] double wall_seconds() const;
+
   core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
   RunOptions options_;
   core::Scene scene_;
@@ -58,6 +62,7 @@ class CaseRun {
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
 
  private:
+  std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
   void go();
   void write_checkpoint();
   void record(const std::string& state);

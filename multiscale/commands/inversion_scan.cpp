@@ -11,7 +11,7 @@
 #include "fluid/time_mean.hpp"
 #include "multiscale/commands/run_directory.hpp"
 #include "multiscale/compare_window.hpp"
-#include "multiscale/inversion/scan_report.hpp"
+#include "multiscale/inversion/scan_file.hpp"
 #include "multiscale/python_module.hpp"
 #include "tfm/particle_scene.hpp"
 
@@ -83,12 +83,16 @@ class RunsOfModel {
     return found.mean;
   }
 
-  /// What a run begins with. One that goes on from another has its velocity at first, which its fields are of.
+  /// What a run begins with. One that goes on from another has its velocity at first, which its fields are of, and its
+  /// integrator, which would else be chosen by the velocity.
   [[nodiscard]] std::vector<std::string> start_of(double velocity, std::optional<std::size_t> from) const {
     if (!from) return {fmt::format("inlet.superficial_velocity={}", velocity)};
-    return {
+    const RunOfScan& source = runs_[*from];
+    std::vector<std::string> start{
         fmt::format("inlet.superficial_velocity=[[0.0,{}],[{},{}]]", velocities_[*from], ramp_share * until_, velocity),
-        fmt::format("bed.start=\"checkpoint:{}\"", checkpoint_path(runs_[*from].directory).string())};
+        fmt::format("bed.start=\"checkpoint:{}\"", checkpoint_path(source.directory).string())};
+    if (model_ == "tfm") start.push_back(fmt::format("tfm.integrator=\"{}\"", source.integrator));
+    return start;
   }
 
   /// Whether a folder holds a finished run; its name says of which case. Collective.
@@ -115,11 +119,14 @@ class RunsOfModel {
       run.begin = window.begin;
       run.end = window.end;
       run.drifts = drifts_in(history, species, window);
-      run.cpu_seconds = read_record(run.directory).of("cpu_s").number();
+      const core::JsonValue record = read_record(run.directory);
+      run.cpu_seconds = record.of("cpu_s").number();
+      run.integrator = record.of("integrator").text();
     });
     std::array<double, 2> mean{run.mean.value, run.mean.error};
     core::take_from_first(ranks_.get(), mean);
     run.mean = {mean[0], mean[1]};
+    if (ranks_) run.integrator = core::said_by(ranks_.get(), 0, run.integrator);
   }
 
   const InversionOptions& options_;
@@ -158,15 +165,6 @@ ScanRange range_of(const InversionOptions& options, const std::optional<Inversio
   return range;
 }
 
-/// Hash of the case without what the runs of a scan differ in, so that one of its comparison is known to be of it.
-std::string hash_without_velocity(core::Scene scene) {
-  scene.inlet.superficial_velocity = {};
-  scene.bed.start.clear();
-  scene.run.until = 1;
-  scene.output = {};
-  return core::text_hash(core::resolved_case(scene));
-}
-
 void draw(const InversionOptions& options, const fs::path& directory) {
   const PythonEnd end = run_python("polybed.scan", {"--", directory.string()}, PythonOutput::keep);
   if (options.json || options.quiet) return;
@@ -185,7 +183,7 @@ void run_inversion_scan(const InversionOptions& options) {
       options.scan == "both" ? std::vector<std::string>{"tfm", "dem"} : std::vector<std::string>{options.scan};
   if (options.scan != "dem") tfm::refuse_particle_scene(scene);
   if (options.scan != "tfm") dem::refuse_continuum_scene(scene);
-  ScanRequest request{options.case_path.string(),          hash_without_velocity(scene), options.overrides, {},
+  ScanRequest request{options.case_path.string(),          hash_of_scanned(scene), options.overrides, {},
                       run_directory(options, "inversion"), force_balance(scene)};
   for (const core::Species& species : scene.species) request.species.push_back(species.name);
   const ScanRange range = range_of(options, request.force_balance);

@@ -27,7 +27,8 @@ struct RunOptions : CaseOptions {
 
 /// Options of the comparison of both models; those of a run are for the models that it runs itself.
 struct CompareOptions : RunOptions {
-  std::filesystem::path tfm, dem;  ///< runs to compare; empty: it is run
+  std::filesystem::path tfm, dem;   ///< runs to compare; empty: it is run
+  std::filesystem::path inversion;  ///< folder of a scan of the case; empty: the default one, if it is of the case
 };
 
 /// Options of the pictures of a run.

@@ -86,7 +86,7 @@ class TfmRun final : public CaseRun {
   }
 
   std::string record_text(const std::string& state) override {
-    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_);
+    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_});
   }
 

@@ -202,10 +202,10 @@ BinaryBed binary_bed(const core::Scene& scene) {
 
 const std::vector<InversionMethod>& inversion_methods() {
   static const std::vector<InversionMethod> methods{
-      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)"},
-      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)"},
-      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)"},
-      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)"}};
+      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)", true},
+      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true},
+      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false},
+      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false}};
   return methods;
 }
 

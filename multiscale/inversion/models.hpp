@@ -32,6 +32,7 @@ struct InversionPoint {
 /// The methods by name, with what each is, for messages and lists.
 struct InversionMethod {
   std::string name, help;
+  bool takes_law;  ///< whether the drag law decides
 };
 [[nodiscard]] const std::vector<InversionMethod>& inversion_methods();
 

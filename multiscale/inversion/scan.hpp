@@ -46,8 +46,9 @@ struct ScanResult {
   std::optional<double> error;     ///< half-width of its 95 % interval by the noise of the means, m/s
   std::optional<double> slope;     ///< of the means over the bracket, s/m
 
-  /// (high - low) over the velocity in their middle.
-  [[nodiscard]] double width() const { return 2 * (high - low) / (high + low); }
+  /// How well the velocity is known, over itself: the bracket where it is narrow, else the interval by the noise. Only
+  /// where one was found.
+  [[nodiscard]] double width() const { return (end == ScanEnd::bracket ? high - low : 2 * *error) / *velocity; }
 };
 
 /// Width at which a scan ends (cost.md, section 3).

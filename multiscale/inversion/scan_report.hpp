@@ -19,6 +19,7 @@ struct RunOfScan {
   double bed_height = 0, bed_height_error = 0;  ///< time mean and half-width, m
   double begin = 0, end = 0;                    ///< of the window, s
   double cpu_seconds = 0;
+  std::string integrator;
   std::vector<std::string> drifts;  ///< what is not steady
 };
 
@@ -28,8 +29,8 @@ struct ScanOfModel {
   std::vector<RunOfScan> runs;  ///< as in the result
 };
 
-/// Whether the models agree: relative difference of the velocities, against the greater of 5 % and half the widths of
-/// both brackets (calibration.md, section 8). Empty unless both have found one.
+/// Whether the models agree: relative difference of the velocities, against the greater of 5 % and half of what both
+/// are unknown by (calibration.md, section 8). Empty unless both have found one.
 struct ScanAgreement {
   double difference = 0, error = 0, goal = 0.05;
 };

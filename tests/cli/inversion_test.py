@@ -81,5 +81,33 @@ class Scan(Scratch):
             WRONG_CASE, "inversion", CASE, "--scan", "tfm", "--set", "species.coarse.density=2500").stderr)
 
 
+class WithoutARun(Scratch):
+    SYSTEM_B = ROOT / "cases/thesis-b/case.toml"
+
+    def test_all_methods_are_what_each_says_alone(self):
+        rows = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all", "--json").stdout)["methods"]
+        laws = [law["law"] for role in strict_json(self.ends(DONE, "list", "--json").stdout)["roles"] if role["role"] == "drag"
+                for law in role["laws"]]
+        self.assertEqual([row["law"] for row in rows if row["method"] == "force_balance"], laws)
+        self.assertEqual([row["method"] for row in rows if row["law"] is None], ["expansion", "density_maximum"])
+        for method, law in (("force_balance", "vbk_theory"), ("bulk_density", "di_felice"), ("density_maximum", None)):
+            alone = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--method", method, "--json",
+                                          *(["--law", law] if law else [])).stdout)
+            [row] = [row for row in rows if row["method"] == method and row["law"] == law]
+            self.assertEqual(row["roots"], alone["roots"])
+        # 37.3730 mm/s of tests/data/lbm/systems_ABC_macro.csv, for shares of 0.431 where these are of whole particles
+        [theory] = [row for row in rows if row["law"] == "vbk_theory" and row["method"] == "force_balance"]
+        self.assertAlmostEqual(theory["roots"][-1]["velocity_m_s"], 37.373e-3, delta=0.01 * 37.373e-3)
+        table = self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all").stdout
+        self.assertRegex(table, r"(?m)^force_balance +vbk_theory +37\.\d\d +0\.\d{4}$")
+
+    def test_law_and_temperature_reach_a_scan(self):
+        found = strict_json(self.ends(
+            DONE, "inversion", CASE, "--scan", "tfm", *SHORT, "--from", "33 mm/s", "--to", "45 mm/s", "--law", "vbk_theory", "--json",
+            "-o", self.folder / "scan").stdout)
+        self.assertIn('drag = "vbk_theory"',
+                      strict_json((self.folder / "scan" / found["models"]["tfm"]["runs"][0]["directory"] / "run.json").read_text())["case"])
+
+
 if __name__ == "__main__":
     program.main()

@@ -107,7 +107,11 @@ TEST(InversionScan, TheModelsAgreeWithinFivePercentOrTheirBrackets) {
   EXPECT_NEAR(close->error, 1.075 * 0.3 / 34.4, 1e-12);
   EXPECT_DOUBLE_EQ(close->goal, 0.05);  // brackets of 2.9 and 1.9 %
   const auto wide = agreement_of({scan("tfm", 1, 0, 0.95, 1.05), scan("dem", 1.05, 0, 1, 1.1)});
-  EXPECT_NEAR(wide->goal, 0.5 * (0.1 + 0.2 / 2.1), 1e-12);
+  EXPECT_NEAR(wide->goal, 0.5 * (0.1 + 0.1 / 1.05), 1e-12);
+  // a wide bracket that ended in the noise leaves no more room than its interval
+  ScanOfModel noisy = scan("dem", 1.05, 0.03, 0.5, 1.5);
+  noisy.result.end = ScanEnd::indistinct;
+  EXPECT_NEAR(agreement_of({scan("tfm", 1, 0, 0.95, 1.05), noisy})->goal, 0.5 * (0.1 + 0.06 / 1.05), 1e-12);
   EXPECT_FALSE(agreement_of({scan("tfm", 1, 0, 0.95, 1.05)}));
 }
 
