@@ -184,7 +184,7 @@ class Comparison(Scratch):
         scan = {"outcome": "bracket", "velocity_m_s": 0.021, "error_m_s": 1e-4, "low_m_s": 0.0207, "high_m_s": 0.0213,
                 "slope_s_m": -10, "cpu_s": 1, "runs": []}
         made = self.ends(DONE, "inversion", self.case, "--scan", "tfm", "--from", "19 mm/s", "--to", "21 mm/s", "--set",
-                         "output.history_every=1e-5", "-o", self.folder / "scan", *QUIET, "--json").stdout
+                         "output.history_every=1e-5", "--until", "2 ms", "-o", self.folder / "scan", *QUIET, "--json").stdout
         found = strict_json(made) | {"models": {"tfm": scan, "dem": scan | {"velocity_m_s": 0.02}},
                                      "agreement": {"value": 0.05, "error": 0.01, "goal": 0.05, "reached": True}}
         path = self.folder / "scan/inversion.json"
