@@ -134,11 +134,12 @@ core::JsonValue read_run_record(const std::filesystem::path& directory) {
   }
 }
 
-RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
+RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds) {
   const core::Grid& grid = model.constants().grid;
   RunTotals totals;
   totals.ranks = grid.ranks ? grid.ranks->count() : 1;
   totals.cpu_seconds = core::sum_of_ranks(grid, cpu_seconds);
+  totals.wall_seconds = wall_seconds;
   totals.masses = tfm::masses(model);
   if (model.constants().openings.present()) totals.passed = model.passed();
   const tfm::Effects& effects = model.effects();
@@ -206,6 +207,7 @@ std::string run_record_text(const RunRecord& record) {
   json.member("momentum", model.momentum().name).member("momentum_reason", model.momentum().reason);
   json.member("unknowns", std::uint64_t(model.unknowns())).member("time_s", model.time());
   json.member("cpu_s", record.totals.cpu_seconds)
+      .member("wall_s", record.totals.wall_seconds)
       .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);
   write_work(json, model.work());
   write_timers(json, record.timers);

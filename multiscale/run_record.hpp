@@ -21,6 +21,7 @@ namespace polybed::multiscale {
 struct RunTotals {
   int ranks = 1;
   double cpu_seconds = 0;
+  double wall_seconds = 0;  ///< by the clock of the first rank
   std::vector<tfm::ClosureUse> closures;
   std::vector<double> masses;         ///< of the species in the column, kg
   std::vector<fluid::Passed> passed;  ///< through open ends; empty if there are none
@@ -28,7 +29,8 @@ struct RunTotals {
 
 /// Collective.
 /// \param cpu_seconds  of this process
-[[nodiscard]] RunTotals totals_of(const tfm::Model& model, double cpu_seconds);
+/// \param wall_seconds  likewise, by the clock
+[[nodiscard]] RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds);
 
 /// Everything that goes into the record; borrowed for the call.
 struct RunRecord {

@@ -61,6 +61,10 @@ void CaseRun::go() {
       });
 }
 
+double CaseRun::wall_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_begin_).count();
+}
+
 bool CaseRun::after_step() { return !core::on_any_rank(ranks_.get(), interrupt_.wanted()); }
 
 void CaseRun::say(const std::vector<std::string>& lines) const {

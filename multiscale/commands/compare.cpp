@@ -80,6 +80,21 @@ void make_page(const CompareOptions& options, const fs::path& directory) {
     fmt::print(stderr, "no page: {}\n", end.not_started.empty() ? end.output : end.not_started);
 }
 
+/// Adds the score of the inversion velocity where a scan of the case by both models has found it, and near to it leaves
+/// the layers more room.
+void add_inversion(const CompareOptions& options, const core::Scene& scene, Comparison& comparison) {
+  std::optional<FoundInversion> found;
+  if (!options.inversion.empty() && !fs::exists(options.inversion / "inversion.json"))
+    throw core::FileError(fmt::format("{}: no scan (it has no inversion.json)", options.inversion.string()));
+  try {
+    found = read_inversion(
+        options.inversion.empty() ? default_run_directory(options.case_path, "inversion") : options.inversion, scene);
+  } catch (const core::CaseError&) {
+    if (!options.inversion.empty()) throw;  // the default one may be of the case as it was before
+  }
+  if (found) take_up(comparison, *found, scene.inlet.superficial_velocity.back().second);
+}
+
 void compare_runs(const CompareOptions& options, const core::Scene& scene, const fs::path& tfm_directory,
                   const fs::path& dem_directory) {
   const ComparedRun tfm = read_run(tfm_directory, "tfm"), dem = read_run(dem_directory, "dem");
@@ -87,6 +102,7 @@ void compare_runs(const CompareOptions& options, const core::Scene& scene, const
   refuse_difference(tfm_directory.string(), tfm_case, dem_directory.string(), dem_case);
   Comparison comparison = compare({core::read_history(tfm_directory), core::read_profiles(tfm_directory)},
                                   {core::read_history(dem_directory), core::read_profiles(dem_directory)});
+  add_inversion(options, scene, comparison);
   warn_if_unfinished(comparison, "tfm", tfm);
   warn_if_unfinished(comparison, "dem", dem);
   const fs::path directory = run_directory(options, "compare"), path = directory / "comparison.json";

@@ -95,6 +95,7 @@ class DemRun final : public CaseRun {
     core::Json json;
     begin_record(json, scene_, "dem", state, ranks);
     json.member("particles", model_.particle_count()).member("time_s", model_.time()).member("cpu_s", cpu_);
+    json.member("wall_s", wall_seconds());
     json.member("integrator", model_.synchronised() ? "synchronised" : "thesis");
     json.member("integrator_reason", model_.limits().integrator_reason);
     write_step(json);
