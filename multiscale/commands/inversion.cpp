@@ -9,6 +9,7 @@
 #include "core/json.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/effects/choice.hpp"
+#include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {
 
@@ -73,13 +74,6 @@ struct MethodRow {
   std::vector<InversionPoint> points;
 };
 
-<<<<<<< HEAD
-void run_inversion(const InversionOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (!options.temperature.empty()) overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
-  if (!options.law.empty()) overrides.push_back("effects.drag=\"" + options.law + "\"");
-  const core::Scene scene = read_chosen_case(options.case_path, overrides);
-=======
 /// Every method, with every drag law where it takes one.
 std::vector<MethodRow> all_methods(const BinaryBed& bed) {
   const std::vector<core::Role> roles = all_roles();
@@ -119,9 +113,8 @@ void print_methods(const std::vector<MethodRow>& rows, bool as_json) {
 }
 
 void run_without_a_run(const InversionOptions& options) {
-  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
+  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
   if (options.method == "all") return print_methods(all_methods(binary_bed(scene)), options.json);
->>>>>>> chain
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
   const closures::DragLaw law = closures::drag_law(named->second, closures::Guard::on);

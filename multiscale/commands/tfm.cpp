@@ -87,15 +87,10 @@ class TfmRun final : public CaseRun {
   }
 
   std::string record_text(const std::string& state) override {
-<<<<<<< HEAD
-    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_);
+    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, promise ? &*promise : nullptr,
                             monitor_ ? monitor_->warnings() : std::vector<std::string>{}});
-=======
-    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
-    return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_});
->>>>>>> chain
   }
 
   void print_summary() override {
