@@ -66,8 +66,8 @@ class Mpi {
   int ranks_ = 1, rank_ = 0;
 };
 
-void add_case(CLI::App& command, multiscale::CaseOptions& options) {
-  command.add_option("CASE", options.case_path, "the case file")->required();
+void add_case(CLI::App& command, multiscale::CaseOptions& options, bool required = true) {
+  command.add_option("CASE", options.case_path, "the case file")->required(required);
   command.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says")
       ->take_all()
       ->allow_extra_args(false);
@@ -86,6 +86,15 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
   command.add_flag("!--no-picture", options.picture,
                    "no picture.png (or comparison.html) at the end, which takes a second");
   return command;
+}
+
+void add_estimate(CLI::App& app, multiscale::EstimateOptions& options) {
+  CLI::App& command = *app.add_subcommand("estimate", "time, memory and disk of a run, and what would make it cheaper");
+  add_case(command, options, false);
+  command.add_option("--model", options.model, "tfm | dem")->check(CLI::IsMember({"tfm", "dem"}));
+  command.add_option("--ranks", options.ranks, "that will share the case")->check(CLI::Range(1, 1000000));
+  command.add_option("--probe", options.probe, "run the case itself for so long first, e.g. 5s");
+  command.add_flag("--machine", options.machine, "measure this machine (30 s) and keep what was found");
 }
 
 int exit_code(core::ExitCode code) { return static_cast<int>(code); }
@@ -140,6 +149,9 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   CaseOptions check;
   add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);
 
+  EstimateOptions estimate;
+  add_estimate(app, estimate);
+
   DragOptions drag;
   std::string guard = "on";
   CLI::App* drag_command =
@@ -193,12 +205,13 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   drag.guard = guard == "on";
   if (app.got_subcommand("plot")) return exit_code(run_plot(plot));
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
-  for (const char* command : {"tfm", "dem", "compare", "check"})
+  for (const char* command : {"tfm", "dem", "compare", "check", "estimate"})
     if (app.got_subcommand(command)) mpi.emplace(argc, argv);
   if (app.got_subcommand("tfm")) run_tfm(tfm);
   if (app.got_subcommand("dem")) run_dem(dem);
   if (app.got_subcommand("compare")) run_compare(compare);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
+  if (app.got_subcommand("estimate") && mpi->first()) run_estimate(estimate);
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);

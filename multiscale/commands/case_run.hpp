@@ -14,6 +14,7 @@
 #include "core/run.hpp"
 #include "core/timers.hpp"
 #include "multiscale/commands/run_directory.hpp"
+#include "multiscale/estimate/estimate.hpp"
 
 namespace polybed::multiscale {
 
@@ -47,6 +48,13 @@ class CaseRun {
   /// After each step: false if the user wants to stop.
   [[nodiscard]] virtual bool after_step();
   [[nodiscard]] virtual std::vector<double> kinks() { return {}; }
+  /// What the whole run will take, told before it.
+  [[nodiscard]] virtual TimeBand predicted() = 0;
+
+  /// Writes "prediction". \param actual  CPU s of all ranks
+  void write_prediction_of(core::Json& json, const std::string& state, double actual) const;
+  /// The same on standard error.
+  void print_prediction(double actual) const;
 
   core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
   RunOptions options_;
@@ -58,11 +66,14 @@ class CaseRun {
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
 
  private:
+  void predict();
   void go();
   void write_checkpoint();
   void record(const std::string& state);
   void finish(const std::string& state);
   [[noreturn]] void fail(const core::NumericsError& error);
+
+  TimeBand prediction_;  ///< of this process's part of the run
 };
 
 /// Prints the table of time by term.

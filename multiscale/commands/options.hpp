@@ -41,6 +41,14 @@ struct PlotOptions {
   bool quiet = false, json = false;
 };
 
+/// Options of the estimate of what a run will take.
+struct EstimateOptions : CaseOptions {  // case_path may be empty
+  std::string model;                    ///< tfm | dem; empty: the continuum where it runs the case
+  std::string probe;                    ///< CPU time; empty: none
+  int ranks = 1;
+  bool machine = false;  ///< measure the machine
+};
+
 struct DragOptions {
   std::string law = "cello", csv;
   std::optional<double> voidage, reynolds;
@@ -56,6 +64,7 @@ void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
 void run_compare(const CompareOptions& options);
 void run_check(const CaseOptions& options);
+void run_estimate(const EstimateOptions& options);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
