@@ -97,6 +97,30 @@ void add_estimate(CLI::App& app, multiscale::EstimateOptions& options) {
   command.add_flag("--machine", options.machine, "measure this machine (30 s) and keep what was found");
 }
 
+void add_cost(CLI::App& app, multiscale::CostOptions& options) {
+  CLI::App& command = *app.add_subcommand("cost", "error against time for a case, and the settings that follow");
+  command.add_option("WORDS", options.words, "CASE; check DIR; diff OLD NEW; selftest")->required();
+  command.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", options.output, "folder; default runs/<case name>-cost");
+  command.add_option("--until", options.until, "simulated time, e.g. \"20 s\"");
+  command.add_option("--model", options.model, "tfm | dem")->check(CLI::IsMember({"tfm", "dem"}));
+  command.add_option("--qoi", options.quantities, "quantities by commas; the first ranks");
+  command.add_option("--axes", options.axes, "axes by commas");
+  command.add_option("--target", options.target, "error, e.g. 1%");
+  command.add_option("--budget", options.budget, "wall time, e.g. 20min");
+  command.add_option("--repeat", options.repeat, "runs for a CPU time")->check(CLI::Range(1, 100));
+  command.add_option("--clock", options.clock, "work | cpu | wall")->check(CLI::IsMember({"work", "cpu", "wall"}));
+  command.add_option("--reference", options.reference, "auto | exact | DIR of a run");
+  command.add_option("--seed", options.seed, "of the order of repetitions");
+  command.add_flag("--resume", options.resume, "go on with the runs in the folder");
+  command.add_flag("--force", options.force, "replace a sweep that exists");
+  command.add_flag("--quiet", options.quiet, "no progress");
+  command.add_flag("--json", options.json, "cost.json on standard output");
+  command.add_flag("!--no-picture", options.picture, "no cost.png and cost.svg");
+}
+
 int exit_code(core::ExitCode code) { return static_cast<int>(code); }
 
 Ending failed(core::ExitCode code, const std::string& message) { return {exit_code(code), message}; }
@@ -152,6 +176,9 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   EstimateOptions estimate;
   add_estimate(app, estimate);
 
+  CostOptions cost;
+  add_cost(app, cost);
+
   DragOptions drag;
   std::string guard = "on";
   CLI::App* drag_command =
@@ -203,6 +230,11 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
     return asked ? 0 : exit_code(core::ExitCode::wrong_case);
   }
   drag.guard = guard == "on";
+  if (app.got_subcommand("cost")) {
+    const core::ExitCode code = run_cost(cost);
+    flush_standard_output();
+    return exit_code(code);
+  }
   if (app.got_subcommand("plot")) return exit_code(run_plot(plot));
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
   for (const char* command : {"tfm", "dem", "compare", "check", "estimate"})

@@ -1,6 +1,7 @@
 // What the command line says, as plain data: filled by main, read by the commands.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -49,6 +50,14 @@ struct EstimateOptions : CaseOptions {  // case_path may be empty
   bool machine = false;  ///< measure the machine
 };
 
+/// Options of a sweep of error against time; those of a run are for the case.
+struct CostOptions : RunOptions {
+  std::vector<std::string> words;  ///< CASE; check DIR; diff OLD NEW; selftest
+  std::string model, quantities, axes, target = "1%", budget = "20min", clock = "work", reference = "auto";
+  int repeat = 5;
+  std::uint64_t seed = 1;
+};
+
 struct DragOptions {
   std::string law = "cello", csv;
   std::optional<double> voidage, reynolds;
@@ -65,6 +74,7 @@ void run_dem(const RunOptions& options);
 void run_compare(const CompareOptions& options);
 void run_check(const CaseOptions& options);
 void run_estimate(const EstimateOptions& options);
+core::ExitCode run_cost(CostOptions options);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
