@@ -75,6 +75,9 @@ core::ExitCode run_sweep_of(const CostOptions& options) {
   if (fs::exists(directory / "cost.json") && !options.resume && !options.force)
     throw core::CaseError(
         fmt::format("{} holds a sweep already: --resume goes on with it, --force replaces it", directory.string()));
+  if (options.reference != "auto" && options.reference != "exact" &&
+      !fs::exists(fs::path(options.reference) / "profiles.h5"))
+    throw core::FileError(fmt::format("--reference {}: no run directory", options.reference));
   core::make_directories(directory / "runs");
   std::vector<std::string> overrides = scene.overrides;
   for (const std::string& override : common_overrides(scene)) overrides.push_back(override);
@@ -82,7 +85,7 @@ core::ExitCode run_sweep_of(const CostOptions& options) {
   Runner runner(options.case_path, overrides, directory / "runs", options.resume,
                 double(cells[0]) * cells[1] * cells[2]);
   const Sweep sweep = run_sweep(scene, sweep_options(options, scene), runner);
-  const SweepOf of{options.case_path.string(), core::resolved_case(scene), overrides};
+  const SweepOf of{fs::absolute(options.case_path).lexically_normal().string(), core::resolved_case(scene), overrides};
   const std::string no_picture = write_sweep(sweep, of, directory, options.picture);
   if (options.json)
     fmt::print("{}\n", sweep_json(sweep, of));

@@ -63,7 +63,10 @@ std::string shares_of(const std::string& title, const std::vector<Share>& shares
 }  // namespace
 
 std::string sweep_markdown(const Sweep& sweep, const SweepOf& of) {
-  std::string text = fmt::format("case {}   model {}   {}   reference: {}{}\n", of.case_path, sweep.options.model,
+  const std::filesystem::path path = of.case_path;
+  const bool in_folder = path.filename() == "case.toml";
+  const std::string name = in_folder ? path.parent_path().filename().string() : path.filename().string();
+  std::string text = fmt::format("case {}   model {}   {}   reference: {}{}\n", name, sweep.options.model,
                                  sweep.regime == "chaotic" ? "chaotic" : "not chaotic",
                                  sweep.reference.kind.empty() ? "none" : sweep.reference.kind,
                                  sweep.reference.note.empty() ? "" : " (" + sweep.reference.note + ")");

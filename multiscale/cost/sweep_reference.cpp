@@ -32,7 +32,7 @@ void Sweeper::find_reference() {
     const RunQuantities measured = quantities_of_run(given, sweep_.on);
     for (const auto& [id, mean] : measured.values) {
       sweep_.reference.value[id] = mean.mean;
-      sweep_.reference.band[id] = mean.error.value_or(0) / 1;
+      sweep_.reference.band[id] = mean.error.value_or(0);
     }
     for (auto& [id, band] : sweep_.reference.band) band /= scale_of(sweep_, id);
     sweep_.reference.floor = sweep_.reference.band;
