@@ -106,6 +106,7 @@ void rank(Sweep& sweep) {
 }
 
 std::string settings_text(const Sweep& sweep, const Row& row) {
+  if (row.settings.empty()) return row.note;
   std::string text;
   for (const Axis& axis : sweep.axes) {
     const auto found = row.settings.find(axis.name);

@@ -116,13 +116,16 @@ void Sweeper::run_front() {
   }
 }
 
-/// Median, over the front that was run, of how far the additive model was off.
+/// Median, over the front that was run, of how far the additive model was off: of settings that differ from the centre
+/// on more than one axis, as those on a line are not predicted but known.
 void Sweeper::compare_predictions() {
   std::vector<double> off;
   const auto floor = sweep_.reference.floor.find(sweep_.ranking());
   for (const Row& row : sweep_.rows) {
     const auto q = row.quantities.find(sweep_.ranking());
-    if (!row.predicted || !row.done() || q == row.quantities.end()) continue;
+    int changed = 0;
+    for (const auto& [name, level] : row.settings) changed += level != centre_.at(name) ? 1 : 0;
+    if (!row.predicted || !row.done() || changed < 2 || q == row.quantities.end()) continue;
     const double least = floor == sweep_.reference.floor.end() ? 0 : floor->second;
     if (q->second.error > least && q->second.error > 0)
       off.push_back(std::abs(row.predicted->error - q->second.error) / q->second.error);
@@ -230,6 +233,8 @@ void Sweeper::attribute() {
   if (const auto m = centre.measured.values.find(sweep_.ranking()); m != centre.measured.values.end())
     if (m->second.error) statistics.value = *m->second.error / scale_of(sweep_, sweep_.ranking());
   statistics.note = "95 % interval of one window";
+  if (sweep_.regime == "steady")
+    statistics = {statistics.row, std::nullopt, "steady: nothing fluctuates, the mean is the same every time"};
   sweep_.attribution.push_back(solver);
   sweep_.attribution.push_back(statistics);
   attribute_axis("closure spread", {"drag", "effects", "stiffness", "kernel"});

@@ -141,8 +141,14 @@ void Sweeper::additive_reference() {
 void Sweeper::add_space(const Axis& grid) {
   std::vector<const Row*> line;
   for (std::size_t level = 0; level < grid.levels.size(); ++level)
-    if (const auto n = find(order_of(centre_with("grid", level)), RowKind::candidate); n && sweep_.rows[*n].done())
+    if (const auto n = find(order_of(centre_with("grid", level)), RowKind::candidate); n && sweep_.rows[*n].done()) {
       line.push_back(&sweep_.rows[*n]);
+      if (!sweep_.rows[*n].outcome.invariants_held)
+        sweep_.warnings.push_back(
+            fmt::format("grid {}: an invariant exceeded its limit, and it is one of the grids of the "
+                        "reference",
+                        grid.levels[level].label));
+    }
   if (line.size() < 3)
     return refuse(
         "no trustworthy reference: fewer than three grids were run within the budget; a larger --budget, or "

@@ -43,8 +43,9 @@ def draw_points(axes, runs, quantity):
         found = point(run, quantity)
         if run["status"] in ("failed", "refused"):
             predicted = run.get("predicted")
-            if predicted:
-                axes.plot(max(predicted["error"], LEAST), predicted["cost"], "x", color="black")
+            place = (found[0], found[2]) if found else (predicted["error"], predicted["cost"]) if predicted else None
+            if place:
+                axes.plot(max(place[0], LEAST), place[1], "x", color="black", zorder=4)
             continue
         if not found:
             continue
