@@ -59,6 +59,23 @@ std::optional<Slices> slices_of(const Profile& profile) {
   return slices;
 }
 
+/// Value at 0 and slope of the straight line through the pressure of the slabs with centres in a range.
+std::optional<std::pair<double, double>> pressure_line(const Profile& profile, double from, double to) {
+  double n = 0, z = 0, p = 0, zz = 0, zp = 0;
+  for (std::size_t k = 0; k < profile.pressure.size(); ++k) {
+    const double here = profile.centre(k);
+    if (here < from || here > to) continue;
+    n += 1;
+    z += here;
+    p += profile.pressure[k];
+    zz += here * here;
+    zp += here * profile.pressure[k];
+  }
+  if (n < 2) return std::nullopt;
+  const double slope = (n * zp - z * p) / (n * zz - z * z);
+  return std::pair((p - slope * z) / n, slope);
+}
+
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
@@ -101,6 +118,16 @@ std::optional<double> bed_height(const Profile& profile) {
     return profile.centre(k) + profile.slab * (here - half) / (here - above);
   }
   return std::nullopt;
+}
+
+std::optional<double> bed_height_by_pressure(const Profile& profile) {
+  const auto low = volume_quantile(profile, 0.10), high = volume_quantile(profile, 0.80), surface = bed_height(profile);
+  if (!low || !high || !surface) return std::nullopt;
+  const double top = profile.slab * double(profile.slabs());
+  const auto bed = pressure_line(profile, *low, *high), freeboard = pressure_line(profile, 1.1 * *surface, top);
+  if (!bed || !freeboard || bed->second == freeboard->second) return std::nullopt;
+  const double crossing = (freeboard->first - bed->first) / (bed->second - freeboard->second);
+  return crossing > 0 && crossing < top ? std::optional(crossing) : std::nullopt;
 }
 
 std::optional<double> centre(const Profile& profile, std::size_t species) {

@@ -14,6 +14,11 @@ namespace polybed::fluid {
 /// phi between z_0.80 and z_0.95 (so a dense lower layer does not decide). Empty for an empty bed.
 [[nodiscard]] std::optional<double> bed_height(const Profile& profile);
 
+/// Where two straight lines through the net pressure cross, m, as experiments report a bed's height: one by least
+/// squares over the slabs with centres between z_0.10 and z_0.80, one over those above 1.1 bed_height. Empty where one
+/// of them has fewer than two slabs, or where they do not cross in the column.
+[[nodiscard]] std::optional<double> bed_height_by_pressure(const Profile& profile);
+
 /// Height, m, of the centre of volume of a species; empty if there is none of it.
 [[nodiscard]] std::optional<double> centre(const Profile& profile, std::size_t species);
 

@@ -1,8 +1,30 @@
 #include "fluid/profile.hpp"
 
+#include <algorithm>
+
 #include "core/ranks.hpp"
 
 namespace polybed::fluid {
+
+Profile on_slabs(const Profile& profile, double slab, std::size_t count) {
+  const auto spread = [&](const std::vector<double>& values) {
+    std::vector<double> found(count, 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double bottom = double(k) * slab, top = bottom + slab;
+      const auto first = std::size_t(bottom / profile.slab);
+      for (std::size_t n = first > 0 ? first - 1 : 0; n < values.size() && double(n) * profile.slab < top; ++n) {
+        const double low = double(n) * profile.slab;
+        found[k] += values[n] * std::max(0.0, std::min(top, low + profile.slab) - std::max(bottom, low)) / slab;
+      }
+    }
+    return found;
+  };
+  Profile other;
+  other.slab = slab;
+  for (const auto& phi : profile.fraction) other.fraction.push_back(spread(phi));
+  if (!profile.pressure.empty()) other.pressure = spread(profile.pressure);
+  return other;
+}
 
 std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field) {
   std::vector<double> mean(std::size_t(grid.column_cells(1)), 0.0);

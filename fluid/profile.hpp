@@ -24,6 +24,10 @@ struct Profile {
   }
 };
 
+/// The same profile on slabs of another thickness: each takes the part of every slab that lies in it, so that volumes
+/// stay what they were; what lies above the last slab is left out. \param slab  thickness, m, > 0
+[[nodiscard]] Profile on_slabs(const Profile& profile, double slab, std::size_t count);
+
 /// Mean over each horizontal layer of the column of a padded cell field; [layer from the bottom]. Collective.
 [[nodiscard]] std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field);
 

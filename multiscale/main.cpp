@@ -66,8 +66,8 @@ class Mpi {
   int ranks_ = 1, rank_ = 0;
 };
 
-void add_case(CLI::App& command, multiscale::CaseOptions& options) {
-  command.add_option("CASE", options.case_path, "the case file")->required();
+void add_case(CLI::App& command, multiscale::CaseOptions& options, bool required = true) {
+  command.add_option("CASE", options.case_path, "the case file")->required(required);
   command.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says")
       ->take_all()
       ->allow_extra_args(false);
@@ -86,6 +86,39 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
   command.add_flag("!--no-picture", options.picture,
                    "no picture.png (or comparison.html) at the end, which takes a second");
   return command;
+}
+
+void add_estimate(CLI::App& app, multiscale::EstimateOptions& options) {
+  CLI::App& command = *app.add_subcommand("estimate", "time, memory and disk of a run, and what would make it cheaper");
+  add_case(command, options, false);
+  command.add_option("--model", options.model, "tfm | dem")->check(CLI::IsMember({"tfm", "dem"}));
+  command.add_option("--ranks", options.ranks, "that will share the case")->check(CLI::Range(1, 1000000));
+  command.add_option("--probe", options.probe, "run the case itself for so long first, e.g. 5s");
+  command.add_flag("--machine", options.machine, "measure this machine (30 s) and keep what was found");
+}
+
+void add_cost(CLI::App& app, multiscale::CostOptions& options) {
+  CLI::App& command = *app.add_subcommand("cost", "error against time for a case, and the settings that follow");
+  command.add_option("WORDS", options.words, "CASE; check DIR; diff OLD NEW; selftest")->required();
+  command.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", options.output, "folder; default runs/<case name>-cost");
+  command.add_option("--until", options.until, "simulated time, e.g. \"20 s\"");
+  command.add_option("--model", options.model, "tfm | dem")->check(CLI::IsMember({"tfm", "dem"}));
+  command.add_option("--qoi", options.quantities, "quantities by commas; the first ranks");
+  command.add_option("--axes", options.axes, "axes by commas");
+  command.add_option("--target", options.target, "error, e.g. 1%");
+  command.add_option("--budget", options.budget, "wall time, e.g. 20min");
+  command.add_option("--repeat", options.repeat, "runs for a CPU time")->check(CLI::Range(1, 100));
+  command.add_option("--clock", options.clock, "work | cpu | wall")->check(CLI::IsMember({"work", "cpu", "wall"}));
+  command.add_option("--reference", options.reference, "auto | exact | DIR of a run");
+  command.add_option("--seed", options.seed, "of the order of repetitions");
+  command.add_flag("--resume", options.resume, "go on with the runs in the folder");
+  command.add_flag("--force", options.force, "replace a sweep that exists");
+  command.add_flag("--quiet", options.quiet, "no progress");
+  command.add_flag("--json", options.json, "cost.json on standard output");
+  command.add_flag("!--no-picture", options.picture, "no cost.png and cost.svg");
 }
 
 int exit_code(core::ExitCode code) { return static_cast<int>(code); }
@@ -162,6 +195,12 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
       ->check(CLI::Range(1, 1000));
   bench_command->add_flag("--json", bench_json, "one JSON object");
 
+  EstimateOptions estimate;
+  add_estimate(app, estimate);
+
+  CostOptions cost;
+  add_cost(app, cost);
+
   DragOptions drag;
   std::string guard = "on";
   CLI::App* drag_command =
@@ -223,9 +262,14 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
     return asked ? 0 : exit_code(core::ExitCode::wrong_case);
   }
   drag.guard = guard == "on";
+  if (app.got_subcommand("cost")) {
+    const core::ExitCode code = run_cost(cost);
+    flush_standard_output();
+    return exit_code(code);
+  }
   if (app.got_subcommand("plot")) return exit_code(run_plot(plot));
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
-  for (const char* command : {"tfm", "dem", "compare", "check"})
+  for (const char* command : {"tfm", "dem", "compare", "check", "estimate"})
     if (app.got_subcommand(command)) mpi.emplace(argc, argv);
   if (!inversion.scan.empty()) mpi.emplace(argc, argv);
   if (app.got_subcommand("tfm")) run_tfm(tfm);
@@ -241,6 +285,7 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
     else
       run_effects(effects);
   }
+  if (app.got_subcommand("estimate") && mpi->first()) run_estimate(estimate);
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);

@@ -16,16 +16,10 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Measured on the cases of this repository, one core: a dense bed with friction and the ledger makes 1e7
-/// particle-steps a second, a dilute one up to four times as many; a step costs 3 microseconds with no particles at
-/// all.
-constexpr double particle_steps_per_second = 1e7, seconds_per_step = 3e-6, band = 4;
+constexpr double band = 4;
 /// Memory that the peak of a run grows by with each particle of a dense bed, and what output takes at any size; bytes.
 constexpr double bytes_per_particle = 2400, output = 12e6;
 
-/// The same with a fluid: particles are slower, as each asks the fields and the drag law at every step; of the fluid's
-/// step, what each particle gives and answers, and each cell.
-constexpr double particle_steps_in_fluid = 6e6, seconds_per_exchange = 2e-7, seconds_per_cell = 8e-7;
 /// Memory that the peak of a run grows by with each cell of the fluid.
 constexpr double bytes_per_cell = 1100;
 
@@ -74,12 +68,12 @@ std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materia
 }
 
 /// CPU time, s: of the particles, and of the fluid's steps.
-double expected_time(const ParticleRequirements& need) {
-  const double particles = need.particle_steps / (need.fluid ? particle_steps_in_fluid : particle_steps_per_second) +
-                           need.steps * seconds_per_step;
+double expected_time(const ParticleRequirements& need, const ParticleSpeed& speed) {
+  const double particles =
+      need.particle_steps * (need.fluid ? speed.particle_step_in_fluid : speed.particle_step) + need.steps * speed.step;
   if (!need.fluid) return particles;
-  return particles + need.fluid->steps *
-                         (seconds_per_exchange * double(need.count()) + seconds_per_cell * double(need.fluid->cells));
+  return particles + need.fluid->steps * (speed.fluid_step + speed.exchange * double(need.count()) +
+                                          speed.cell * double(need.fluid->cells));
 }
 
 void print_fluid(const FluidNeed& fluid) {
@@ -97,7 +91,7 @@ std::int64_t ParticleRequirements::count() const {
   return std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0));
 }
 
-ParticleRequirements particle_requirements_of(const core::Scene& scene) {
+ParticleRequirements particle_requirements_of(const core::Scene& scene, const ParticleSpeed& speed) {
   const dem::Box box = dem::box_of(scene);
   const dem::Materials materials(scene);
   const dem::PairLaws laws = dem::make_pair_laws(scene, materials);
@@ -111,7 +105,7 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene) {
   need.steps = std::ceil(scene.run.until / need.limits.dt);
   need.particle_steps = need.steps * double(need.count());
   need.fluid = fluid_need(scene, materials, need.count(), need.limits.dt, need.steps);
-  need.expected = expected_time(need);
+  need.expected = expected_time(need, speed);
   need.least = need.expected / band;
   need.most = need.expected * band;
   return need;

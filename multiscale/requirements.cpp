@@ -202,6 +202,18 @@ Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std
   return need;
 }
 
+Requirements expected_of(const core::Scene& scene, const tfm::Model& model, double seconds_per_step) {
+  Requirements need;
+  need.cells = cell_count(scene);
+  need.unknowns = model.unknowns();
+  need.integrator = model.integrator_name();
+  need.reason = model.integrator_reason();
+  need.momentum = model.momentum();
+  estimate_steps(scene, model, need);
+  need.time = time_need(scene, need, superficial_velocity(model), seconds_per_step);
+  return need;
+}
+
 void refuse_beyond_memory(const core::Scene& scene, const MemoryNeed& need, const core::AvailableMemory& available) {
   if (need.total() <= available.bytes) return;
   throw core::CaseError(fmt::format(

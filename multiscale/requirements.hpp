@@ -54,6 +54,10 @@ struct Requirements {
 [[nodiscard]] Requirements requirements_of(const core::Scene& scene, core::Timers& timers,
                                            std::unique_ptr<tfm::Model>& model);
 
+/// The same of a model that is there already, without memory and without a step: what a step takes is given.
+/// \param seconds_per_step  CPU time
+[[nodiscard]] Requirements expected_of(const core::Scene& scene, const tfm::Model& model, double seconds_per_step);
+
 /// Throws core::CaseError if a case needs more memory than there is, with both numbers.
 void refuse_beyond_memory(const core::Scene& scene, const MemoryNeed& need, const core::AvailableMemory& available);
 

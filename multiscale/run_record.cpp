@@ -19,14 +19,6 @@ namespace {
 
 using core::Json;
 
-/// The processor's name as the system gives it; "unknown" elsewhere.
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(std::min(line.find(':') + 2, line.size()));
-  return "unknown";
-}
-
 void write_work(Json& json, const tfm::Work& work) {
   json.key("work").begin_object();
   json.member("steps", work.steps).member("rejected_steps", work.rejected_steps);
@@ -109,6 +101,13 @@ void write_ledger(Json& json, const tfm::Constants& constants, const RunTotals& 
 }
 
 }  // namespace
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(':') + 2, line.size()));
+  return "unknown";
+}
 
 std::vector<std::string> drift_lines(const fluid::Drifts& drifts) {
   std::vector<std::string> lines;
@@ -209,6 +208,7 @@ std::string run_record_text(const RunRecord& record) {
   json.member("cpu_s", record.totals.cpu_seconds)
       .member("wall_s", record.totals.wall_seconds)
       .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);
+  record.write_prediction(json);
   write_work(json, model.work());
   write_timers(json, record.timers);
   write_invariants(json, record.observers.invariants());

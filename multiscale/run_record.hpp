@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,13 @@ struct RunRecord {
   std::string state;  ///< running | done | stopped by the user | failed: ...
   double begin;       ///< simulated time at which this process began, s
   RunTotals totals;
-  const Neglected* promise = nullptr;  ///< what a monitor has seen; null without one
-  std::vector<std::string> warnings;   ///< its own
+  const Neglected* promise = nullptr;                 ///< what a monitor has seen; null without one
+  std::vector<std::string> warnings;                  ///< its own
+  std::function<void(core::Json&)> write_prediction;  ///< writes its own member
 };
+
+/// The processor's name as the system gives it; "unknown" elsewhere.
+[[nodiscard]] std::string processor();
 
 /// Writes "size_classes": what became of the species with a distribution; nothing if there is none.
 void write_size_classes(core::Json& json, const core::Scene& scene);

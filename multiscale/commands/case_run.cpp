@@ -37,7 +37,24 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
   if (!options_.resume) core::on_first(ranks_.get(), [&] { remove_checkpoints(directory_); });
 }
 
+/// Of a run that goes on: the share that is left.
+void CaseRun::predict() {
+  const double left = std::clamp(1 - begin_ / scene_.run.until, 0.0, 1.0);
+  const TimeBand whole = predicted();
+  prediction_ = {left * whole.least, left * whole.expected, left * whole.most};
+}
+
+void CaseRun::write_prediction_of(core::Json& json, const std::string& state, double actual) const {
+  write_prediction(json, prediction_, state == "done", actual);
+}
+
+void CaseRun::print_prediction(double actual) const {
+  fmt::print(stderr, "predicted {:.3g} s of computing ({:.3g} to {:.3g}), took {:.3g}\n", prediction_.expected,
+             prediction_.least, prediction_.most, actual);
+}
+
 void CaseRun::run() {
+  predict();
   record("running");
   try {
     go();

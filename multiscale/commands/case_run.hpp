@@ -16,6 +16,7 @@
 #include "core/timers.hpp"
 #include "multiscale/commands/run_directory.hpp"
 #include "multiscale/effects/monitor.hpp"
+#include "multiscale/estimate/estimate.hpp"
 
 namespace polybed::multiscale {
 
@@ -49,6 +50,13 @@ class CaseRun {
   /// After each step: false if the user wants to stop.
   [[nodiscard]] virtual bool after_step();
   [[nodiscard]] virtual std::vector<double> kinks() { return {}; }
+  /// What the whole run will take, told before it.
+  [[nodiscard]] virtual TimeBand predicted() = 0;
+
+  /// Writes "prediction". \param actual  CPU s of all ranks
+  void write_prediction_of(core::Json& json, const std::string& state, double actual) const;
+  /// The same on standard error.
+  void print_prediction(double actual) const;
 
   /// Lets a monitor, if there is one, look at the state after a step; says on the first rank what it has to say.
   /// Collective.
@@ -78,11 +86,14 @@ class CaseRun {
   void say(const std::vector<std::string>& lines) const;
   std::optional<Neglected> promise_;
   std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
+  void predict();
   void go();
   void write_checkpoint();
   void record(const std::string& state);
   void finish(const std::string& state);
   [[noreturn]] void fail(const core::NumericsError& error);
+
+  TimeBand prediction_;  ///< of this process's part of the run
 };
 
 /// Prints the table of time by term.

@@ -98,6 +98,7 @@ class DemRun final : public CaseRun {
     json.member("wall_s", wall_seconds());
     json.member("integrator", model_.synchronised() ? "synchronised" : "thesis");
     json.member("integrator_reason", model_.limits().integrator_reason);
+    write_prediction_of(json, state, cpu_);
     write_step(json);
     write_work(json);
     write_timers(json, timers_);
@@ -151,6 +152,8 @@ class DemRun final : public CaseRun {
     json.end_array().member("contacts", t.contacts).member("max_overlap_m", t.max_overlap);
   }
 
+  TimeBand predicted() override { return dem_time(scene_, known_machine()); }
+
   void print_summary() override {
     fmt::print(stderr, "\n{} particles, {} steps, {:.4g} particle-steps per CPU second, list made {} times\n",
                model_.particle_count(), work_.steps, double(work_.particle_steps) / std::max(cpu_, 1e-9),
@@ -160,6 +163,7 @@ class DemRun final : public CaseRun {
                model_.limits().integrator_reason);
     if (fluid_)
       for (const std::string& line : fluid_lines(*fluid_)) fmt::print(stderr, "{}\n", line);
+    print_prediction(cpu_);
     if (scene_.dem.ledger)
       fmt::print(stderr, "energy ledger: worst {:.2e}, limit {:.0e}{}\n", observers_->ledger_error(), ledger_limit,
                  observers_->ledger_error() > ledger_limit ? "  <-- exceeded" : "");

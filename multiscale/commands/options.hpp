@@ -1,6 +1,7 @@
 // What the command line says, as plain data: filled by main, read by the commands.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -42,6 +43,22 @@ struct PlotOptions {
   bool quiet = false, json = false;
 };
 
+/// Options of the estimate of what a run will take.
+struct EstimateOptions : CaseOptions {  // case_path may be empty
+  std::string model;                    ///< tfm | dem; empty: the continuum where it runs the case
+  std::string probe;                    ///< CPU time; empty: none
+  int ranks = 1;
+  bool machine = false;  ///< measure the machine
+};
+
+/// Options of a sweep of error against time; those of a run are for the case.
+struct CostOptions : RunOptions {
+  std::vector<std::string> words;  ///< CASE; check DIR; diff OLD NEW; selftest
+  std::string model, quantities, axes, target = "1%", budget = "20min", clock = "work", reference = "auto";
+  int repeat = 5;
+  std::uint64_t seed = 1;
+};
+
 struct DragOptions {
   std::string law = "cello", csv;
   std::optional<double> voidage, reynolds;
@@ -64,6 +81,8 @@ void run_effects(const CaseOptions& options);
 void run_effects_bench(int rounds, bool json);
 /// The code to end with: of numbers that failed where the promise is broken.
 core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
+void run_estimate(const EstimateOptions& options);
+core::ExitCode run_cost(CostOptions options);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);
 void run_inversion_scan(const InversionOptions& options);

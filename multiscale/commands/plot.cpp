@@ -54,10 +54,18 @@ std::vector<std::string> words_of(const PlotOptions& options) {
   return words;
 }
 
+/// A folder of polybed cost has pictures of its own.
+PythonEnd draw(const PlotOptions& options) {
+  if (!fs::exists(options.run / "cost.json")) return run_python("polybed.plot", words_of(options), PythonOutput::show);
+  std::vector<std::string> words{"--", options.run.string()};
+  if (!options.output.empty()) words.insert(words.begin(), {"--out", options.output.string()});
+  return run_python("polybed.cost", words, PythonOutput::show);
+}
+
 }  // namespace
 
 core::ExitCode run_plot(const PlotOptions& options) {
-  const PythonEnd end = run_python("polybed.plot", words_of(options), PythonOutput::show);
+  const PythonEnd end = draw(options);
   if (!end.not_started.empty())
     throw core::FileError(fmt::format("no pictures: {}; {}", end.not_started, python_packages));
   switch (end.code) {  // the module has said what is wrong

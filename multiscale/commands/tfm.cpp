@@ -90,8 +90,11 @@ class TfmRun final : public CaseRun {
     totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, promise ? &*promise : nullptr,
-                            monitor_ ? monitor_->warnings() : std::vector<std::string>{}});
+                            monitor_ ? monitor_->warnings() : std::vector<std::string>{},
+                            [&](core::Json& json) { write_prediction_of(json, state, totals_.cpu_seconds); }});
   }
+
+  TimeBand predicted() override { return tfm_time(scene_, model_, known_machine()); }
 
   void print_summary() override {
     const tfm::Work work = model_.work();
@@ -109,6 +112,7 @@ class TfmRun final : public CaseRun {
       fmt::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,
                  100.0 * double(use.guarded) / double(std::max<std::uint64_t>(use.evaluations, 1)),
                  double(use.evaluations));
+    print_prediction(cpu);
     print_state_at_end();
   }
 

@@ -113,6 +113,28 @@ TEST(Measures, ThePressureDropContinuesToBothEnds) {
   EXPECT_NEAR(pressure_drop(p), 200 * 0.2, 1e-10);  // exact for a straight line
 }
 
+// Pressure falls by 100 Pa over 0.1 m of bed and stays at 5 Pa above it: the lines 105 - 1000 z and 5 cross at 0.1 m.
+TEST(Measures, TheHeightByPressureIsWhereTheLinesCross) {
+  Profile p = profile_of([](double z) { return step(z, 0, 0.1, 0.5); });
+  for (std::size_t k = 0; k < p.slabs(); ++k) p.pressure.push_back(std::max(5.0, 105 - 1000 * p.centre(k)));
+  ASSERT_TRUE(bed_height_by_pressure(p));
+  EXPECT_NEAR(*bed_height_by_pressure(p), 0.1, 1e-12);  // rounding
+  p.pressure.clear();
+  EXPECT_FALSE(bed_height_by_pressure(p));
+}
+
+// Slabs of 2, 4, 6 as 1.5 times as thick ones: the first holds 2 and half of 4, 8/3; the second half of 4 and 6, 16/3.
+TEST(Profile, OnOtherSlabsKeepsVolumes) {
+  const Profile p{1, {{2, 4, 6}}, {3, 3, 3}};
+  const Profile other = on_slabs(p, 1.5, 2);
+  EXPECT_NEAR(other.fraction[0][0], (2 + 0.5 * 4) / 1.5, 1e-14);
+  EXPECT_NEAR(other.fraction[0][1], (0.5 * 4 + 6) / 1.5, 1e-14);
+  EXPECT_NEAR(other.pressure[1], 3, 1e-14);
+  const Profile finer = on_slabs(p, 0.5, 6);
+  EXPECT_NEAR(finer.fraction[0][2], 4, 1e-14);
+  EXPECT_NEAR(on_slabs(p, 1, 3).fraction[0][2], 6, 1e-14);
+}
+
 TEST(Measures, DistanceOfTwoProfiles) {
   const Profile low = profile_of([](double z) { return step(z, 0, 0.1, 0.5); });
   const Profile shifted = profile_of([](double z) { return step(z, 0.02, 0.12, 0.5); });

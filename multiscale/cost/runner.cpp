@@ -1,0 +1,128 @@
+#include "multiscale/cost/runner.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/case_file.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/json_value.hpp"
+#include "multiscale/cost/child.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+core::JsonValue read_json(const fs::path& path) {
+  const core::Bytes bytes = core::read_whole_file(path);
+  return core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::string last_lines(const fs::path& path) {
+  constexpr std::size_t most = 300;
+  const core::Bytes bytes = core::read_whole_file(path);
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.size() > most ? "..." + text.substr(text.size() - most) : text;
+}
+
+bool all_held(const core::JsonValue& record) {
+  const auto invariants = record.object().find("invariants");
+  if (invariants == record.object().end()) return true;
+  const auto& all = invariants->second.array();
+  return std::all_of(all.begin(), all.end(), [](const core::JsonValue& one) { return one.of("held").truth(); });
+}
+
+/// What a sweep does not read: fields and checkpoints.
+void remove_bulk(const fs::path& directory) {
+  for (const char* name : {"fields", "particles"}) fs::remove_all(directory / name);
+  for (const char* name :
+       {"fields.h5", "particles.h5", "fields.xdmf", "particles.xdmf", "checkpoint.h5", "checkpoint.previous.h5"})
+    fs::remove(directory / name);
+}
+
+/// Whether a run lies there that came to its own end, not to that of an earlier budget.
+bool ended(const fs::path& directory) {
+  return fs::exists(directory / "end.json") && !read_json(directory / "end.json").of("timed_out").truth();
+}
+
+}  // namespace
+
+Runner::Runner(fs::path case_path, std::vector<std::string> overrides, fs::path folder, bool resume, double cells)
+    : case_path_(std::move(case_path)),
+      folder_(std::move(folder)),
+      overrides_(std::move(overrides)),
+      resume_(resume),
+      cells_(cells) {}
+
+std::vector<std::string> Runner::words_of(const RunOrder& order, const fs::path& directory) const {
+  std::vector<std::string> words;
+  if (order.ranks > 1) words = {"mpiexec", "-q", "-n", std::to_string(order.ranks)};
+  words.insert(words.end(), {this_program().string(), order.model, case_path_.string(), "--quiet", "--no-picture"});
+  words.insert(words.end(), {"--force", "-o", directory.string()});
+  for (const auto* list : {&overrides_, &order.overrides})
+    for (const std::string& override : *list) words.insert(words.end(), {"--set", override});
+  return words;
+}
+
+void Runner::start(const RunOrder& order, const fs::path& directory, double seconds) const {
+  fs::remove_all(directory);
+  core::make_directories(directory);
+  const ChildEnd end = run_child(words_of(order, directory), directory / "output.txt", seconds);
+  remove_bulk(directory);
+  core::Json json;
+  json.begin_object().member("code", end.code).member("timed_out", end.timed_out).member("wall_s", end.wall);
+  core::write_atomically(directory / "end.json", json.end_object().text() + "\n");
+}
+
+RunOutcome Runner::read(const fs::path& directory) const {
+  const core::JsonValue end = read_json(directory / "end.json");
+  RunOutcome outcome;
+  outcome.wall = end.of("wall_s").number();
+  const int code = int(end.of("code").number());
+  if (end.of("timed_out").truth()) {
+    outcome.state = "not run";
+    outcome.reason = fmt::format("ended after {:.3g} s: the budget was over", outcome.wall);
+    return outcome;
+  }
+  if (code != 0) {
+    outcome.state = code == int(core::ExitCode::wrong_case) ? "refused" : "failed";
+    outcome.reason = fmt::format("code {}: {}", code, last_lines(directory / "output.txt"));
+    return outcome;
+  }
+  const core::JsonValue record = read_json(directory / "run.json");
+  const core::JsonValue& timers = record.of("timers");
+  const auto output = timers.object().find("output");
+  outcome.state = "done";
+  outcome.simulated = record.of("time_s").number();
+  outcome.cpu = record.of("cpu_s").number() - (output != timers.object().end() ? output->second.number() : 0);
+  outcome.invariants_held = all_held(record);
+  outcome.measured = Measured{core::read_history(directory), core::read_profiles(directory)};
+  outcome.counters = counters_of(record, cells_);
+  return outcome;
+}
+
+RunOutcome Runner::run(const RunOrder& order, double seconds, int again) {
+  std::string name =
+      core::text_hash(fmt::format("{} {} {}", order.model, order.ranks, fmt::join(order.overrides, " ")));
+  if (again > 0) name += fmt::format("-{}", again);
+  const fs::path directory = folder_ / name;
+  const bool seen = std::find(seen_.begin(), seen_.end(), name) != seen_.end();
+  if (!seen && !(resume_ && ended(directory))) {
+    if (!(seconds > 0)) return {"not run", "the budget was over", 0, 0, 0, true, {}, {}};
+    start(order, directory, seconds);
+  }
+  RunOutcome outcome = read(directory);
+  if (!seen) {
+    seen_.push_back(name);
+    spent_ += outcome.wall;
+  }
+  return outcome;
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,181 @@
+#include "multiscale/estimate/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "core/progress.hpp"
+#include "core/timers.hpp"
+#include "dem/model.hpp"
+#include "multiscale/estimate/ways.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+/// A band by its factor either way, the middle moved by what runs took over what was expected.
+TimeBand band_of(double seconds, double middle, double factor) {
+  return {seconds * middle / factor, seconds * middle, seconds * middle * factor};
+}
+
+/// Of the two-fluid model, taken over expected, from the runs of docs/cost.md: 0.4 to 2.6 of explicit ones, 0.8 to 4.4
+/// of implicit ones, which start with many Newton iterations. A probe knows what a step costs and how long the first
+/// ones are, not those of the expanded bed.
+constexpr double explicit_middle = 1, implicit_middle = 2.3, tfm_factor = 2.2, probe_factor = 1.6;
+double tfm_middle(const std::string& integrator) {
+  return integrator == "explicit" ? explicit_middle : implicit_middle;
+}
+/// Of the particles: a dilute bed is up to four times as fast as the dense ones that were measured.
+constexpr double dem_middle = 1, dem_factor = 2;
+/// Constants that were not measured on this machine.
+constexpr double shipped_factor = 3;
+
+double factor_of(double own, const Machine& machine) { return machine.measured ? own : std::max(own, shipped_factor); }
+
+const char* basis_of(const Machine& machine) {
+  return machine.measured ? "what this machine was measured to do" : "shipped constants: polybed estimate --machine";
+}
+
+/// Ranks share the work but for what each waits: parallel.md.
+double wall_of(double cpu, int ranks) {
+  constexpr double efficiency = 0.88;
+  return ranks > 1 ? cpu / (ranks * efficiency) : cpu;
+}
+
+/// Adds what is known within a factor of 2.
+TimeBand beyond(TimeBand band, double more) {
+  return {band.least + more / 2, band.expected + more, band.most + 2 * more};
+}
+
+double rows(double until, double every) { return every > 0 ? std::floor(until / every * (1 + 1e-9)) + 1 : 2; }
+
+/// CPU seconds of a run that are not those of its steps: the program's start, output, and the particles' places.
+double overhead(const core::Scene& scene, const Machine& machine, double particles) {
+  const bool placed = !scene.bed.start.starts_with("list:") && !scene.bed.start.starts_with("checkpoint:");
+  return machine.start + machine.stored_step * rows(scene.run.until, *scene.output.every) +
+         machine.history_row * rows(scene.run.until, *scene.output.history_every) +
+         (placed ? machine.placed_particle * particles : 0);
+}
+
+/// Bytes of a run's files, as counted from what they hold: docs/file-formats.md.
+double disk_of(const core::Scene& scene, double cells, double particles, double state, double steps) {
+  const auto species = double(scene.species.size());
+  const double dimensions = scene.column.dimensions;
+  constexpr double file = 15e3, history_row = 220, step_row = 45, picture = 250e3, particle = 148;
+  const double of_cell = 8 * (2 + species) + (1 + species) * (8 * dimensions + 12);
+  const double of_slab = 8 * (3 + 3 * species);
+  const double stored = rows(scene.run.until, *scene.output.every);
+  double bytes = stored * (file + cells * of_cell + scene.column.cells[1] * of_slab);
+  if (particles > 0) bytes += stored * (file + particle * particles);
+  bytes += rows(scene.run.until, *scene.output.history_every) * history_row + 2 * state + picture;
+  return bytes + (particles > 0 ? 0 : steps * step_row);
+}
+
+int cores() { return std::max(1, int(std::thread::hardware_concurrency())); }
+
+/// Runs the case for some CPU seconds. Returns what a simulated second takes in the second half, and how far it got.
+template <class Model>
+std::pair<double, double> probed(Model& model, double until, double seconds) {
+  const double begin = core::cpu_seconds();
+  double half_time = 0, half_spent = 0, spent = 0;
+  while (model.time() < until && spent < seconds) {
+    model.step(until);
+    spent = core::cpu_seconds() - begin;
+    if (spent < seconds / 2) {
+      half_time = model.time();
+      half_spent = spent;
+    }
+  }
+  const double covered = std::min(model.time(), until);
+  return {(spent - half_spent) / std::max(covered - half_time, 1e-300), covered};
+}
+
+/// A band from what a probe took: what it covered is known, the rest goes on at the rate expected of it.
+TimeBand probed_band(double covered, double until, double spent, double rest) {
+  const double left = 1 - covered / until, factor = 1 + (probe_factor - 1) * left;
+  return band_of(spent + rest * left, 1, factor);
+}
+
+}  // namespace
+
+TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine) {
+  const double cells = double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2];
+  const double step = tfm_step_seconds(machine, model.integrator_name() != "explicit", cells, scene.species.size(),
+                                       scene.column.dimensions);
+  return beyond(band_of(expected_of(scene, model, step).time->expected, tfm_middle(model.integrator_name()),
+                        factor_of(tfm_factor, machine)),
+                overhead(scene, machine, 0));
+}
+
+TimeBand dem_time(const core::Scene& scene, const Machine& machine) {
+  const ParticleRequirements need = particle_requirements_of(scene, machine.particles);
+  return beyond(band_of(need.expected, dem_middle, factor_of(dem_factor, machine)),
+                overhead(scene, machine, double(need.count())));
+}
+
+Estimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks) {
+  core::Timers timers;
+  std::unique_ptr<tfm::Model> part;
+  const Requirements need = requirements_of(scene, timers, part);
+  Estimate e;
+  e.model = "tfm";
+  e.ranks = ranks;
+  e.memory = need.memory.total() + (ranks - 1) * need.memory.program;
+  if (need.time) {
+    e.time = beyond(band_of(need.time->expected, tfm_middle(need.integrator), tfm_factor), overhead(scene, machine, 0));
+    e.steps = need.time->steps;
+    e.basis = "time scales of the bed; the cost of a step measured on a part of it";
+  } else {
+    e.time = tfm_time(scene, *part, machine);
+    e.steps = expected_of(scene, *part, 0).time->steps;
+    e.basis = basis_of(machine);
+  }
+  e.step = need.expanded.step;
+  const auto& scales = need.expanded.scales;
+  const auto shortest = std::min_element(scales.begin(), scales.end(),
+                                         [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  e.limited_by = need.integrator != "explicit" ? fmt::format("accuracy, tfm.rtol = {:.2g}", scene.tfm.rtol)
+                 : shortest != scales.end()    ? shortest->process
+                                               : "accuracy";
+  if (probe > 0) {
+    const double begin = core::cpu_seconds();
+    tfm::Model model(scene, timers);
+    const auto [rate, covered] = probed(model, scene.run.until, probe);
+    e.time = probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until);
+    e.basis = fmt::format("a probe of {:.3g} s that reached {:.3g} s", probe, covered);
+  }
+  e.wall = wall_of(e.time.expected, ranks);
+  e.disk = disk_of(scene, double(need.cells), 0, need.memory.state / 8, e.steps);
+  e.ways = tfm_ways(scene, need.integrator != "explicit", ranks, cores());
+  return e;
+}
+
+Estimate estimate_dem(const core::Scene& scene, const Machine& machine, double probe, int ranks) {
+  const ParticleRequirements need = particle_requirements_of(scene, machine.particles);
+  Estimate e;
+  e.model = "dem";
+  e.ranks = ranks;
+  e.memory = need.memory() + (ranks - 1) * need.program;
+  e.time = dem_time(scene, machine);
+  e.basis = basis_of(machine);
+  e.steps = need.steps;
+  e.step = need.limits.dt;
+  e.limited_by = need.limits.limited_by;
+  if (probe > 0) {
+    const double begin = core::cpu_seconds();
+    core::Timers timers;
+    dem::Model model(scene, timers);
+    const auto [rate, covered] = probed(model, scene.run.until, probe);
+    e.time = probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until);
+    e.basis = fmt::format("a probe of {:.3g} s that reached {:.3g} s", probe, covered);
+  }
+  e.wall = wall_of(e.time.expected, ranks);
+  const auto particles = double(need.count());
+  e.disk = disk_of(scene, need.fluid ? double(need.fluid->cells) : 0, particles, 200 * particles, e.steps);
+  e.ways = dem_ways(scene, e.limited_by, ranks, cores());
+  return e;
+}
+
+}  // namespace polybed::multiscale

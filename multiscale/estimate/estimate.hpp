@@ -1,0 +1,60 @@
+// What a run will take, before it: time with a band, memory, disk, what limits the step, and what would make it
+// cheaper.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.hpp"
+#include "core/scene.hpp"
+#include "multiscale/estimate/machine.hpp"
+#include "multiscale/requirements.hpp"
+
+namespace polybed::multiscale {
+
+/// CPU seconds that hold the truth in 80 of 100 runs, and their middle.
+struct TimeBand {
+  double least = 0, expected = 0, most = 0;
+};
+
+/// A way to make a run cheaper, and what it loses.
+struct Way {
+  std::string change;    ///< e.g. "tfm.rtol = 0.01"
+  double time = 0.5;     ///< of what the run takes, as a share
+  std::string loss;      ///< in words
+  std::string evidence;  ///< measured | extrapolated | literature
+};
+
+struct Estimate {
+  std::string model;  ///< tfm | dem
+  int ranks = 1;
+  TimeBand time;      ///< of all ranks together
+  double wall = 0;    ///< s
+  std::string basis;  ///< what the time rests on
+  double steps = 0, step = 0;
+  std::string limited_by;
+  double memory = 0, disk = 0;  ///< bytes
+  std::vector<Way> ways;
+};
+
+/// A run of the two-fluid model whose model is there: from the time scales of its bed and what a step costs. Nothing is
+/// stepped.
+[[nodiscard]] TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine);
+
+/// A run of particles, likewise.
+[[nodiscard]] TimeBand dem_time(const core::Scene& scene, const Machine& machine);
+
+/// All of it. The cost of a step of the two-fluid model is measured on a narrow part of the bed for a quarter of a
+/// second; with a probe both models run the case itself for that long and go on from there.
+/// \param probe  CPU seconds; 0: none   \param ranks  that will share the case
+[[nodiscard]] Estimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks);
+[[nodiscard]] Estimate estimate_dem(const core::Scene& scene, const Machine& machine, double probe, int ranks);
+
+/// "least to most"; members of an object that is open.
+void write_estimate(core::Json& json, const Estimate& estimate);
+void print_estimate(const core::Scene& scene, const Estimate& estimate);
+
+/// What run.json says of the prediction made before the run. \param actual  CPU s; of a run that is done
+void write_prediction(core::Json& json, const TimeBand& predicted, bool done, double actual);
+
+}  // namespace polybed::multiscale

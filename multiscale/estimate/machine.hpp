@@ -1,0 +1,44 @@
+// How fast this machine computes: shipped values, or those measured here once and kept in the user's cache.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "multiscale/particle_requirements.hpp"
+
+namespace polybed::multiscale {
+
+/// CPU seconds of one core. The shipped values are those of an AMD EPYC virtual machine, docs/cost.md.
+struct Machine {
+  double explicit_step = 0.9e-6;                  ///< of the two-fluid model, per cell of a plane with two species
+  double implicit_step = 5e-6;                    ///< likewise
+  double tfm_step = 1e-4;                         ///< per step, however few the cells
+  double start = 0.1;                             ///< of the program, s
+  double stored_step = 6e-3, history_row = 1e-4;  ///< of output, beyond what grows with the case, s
+  double placed_particle = 3e-4;                  ///< of a random start, s; 1e-4 to 5e-4 by how dense it is
+  ParticleSpeed particles;
+  bool measured = false;  ///< on this machine
+  std::string processor;  ///< on which they were measured
+};
+
+/// What a step of the two-fluid model takes, s: in proportion to the phases, and in three dimensions 1.4 times as much
+/// per cell (three velocities of each phase in place of two).
+[[nodiscard]] double tfm_step_seconds(const Machine& machine, bool implicit, double cells, std::size_t species,
+                                      int dimensions);
+
+/// $XDG_CACHE_HOME/polybed/machine.json, or that in ~/.cache; empty where neither variable is set.
+[[nodiscard]] std::filesystem::path machine_file();
+
+/// What was measured here; the shipped values if nothing was, if it was on another processor, or if the file is
+/// damaged.
+[[nodiscard]] Machine known_machine();
+
+/// Runs four small beds for some seconds each: two-fluid model explicit and implicit, particles without and with a
+/// fluid. \param seconds  in all, CPU
+[[nodiscard]] Machine measure_machine(double seconds);
+
+[[nodiscard]] std::string machine_text(const Machine& machine);  ///< as JSON
+/// Throws core::FileError for another text.
+[[nodiscard]] Machine machine_of_text(const std::string& text);
+
+}  // namespace polybed::multiscale

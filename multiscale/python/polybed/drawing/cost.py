@@ -1,0 +1,96 @@
+"""Error across, seconds for a simulated second up, both logarithmic, a panel for each quantity."""
+
+import matplotlib.pyplot as plt
+
+from polybed.drawing.style import COLOURS, GREY, PALE
+
+MARKS = ["o", "s", "^", "D", "v", "P"]
+LEAST = 1e-7  # an error of 0 is drawn here
+
+
+def point(run, quantity):
+    """(error, interval, cost) of a run; None where it has none."""
+    measured = run["qoi"].get(quantity)
+    if measured is None or not run["s_per_sim_s"] > 0:
+        return None
+    return max(measured["error"], LEAST), measured["error_ci"] or 0, run["s_per_sim_s"]
+
+
+def lines_of(runs, quantity):
+    """Runs that differ from the first in one axis alone, by axis, in the order they were run."""
+    candidates = [run for run in runs if run["kind"] == "candidate" and run["settings"]]
+    if not candidates:
+        return {}
+    centre, lines = candidates[0], {}
+    for run in candidates[1:]:
+        changed = [axis for axis, level in run["settings"].items() if level != centre["settings"].get(axis)]
+        if len(changed) == 1 and point(run, quantity):
+            lines.setdefault(changed[0], []).append(run)
+    return {axis: [centre, *found] for axis, found in lines.items()}
+
+
+def band(axes, runs, quantity):
+    """How far models are apart: the range of their errors."""
+    errors = [p[0] for p in (point(run, quantity) for run in runs if run["status"] == "model" and run["kind"] == "model") if p]
+    if len(errors) > 1:
+        axes.axvspan(min(errors), max(errors), color=PALE, alpha=0.3, lw=0, label="models")
+
+
+def draw_points(axes, runs, quantity):
+    for run in runs:
+        if run["kind"] == "twin":
+            continue
+        found = point(run, quantity)
+        if run["status"] in ("failed", "refused"):
+            predicted = run.get("predicted")
+            place = (found[0], found[2]) if found else (predicted["error"], predicted["cost"]) if predicted else None
+            if place:
+                axes.plot(max(place[0], LEAST), place[1], "x", color="black", zorder=4)
+            continue
+        if not found:
+            continue
+        error, interval, cost = found
+        solid = run["status"] in ("pareto", "dominated")
+        axes.errorbar(error, cost, xerr=[[min(interval, 0.9 * error)], [interval]], fmt="o", markersize=4.5,
+                      color=GREY if run["kind"] != "model" else PALE, markerfacecolor=GREY if solid else "white",
+                      elinewidth=0.7, zorder=3)
+
+
+def draw_front(axes, sweep, quantity):
+    front = [point(sweep["runs"][n], quantity) for n in sweep["pareto"]]
+    front = sorted(p for p in front if p)
+    if front:
+        axes.plot([p[0] for p in front], [p[2] for p in front], color="black", lw=2.5, alpha=0.6, zorder=2, label="front")
+    for advised in sweep["recommend"]:
+        chosen = point(sweep["runs"][advised["run"]], quantity)
+        if chosen:
+            axes.plot(chosen[0], chosen[2], "*", color=COLOURS[1], markersize=13, zorder=4, label="recommended")
+
+
+def draw(sweep):
+    """The figure of a sweep as read from cost.json."""
+    shown = [q for q in sweep["qoi"] if q["shown"]]
+    figure, all_axes = plt.subplots(1, len(shown), figsize=(4.6 * len(shown), 3.9), squeeze=False, layout="constrained")
+    for axes, quantity in zip(all_axes[0], shown):
+        band(axes, sweep["runs"], quantity["id"])
+        for n, (name, runs) in enumerate(lines_of(sweep["runs"], quantity["id"]).items()):
+            places = sorted(p for p in (point(run, quantity["id"]) for run in runs) if p)
+            axes.plot([p[0] for p in places], [p[2] for p in places], color=COLOURS[n % len(COLOURS)], lw=1,
+                      marker=MARKS[n % len(MARKS)], markersize=3, label=name)
+        draw_points(axes, sweep["runs"], quantity["id"])
+        draw_front(axes, sweep, quantity["id"])
+        floor = sweep["reference"]["floor"].get(quantity["id"], 0)
+        if floor > LEAST:
+            axes.axvline(floor, color=GREY, lw=0.7, ls=":")
+        axes.set(xscale="log", yscale="log", xlabel=f"error of {quantity['id']}", title=quantity["id"])
+        axes.legend(fontsize=7)
+    all_axes[0][0].set_ylabel(f"s for a simulated second ({sweep['clock']})")
+    figure.suptitle(f"{case_name(sweep)}   {sweep['model']}   reference: {sweep['reference']['kind'] or 'none'}   "
+                    f"{sweep['outcome']}", fontsize=9)
+    return figure
+
+
+def case_name(sweep):
+    """The case by its folder, as runs are called."""
+    parts = sweep["case_path"].replace("\\", "/").split("/")
+    return parts[-2] if parts[-1] == "case.toml" and len(parts) > 1 else parts[-1]

@@ -1,0 +1,156 @@
+#!/usr/bin/python3
+"""polybed estimate and polybed cost as their user meets them. Usage: cost_test.py PROGRAM"""
+import pathlib
+import re
+import signal
+import tempfile
+import time
+
+import program
+from program import DONE, NUMBERS, WRONG_CASE, TWO_SIZES, Scratch, strict_json
+
+# A bed of 4 x 24 cells, a tenth of a second of computing.
+BED = """[column]
+size = ["10 mm", "40 mm"]
+cells = [4, 24]
+sides = "periodic"
+[fluid]
+name = "water"
+density = 999
+viscosity = "1.14e-3 Pa s"
+""" + TWO_SIZES + """[bed]
+volume_share = [0.8, 0.2]
+static_height = "12 mm"
+solids_fraction = 0.6
+start_solids_fraction = 0.4
+[inlet]
+superficial_velocity = "20 mm/s"
+[effects]
+drag = "cello"
+solids_stress = "frictional"
+contact = "hertz_mindlin"
+[run]
+until = "0.1 s"
+"""
+SWEEP = ["--axes", "rtol,scheme", "--no-picture", "--quiet", "--budget", "500s"]
+ROWS = ["time integration", "space", "solver and coupling tolerance", "statistics", "closure spread", "level"]
+
+
+def without_times(sweep):
+    """A sweep as it has to be every time."""
+    for run in sweep["runs"]:
+        for name in ("cpu_s", "wall_s"):
+            del run[name]
+    return sweep
+
+
+class Estimate(Scratch):
+    def test_tells_time_memory_disk_and_three_ways(self):
+        case = self.write("case.toml", BED)
+        for model in ("tfm", "dem"):
+            told = strict_json(self.ends(DONE, "estimate", case, "--model", model, "--json").stdout)
+            self.assertEqual(told["model"], model)
+            time_of = told["cpu_s"]
+            self.assertLess(0, time_of["least"])
+            self.assertLess(time_of["least"], time_of["expected"])
+            self.assertLess(time_of["expected"], time_of["most"])
+            self.assertGreater(told["memory_MB"], 10)
+            self.assertGreater(told["disk_MB"], 0.01)
+            self.assertGreaterEqual(len(told["ways"]), 2)
+            self.assertTrue({way["evidence"] for way in told["ways"]} <= {"measured", "extrapolated", "literature"})
+        self.assertIn("a probe of", self.ends(DONE, "estimate", case, "--probe", "50 ms").stdout)
+        self.ends(WRONG_CASE, "estimate", case, "--probe", "5 m")
+        self.ends(WRONG_CASE, "estimate")
+
+    def test_a_run_tells_what_was_predicted(self):
+        case = self.write("case.toml", BED)
+        record = strict_json(self.ends(DONE, "tfm", case, "--until", "10 ms", "--json", "-o", self.folder / "run").stdout)
+        told = record["prediction"]
+        self.assertEqual(told["actual_s"], record["cpu_s"])
+        self.assertEqual(told["within"], told["least_s"] <= told["actual_s"] <= told["most_s"])
+
+
+class Cost(Scratch):
+    """One sweep, done once, that each test has at hand."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.kept = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.kept.cleanup)
+        folder = pathlib.Path(cls.kept.name)
+        cls.case, cls.sweep_folder = folder / "case.toml", folder / "sweep"
+        cls.case.write_text(BED)
+        cls.done = program.run("cost", cls.case, *SWEEP, "-o", cls.sweep_folder, "--json", timeout=500)
+
+    def sweep(self):
+        self.assertEqual(self.done.returncode, DONE, self.done.stderr[-500:])
+        return strict_json(self.done.stdout)
+
+    def test_a_sweep_ranks_and_recommends(self):
+        sweep = self.sweep()
+        self.assertEqual((sweep["filetype"], sweep["version"], sweep["outcome"]), ("polybed cost", 1, "done"))
+        self.assertEqual(strict_json((self.sweep_folder / "cost.json").read_text()), sweep)
+        self.assertEqual([share["row"] for share in sweep["attribution"]], ROWS)
+        statuses = {run["status"] for run in sweep["runs"]}
+        self.assertLessEqual(statuses, {"pareto", "dominated", "hollow", "model", "predicted", "failed", "refused", "not run"})
+        front = [sweep["runs"][n] for n in sweep["pareto"]]
+        costs = sorted((run["s_per_sim_s"], run["qoi"]["bed_height"]["error"]) for run in front)
+        self.assertEqual(costs, sorted(costs, key=lambda pair: -pair[1]), "dearer is more accurate on the front")
+        advised = sweep["recommend"][0]
+        chosen = sweep["runs"][advised["run"]]
+        self.assertLessEqual(chosen["qoi"]["bed_height"]["error"], sweep["target"])
+        for run in sweep["runs"]:  # nothing that reaches the target is cheaper
+            if run["kind"] == "candidate" and run["status"] in ("pareto", "dominated", "hollow"):
+                if run["qoi"]["bed_height"]["error"] + run["qoi"]["bed_height"]["error_ci"] <= sweep["target"]:
+                    self.assertGreaterEqual(run["s_per_sim_s"], chosen["s_per_sim_s"])
+        text = (self.sweep_folder / "cost.md").read_text()
+        self.assertIn("For 1 % of bed_height take", text)
+        rows = (self.sweep_folder / "cost.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 1 + len(sweep["runs"]))
+
+    def test_the_recommendation_is_confirmed(self):
+        self.sweep()
+        told = self.ends(DONE, "cost", "check", self.sweep_folder).stdout
+        self.assertEqual(told.count(": holds"), 2, told)
+        self.assertTrue(strict_json((self.sweep_folder / "cost.json").read_text())["recommend"][0]["confirmed"])
+        self.assertIn("nothing is dearer", self.ends(DONE, "cost", "diff", *2 * [self.sweep_folder / "cost.json"]).stdout)
+
+    def test_a_killed_sweep_goes_on_to_the_same(self):
+        first, folder = self.sweep(), self.folder / "killed"
+        running = self.start("cost", self.case, *SWEEP, "-o", folder)
+        program.wait_until(running, lambda: len(list(folder.glob("runs/*/end.json"))) >= 3)
+        running.send_signal(signal.SIGKILL)
+        running.communicate()
+        again = self.ends(DONE, "cost", self.case, *SWEEP, "-o", folder, "--resume", "--json", timeout=500)
+        first["recommend"][0]["confirmed"] = False
+        self.assertEqual(without_times(strict_json(again.stdout)), without_times(first))
+
+    def test_a_budget_is_kept(self):
+        begin = time.monotonic()
+        small = program.run("cost", self.case, *SWEEP[:-1], "3s", "-o", self.folder / "short", "--json")
+        took = time.monotonic() - begin
+        sweep = strict_json(small.stdout)
+        self.assertLessEqual(sum(sum(run["wall_s"]) for run in sweep["runs"]), 1.1 * 3)
+        self.assertLess(took, 1.1 * 3 + 5)  # the command's own start and files, on a busy machine
+        if small.returncode == DONE:
+            self.assertIn("not run", {run["status"] for run in sweep["runs"]})
+        else:
+            self.assertEqual((small.returncode, sweep["outcome"]), (NUMBERS, "refused"))
+
+    def test_what_cannot_be_known_is_refused(self):
+        told = self.ends(NUMBERS, "cost", self.case, *SWEEP, "--reference", "exact", "-o", self.folder / "exact", "--json",
+                         timeout=500).stdout
+        sweep = strict_json(told)
+        self.assertEqual((sweep["outcome"], sweep["recommend"]), ("refused", []))
+        self.assertIn("no exact value", sweep["reason"])
+        self.assertIn("rtol", self.ends(WRONG_CASE, "cost", self.case, "--axes", "nonsense").stderr)
+        self.assertIn("nonsense", self.ends(WRONG_CASE, "cost", self.case, "--qoi", "nonsense", "-o", self.folder / "q").stderr)
+        self.assertIn("--resume", self.ends(WRONG_CASE, "cost", self.case, *SWEEP, "-o", self.sweep_folder).stderr)
+
+    def test_selftest(self):
+        told = self.ends(DONE, "cost", "selftest").stdout
+        self.assertEqual(len(re.findall(r"^K\d+ +passes", told, re.MULTILINE)), 9, told)
+
+
+if __name__ == "__main__":
+    program.main()
