@@ -51,6 +51,15 @@ struct InversionOptions : CaseOptions {
   std::string law, temperature, method = "force_balance";
 };
 
+/// Options of the matrix of hard cases.
+struct StabilityOptions {
+  std::string suite = "ci";          ///< ci | full
+  std::string only, schemes, naive;  ///< lists by commas; empty: all cases, all schemes, no textbook treatment
+  std::filesystem::path output;      ///< empty: runs/stability
+  int jobs = 1;
+  bool json = false;
+};
+
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
@@ -61,6 +70,8 @@ void run_inversion(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);
+/// numerics if a cell differs from what is expected: it has been said which.
+core::ExitCode run_stability(const StabilityOptions& options);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
 

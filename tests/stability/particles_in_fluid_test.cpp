@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 #include "naive/particles.hpp"
-#include "verification/dem_fluid.hpp"
+#include "verification/dem_scenes.hpp"
 
 namespace polybed::stability {
 namespace {

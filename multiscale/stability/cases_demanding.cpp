@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stability/cases.hpp"
-#include "stability/scenes.hpp"
+#include "multiscale/stability/cases.hpp"
+#include "multiscale/stability/scenes.hpp"
 
 namespace polybed::stability {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "closures/drag_cello.hpp"
-#include "stability/cases.hpp"
-#include "stability/scenes.hpp"
-#include "verification/manufactured_box.hpp"
+#include "multiscale/stability/cases.hpp"
+#include "multiscale/stability/problems/manufactured_box.hpp"
+#include "multiscale/stability/scenes.hpp"
 
 namespace polybed::stability {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "closures/drag.hpp"
-#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/beads.hpp"
 
 namespace polybed::verification {
 

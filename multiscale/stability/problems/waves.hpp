@@ -3,9 +3,10 @@
 
 #include <complex>
 #include <numbers>
+#include <ostream>
 
-#include "box_equations.hpp"
 #include "closures/stress_frictional.hpp"
+#include "multiscale/stability/problems/box_equations.hpp"
 #include "tfm/well_posedness.hpp"
 
 namespace polybed::verification {

@@ -7,9 +7,9 @@
 
 #include "closures/drag.hpp"
 #include "closures/well_posedness.hpp"
-#include "stability/cases.hpp"
-#include "stability/scenes.hpp"
-#include "verification/waves.hpp"
+#include "multiscale/stability/cases.hpp"
+#include "multiscale/stability/problems/waves.hpp"
+#include "multiscale/stability/scenes.hpp"
 
 namespace polybed::stability {
 

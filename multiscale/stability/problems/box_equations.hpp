@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/integrator.hpp"
-#include "scenes.hpp"
+#include "multiscale/stability/problems/beds.hpp"
 #include "tfm/explicit_problem.hpp"
 
 namespace polybed::verification {

@@ -1,4 +1,4 @@
-#include "stability/hard_case.hpp"
+#include "multiscale/stability/hard_case.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "fluid/invariants.hpp"
 #include "fluid/measures.hpp"
-#include "naive/treatments.hpp"
+#include "multiscale/stability/textbook.hpp"
 #include "tfm/observers.hpp"
 
 namespace polybed::stability {
@@ -121,7 +121,7 @@ std::unique_ptr<Run> Trial::begin(core::Scene scene, const std::function<void(tf
   if (scene.tfm.integrator == "implicit") scene.tfm.fixed_step.reset();
   rtol_ = scene.tfm.rtol;
   std::unique_ptr<Run> run;
-  if (naive()) run = naive::make_run(treatment_.naive, scene, timers_, start);
+  if (naive()) run = textbook()->run(treatment_.naive, scene, timers_, start);
   if (run == nullptr) {
     run = std::make_unique<ModelRun>(scene, timers_);
     if (start) start(run->model());
@@ -241,6 +241,9 @@ Result Trial::judge(const std::function<void(Trial&)>& work) {
   } catch (const Stuck& stuck) {
     measure("V8 stuck", 1, 0);
     result.cause = stuck.what();
+  } catch (const std::exception& error) {  // no honest stop
+    measure("V16 honest stop", 1, 0);
+    result.cause = error.what();
   }
   result.cpu = core::cpu_seconds() - begin;
   for (const Measured& m : worst_) {

@@ -1,8 +1,8 @@
 // Hard cases of transport, symmetry, restarts and grids: T10, T19, T23, T25.
 #include <cmath>
 
-#include "stability/cases.hpp"
-#include "stability/scenes.hpp"
+#include "multiscale/stability/cases.hpp"
+#include "multiscale/stability/scenes.hpp"
 
 namespace polybed::stability {
 

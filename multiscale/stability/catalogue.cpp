@@ -1,4 +1,4 @@
-#include "stability/cases.hpp"
+#include "multiscale/stability/cases.hpp"
 
 namespace polybed::stability {
 
@@ -12,10 +12,10 @@ std::vector<HardCase> joined(const std::vector<std::vector<HardCase>>& groups) {
 
 }  // namespace
 
-std::vector<HardCase> short_cases() {
-  return joined({settling_cases(), closure_cases(), fluidised_cases(), transport_cases(), column_cases()});
+std::vector<HardCase> catalogue() {
+  std::vector<HardCase> long_ones = joined({column_cases(), demanding_cases()});
+  for (HardCase& one : long_ones) one.ci = false;
+  return joined({settling_cases(), closure_cases(), fluidised_cases(), transport_cases(), long_ones});
 }
-
-std::vector<HardCase> long_cases() { return demanding_cases(); }
 
 }  // namespace polybed::stability

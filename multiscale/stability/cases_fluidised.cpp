@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "closures/drag_cello.hpp"
-#include "stability/cases.hpp"
-#include "stability/scenes.hpp"
+#include "multiscale/stability/cases.hpp"
+#include "multiscale/stability/scenes.hpp"
 
 namespace polybed::stability {
 

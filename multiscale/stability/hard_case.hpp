@@ -116,13 +116,13 @@ struct HardCase {
   std::vector<std::string> naive;  ///< variants that must fail; none: a regression, not counted as hard
   std::vector<Treatment> schemes;  ///< of the product
   std::function<void(Trial&)> work;
+  bool ci = true;  ///< among those that every change must pass
 };
 
 /// explicit/limited, explicit/upwind, implicit/limited.
 [[nodiscard]] std::vector<Treatment> all_schemes();
 
-/// The short set that every change must pass, and what takes longer.
-[[nodiscard]] std::vector<HardCase> short_cases();
-[[nodiscard]] std::vector<HardCase> long_cases();
+/// All of them, in the order of the report.
+[[nodiscard]] std::vector<HardCase> catalogue();
 
 }  // namespace polybed::stability

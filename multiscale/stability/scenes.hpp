@@ -1,9 +1,10 @@
 // Scenes that several hard cases start from.
 #pragma once
 
+#include "fluid/invariants.hpp"
 #include "fluid/measures.hpp"
-#include "stability/hard_case.hpp"
-#include "verification/scenes.hpp"
+#include "multiscale/stability/hard_case.hpp"
+#include "multiscale/stability/problems/beds.hpp"
 
 namespace polybed::stability {
 

@@ -2,8 +2,8 @@
 // it later. Cells may be of any shape.
 #pragma once
 
-#include "box_equations.hpp"
-#include "manufactured.hpp"
+#include "multiscale/stability/problems/box_equations.hpp"
+#include "multiscale/stability/problems/manufactured.hpp"
 
 namespace polybed::verification {
 
