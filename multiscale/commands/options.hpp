@@ -1,6 +1,7 @@
 // What the command line says, as plain data: filled by main, read by the commands.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -57,6 +58,7 @@ struct StabilityOptions {
   std::string only, schemes, naive;  ///< lists by commas; empty: all cases, all schemes, no textbook treatment
   std::filesystem::path output;      ///< empty: runs/stability
   int jobs = 1;
+  std::uint64_t draws = 0, seed = 1;  ///< of --fuzz: scenes drawn in the place of the catalogue
   bool json = false;
 };
 
@@ -72,6 +74,8 @@ void run_explain(const std::string& key, bool json);
 void run_list(bool json);
 /// numerics if a cell differs from what is expected: it has been said which.
 core::ExitCode run_stability(const StabilityOptions& options);
+/// Its --fuzz: numerics if a drawn scene fails.
+core::ExitCode run_fuzz(const StabilityOptions& options);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
 

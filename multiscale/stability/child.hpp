@@ -17,6 +17,8 @@ struct ChildEnd {
 struct ChildLimits {
   int jobs = 1;
   double seconds = 60;  ///< each, of the clock
+  double cpu = 0;       ///< s, each, of computing; 0: as much as it likes
+  double bytes = 0;     ///< each, of its memory; 0: as much as there is
 };
 
 /// Calls work(n) for n = 0 ... count - 1, each in a process of its own, and `done` here as they end. What a piece

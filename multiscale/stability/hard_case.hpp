@@ -71,6 +71,7 @@ struct Watch {
   bool fluidised = false;  ///< V7: over the last half, pressure drop and solids pressure on the distributor carry the
                            ///< buoyant weight within 1e-3
   bool steps = true;       ///< V8: share of rejected steps, least step
+  double cpu = 1e300;      ///< s of computing, after which the run ends where it is; below it also where it fails
   bool packing = true;     ///< V2's upper bound: phi_max + 1e-3 where a solids stress acts
 };
 
@@ -89,8 +90,12 @@ class Trial {
   void advance(Run& run, double until, const Watch& watch = {});
   /// Keeps a figure of the case itself.
   void measure(const std::string& id, double value, double limit);
+  /// Keeps what a run of the case's own took: steps, and the least of them, s.
+  void keep_work(std::uint64_t steps, double least_step);
   /// Keeps a figure that has no limit, for the report.
   void report(const std::string& name, double value);
+  /// Whether a figure is so far beyond its limit that the trial has failed, whatever comes.
+  [[nodiscard]] bool has_failed() const;
   /// The outcome of `work`, exceptions and all.
   Result judge(const std::function<void(Trial&)>& work);
 

@@ -105,7 +105,7 @@ std::filesystem::path expected_path() {
 }
 
 void run_cells(std::vector<Cell>& cells, int jobs, const std::function<void(std::size_t, std::size_t)>& shown) {
-  constexpr double longest = 240;  // s; ten times the longest cell on a busy machine
+  constexpr double longest = 600, most_cpu = 120;  // s; ten times the longest cell, and on a busy machine
   std::vector<char> ended(cells.size(), 0);
   const auto run_one = [&](std::size_t n) {
     Trial trial(cells[n].treatment);
@@ -121,7 +121,7 @@ void run_cells(std::vector<Cell>& cells, int jobs, const std::function<void(std:
     compare_costs(cells, begin, count);
     shown(begin, count);
   };
-  in_children(cells.size(), {jobs, longest}, run_one, take);
+  in_children(cells.size(), {jobs, longest, most_cpu}, run_one, take);
 }
 
 }  // namespace polybed::stability
