@@ -15,7 +15,7 @@ namespace polybed::stability {
 [[nodiscard]] std::vector<HardCase> demanding_cases();   // T11 T12 T18 T20 T21 T24, on demand
 [[nodiscard]] std::vector<HardCase> particle_cases();    // D1 to D15
 [[nodiscard]] std::vector<HardCase> suspension_cases();  // C1, C4 to C10
-[[nodiscard]] std::vector<HardCase> rank_cases();        // P1 to P9
+[[nodiscard]] std::vector<HardCase> rank_cases();        // P1 to P8
 [[nodiscard]] std::vector<HardCase> input_cases();       // I1 to I10
 
 }  // namespace polybed::stability

@@ -194,15 +194,17 @@ void held_bed(Trial& trial) {
 /// to nothing below 10.
 void impact_in_liquid(Trial& trial) {
   constexpr double d = 5e-3;
-  const Liquid liquid{1000, 0.1};
+  const Liquid liquid{1000, 0.01};
   for (const double stokes : {5.0, 50.0, 1000.0}) {
     const double speed = stokes / closures::stokes_of_impact(2500, liquid.density, d, 1, liquid.viscosity);
     core::Scene scene = scene_of(d, 2500, liquid, 50e-3, {3, 3, 3}, 16);
-    scene.species[0].youngs_modulus = 1e8;
+    scene.species[0].youngs_modulus = 1e9;
     scene.effects.erase("drag");
     scene.effects["contact"] = "hertz_mindlin";
     if (!trial.naive()) scene.effects["lubrication"] = "wet_restitution";
     scene.dem.restitution = 0.9;
+    scene.dem.steps_per_contact = 400;  // a strongly damped impact to 1 %
+    scene.dem.max_overlap = 0.2;
     scene.dem.greatest_speed = 2 * speed;
     Beads run(scene, {{"a", {75e-3, 0.5 * d * (1 + 1e-9), 75e-3}, {0, -speed, 0}}});
     for (int n = 0; n < 100'000 && (run.motion(0).v[1] < 0 || run.place(0).x[1] < 0.5 * d); ++n) run.steps(1);

@@ -35,8 +35,8 @@ void Grains::see() {
   trial_.measure("V1 particles missing", double(missing(model_.particles(), count_)), 0);
   trial_.measure("V3 finite", all_finite(model_.particles()) ? 0 : 1, 0);
   if (!initial_energy_) initial_energy_ = totals_.sum();
-  greatest_energy_ =
-      std::max({greatest_energy_, totals_.kinetic + totals_.rotational, totals_.dissipated, std::abs(totals_.work)});
+  greatest_energy_ = std::max({greatest_energy_, totals_.kinetic + totals_.rotational, totals_.dissipated,
+                               totals_.elastic, std::abs(totals_.work)});
   if (watch_.energy && greatest_energy_ > 0)
     trial_.measure("V5 energy", std::abs(totals_.sum() - *initial_energy_) / greatest_energy_, 1e-3);
 }
