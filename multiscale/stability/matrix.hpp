@@ -15,10 +15,10 @@ namespace polybed::stability {
 
 /// What of the catalogue is run.
 struct Choice {
-  bool all = false;                  ///< also what is left for runs on demand
-  std::vector<std::string> only;     ///< ids of cases, a case by its first word too; empty: every case
-  std::vector<std::string> schemes;  ///< of the product; empty: every scheme
-  std::vector<std::string> naive;    ///< textbook treatments, or "all"; none: the product alone
+  bool all = false;                       ///< also what is left for runs on demand
+  std::vector<std::string> only = {};     ///< ids of cases, a case by its first word too; empty: every case
+  std::vector<std::string> schemes = {};  ///< of the product; empty: every scheme
+  std::vector<std::string> naive = {};    ///< textbook treatments, or "all"; none: the product alone
 };
 
 /// One case under one treatment.
