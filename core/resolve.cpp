@@ -74,6 +74,8 @@ void Checker::column() {
     c.size = {c.given_size[0], c.given_size[1], c.depth.value_or(2 * largest + 2 * skin)};
     c.cells = {cells(0), cells(1), 1};
   }
+  if (largest > c.size[1])
+    add("species.diameter: {:.4g} m is more than the height of the column, {:.4g} m", largest, c.size[1]);
   constexpr double most_cells = 2147483647;  // hypre numbers them with 32 bits
   const double all = double(c.cells[0]) * c.cells[1] * c.cells[2];
   if (all > most_cells)

@@ -38,6 +38,16 @@ std::uint64_t spread_bits(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
+/// Halves the number of cells along the longest direction until there are not many more than particles: a few small
+/// ones in a box for large ones would else have more cells than memory.
+void widen_cells(std::array<int, 3>& count, std::size_t particles) {
+  const double most = 1e5 + 64 * double(particles);
+  while (double(count[0]) * count[1] * count[2] > most) {
+    int& longest = *std::max_element(count.begin(), count.end());
+    longest = (longest + 1) / 2;
+  }
+}
+
 }  // namespace
 
 int NeighbourSearch::Level::place(double x, std::size_t axis) const {
@@ -63,7 +73,8 @@ std::size_t NeighbourSearch::level_of(double radius) const {
 }
 
 void NeighbourSearch::lay_out(const std::array<bool, 3>& whole) {
-  for (Level& level : levels_)
+  for (Level& level : levels_) {
+    std::array<double, 3> extents{};
     for (std::size_t k = 0; k < 3; ++k) {
       level.wraps[k] = box_.periodic[k] && whole[k];
       double low = 0, extent = box_.size[k];
@@ -79,6 +90,11 @@ void NeighbourSearch::lay_out(const std::array<bool, 3>& whole) {
       const double most = double(std::cbrt(4.0 * double(near_.size()) + 64)) * 64;
       level.count[k] = std::max(1, int(std::min(std::floor(extent / level.cell), most)));
       level.low[k] = low;
+      extents[k] = extent;
+    }
+    widen_cells(level.count, near_.size());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double extent = extents[k];
       if (level.wraps[k]) {
         level.inverse[k] = level.count[k] / extent;
       } else {
@@ -87,6 +103,7 @@ void NeighbourSearch::lay_out(const std::array<bool, 3>& whole) {
         level.inverse[k] = 1 / cell;
       }
     }
+  }
   // With so few rows of a sheared box that one is met directly and as an image, all cells of a row are near.
   for (Level& level : levels_)
     if (box_.shear_rate != 0 && level.count[1] < 4) {

@@ -119,6 +119,17 @@ void add_cost(CLI::App& app, multiscale::CostOptions& options) {
   command.add_flag("--quiet", options.quiet, "no progress");
   command.add_flag("--json", options.json, "cost.json on standard output");
   command.add_flag("!--no-picture", options.picture, "no cost.png and cost.svg");
+void add_stability(CLI::App& app, multiscale::StabilityOptions& options) {
+  CLI::App& command = *app.add_subcommand("stability", "hard cases against every scheme: what held, cell by cell");
+  command.add_option("--suite", options.suite, "ci: in some minutes | full")->check(CLI::IsMember({"ci", "full"}));
+  command.add_option("--only", options.only, "cases, by commas, e.g. T7,C4");
+  command.add_option("--schemes", options.schemes, "by commas, e.g. implicit/limited");
+  command.add_option("--naive", options.naive, "textbook treatments, by commas, or all: test builds alone");
+  command.add_option("--fuzz", options.draws, "that many scenes drawn from the envelope, in place of the catalogue");
+  command.add_option("--seed", options.seed, "of the draws");
+  command.add_option("-j,--jobs", options.jobs, "cells at once")->check(CLI::Range(1, 256));
+  command.add_option("-o,--output", options.output, "default runs/stability");
+  command.add_flag("--json", options.json, "one JSON object on standard output, nothing else there");
 }
 
 int exit_code(core::ExitCode code) { return static_cast<int>(code); }
@@ -244,6 +255,8 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
       ->check(CLI::Range(0.1, 120.0));
   plot_command->add_flag("--quiet", plot.quiet, "no progress");
   plot_command->add_flag("--json", plot.json, "one JSON object: the files written");
+  StabilityOptions hard;
+  add_stability(app, hard);
   bool schema_json = false, schema_markdown = false, list_json = false, explain_json = false;
   CLI::App* schema = app.add_subcommand("schema", "all keys of the case file");
   schema->add_flag("--json", schema_json, "as JSON");
@@ -268,6 +281,11 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
     return exit_code(code);
   }
   if (app.got_subcommand("plot")) return exit_code(run_plot(plot));
+  if (app.got_subcommand("stability")) {
+    const core::ExitCode code = hard.draws > 0 ? run_fuzz(hard) : run_stability(hard);
+    flush_standard_output();
+    return exit_code(code);
+  }
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
   for (const char* command : {"tfm", "dem", "compare", "check", "estimate"})
     if (app.got_subcommand(command)) mpi.emplace(argc, argv);

@@ -72,6 +72,16 @@ struct InversionOptions : RunOptions {
   std::string from, to;  ///< velocities to begin the scan at; empty: about the force balance
 };
 
+/// Options of the matrix of hard cases.
+struct StabilityOptions {
+  std::string suite = "ci";          ///< ci | full
+  std::string only, schemes, naive;  ///< lists by commas; empty: all cases, all schemes, no textbook treatment
+  std::filesystem::path output;      ///< empty: runs/stability
+  int jobs = 1;
+  std::uint64_t draws = 0, seed = 1;  ///< of --fuzz: scenes drawn in the place of the catalogue
+  bool json = false;
+};
+
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
@@ -89,6 +99,10 @@ void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);
+/// numerics if a cell differs from what is expected: it has been said which.
+core::ExitCode run_stability(const StabilityOptions& options);
+/// Its --fuzz: numerics if a drawn scene fails.
+core::ExitCode run_fuzz(const StabilityOptions& options);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
 

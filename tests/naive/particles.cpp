@@ -46,7 +46,8 @@ ParticleRun::ParticleRun(const std::string& name, const core::Scene& scene, dem:
       scatter_(flow_.grid(), flow_.grid(), materials_, phase_.added_mass(), volume_of(particles_),
                *scene.dem.greatest_speed),
       gather_(flow_.grid(), diameters(materials_)),
-      motion_(materials_, flow_.constants().density, gravity_of(scene.column), {}, {}),
+      motion_(materials_, (treatment_ == Treatment::double_buoyancy ? 2 : 1) * flow_.constants().density,
+              gravity_of(scene.column), {}, {}),
       last_(particles_.owned) {
   motion_.load.resize(particles_.owned);
   take_fields();
@@ -60,6 +61,7 @@ ParticleRun::Treatment ParticleRun::treatment_of(const std::string& name) {
   if (name == "drag_explicit") return Treatment::drag_explicit;
   if (name == "added_mass_lagged") return Treatment::added_mass_lagged;
   if (name == "pcm_void") return Treatment::pcm_void;
+  if (name == "double_buoyancy") return Treatment::double_buoyancy;
   if (name == "last_substep") return Treatment::last_substep;
   throw std::invalid_argument("no textbook treatment of particles called " + name);
 }
@@ -181,12 +183,14 @@ void ParticleRun::take_fields() {
   forces_.find(particles_, gather_, motion_.load);
 }
 
-double ParticleRun::least_voidage() const {
-  double least = 1;
-  core::for_each_row(flow_.grid(), [&](core::Index begin, core::Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) least = std::min(least, phase_.voidage[c]);
-  });
-  return least;
+dem::Particles particles_of(const core::Scene& scene, const std::vector<verification::Bead>& beads) {
+  const dem::Materials materials(scene);
+  const dem::Species& s = materials.species()[0];
+  dem::Particles particles;
+  for (const verification::Bead& b : beads)
+    particles.add({{b.x, s.radius}, {b.v, b.w, 1 / s.mass, 1 / s.inertia}, {}, std::int64_t(particles.size()), 0});
+  particles.owned = particles.size();
+  return particles;
 }
 
 }  // namespace polybed::naive

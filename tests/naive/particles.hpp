@@ -11,6 +11,7 @@
 #include "dem/scatter.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/smoothing.hpp"
+#include "multiscale/stability/textbook.hpp"
 
 namespace polybed::naive {
 
@@ -19,25 +20,27 @@ namespace polybed::naive {
 ///   added_mass_lagged  added mass as a force, -C_m rho_f V a, with the acceleration of the last kick
 ///   pcm_void           all of a particle's volume in the cell of its centre
 ///   last_substep       the impulse of the last step of the particles, taken as that of all
+///   double_buoyancy    the displaced fluid's weight once by the pressure and once by itself
 ///   nothing            no change: what the product does
 /// Throws std::invalid_argument for any other name.
-class ParticleRun {
+class ParticleRun final : public stability::TextbookSuspension {
  public:
   /// \param dt  of the particles, s; `dem.fluid_every` of the scene to a step of the fluid
   ParticleRun(const std::string& name, const core::Scene& scene, dem::Particles particles, double dt);
 
   /// One step of the fluid, those of the particles before it included.
-  void step();
+  void step() override;
 
-  [[nodiscard]] const dem::Particles& particles() const { return particles_; }
+  [[nodiscard]] const dem::Particles& particles() const override { return particles_; }
   [[nodiscard]] const fluid::Flow& flow() const { return flow_; }
   [[nodiscard]] const fluid::ParticlePhase& phase() const { return phase_; }
-  [[nodiscard]] double least_voidage() const;
+  [[nodiscard]] const core::Field& voidage() const override { return phase_.voidage; }
+  [[nodiscard]] const core::FaceField& fluid_velocity() const override { return flow_.state().velocity; }
   /// Sums the particles up for the fluid where they are now.
   void collect();
 
  private:
-  enum class Treatment { nothing, drag_explicit, added_mass_lagged, pcm_void, last_substep };
+  enum class Treatment { nothing, drag_explicit, added_mass_lagged, pcm_void, last_substep, double_buoyancy };
   static Treatment treatment_of(const std::string& name);
   void kick(std::size_t i);
   void move();
@@ -61,5 +64,8 @@ class ParticleRun {
   dem::FluidMotion motion_;
   std::vector<dem::Vector> last_;  ///< acceleration, m/s2, or impulse, kg m/s
 };
+
+/// Particles of one species given one by one.
+[[nodiscard]] dem::Particles particles_of(const core::Scene& scene, const std::vector<verification::Bead>& beads);
 
 }  // namespace polybed::naive

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/scene.hpp"
-#include "stability/hard_case.hpp"
+#include "multiscale/stability/textbook.hpp"
 
 namespace polybed::naive {
 

@@ -3,7 +3,7 @@
 
 #include "core/operators.hpp"
 #include "fluid/viscous_stress.hpp"
-#include "tests/verification/box_equations.hpp"
+#include "multiscale/stability/problems/box_equations.hpp"
 
 namespace polybed::validation {
 namespace {

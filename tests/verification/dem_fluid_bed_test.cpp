@@ -1,5 +1,6 @@
 // Beds of many particles in a fluid: light ones in a liquid stay bounded, fluidised ones are carried by the pressure.
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

@@ -1,6 +1,7 @@
 // A sphere in a fluid that sound runs through: where it is slow it moves as in an incompressible one.
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
 #include "fluid/compressible.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

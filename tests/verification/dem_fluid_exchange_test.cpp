@@ -4,7 +4,8 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "core/random.hpp"
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

@@ -1,5 +1,6 @@
 // A fixed lattice of spheres: the pressure drop is that of the drag law, -dp/dy = 18 mu u (1 - eps) f/(eps D^2).
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

@@ -1,7 +1,8 @@
 // Minimum fluidisation of particles: a settled bed leaves its floor where the pressure carries it.
 #include <numeric>
 
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

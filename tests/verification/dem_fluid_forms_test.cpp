@@ -1,6 +1,7 @@
 // Models A and B: the pressure's gradient may act on particles and fluid, or on the fluid alone with a drag that is
 // 1/eps times as great.
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

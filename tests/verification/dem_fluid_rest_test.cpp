@@ -1,6 +1,7 @@
 // Particles and fluid at rest, and how a sphere begins to move: weight, buoyancy and added mass.
 #include "core/random.hpp"
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

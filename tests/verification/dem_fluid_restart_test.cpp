@@ -1,6 +1,7 @@
 // A run taken up again has the bits of one that went through, with the fluid between the particles.
 #include "core/random.hpp"
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

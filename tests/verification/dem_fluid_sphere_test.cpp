@@ -1,7 +1,8 @@
 // One small sphere in a wide box of fluid, against the ordinary differential equation of its motion. It stirs the fluid
 // that it feels: what that changes falls with the square of the cell, and is told by the box that is stirred, not by
 // the step.
-#include "dem_fluid.hpp"
+#include "dem_scenes.hpp"
+#include "multiscale/stability/problems/wet_beads.hpp"
 
 namespace polybed::verification {
 namespace {

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "box_equations.hpp"
 #include "closures/kinetic_theory.hpp"
+#include "multiscale/stability/problems/box_equations.hpp"
+#include "scenes.hpp"
 
 namespace polybed::verification {
 namespace {

@@ -1,7 +1,8 @@
 // Small waves of a fluidised bed: how fast they grow or decay, and run, against the exact dispersion relation.
 #include <gtest/gtest.h>
 
-#include "waves.hpp"
+#include "multiscale/stability/problems/waves.hpp"
+#include "scenes.hpp"
 
 namespace polybed::verification {
 namespace {

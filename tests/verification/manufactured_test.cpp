@@ -1,7 +1,8 @@
 // Order in space of the whole system by a manufactured solution: two species, every effect on, all sides joined.
 #include <gtest/gtest.h>
 
-#include "manufactured_box.hpp"
+#include "multiscale/stability/problems/manufactured_box.hpp"
+#include "scenes.hpp"
 
 namespace polybed::verification {
 namespace {

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "box_equations.hpp"
+#include "multiscale/stability/problems/box_equations.hpp"
+#include "scenes.hpp"
 
 namespace polybed::verification {
 namespace {

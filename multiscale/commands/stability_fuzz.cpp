@@ -1,0 +1,93 @@
+// polybed stability --fuzz: scenes drawn from the declared envelope, and the least case of each that fails.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/version.hpp"
+#include "multiscale/commands/options.hpp"
+#include "multiscale/stability/fuzz.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+using stability::Outcome;
+
+constexpr double cpu_each = 2;  // s
+constexpr std::array<Outcome, 4> outcomes{Outcome::pass, Outcome::degraded, Outcome::refused, Outcome::fail};
+
+/// Invariant of a failure, and the first line of its cause: what two failures have in common, if it is one mistake.
+std::string kind_of(const stability::Result& result) { return result.broken; }
+
+/// Fails in the same invariants.
+bool fails_alike(const stability::Draw& draw, const std::string& kind) {
+  const stability::Result now = stability::results_of({stability::case_text(draw)}, 1, 0.5 * cpu_each).front();
+  return now.outcome == Outcome::fail && kind_of(now) == kind;
+}
+
+std::string json_text(const StabilityOptions& options, const std::vector<stability::Result>& results) {
+  core::Json json;
+  json.begin_object().member("draws", options.draws).member("seed", options.seed);
+  json.member("commit", core::git_commit()).key("results").begin_array();
+  for (std::size_t n = 0; n < results.size(); ++n) {
+    const stability::Result& r = results[n];
+    json.begin_object().member("draw", std::uint64_t(n)).member("outcome", name_of(r.outcome));
+    json.member("broken", r.broken).member("worst", r.worst.id).member("value", r.worst.value);
+    json.member("limit", r.worst.limit).member("steps", r.work.steps).member("cpu_s", r.cpu);
+    json.member("cause", r.cause).member("reported", r.reported).end_object();
+  }
+  json.end_array().end_object();
+  return json.text() + "\n";
+}
+
+}  // namespace
+
+core::ExitCode run_fuzz(const StabilityOptions& options) {
+  const fs::path directory = options.output.empty() ? fs::path("runs/stability") : options.output;
+  core::make_directories(directory);
+  std::vector<stability::Draw> draws;
+  std::vector<std::string> texts;
+  for (std::uint64_t n = 0; n < options.draws; ++n) {
+    draws.push_back(stability::draw_of(options.seed, n));
+    texts.push_back(stability::case_text(draws.back()));
+  }
+  const auto seen = [&](std::size_t n, const stability::Result& r) {
+    if (r.outcome == Outcome::fail) core::write_atomically(directory / fmt::format("draw-{}.toml", n), texts[n]);
+    if (options.json || r.outcome == Outcome::pass || r.outcome == Outcome::refused) return;
+    fmt::print("draw {}: {} {} ({} = {:.3g}, limit {:.3g}) {}\n", n, name_of(r.outcome), r.broken, r.worst.id,
+               r.worst.value, r.worst.limit, r.cause);
+    std::fflush(stdout);
+  };
+  const std::vector<stability::Result> results = stability::results_of(texts, options.jobs, cpu_each, seen);
+  core::write_atomically(directory / "fuzz.json", json_text(options, results));
+  // Of each kind of failure one is shrunk: the others are most likely the same mistake.
+  const fs::path hard = "cases/hard", found = (fs::is_directory(hard) ? hard : directory) / "found";
+  std::map<std::string, std::string> shown;
+  for (std::size_t n = 0; n < results.size(); ++n) {
+    const std::string kind = kind_of(results[n]);
+    if (results[n].outcome != Outcome::fail || shown.contains(kind)) continue;
+    const stability::Draw least =
+        stability::shrunk(draws[n], [&](const stability::Draw& draw) { return fails_alike(draw, kind); });
+    shown[kind] = stability::keep({n, least, results[n]}, options.seed, found).string();
+    if (!options.json) fmt::print("{} (draw {}), as a least case: {}\n", kind, n, shown[kind]);
+  }
+  if (options.json) fmt::print("{}", json_text(options, results));
+  for (const Outcome outcome : outcomes) {
+    const auto count =
+        std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.outcome == outcome; });
+    if (!options.json)
+      fmt::print("{:8} {:6} of {}, {:.1f} %\n", name_of(outcome), count, results.size(),
+                 100.0 * double(count) / double(results.size()));
+  }
+  const bool failed =
+      std::any_of(results.begin(), results.end(), [](const auto& r) { return r.outcome == Outcome::fail; });
+  return failed ? core::ExitCode::numerics : core::ExitCode::done;
+}
+
+}  // namespace polybed::multiscale

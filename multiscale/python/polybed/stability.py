@@ -1,0 +1,41 @@
+"""Draws the heat map of the matrix of hard cases: what `polybed stability` hands over to.
+
+    python3 -m polybed.stability DIRECTORY
+
+reads DIRECTORY/stability.json and writes stability.png and stability.svg beside it. Exit codes are those of polybed: 0
+done, 4 a file or a package is missing.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+try:
+    from polybed.drawing import hard_cases
+    from polybed.plot import save
+except ImportError as missing:
+    if (missing.name or "").startswith("polybed"):
+        raise
+    print(f"Python's package {missing.name} is missing, which pictures need", file=sys.stderr)
+    sys.exit(4)
+
+NO_FILE = 4
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="polybed.stability", description="Draws the matrix of hard cases.")
+    parser.add_argument("directory", type=Path)
+    directory = parser.parse_args(arguments).directory
+    try:
+        matrix = json.loads((directory / "stability.json").read_text())
+        for ending in ("png", "svg"):
+            print(save(hard_cases.draw(matrix), directory / f"stability.{ending}"))
+    except (OSError, ValueError, KeyError) as error:
+        print(error, file=sys.stderr)
+        return NO_FILE
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

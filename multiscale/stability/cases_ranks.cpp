@@ -1,0 +1,155 @@
+// Hard cases of several ranks and of runs taken up again: P1 to P8, each by this program as its user starts it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "multiscale/stability/cases.hpp"
+#include "multiscale/stability/program.hpp"
+#include "multiscale/stability/scratch.hpp"
+
+namespace polybed::stability {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Spheres with friction in a box joined on all sides; a line of it for each: x, y, z, vx, vy, vz.
+struct Box {
+  double width = 12e-3, height = 6e-3;
+  std::vector<std::array<double, 6>> spheres;
+  std::string more = {};  ///< lines of [dem]
+};
+
+fs::path write_case(const fs::path& folder, const Box& box) {
+  std::ofstream list(folder / "list.csv");
+  list << "species,x,y,z,vx,vy,vz\n";
+  for (const auto& s : box.spheres) list << fmt::format("a,{:.17g}\n", fmt::join(s, ","));
+  std::ofstream file(folder / "case.toml");
+  file << fmt::format(
+      "[column]\nsize = [{0}, {1}, {1}]\ncells = [4, 2, 2]\nsides = \"periodic\"\nends = \"periodic\"\ngravity = 0\n"
+      "[fluid]\nname = \"none\"\n[[species]]\nname = \"a\"\ndiameter = 1e-3\ndensity = 2500\n"
+      "[bed]\nstart = \"list:list.csv\"\n[effects]\ncontact = \"hertz_mindlin\"\n"
+      "[dem]\nyoungs_modulus = 5e7\nfriction = 0.5\ngreatest_speed = 3\nskin = 1e-4\n{2}\n[run]\nuntil = 0.02\n"
+      "[output]\nevery = 0.02\nhistory_every = 0.02\ncheckpoint_every = 0.01\n",
+      box.width, box.height, box.more);
+  return folder / "case.toml";
+}
+
+std::vector<std::string> dem(const fs::path& file, const fs::path& output, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words{"dem", file.string(), "-o", output.string(), "--quiet", "--no-picture"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// The state of the particles at the end of a run, which must have ended well. What counts work, and how ranks met, is
+/// left out.
+core::Checkpoint end_of(Trial& trial, int ranks, const std::vector<std::string>& words, const fs::path& output) {
+  const ProgramEnd end = run_program(ranks, words);
+  trial.measure("V16 code of the run", end.code, 0);
+  if (end.code != 0) throw core::NumericsError(end.said);
+  return core::read_checkpoint(output / "checkpoint.h5");
+}
+
+double bits_apart(const core::Checkpoint& a, const core::Checkpoint& b) {
+  double apart = a.arrays.size() == b.arrays.size() ? 0 : 1;
+  for (const auto& [name, values] : a.arrays) {
+    const auto other = b.arrays.find(name);
+    if (other == b.arrays.end() || other->second != values) apart += 1;
+  }
+  return apart;
+}
+
+/// The same bits on each number of ranks as on one.
+void same_on(Trial& trial, const Box& box, const std::vector<int>& numbers) {
+  const Scratch folder;
+  const fs::path file = write_case(folder.path(), box);
+  const core::Checkpoint alone = end_of(trial, 1, dem(file, folder.path() / "1"), folder.path() / "1");
+  for (const int ranks : numbers) {
+    const fs::path output = folder.path() / std::to_string(ranks);
+    trial.measure("V9 arrays that differ", bits_apart(alone, end_of(trial, ranks, dem(file, output), output)), 0);
+  }
+}
+
+std::vector<std::array<double, 6>> lattice(double from, double to, double speed) {
+  std::vector<std::array<double, 6>> spheres;
+  int n = 0;
+  for (double x = from; x < to; x += 1.2e-3)
+    for (const double y : {1e-3, 2.3e-3, 4e-3})
+      for (const double z : {1e-3, 3e-3, 5e-3}) {
+        const double sign = ++n % 2 == 0 ? 1 : -1;
+        spheres.push_back({x, y, z, sign * speed, 0.3 * sign * speed, -0.2 * speed});
+      }
+  return spheres;
+}
+
+/// P1: all in the left third; P2: a single sphere; P3: fast ones that cross a rank in few steps.
+void rank_without_particles(Trial& trial) { same_on(trial, {.spheres = lattice(0.6e-3, 4e-3, 0.2)}, {3}); }
+void all_on_one_rank(Trial& trial) { same_on(trial, {.spheres = {{6e-3, 3e-3, 3e-3, 0.5, 0.1, 0}}}, {2}); }
+void crossing_ranks(Trial& trial) { same_on(trial, {.spheres = lattice(0.6e-3, 11e-3, 0.9)}, {3}); }
+/// P4: odd numbers.
+void odd_numbers(Trial& trial) { same_on(trial, {.spheres = lattice(0.6e-3, 11e-3, 0.3)}, {5}); }
+
+/// P5: slabs thinner than a sphere: the same bits, or refused with a reason.
+void thin_slabs(Trial& trial) {
+  const Box box{.width = 3e-3, .height = 3e-3, .spheres = {{1e-3, 1e-3, 1e-3, 0.2, 0, 0}}};
+  const Scratch folder;
+  const fs::path file = write_case(folder.path(), box), output = folder.path() / "out";
+  const ProgramEnd end = run_program(7, dem(file, output));
+  const bool told = end.said.find("rank") != std::string::npos;
+  trial.measure("V16 runs, or is refused with a reason",
+                end.code == 0 || (end.code == 2 && told) || (end.code == 5 && told) ? 0 : 1, 0);
+  if (end.code != 0) throw core::CaseError(end.said);
+  const fs::path one = folder.path() / "1";
+  trial.measure("V9 arrays that differ",
+                bits_apart(end_of(trial, 1, dem(file, one), one), core::read_checkpoint(output / "checkpoint.h5")), 0);
+}
+
+/// P6: two spheres roll on each other across the face of a slab, two more across a corner of the box.
+void friction_across_faces(Trial& trial) {
+  same_on(trial,
+          {.spheres = {{5.51e-3, 3e-3, 3e-3, 0.05, 0.05, 0},
+                       {6.49e-3, 3e-3, 3e-3, -0.05, -0.05, 0},
+                       {0.35e-3, 0.35e-3, 0.3e-3, -0.05, 0.1, 0},
+                       {11.65e-3, 5.65e-3, 5.8e-3, 0.05, 0, 0.1}}},
+          {2, 3});
+}
+
+/// P7: a run taken up on another number of ranks has the bits of the one that went through.
+void other_numbers(Trial& trial) {
+  const Scratch folder;
+  const fs::path file = write_case(folder.path(), {.spheres = lattice(0.6e-3, 11e-3, 0.3)});
+  const fs::path whole = folder.path() / "whole", parts = folder.path() / "parts";
+  const core::Checkpoint through = end_of(trial, 1, dem(file, whole), whole);
+  (void)end_of(trial, 2, dem(file, parts, {"--until", "0.01 s"}), parts);
+  trial.measure("V10 arrays that differ", bits_apart(through, end_of(trial, 3, dem(file, parts, {"--resume"}), parts)),
+                0);
+}
+
+/// P8: a rank is killed in mid-run: the last checkpoint is whole, and the run goes on from it.
+void killed(Trial& trial) {
+  const Scratch folder;
+  const fs::path file = write_case(folder.path(), {.spheres = lattice(0.6e-3, 11e-3, 0.3)});
+  const fs::path output = folder.path() / "out", whole = folder.path() / "whole";
+  const core::Checkpoint through = end_of(trial, 1, dem(file, whole), whole);
+  (void)run_program(1, dem(file, output), output / "checkpoint.h5");
+  trial.measure("V10 arrays that differ",
+                bits_apart(through, end_of(trial, 1, dem(file, output, {"--resume"}), output)), 0);
+}
+
+}  // namespace
+
+std::vector<HardCase> rank_cases() {
+  const std::vector<Treatment> ranks{{"ranks", "", ""}};
+  return {{"P1", "a rank without particles", {}, ranks, rank_without_particles},
+          {"P2", "all on one rank", {}, ranks, all_on_one_rank},
+          {"P3", "migration over ranks", {}, ranks, crossing_ranks},
+          {"P4", "five ranks", {}, ranks, odd_numbers},
+          {"P5", "slabs thinner than a sphere", {}, ranks, thin_slabs},
+          {"P6", "friction across a slab and a corner", {}, ranks, friction_across_faces},
+          {"P7", "taken up on other numbers of ranks", {}, ranks, other_numbers, false},
+          {"P8", "killed in mid-run", {}, ranks, killed, false}};
+}
+
+}  // namespace polybed::stability

@@ -1,0 +1,22 @@
+#include "multiscale/stability/cases.hpp"
+
+namespace polybed::stability {
+
+namespace {
+
+std::vector<HardCase> joined(const std::vector<std::vector<HardCase>>& groups) {
+  std::vector<HardCase> all;
+  for (const std::vector<HardCase>& group : groups) all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<HardCase> catalogue() {
+  std::vector<HardCase> long_ones = joined({column_cases(), demanding_cases()});
+  for (HardCase& one : long_ones) one.ci = false;
+  return joined({settling_cases(), closure_cases(), fluidised_cases(), transport_cases(), long_ones, particle_cases(),
+                 suspension_cases(), rank_cases(), input_cases()});
+}
+
+}  // namespace polybed::stability

@@ -1,0 +1,45 @@
+// Runs of the particle model as a trial sees them: number, finiteness and the account of energy at every look.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "dem/measures.hpp"
+#include "dem/model.hpp"
+#include "multiscale/stability/hard_case.hpp"
+
+namespace polybed::stability {
+
+/// What is watched beside the number of particles, V1, and finiteness, V3.
+struct GrainWatch {
+  bool energy = true;  ///< V5: the ledger closes within 1e-3 of the greatest energy met
+  double cpu = 1e300;  ///< s of computing, after which a run ends where it is; below it also where it fails
+};
+
+/// Keeps the figures of a model in a trial.
+class Grains {
+ public:
+  Grains(Trial& trial, dem::Model& model, GrainWatch watch = {});
+
+  /// Steps as many times, with a look at every `every`-th state and at the last; false if computing took too long.
+  bool steps(std::int64_t number, std::int64_t every = 64);
+  /// To the step nearest to a time, s.
+  bool until(double time, std::int64_t every = 64);
+  /// A look at the present state.
+  void see();
+
+  [[nodiscard]] const dem::Totals& totals() const { return totals_; }
+  /// Greatest energy met, J.
+  [[nodiscard]] double greatest_energy() const { return greatest_energy_; }
+
+ private:
+  Trial& trial_;
+  dem::Model& model_;
+  GrainWatch watch_;
+  dem::Totals totals_;
+  std::int64_t count_ = 0;
+  std::optional<double> initial_energy_;
+  double greatest_energy_ = 0;
+};
+
+}  // namespace polybed::stability

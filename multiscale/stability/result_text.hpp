@@ -1,0 +1,14 @@
+// The result of a trial as text, by which a child process tells its parent.
+#pragma once
+
+#include <string>
+
+#include "multiscale/stability/hard_case.hpp"
+
+namespace polybed::stability {
+
+[[nodiscard]] std::string text_of(const Result& result);
+/// Throws core::FileError for any other text.
+[[nodiscard]] Result result_of(const std::string& text);
+
+}  // namespace polybed::stability

@@ -1,0 +1,56 @@
+// What textbooks do in the place of the product's treatments. Only test programs have it: the program that links
+// tests/naive answers here, any other gets nothing.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "dem/particles.hpp"
+#include "multiscale/stability/hard_case.hpp"
+#include "multiscale/stability/problems/beads.hpp"
+
+namespace polybed::stability {
+
+/// Dry spheres as a textbook moves them; asked like verification::Beads.
+class TextbookSpheres {
+ public:
+  virtual ~TextbookSpheres() = default;
+  virtual void steps(std::int64_t number) = 0;
+  [[nodiscard]] virtual const dem::Place& place(std::int64_t id) const = 0;
+  [[nodiscard]] virtual const dem::Motion& motion(std::int64_t id) const = 0;
+  [[nodiscard]] virtual dem::Vector force(std::int64_t id) const = 0;
+};
+
+/// Spheres in a fluid as a textbook couples them; they do not touch.
+class TextbookSuspension {
+ public:
+  virtual ~TextbookSuspension() = default;
+  /// One of the fluid, those of the particles before it included.
+  virtual void step() = 0;
+  [[nodiscard]] virtual const dem::Particles& particles() const = 0;
+  [[nodiscard]] virtual const core::Field& voidage() const = 0;
+  [[nodiscard]] virtual const core::FaceField& fluid_velocity() const = 0;
+};
+
+/// Textbook treatments by name; unknown names throw std::invalid_argument.
+class Textbook {
+ public:
+  virtual ~Textbook() = default;
+  /// A run of a continuum scene; null where the case itself is treated; `start` as in Trial::begin.
+  [[nodiscard]] virtual std::unique_ptr<Run> run(const std::string& name, const core::Scene& scene,
+                                                 core::Timers& timers,
+                                                 const std::function<void(tfm::Model&)>& start) const = 0;
+  /// Steps of scene.dem.fixed_step.
+  [[nodiscard]] virtual std::unique_ptr<TextbookSpheres> spheres(
+      const std::string& name, const core::Scene& scene, const std::vector<verification::Bead>& beads) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<TextbookSuspension> suspension(
+      const std::string& name, const core::Scene& scene, const std::vector<verification::Bead>& beads) const = 0;
+};
+
+/// Those of this program, or null.
+[[nodiscard]] const Textbook* textbook();
+
+}  // namespace polybed::stability

@@ -1,0 +1,18 @@
+#include "closures/minimum_fluidisation.hpp"
+
+#include <gtest/gtest.h>
+
+namespace polybed::closures {
+namespace {
+
+// 1 mm, 1500 kg/m3 heavier than a liquid of 1000 kg/m3 and 1 mPa s: Ar = 14715, Re_mf = sqrt(1135.69 + 600.372) - 33.7
+// = 7.966077. Of very small spheres it is 0.0408 Ar/67.4, without loss of digits.
+TEST(MinimumFluidisation, OfWenAndYuByHand) {
+  EXPECT_NEAR(minimum_fluidisation(1e-3, 1500, 1000, 1e-3, 9.81), 7.966077e-3, 1e-9);
+  EXPECT_EQ(minimum_fluidisation(1e-3, -1500, 1000, 1e-3, 9.81), minimum_fluidisation(1e-3, 1500, 1000, 1e-3, 9.81));
+  const double archimedes = 1.5 * 9.81 * 1e-21 / 1e-12;
+  EXPECT_NEAR(minimum_fluidisation(1e-7, 1500, 1000, 1e-3, 9.81) / (archimedes * 0.0408 / 67.4 * 10), 1, 1e-8);
+}
+
+}  // namespace
+}  // namespace polybed::closures
