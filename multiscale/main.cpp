@@ -160,6 +160,18 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   inversion_command->add_option("--method", inversion.method,
                                 "force_balance | bulk_density | expansion | density_maximum");
 
+  CalibrateOptions calibrate;
+  CLI::App* calibrate_command = app.add_subcommand(
+      "calibrate", "run boxes of particles and make a table of the solids stress for the two-fluid model");
+  add_case(*calibrate_command, calibrate);
+  calibrate_command->add_option("-o,--output", calibrate.output, "directory; default runs/<case name>-calibrate");
+  calibrate_command->add_option("-j,--jobs", calibrate.jobs, "boxes at once; default 1")->check(CLI::Range(1, 1024));
+  calibrate_command->add_flag("--plan", calibrate.plan_only, "which boxes, and how long; nothing is run");
+  calibrate_command->add_option("--check", calibrate.check,
+                                "TABLE: run a few points that it was not fitted to, and compare");
+  calibrate_command->add_option("--box", calibrate.box)->group("");
+  calibrate_command->add_flag("--quiet", calibrate.quiet, "no progress");
+
   PlotOptions plot;
   CLI::App* plot_command = app.add_subcommand("plot", "pictures of a finished or a running run");
   plot_command->add_option("RUN", plot.run, "run directory, or the case of a run in runs/")->required();
@@ -199,6 +211,10 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   if (app.got_subcommand("dem")) run_dem(dem);
   if (app.got_subcommand("compare")) run_compare(compare);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
+  if (app.got_subcommand("calibrate")) {
+    if (calibrate.box.starts_with("bed")) mpi.emplace(argc, argv);
+    run_calibrate(calibrate);
+  }
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);
   if (app.got_subcommand("schema")) run_schema(schema_json, schema_markdown);

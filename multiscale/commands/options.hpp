@@ -51,10 +51,20 @@ struct InversionOptions : CaseOptions {
   std::string law, temperature, method = "force_balance";
 };
 
+/// Options of the calibration: boxes of particles for a table of the solids stress.
+struct CalibrateOptions : CaseOptions {
+  std::filesystem::path output;  ///< empty: runs/<case name>-calibrate
+  std::filesystem::path check;   ///< a table to check; empty: one is made
+  std::string box;               ///< one box, as the command tells itself; empty: all of them
+  int jobs = 1;                  ///< boxes at once
+  bool plan_only = false, quiet = false;
+};
+
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
 void run_compare(const CompareOptions& options);
+void run_calibrate(const CalibrateOptions& options);
 void run_check(const CaseOptions& options);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);
