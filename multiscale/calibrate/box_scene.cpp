@@ -154,7 +154,8 @@ double particle_steps_of(const core::Scene& scene, const BoxPoint& point) {
   const core::Scene box = scene_of_box(scene, point);
   double count = 0;
   for (const std::int64_t n : box.bed.particles) count += double(n);
-  return count * box.run.until / box.dem.fixed_step.value();
+  // Of a fluidised box the step follows from its contacts: a rough guess.
+  return count * box.run.until / box.dem.fixed_step.value_or(1e-5);
 }
 
 }  // namespace polybed::multiscale

@@ -78,7 +78,7 @@ double pressure_shape(const fluid::SolidsTable& t, const closures::MonotoneCurve
                       double phi) {
   if (t.regime == "wet")
     return closures::viscous_stress_form(phi, closures::jamming_fraction(mu)).value * ratio(phi).pressure;
-  return closures::kinetic_pressure(phi, closures::radial_distribution_dense(phi).value, e) * ratio(phi).pressure;
+  return closures::kinetic_pressure(phi, closures::radial_carnahan_starling(phi).value, e) * ratio(phi).pressure;
 }
 
 /// Ten points for each distance of knots, from 0 to 0.02 below jamming.

@@ -58,6 +58,21 @@ TableAxes axes_of(const core::Scene& scene, const std::string& regime) {
   return a;
 }
 
+/// As calibrate.regime says, or by the numbers of the scene.
+fluid::Regime regime_of(const core::Scene& scene) {
+  const std::string& given = scene.calibrate.regime;
+  if (scene.fluid.name == "none" && (given == "wet" || given == "bed"))
+    throw core::CaseError("calibrate.regime = \"" + given + "\" needs a fluid: fluid.name is \"none\"");
+  fluid::Regime regime = fluid::shear_regime(scene);
+  if (given == "bed") {
+    regime.name = given;
+    regime.reason = "as the case says";
+  }
+  if (regime.name.empty())
+    throw core::CaseError("calibrate.regime = \"auto\" needs inlet.superficial_velocity, or say dry or wet");
+  return regime;
+}
+
 }  // namespace
 
 Plan plan_of(const core::Scene& scene) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/scene.hpp"
-#include "multiscale/calibrate/regime.hpp"
+#include "fluid/shear_regime.hpp"
 
 namespace polybed::multiscale {
 
@@ -26,7 +26,7 @@ struct TableAxes {
 };
 
 struct Plan {
-  Regime regime;
+  fluid::Regime regime;  ///< dry | wet | bed
   TableAxes axes;
   bool binary = false;
   std::vector<BoxPoint> boxes;  ///< [phi][stokes][restitution][friction][share][seed]

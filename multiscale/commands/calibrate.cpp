@@ -132,7 +132,7 @@ void run_one(const core::Scene& scene, const fs::path& directory, const std::str
 
 void print_plan(const Plan& plan, const Boxes& boxes, int jobs) {
   fmt::print("regime {}: {}\n", plan.regime.name, plan.regime.reason);
-  for (const RegimeNumbers& n : plan.regime.numbers)
+  for (const fluid::RegimeNumbers& n : plan.regime.numbers)
     fmt::print("  {}: gamma tau_p {:.2g}, St* {:.2g} to {:.2g}, St_gamma {:.2g} (voidage {:.3f}, {:.3g} 1/s)\n",
                n.species, n.shear_times_relaxation, n.stokes_least, n.stokes_most, n.stokes_of_shear, n.voidage,
                n.shear_rate);

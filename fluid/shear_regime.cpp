@@ -1,4 +1,4 @@
-#include "multiscale/calibrate/regime.hpp"
+#include "fluid/shear_regime.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "fluid/properties.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::fluid {
 
 namespace {
 
@@ -23,7 +23,7 @@ closures::DragLaw law_of_scene(const core::Scene& scene) {
 }
 
 /// f of one species alone.
-double pure_drag(const closures::DragLaw& law, const core::Species& species, const fluid::FluidConstants& fluid,
+double pure_drag(const closures::DragLaw& law, const core::Species& species, const FluidConstants& fluid,
                  double velocity, double voidage) {
   const double share = 1, diameter = species.diameter, slip = velocity;
   double f = 0, slope = 0;
@@ -34,7 +34,7 @@ double pure_drag(const closures::DragLaw& law, const core::Species& species, con
 
 /// Voidage at which drag carries the buoyant weight: 18 mu f u/d^2 = eps |rho_p - rho_f| g, T(1.50); in [0.4, 0.99].
 double floating_voidage(const core::Scene& scene, const closures::DragLaw& law, const core::Species& species,
-                        const fluid::FluidConstants& fluid, double velocity) {
+                        const FluidConstants& fluid, double velocity) {
   const double weight = std::abs(species.density - fluid.density) * scene.column.gravity;
   double low = 0.4, high = 0.99;
   for (int n = 0; n < 60; ++n) {
@@ -55,7 +55,7 @@ double greatest_velocity(const core::Scene& scene) {
 
 RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, double velocity, double voidage) {
   const core::Species& s = scene.species[species];
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const FluidConstants fluid = fluid_constants(scene.fluid);
   const closures::DragLaw law = law_of_scene(scene);
   RegimeNumbers n;
   n.species = s.name;
@@ -71,24 +71,22 @@ RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, doub
   return n;
 }
 
-Regime regime_of(const core::Scene& scene) {
-  const bool fluid = scene.fluid.name != "none";
-  Regime regime{scene.calibrate.regime, "as the case says", {}};
+Regime shear_regime(const core::Scene& scene) {
+  if (scene.fluid.name == "none") return {"dry", "there is no fluid", {}};
+  const std::string& given = scene.calibrate.regime;
+  Regime regime{given == "dry" || given == "wet" ? given : "", "as the case says", {}};
   const double velocity = greatest_velocity(scene);
-  if (fluid && velocity > 0)
-    for (std::size_t j = 0; j < scene.species.size(); ++j)
-      regime.numbers.push_back(regime_numbers(scene, j, velocity, 0));
-  if (!fluid && (regime.name == "wet" || regime.name == "bed"))
-    throw core::CaseError("calibrate.regime = \"" + regime.name + "\" needs a fluid: fluid.name is \"none\"");
-  if (regime.name != "auto") return regime;
-  if (!fluid) return {"dry", "there is no fluid", {}};
-  if (regime.numbers.empty())
-    throw core::CaseError("calibrate.regime = \"auto\" needs inlet.superficial_velocity, or say dry or wet");
-  double most = 0;
-  for (const RegimeNumbers& n : regime.numbers) most = std::max(most, n.shear_times_relaxation);
-  regime.name = most >= 1 ? "dry" : "wet";
-  regime.reason = fmt::format("gamma tau_p = {:.2g}, {}", most, most >= 1 ? "1 or more" : "below 1");
+  for (std::size_t j = 0; velocity > 0 && j < scene.species.size(); ++j)
+    regime.numbers.push_back(regime_numbers(scene, j, velocity, 0));
+  if (!regime.name.empty() || regime.numbers.empty()) return regime;
+  const RegimeNumbers& most = *std::max_element(
+      regime.numbers.begin(), regime.numbers.end(),
+      [](const auto& a, const auto& b) { return a.shear_times_relaxation < b.shear_times_relaxation; });
+  regime.name = most.shear_times_relaxation >= 1 ? "dry" : "wet";
+  regime.reason =
+      fmt::format("gamma tau_p = {:.2g} of {}, {}; St* = {:.2g} to {:.2g}", most.shear_times_relaxation, most.species,
+                  regime.name == "dry" ? "1 or more" : "below 1", most.stokes_least, most.stokes_most);
   return regime;
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::fluid

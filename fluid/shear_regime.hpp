@@ -1,4 +1,4 @@
-// Which boxes a scene calls for: dry ones, where collisions carry the stress, or wet ones, where drag and films do.
+// Which stress sheared particles of a scene have: dry, where collisions carry it, or wet, where drag and films do.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "core/scene.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::fluid {
 
 /// What decides, of one species at the voidage where it hangs in the stream.
 struct RegimeNumbers {
@@ -19,8 +19,8 @@ struct RegimeNumbers {
 };
 
 struct Regime {
-  std::string name;    ///< dry | wet | bed
-  std::string reason;  ///< in one line, with the number that decided
+  std::string name;    ///< dry | wet; empty: nothing moves the bed
+  std::string reason;  ///< in one line, with the numbers that decided
   std::vector<RegimeNumbers> numbers;
 };
 
@@ -29,8 +29,8 @@ struct Regime {
 [[nodiscard]] RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, double velocity,
                                            double voidage);
 
-/// calibrate.regime, or for "auto": dry without a fluid, or with gamma tau_p of 1 or more for a species; else wet.
-/// Throws core::CaseError for a regime that the scene cannot have.
-[[nodiscard]] Regime regime_of(const core::Scene& scene);
+/// calibrate.regime if it is dry or wet; else dry without a fluid, or with gamma tau_p of 1 or more for a species at
+/// the greatest velocity of the inlet, and wet below. Throws core::CaseError without a drag law.
+[[nodiscard]] Regime shear_regime(const core::Scene& scene);
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::fluid
