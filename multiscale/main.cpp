@@ -128,7 +128,9 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   app.require_subcommand(1);
 
   RunOptions tfm, dem;
-  add_run(app, "tfm", "run the case as a continuum (two-fluid model)", tfm);
+  add_run(app, "tfm", "run the case as a continuum (two-fluid model)", tfm)
+      .add_flag("--stress-uncertainty", tfm.stress_uncertainty,
+                "again with the stress table at plus and minus one standard error: the band of the bed height");
   add_run(app, "dem", "run the case particle by particle", dem);
 
   CompareOptions compare;

@@ -10,6 +10,8 @@
 #include "core/json.hpp"
 #include "core/progress.hpp"
 #include "core/version.hpp"
+#include "multiscale/calibrate/bed_table.hpp"
+#include "multiscale/calibrate/check_table.hpp"
 #include "multiscale/calibrate/fit.hpp"
 #include "multiscale/calibrate/pool.hpp"
 #include "multiscale/calibrate/table_text.hpp"
@@ -130,13 +132,18 @@ void run_one(const core::Scene& scene, const fs::path& directory, const std::str
   write_box(file_of(directory, scene, p), run_box(scene, p));
 }
 
-void print_plan(const Plan& plan, const Boxes& boxes, int jobs) {
-  fmt::print("regime {}: {}\n", plan.regime.name, plan.regime.reason);
+/// With --json standard output is the object's alone.
+std::FILE* people(const CalibrateOptions& options) { return options.json ? stderr : stdout; }
+
+void print_plan(const Plan& plan, const Boxes& boxes, const CalibrateOptions& options) {
+  const int jobs = options.jobs;
+  std::FILE* out = people(options);
+  fmt::print(out, "regime {}: {}\n", plan.regime.name, plan.regime.reason);
   for (const fluid::RegimeNumbers& n : plan.regime.numbers)
-    fmt::print("  {}: gamma tau_p {:.2g}, St* {:.2g} to {:.2g}, St_gamma {:.2g} (voidage {:.3f}, {:.3g} 1/s)\n",
+    fmt::print(out, "  {}: gamma tau_p {:.2g}, St* {:.2g} to {:.2g}, St_gamma {:.2g} (voidage {:.3f}, {:.3g} 1/s)\n",
                n.species, n.shear_times_relaxation, n.stokes_least, n.stokes_most, n.stokes_of_shear, n.voidage,
                n.shear_rate);
-  fmt::print("{} boxes: phi {}, stokes {}, e {}, mu_p {}, x2 {}, seeds {}; {} left, about {} on {} at once\n",
+  fmt::print(out, "{} boxes: phi {}, stokes {}, e {}, mu_p {}, x2 {}, seeds {}; {} left, about {} on {} at once\n",
              plan.boxes.size(), plan.axes.phi.size(), plan.axes.stokes.size(), plan.axes.restitution.size(),
              plan.axes.friction.size(), plan.axes.share.size(), plan.boxes.size() / plan.axes.points(), boxes.left(),
              core::duration_text(boxes.expected_left() / jobs), jobs);
@@ -151,6 +158,42 @@ fluid::SolidsTable table_of(const core::Scene& scene, const Plan& plan, const st
   return table;
 }
 
+void print_json(const fs::path& directory, const Plan& plan, double residual, double left_out) {
+  core::Json json;
+  json.begin_object().member("table", (directory / "table.h5").string()).member("regime", plan.regime.name);
+  json.member("reason", plan.regime.reason).member("boxes", std::uint64_t(plan.boxes.size()));
+  json.member("fit_residual", residual).member("left_out_residual", left_out).end_object();
+  fmt::print("{}\n", json.text());
+}
+
+/// Runs points between the knots of a table and tells how they compare.
+void check_table(const CalibrateOptions& options, const core::Scene& scene, const fs::path& directory,
+                 const Plan& plan) {
+  const fluid::SolidsTable table = fluid::read_solids_table(options.check);
+  if (table.regime != plan.regime.name)
+    throw core::CaseError(fmt::format("{} is a {} table, the boxes of the case are {}: {}", options.check.string(),
+                                      table.regime, plan.regime.name, plan.regime.reason));
+  Boxes boxes(options, scene, directory, points_between(table, plan));
+  std::vector<Deviation> deviations;
+  for (const BoxResult& box : boxes.run()) deviations.push_back(deviation(table, box));
+  const std::string lines = deviation_lines(deviations);
+  fmt::print(people(options), "{}", lines);
+  core::write_atomically(directory / "check.txt", lines);
+}
+
+/// Fluidised boxes: p_bed by both measures, and the table of that by slabs.
+void finish_bed(const CalibrateOptions& options, const fs::path& directory, const core::Scene& scene, const Plan& plan,
+                const std::vector<BoxResult>& boxes) {
+  const BedTable table = bed_table(plan, boxes);
+  const std::string lines = bed_lines(boxes);
+  fmt::print(people(options), "{}", lines);
+  core::write_atomically(directory / "boxes.txt", lines);
+  require_usable(table);
+  write_bed_table(directory / "table.h5", table, now(), core::text_hash(core::resolved_case(scene)));
+  fmt::print(people(options), "table: {}\n", (directory / "table.h5").string());
+  if (options.json) print_json(directory, plan, 0, 0);
+}
+
 }  // namespace
 
 void run_calibrate(const CalibrateOptions& options) {
@@ -159,20 +202,27 @@ void run_calibrate(const CalibrateOptions& options) {
       options.output.empty() ? default_run_directory(options.case_path, "calibrate") : options.output;
   if (!options.box.empty()) return run_one(scene, directory, options.box);
   const Plan plan = plan_of(scene);
+  if (!options.check.empty()) return check_table(options, scene, directory, plan);
   Boxes boxes(options, scene, directory, plan.boxes);
-  print_plan(plan, boxes, options.jobs);
+  print_plan(plan, boxes, options);
   if (options.plan_only) return;
   const std::vector<BoxResult> results = boxes.run();
+  if (plan.regime.name == "bed") return finish_bed(options, directory, scene, plan, results);
   const fluid::SolidsTable table = table_of(scene, plan, results);
   const std::string lines = box_lines(results);
-  fmt::print("{}", lines);
+  fmt::print(people(options), "{}", lines);
   core::write_atomically(directory / "boxes.txt", lines);
-  fmt::print("residual {:.2f} %, with a solids fraction left out {:.2f} %\n", 100 * table.residual,
+  std::FILE* out = people(options);
+  fmt::print(out, "residual {:.2f} %, with a solids fraction left out {:.2f} %\n", 100 * table.residual,
              100 * table.left_out);
+  if (const double up_to = falls_in_shear_up_to(table); up_to > 0)
+    fmt::print(out, "at fixed shear rate without a fluid the pressure falls up to phi = {:.3f}, as a dilute gas does\n",
+               up_to);
   require_usable(table);
   fluid::write_solids_table(directory / "table.h5", table);
   core::write_atomically(directory / "table.toml", table_toml(table, plan, results));
-  fmt::print("table: {}\n", (directory / "table.h5").string());
+  fmt::print(out, "table: {}\n", (directory / "table.h5").string());
+  if (options.json) print_json(directory, plan, table.residual, table.left_out);
 }
 
 }  // namespace polybed::multiscale

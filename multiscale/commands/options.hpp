@@ -22,7 +22,8 @@ struct RunOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-<model>
   std::string until;             ///< empty: as the case says
   bool resume = false, force = false, quiet = false;
-  bool picture = true;  ///< drawn at the end
+  bool picture = true;              ///< drawn at the end
+  bool stress_uncertainty = false;  ///< of the TFM: again with its stress table at plus and minus one standard error
 };
 
 /// Options of the comparison of both models; those of a run are for the models that it runs itself.

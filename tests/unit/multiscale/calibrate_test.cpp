@@ -26,7 +26,8 @@ core::Scene dry_scene() {
   return scene;
 }
 
-/// Boxes of a plan whose pressure is that of chi_eff = chi_CS (1 + a S), S = 0.5 everywhere, with an error of their own.
+/// Boxes of a plan whose pressure is that of chi_eff = chi_CS (1 + a S), S = 0.5 everywhere, with an error of their
+/// own.
 std::vector<BoxResult> synthetic(const Plan& plan, double a, double scatter) {
   std::vector<BoxResult> boxes;
   for (const BoxPoint& p : plan.boxes) {
