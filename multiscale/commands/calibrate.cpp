@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Particle-steps per second of sheared boxes, looked at every fourth step, on the development machine.
-constexpr double particle_steps_per_second = 4e6;
+constexpr double particle_steps_per_second = 1.5e7;
 
 fs::path file_of(const fs::path& directory, const core::Scene& scene, const BoxPoint& point) {
   return directory / "boxes" / (box_hash(scene, point) + ".json");

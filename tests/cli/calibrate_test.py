@@ -44,15 +44,15 @@ normal_stiffness = "100 N/m"
 until = "1 s"
 """ + SHORT + "solids_fraction = [0.3, 0.45]\n"
 WET = """[column]
-size = ["5 mm", "30 mm"]
-cells = [2, 12]
+size = ["20 mm", "30 mm"]  # narrower and the shear would be faster than drag
+cells = [4, 12]
 sides = "periodic"
 [fluid]
 name = "water"
 density = 999
 viscosity = "1.14e-3 Pa s"
 """ + TWO_SIZES + """[bed]
-particles = [150, 7]
+particles = [600, 28]
 solids_fraction = 0.6
 start = "mixed"
 start_solids_fraction = 0.4
