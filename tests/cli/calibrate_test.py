@@ -2,7 +2,8 @@
 """polybed calibrate as its user meets it: the plan, boxes that are kept, a table, its check, and the two-fluid model that
 reads it. Usage: calibrate_test.py PROGRAM"""
 import json
-import pathlib
+import os
+import subprocess
 import tomllib
 
 import h5py
@@ -64,9 +65,9 @@ solids_stress = "frictional"
 lubrication = "film"
 contact = "hertz_mindlin"
 [run]
-until = "20 ms"
+until = "4 ms"
 [output]
-history_every = "1 ms"
+history_every = "0.1 ms"
 """ + SHORT + "solids_fraction = [0.2, 0.4]\nstokes = [10, 30]\n"
 
 
@@ -87,11 +88,11 @@ class Calibration(Scratch):
             self.assertEqual(table["p_ratio"].shape, (2, 1, 1, 1, 1))
         # Theory within a fifth, as far as two strains of 100 spheres tell: 5 % and 11 % are known of large boxes.
         self.assertTrue(np.all(np.abs(ratio - 1) < 0.2 + 3 * error), ratio)
-        toml = tomllib.loads((self.folder / "boxes/table.toml").read_text())
-        self.assertEqual(toml["axes"]["phi"], [0.3, 0.45])
+        text = tomllib.loads((self.folder / "boxes/table.toml").read_text())
+        self.assertEqual(text["axes"]["phi"], [0.3, 0.45])
         # -sigma_xy gamma against dissipation and what is stored: 1 % is the goal of long boxes; 3 % of two strains.
-        self.assertTrue(all(abs(b - 1) < 0.03 for b in toml["balance"]), toml["balance"])
-        self.assertTrue(all(d < 1e-12 for d in toml["drift"]), toml["drift"])
+        self.assertTrue(all(abs(b - 1) < 0.03 for b in text["balance"]), text["balance"])
+        self.assertTrue(all(d < 1e-12 for d in text["drift"]), text["drift"])
         boxes = {p: p.stat().st_mtime_ns for p in (self.folder / "boxes/boxes").iterdir()}
         self.assertEqual(len(boxes), 2)
         # A second call runs nothing; one with another point runs that alone; a damaged box is run again.
@@ -113,6 +114,10 @@ class Calibration(Scratch):
         self.assertIn("0.375", done.stdout)
         self.assertIn(" se)", done.stdout)
         self.assertTrue((self.folder / "boxes/check.txt").exists())
+        drawn = subprocess.run(["/usr/bin/python3", "-m", "polybed.drawing.stress_table", self.folder / "boxes/table.h5"],
+                               env=dict(os.environ, PYTHONPATH=str(program.ROOT / "multiscale/python")), timeout=60)
+        self.assertEqual(drawn.returncode, 0)
+        self.assertGreater((self.folder / "boxes/table.png").stat().st_size, 5000)
 
     def test_wet_table_in_the_two_fluid_model_with_its_band(self):
         done = self.calibrate(WET, "-j", "2")

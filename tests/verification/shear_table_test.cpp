@@ -42,6 +42,7 @@ core::Scene sheared(const std::string& stress) {
   scene.column.closed = true;
   scene.effects["solids_stress"] = stress;
   scene.dem.friction = 0.3;
+  scene.tfm.max_packing = "0.62";
   return scene;
 }
 
