@@ -27,17 +27,17 @@ TEST(DemShearDrag, OneParticleDecaysTowardsTheFlow) {
 TEST(DemShearDrag, OneRowAndItsBalance) {
   const DragRow& row = drag_rows[1];
   constexpr double rate = 100, d = Gas::diameter;
-  const Gas gas{.number = 400,
+  const Gas gas{.number = 500,
                 .fraction = 0.4,
                 .restitution = 0.9,
                 .temperature = row.expected[theta] * rate * rate * d * d,
-                .softness = 0.05,
+                .softness = 0.03,
                 .shear_rate = rate};
   GasRun run(gas, wet_scene_of(gas, row.drag));
-  run.run_for(4 / rate);
+  run.run_for(5 / rate);
   const dem::Totals before = dem::totals_of(run.model);
   const double heat_before = dem::stress_of(run.model).temperature[0];
-  const Blocks<3> mean = averages(run, 12 / rate, 12);
+  const Blocks<3> mean = averages(run, 16 / rate, 16);
   const dem::Totals after = dem::totals_of(run.model);
   const double unit = Gas::density * d * d * rate * rate;
   const std::array<double, 3> units{d * d * rate * rate, unit, unit};
@@ -46,7 +46,7 @@ TEST(DemShearDrag, OneRowAndItsBalance) {
     compare(name[q], mean.mean(q) / units[q], row.expected[q], std::max(0.03, 3 * mean.error(q) / mean.mean(q)));
   const double heat = dem::stress_of(run.model).temperature[0] - heat_before;
   const double stored = 1.5 * gas.number * gas.mass() * heat + after.elastic - before.elastic;
-  const double time = 12 / rate, sink = sink_of(gas, row.drag, mean.mean(theta)) * time;
+  const double time = 16 / rate, sink = sink_of(gas, row.drag, mean.mean(theta)) * time;
   const double work = mean.mean(shear_stress) * rate * std::pow(gas.length(), 3) * time;
   compare("balance", work, after.dissipated - before.dissipated + sink + stored, 0.01);
   EXPECT_GT(sink, after.dissipated - before.dissipated) << "drag takes more than collisions here";
