@@ -140,8 +140,10 @@ void CaseReader::check_sizes(const toml::table& species) {
 void CaseReader::read_effects(const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr) {
-    values_.add(node.source(),
-                "effects: name the roles in a table [effects]; choosing them by itself is not in this version");
+    if (node.value_exact<std::string>() != automatic)
+      values_.add(node.source(), "effects: a table [effects] that names roles, or effects = \"auto\" at the top");
+    else
+      for (const Role& role : roles_) scene_.effects[role.name] = automatic;
     return;
   }
   for (const auto& [name, value] : *table) {
@@ -151,7 +153,7 @@ void CaseReader::read_effects(const toml::node& node) {
       continue;
     }
     const auto law = value.value_exact<std::string>();
-    std::vector<std::string> laws{"none"};
+    std::vector<std::string> laws{"none", automatic};
     for (const Law& l : role->laws) laws.push_back(l.name);
     if (!law || std::none_of(laws.begin(), laws.end(), [&](const auto& l) { return fits_word(l, *law); })) {
       const std::string near = law ? nearest_name(*law, laws) : "";

@@ -52,8 +52,9 @@ void Progress::show(const ProgressLine& line) {
   const std::string speed =
       share < enough_to_tell ? ""
                              : fmt::format("  {:.2f} s/s  left {}", rate, duration_text(rate * (until_ - line.time)));
-  const std::string text = fmt::format("t {:.3f}/{:g} s  dt {:.2g} s ({})  bed {:.1f} mm  {}{}", line.time, line.until,
-                                       line.step, line.limited_by, 1e3 * line.bed_height, line.worst_invariant, speed);
+  const std::string bed = line.bed_height ? fmt::format("  bed {:.1f} mm", 1e3 * *line.bed_height) : "";
+  const std::string text = fmt::format("t {:.3f}/{:g} s  dt {:.2g} s ({}){}  {}{}", line.time, line.until, line.step,
+                                       line.limited_by, bed, line.worst_invariant, speed);
   if (!terminal_) {
     fmt::print(stderr, "{}\n", text);
     return;

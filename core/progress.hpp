@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace polybed::core {
@@ -10,7 +11,7 @@ namespace polybed::core {
 struct ProgressLine {
   double time = 0, until = 0, step = 0;  ///< s
   std::string limited_by;
-  double bed_height = 0;  ///< m
+  std::optional<double> bed_height;  ///< m; empty: not measured yet, or no bed
   std::string worst_invariant;
 };
 

@@ -36,6 +36,7 @@ class Checker {
   void jets();
   void fluid();
   void feeds();
+  void chooser();
   void numerics();
   [[nodiscard]] Problems problems() && { return std::move(problems_); }
 
@@ -208,6 +209,15 @@ void Checker::fluid() {
     add("fluid.equation_of_state = \"tait\": air is a gas; \"ideal_gas\" is its law");
 }
 
+void Checker::chooser() {
+  const auto range = [&](const char* key, const std::vector<double>& values) {
+    if (!values.empty() && (values.size() != 2 || values[0] > values[1]))
+      add("chooser.{}: two values, the least and the greatest", key);
+  };
+  range("velocity_range", scene_.chooser.velocity_range);
+  range("temperature_range", scene_.chooser.temperature_range);
+}
+
 void Checker::numerics() {
   const Tfm& tfm = scene_.tfm;
   if (tfm.fixed_step && tfm.integrator == "implicit") add("tfm.fixed_step works with the explicit integrator only");
@@ -293,6 +303,7 @@ std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool by_
   checker.species();
   checker.bed(by_particles);
   checker.fluid();
+  checker.chooser();
   checker.numerics();
   Problems problems = std::move(checker).problems();
   for (std::string& message : resolve_particles(scene, name)) problems.push_back({name, 0, 0, std::move(message)});
@@ -325,6 +336,12 @@ std::string resolved_case(const Scene& given) {
   }
   out += "\n[effects]\n";
   for (const auto& [role, law] : scene.effects) out += fmt::format("{} = \"{}\"\n", role, law);
+  // What is chosen by hand has no line of the chooser.
+  Scene untouched;
+  std::string chooser, standard;
+  write_table(scene, "chooser", 0, chooser);
+  write_table(untouched, "chooser", 0, standard);
+  if (chooser != standard) out += "\n[chooser]\n" + chooser;
   for (const char* table : {"run", "output", "tfm", "dem"}) {
     out += fmt::format("\n[{}]\n", table);
     write_table(scene, table, 0, out);

@@ -87,6 +87,24 @@ struct Feed {
   std::vector<double> from, to;  ///< as of a jet; empty: the whole end
 };
 
+/// How effects that a case gives as "auto" are chosen, and how what is left out is watched.
+struct Chooser {
+  double tolerance = 0.02;                       ///< what is left out sums to at most this share
+  std::string purpose = "steady";                ///< steady | transient
+  std::optional<double> roughness;               ///< radius of asperities, m; else dem.roughness
+  std::optional<double> hamaker;                 ///< A, J; else 1e-20 in a liquid, 1e-19 in a gas
+  std::optional<double> free_liquid;             ///< surface tension of a liquid that wets the particles, N/m
+  bool static_heap = false;                      ///< a heap at rest is what the scene is about
+  std::optional<double> charge;                  ///< of a particle, C
+  std::optional<double> voidage;                 ///< of the bulk; else by the balance of forces
+  std::vector<double> velocity_range;            ///< superficial, m/s: widens what the case itself says
+  std::vector<double> temperature_range;         ///< K
+  std::vector<std::string> zones;                ///< packed, bulk, wall, freeboard; empty: all
+  std::string monitor = "auto";                  ///< auto (warn where a role is "auto", else off) | off | warn | ...
+  int monitor_every = 200, monitor_sample = 64;  ///< steps; one in so many particles or cells
+  std::vector<std::string> chosen;               ///< the roles that were "auto": a record
+};
+
 struct RunPlan {
   double until = 0;  ///< s
 };
@@ -127,6 +145,7 @@ struct Dem {
   int fluid_every = 16;
   std::string kernel = "auto";             ///< auto | bilinear | diffusion: how particles are averaged for the fluid
   std::optional<double> kernel_width;      ///< of diffusion, full width at half height, m
+  std::string own_share = "kept";          ///< kept | removed: a particle's own part in the averages it feels
   std::string fluid_ranks = "auto";        ///< auto | each | shared: who solves for the fluid
   bool held = false;                       ///< particles do not move: a fixed bed
   std::string tangential = "hdd";          ///< hdd | mindlin | mindlin_deresiewicz | linear
@@ -146,6 +165,7 @@ struct Dem {
   double cohesion_energy = 0;              ///< W of DMT and JKR, J/m2
   double hamaker_constant = 0;             ///< A, J
   double cohesion_gap = 1.65e-10;          ///< z_0, least gap of the van der Waals force, m
+  std::optional<double> asperity_radius;   ///< R* of the van der Waals force, m; else that of the spheres
   double roughness = 1e-7;                 ///< least thickness of a film between surfaces, m
 };
 
@@ -183,6 +203,7 @@ struct Scene {
   std::vector<Jet> jets;
   std::vector<Feed> feeds;
   std::map<std::string, std::string> effects;  ///< role -> law; a role left out is off
+  Chooser chooser;
   RunPlan run;
   OutputPlan output;
   Tfm tfm;
@@ -192,6 +213,9 @@ struct Scene {
   std::vector<SizeClasses> size_classes;
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
 };
+
+/// The word in place of a law that leaves it to the chooser.
+inline constexpr const char* automatic = "auto";
 
 /// The law that a scene gives a role of [effects]; "none" if it names none.
 [[nodiscard]] inline std::string law_of(const Scene& scene, const std::string& role) {

@@ -65,6 +65,8 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
+  if (scene.dem.own_share == "removed")
+    own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials));
   for (Field& component : vorticity_)
     if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
   if (!flow_.grid().ranks) return;
@@ -80,12 +82,12 @@ void Coupling::begin(const Particles& particles) {
   collect(particles);
   flow_.begin(0, phase_);
   take_fields();
-  forces_.find(particles, gather_, motion_.load);
+  forces_.find(particles, gather_, motion_.load, own());
   sides_.begin(particles, gather_, motion_.load);
 }
 
 void Coupling::find_forces(const Particles& particles) {
-  forces_.find(particles, gather_, motion_.load);
+  forces_.find(particles, gather_, motion_.load, own());
   sides_.find(particles, gather_, motion_.load);
 }
 
@@ -113,7 +115,7 @@ void Coupling::advance(Particles& particles, double t) {
   if (!held_) answer(particles);
   for (FluidLoad& load : motion_.load) load.impulse = {};
   take_fields();
-  forces_.find(particles, gather_, motion_.load);
+  forces_.find(particles, gather_, motion_.load, own());
   sides_.refresh(particles, gather_, motion_.load);
 }
 

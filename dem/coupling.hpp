@@ -93,6 +93,7 @@ class Coupling {
   [[nodiscard]] core::Field of_column(const core::Field& own) const;
   void take_own(const core::Field& column, core::Field& own) const;
   void find_vorticity(core::FaceField velocity);
+  [[nodiscard]] const OwnShare* own() const { return own_ ? &*own_ : nullptr; }
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
   /// Step of the fluid, s.
   [[nodiscard]] double interval() const { return every_ * dt_; }
@@ -114,6 +115,7 @@ class Coupling {
   fluid::ParticlePhase phase_;
   Scatter scatter_;
   Gather gather_;
+  std::optional<OwnShare> own_;  ///< absent: a particle is part of what it sees
   FluidMotion motion_;
   int every_;
   bool held_;

@@ -36,6 +36,7 @@ void Coupling::take_fields() {
   smooth(gradient);
   if (sides_.needs_vorticity()) find_vorticity(velocity);
   gather_.take(fraction_, velocity, gradient);
+  if (own_) own_->take(fraction_);
   if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
 }
 
@@ -65,6 +66,7 @@ void Coupling::fetch() {
   }
   exchange_->fetch(fields);
   gather_.take(fraction_here_, velocity_here_, gradient_here_);
+  if (own_) own_->take(fraction_here_);
   if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_here_);
 }
 

@@ -99,7 +99,8 @@ std::unique_ptr<CohesionLaw> make_cohesion(const core::Scene& scene, const Mater
   if (law == "van_der_waals") {
     if (!(scene.dem.hamaker_constant > 0))
       throw core::CaseError("dem.hamaker_constant: effects.cohesion = \"van_der_waals\" needs it, as in 1e-19");
-    return std::make_unique<VanDerWaalsCohesion>(materials, scene.dem.hamaker_constant, scene.dem.cohesion_gap);
+    return std::make_unique<VanDerWaalsCohesion>(materials, scene.dem.hamaker_constant, scene.dem.cohesion_gap,
+                                                 scene.dem.asperity_radius);
   }
   if (!(scene.dem.cohesion_energy > 0))
     throw core::CaseError("dem.cohesion_energy: effects.cohesion = \"" + law + "\" needs it, as in \"50 mJ/m2\"");

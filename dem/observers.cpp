@@ -129,7 +129,7 @@ void Observers::write_history(double time) {
     const Snapshot snapshot(all);
     const fluid::Profile profile = fluid::particle_profile(snapshot.view(), species.size(), slabs_).solids;
     const fluid::ParticleHeights heights = fluid::particle_heights(snapshot.view(), density);
-    bed_height_ = fluid::bed_height(profile).value_or(0);
+    bed_height_ = fluid::bed_height(profile);
     files_->history.write_row(row_of(time, profile, heights, mass, most_solids));
   });
 }

@@ -37,7 +37,7 @@ class Observers {
 
   /// Of the last row of the history.
   [[nodiscard]] const Totals& totals() const { return totals_; }
-  [[nodiscard]] double bed_height() const { return bed_height_; }
+  [[nodiscard]] std::optional<double> bed_height() const { return bed_height_; }
   [[nodiscard]] double initial_energy() const { return initial_energy_; }
   /// Largest difference of the ledger from the energy at the start, against the greatest energy met: V5.
   [[nodiscard]] double ledger_error() const { return ledger_error_; }
@@ -63,7 +63,8 @@ class Observers {
   std::optional<FluidRecord> fluid_;  ///< absent: there is no fluid
   std::unique_ptr<Files> files_;
   Totals totals_;
-  double bed_height_ = 0, initial_energy_ = 0, greatest_energy_ = 0, ledger_error_ = 0;
+  std::optional<double> bed_height_;
+  double initial_energy_ = 0, greatest_energy_ = 0, ledger_error_ = 0;
 };
 
 }  // namespace polybed::dem

@@ -26,23 +26,38 @@ ParticleForces::ParticleForces(const core::Scene& scene, const Materials& materi
     added_ = law == "zuber" ? Added::zuber : Added::half;
 }
 
-void ParticleForces::find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {
+void ParticleForces::find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
+                          const OwnShare* own) {
+  if (own == nullptr) {
+    find_by(
+        particles, gather, [&](const Lines& l, std::int32_t j) { return gather.solids(l, j); }, loads);
+  } else {
+    find_by(
+        particles, gather, [&](const Lines& l, std::int32_t j) { return own->without(gather.solids(l, j), l, j); },
+        loads);
+  }
+}
+
+template <class Solids>
+void ParticleForces::find_by(const Particles& particles, const Gather& gather, Solids&& solids,
+                             std::vector<FluidLoad>& loads) {
   for (std::size_t begin = 0; begin < particles.owned; begin += most) {
     const std::size_t count = std::min(most, particles.owned - begin);
-    see(particles, gather, begin, count, loads);
+    see(particles, gather, solids, begin, count, loads);
     if (law_) drag(begin, count, loads);
   }
 }
 
 /// The fields where the particles are.
-void ParticleForces::see(const Particles& particles, const Gather& gather, std::size_t begin, std::size_t count,
-                         std::vector<FluidLoad>& loads) {
+template <class Solids>
+void ParticleForces::see(const Particles& particles, const Gather& gather, Solids&& solids_at, std::size_t begin,
+                         std::size_t count, std::vector<FluidLoad>& loads) {
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = begin + n;
     const auto j = std::size_t(particles.species[i]);
     const double d = diameter_[j], volume = closures::sphere_volume(0.5 * d);
     const Lines lines = gather.lines(particles.place[i].x);
-    const Surroundings solids = gather.solids(lines, particles.species[i]);
+    const Surroundings solids = solids_at(lines, particles.species[i]);
     const Stream stream = gather.stream(lines);
     FluidLoad& load = loads[i];
     load.velocity = stream.velocity;

@@ -9,6 +9,7 @@
 #include "core/scene.hpp"
 #include "dem/fluid_motion.hpp"
 #include "dem/gather.hpp"
+#include "dem/own_share.hpp"
 
 namespace polybed::dem {
 
@@ -23,7 +24,9 @@ class ParticleForces {
   ParticleForces(const core::Scene& scene, const Materials& materials, double fluid_density, double viscosity);
 
   /// What each owned particle feels at its place and velocity: all of a FluidLoad but the impulse.
-  void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads);
+  /// \param own  null: a particle is part of what it sees
+  void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
+            const OwnShare* own = nullptr);
 
   [[nodiscard]] bool has_added_mass() const { return added_ != Added::none; }
   [[nodiscard]] LawUse use() const;
@@ -33,7 +36,10 @@ class ParticleForces {
   using Row = std::array<double, most>;
   enum class Added { none, half, zuber };
 
-  void see(const Particles& particles, const Gather& gather, std::size_t begin, std::size_t count,
+  template <class Solids>
+  void find_by(const Particles& particles, const Gather& gather, Solids&& solids, std::vector<FluidLoad>& loads);
+  template <class Solids>
+  void see(const Particles& particles, const Gather& gather, Solids&& solids_at, std::size_t begin, std::size_t count,
            std::vector<FluidLoad>& loads);
   void drag(std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
 

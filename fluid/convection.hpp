@@ -1,6 +1,17 @@
-// Convection of a velocity by itself.
+// Convection of a velocity by itself, in two forms.
+//
+//   -(U.grad)U                          cheap; loses momentum where the phase's fraction and velocity change together
+//   -[div(F U) - U div F] / phi         what leaves one face's momentum arrives on the next
+//
+// F is the phase's flux of volume, phi its fraction. Between the cells of the momentum, each half of two cells of the
+// fractions, F is the mean of the fluxes of continuity of both (Harlow and Welch 1965), so that div F is the mean of
+// their -dphi/dt, and the sum of phi rho U over faces changes by what crosses the ends alone. A compressible fluid's
+// density is taken as even over a cell of momentum.
 #pragma once
 
+#include <algorithm>
+
+#include "core/operators.hpp"
 #include "fluid/boundaries.hpp"
 
 namespace polybed::fluid {
@@ -11,5 +22,32 @@ namespace polybed::fluid {
 /// \param velocity  U, m/s, ghosts filled
 void convection(const core::Grid& grid, const Boundaries& boundaries, bool limited, bool of_fluid,
                 const core::FaceField& velocity, core::FaceField& acceleration);
+
+/// Sets the acceleration of a phase to the second form on its moving faces, m/s2, and to 0 elsewhere.
+/// \param flux      F, m/s, ghosts of other cells included
+/// \param fraction  (axis, face, stride of the axis) -> phi > 0 on the face
+template <class Fraction>
+void conservative_convection(const core::Grid& grid, const Boundaries& boundaries, bool limited, bool of_fluid,
+                             const core::FaceField& flux, const core::FaceField& velocity, Fraction&& fraction,
+                             core::FaceField& acceleration) {
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const core::Index s = grid.stride(axis);
+    core::Field& rate = acceleration[a];
+    std::fill(rate.begin(), rate.end(), 0.0);
+    const core::Box inside = core::interior_faces(grid, axis);
+    if (limited)
+      core::subtract_carried<core::LimitedFace>(grid, flux, velocity[a], axis, inside, rate);
+    else
+      core::subtract_carried<core::UpwindFace>(grid, flux, velocity[a], axis, inside, rate);
+    core::for_each_row(grid, inside, [&](core::Index begin, core::Index end) {
+      for (core::Index c = begin; c < end; ++c) rate[std::size_t(c)] /= fraction(a, c, s);
+    });
+    // Half the momentum of a face on the outlet would lie beyond it: there the row stays (U.grad)U.
+    core::Box at_outlet = boundaries.moving_faces(axis, of_fluid);
+    at_outlet.lo[a] = inside.hi[a];
+    core::subtract_convection<core::UpwindDifference>(grid, velocity, axis, at_outlet, rate);
+  }
+}
 
 }  // namespace polybed::fluid

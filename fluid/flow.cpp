@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/ranks.hpp"
@@ -34,7 +36,8 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       gravity_(scene.column.gravity),
       tolerance_(tolerance),
       viscous_(core::law_of(scene, "fluid_stress") != "none"),
-      limited_(scene.tfm.momentum != "upwind"),
+      conservative_(scene.tfm.momentum != "upwind" && scene.tfm.momentum != "limited"),
+      limited_(scene.tfm.momentum != "upwind" && scene.tfm.momentum != "conservative"),
       solver_(grid),
       fluid_(grid),
       convected_(core::make_face_field(grid)),
@@ -46,6 +49,7 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       mobility_(core::make_face_field(grid)),
       source_(core::make_field(grid)),
       change_(core::make_field(grid)) {
+  if (conservative_) own_flux_ = core::make_face_field(grid);
   if (scene.fluid.equation_of_state == "incompressible") return;
   compressible_.emplace(grid, boundaries_, equation_of_state(scene.fluid, constants_.density),
                         scene.fluid.outlet_pressure, constants_.density, gravity_);
@@ -82,7 +86,7 @@ FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
   FlowStep step;
   set_voidage(particles);
   set_inlet(t + dt);
-  find_acceleration(dt);
+  find_acceleration(dt, particles);
   with_density(fluid_, constants_.density, [&](const auto& density) { push(density, dt, particles); });
   close_pressure(t, dt, step);
   correct(dt);
@@ -112,13 +116,34 @@ void Flow::set_inlet(double t) {
 }
 
 /// a, and dt (U.grad)U.
-void Flow::find_acceleration(double dt) {
+void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   boundaries_.fill_velocity(fluid_.velocity, WallSlip::no_slip);
-  convection(grid_, boundaries_, limited_, true, fluid_.velocity, acceleration_);
+  if (conservative_) {
+    find_own_flux(particles);
+    const auto on_face = [&](std::size_t a, Index c, Index) { return particles.voidage_on[a][std::size_t(c)]; };
+    conservative_convection(grid_, boundaries_, limited_, true, own_flux_, fluid_.velocity, on_face, acceleration_);
+  } else {
+    convection(grid_, boundaries_, limited_, true, fluid_.velocity, acceleration_);
+  }
   for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a)
     for (std::size_t c = 0; c < convected_[a].size(); ++c) convected_[a][c] = -dt * acceleration_[a][c];
   if (viscous_) add_viscous_stress(grid_, boundaries_, fluid_, constants_, acceleration_);
   if (compressible_) compressible_->add_gravity(fluid_, acceleration_);
+}
+
+/// eps U, and what flows in.
+void Flow::find_own_flux(const ParticlePhase& particles) {
+  const auto dimensions = std::size_t(grid_.dimensions);
+  std::array<Ghosts, 3> ghosts{};
+  for (std::size_t a = 0; a < dimensions; ++a) {
+    own_flux_[a] = fluid_.flux[a];
+    core::for_each_row(grid_, boundaries_.moving_faces(int(a), true), [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        own_flux_[a][c] = particles.voidage_on[a][c] * fluid_.velocity[a][c];
+    });
+    ghosts[a] = {Ghosts::Kind::joined, &own_flux_[a]};
+  }
+  boundaries_.fill(std::span(ghosts).first(dimensions));
 }
 
 /// dU without the change of pressure, J that belongs to it, and B.

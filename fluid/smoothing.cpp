@@ -92,7 +92,7 @@ Smoothing::Sweeps Smoothing::sweeps(const core::Grid& grid, const core::Box& box
     const int count = box.hi[a] - box.lo[a];
     if (count < 2) continue;
     const double lambda = time / steps / (grid.spacing[a] * grid.spacing[a]);
-    Sweep sweep{{count, grid.periodic[a], lambda, steps}, grid.stride(axis), {}};
+    Sweep sweep{axis, {count, grid.periodic[a], lambda, steps}, grid.stride(axis), {}};
     core::Box first = box;
     first.hi[a] = first.lo[a] + 1;
     core::for_each_row(grid, first, [&](core::Index begin, core::Index end) {
@@ -111,6 +111,25 @@ Smoothing::Smoothing(const core::Grid& grid, double width, bool closed) {
     faces_[std::size_t(axis)] = sweeps(grid, free_faces(grid, axis, closed), time);
   const int longest = 1 + *std::max_element(grid.cells.begin(), grid.cells.end());
   work_.assign(std::size_t(longest * LineDiffusion::lanes), 0);
+}
+
+std::vector<std::array<double, 2>> Smoothing::nearest(int axis, int count) const {
+  std::vector<std::array<double, 2>> near(std::size_t(count), {1, 0});
+  for (const Sweep& sweep : cells_) {
+    if (sweep.axis != axis) continue;
+    constexpr int lanes = LineDiffusion::lanes;
+    for (int first = 0; first < count; first += lanes) {
+      std::vector<double> tile(std::size_t(count * lanes), 0.0);
+      const int lines = std::min(lanes, count - first);
+      for (int l = 0; l < lines; ++l) tile[std::size_t((first + l) * lanes + l)] = 1;
+      sweep.line.apply(tile.data());
+      for (int l = 0; l < lines; ++l) {
+        const int here = first + l, next = (here + 1) % count;
+        near[std::size_t(here)] = {tile[std::size_t(here * lanes + l)], tile[std::size_t(next * lanes + l)]};
+      }
+    }
+  }
+  return near;
 }
 
 void Smoothing::smooth(const Sweeps& sweeps, core::Field& field) const {

@@ -62,6 +62,9 @@ class Smoothing {
   [[nodiscard]] bool present() const { return !work_.empty(); }
   /// Smooths a cell field in place: no flux through walls, bottom and top. Ghosts are neither read nor written.
   void smooth_cells(core::Field& field) const { smooth(cells_, field); }
+  /// Of what stands in a cell: the shares that stay in it and that come to the next one along an axis alone; the kernel
+  /// is the product over the axes. \param count  cells along the axis
+  [[nodiscard]] std::vector<std::array<double, 2>> nearest(int axis, int count) const;
   /// Smooths a component of a quantity on the faces of an axis. The faces on walls and on the bottom are held, those of
   /// the top if it is closed: neither read nor written, no flux between them and their neighbours. An open top's are
   /// like interior ones. Across the axis no flux through walls.
@@ -70,6 +73,7 @@ class Smoothing {
  private:
   /// The lines of a box of entries along one axis.
   struct Sweep {
+    int axis;
     LineDiffusion line;
     core::Index stride;
     std::vector<core::Index> starts;

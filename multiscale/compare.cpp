@@ -6,16 +6,15 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "fluid/drift.hpp"
 #include "fluid/measures.hpp"
-#include "multiscale/run_record.hpp"
 
 namespace polybed::multiscale {
 
 namespace {
 
-constexpr double enough = 30;       // autocorrelation times in a window: cost.md, section 6
-constexpr double window_parts = 4;  // windows in a run, likewise
+constexpr double enough = 30;                            // autocorrelation times in a window: cost.md, section 6
+constexpr double composition_goal_near_inversion = 0.1;  // calibration.md, section 8
+constexpr double window_parts = 4;                       // windows in a run, likewise
 
 using Series = std::vector<double>;
 
@@ -170,16 +169,8 @@ class Comparer {
   }
 
   void warn_of_drift(const std::string& model, const core::History& history) {
-    std::vector<std::string> names{"bed_height"};
-    for (const std::string& name : species_) names.push_back("centre_" + name);
-    fluid::Drifts drifts(names);
-    const Series& time = history.of("time_s");
-    for (std::size_t n = 0; n < time.size() && time[n] <= window_.end; ++n) {
-      std::vector<std::optional<double>> row;
-      for (const std::string& name : names) row.emplace_back(history.of(name + "_m")[n]);
-      drifts.see(time[n], row);
-    }
-    for (const std::string& line : drift_lines(drifts)) result_.warnings.push_back(model + ": " + line);
+    for (const std::string& line : drifts_in(history, species_, window_))
+      result_.warnings.push_back(model + ": " + line);
   }
 
   const Measured &tfm_, &dem_;
@@ -201,6 +192,13 @@ std::optional<double> ComparedMeasure::difference_error() const {
 
 std::optional<bool> Score::reached() const {
   return value && goal ? std::optional(std::abs(*value) <= *goal) : std::nullopt;
+}
+
+void take_up(Comparison& comparison, const FoundInversion& found, double velocity) {
+  for (Score& score : comparison.scores)
+    if (score.name == "D1" && found.near(velocity)) score.goal = composition_goal_near_inversion;
+  comparison.scores.push_back({"u_inv", found.agreement.difference, found.agreement.error, found.agreement.goal});
+  comparison.inversion_file = found.file.string();
 }
 
 Comparison compare(const Measured& tfm, const Measured& dem) {

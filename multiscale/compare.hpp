@@ -8,6 +8,7 @@
 
 #include "fluid/time_mean.hpp"
 #include "multiscale/compare_window.hpp"
+#include "multiscale/inversion/scan_file.hpp"
 
 namespace polybed::multiscale {
 
@@ -22,7 +23,7 @@ struct ComparedMeasure {
 
 /// How far apart the models are, and how far they may be.
 struct Score {
-  std::string name;                          ///< as in the contract: e_H, e_b, D1, profile_<name>
+  std::string name;                          ///< as in the contract: e_H, e_b, D1, profile_<name>, u_inv
   std::optional<double> value, error, goal;  ///< error: half-width of the 95 % interval
   /// Whether the value itself, whatever its interval, is within the goal; empty without one of them.
   [[nodiscard]] std::optional<bool> reached() const;
@@ -40,8 +41,14 @@ struct Comparison {
   std::vector<Score> scores;
   std::optional<OnTop> tfm_top, dem_top;           ///< empty for one species
   std::size_t tfm_profiles = 0, dem_profiles = 0;  ///< stored profiles in the window
+  std::string inversion_file;                      ///< where u_inv is from; empty without it
   std::vector<std::string> warnings;
 };
+
+/// Adds what a scan by both models has found as the score u_inv; a comparison near to an inversion has a wider goal of
+/// D1.
+/// \param velocity  at which the runs of the comparison are, m/s
+void take_up(Comparison& comparison, const FoundInversion& found, double velocity);
 
 /// Measures and scores of two runs of one case (calibration.md, section 8). Throws core::FileError if the species or
 /// the slabs of the profiles are not the same.

@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "fluid/drift.hpp"
 #include "fluid/time_mean.hpp"
+#include "multiscale/run_record.hpp"
 
 namespace polybed::multiscale {
 
@@ -21,6 +23,25 @@ double begin_by_rule(const core::History& history, const Series& values, const W
   const Series time = within(history.of("time_s"), history.of("time_s"), window);
   const std::size_t drop = fluid::rows_to_drop(within(history.of("time_s"), values, window));
   return drop > 0 && drop < time.size() ? time[drop] : window.begin;
+}
+
+Window common_window(const std::vector<const core::History*>& histories) {
+  double first = 0, last = std::numeric_limits<double>::infinity();
+  std::string spans;
+  for (const core::History* history : histories) {
+    const Series& time = history->of("time_s");
+    if (time.empty()) throw core::FileError("a history without a row: nothing to compare");
+    first = std::max(first, time.front());
+    last = std::min(last, time.back());
+    spans += fmt::format("{}{:.4g} to {:.4g} s", spans.empty() ? "" : " and ", time.front(), time.back());
+  }
+  if (!(last > first)) throw core::FileError("the runs have no time in common: " + spans);
+  const Window quarter{last - window_share * (last - first), last, false};
+  double begin = quarter.begin;
+  for (const core::History* history : histories)
+    for (const Series& values : {history->of("bed_height_m"), centre_difference(*history, species_of(*history))})
+      begin = std::max(begin, begin_by_rule(*history, values, quarter));
+  return {begin, last, begin > quarter.begin};
 }
 
 }  // namespace
@@ -82,19 +103,22 @@ std::vector<std::string> species_of(const core::History& history) {
   return names;
 }
 
-Window window_of(const Measured& tfm, const Measured& dem) {
-  const Series &a = tfm.history.of("time_s"), &b = dem.history.of("time_s");
-  if (a.empty() || b.empty()) throw core::FileError("a history without a row: nothing to compare");
-  const double first = std::max(a.front(), b.front()), last = std::min(a.back(), b.back());
-  if (!(last > first))
-    throw core::FileError(fmt::format("the runs have no time in common: {:.4g} to {:.4g} s and {:.4g} to {:.4g} s",
-                                      a.front(), a.back(), b.front(), b.back()));
-  const Window quarter{last - window_share * (last - first), last, false};
-  double begin = quarter.begin;
-  for (const core::History* history : {&tfm.history, &dem.history})
-    for (const Series& values : {history->of("bed_height_m"), centre_difference(*history, species_of(*history))})
-      begin = std::max(begin, begin_by_rule(*history, values, quarter));
-  return {begin, last, begin > quarter.begin};
+std::vector<std::string> drifts_in(const core::History& history, const std::vector<std::string>& species,
+                                   const Window& window) {
+  std::vector<std::string> names{"bed_height"};
+  for (const std::string& name : species) names.push_back("centre_" + name);
+  fluid::Drifts drifts(names);
+  const Series& time = history.of("time_s");
+  for (std::size_t n = 0; n < time.size() && time[n] <= window.end; ++n) {
+    std::vector<std::optional<double>> row;
+    for (const std::string& name : names) row.emplace_back(history.of(name + "_m")[n]);
+    drifts.see(time[n], row);
+  }
+  return drift_lines(drifts);
 }
+
+Window window_of(const Measured& tfm, const Measured& dem) { return common_window({&tfm.history, &dem.history}); }
+
+Window window_of(const core::History& history) { return common_window({&history}); }
 
 }  // namespace polybed::multiscale

@@ -27,6 +27,8 @@ struct Window {
 /// The last quarter of the time that both runs have, or what the marginal standard error rule leaves of it for bed
 /// height and centre difference of either (cost.md, section 6). Throws core::FileError if they have no time in common.
 [[nodiscard]] Window window_of(const Measured& tfm, const Measured& dem);
+/// The same of one run.
+[[nodiscard]] Window window_of(const core::History& history);
 
 using Series = std::vector<double>;
 
@@ -41,6 +43,10 @@ using Series = std::vector<double>;
 
 /// The part of a series in the window. \param time  of its rows
 [[nodiscard]] Series within(const Series& time, const Series& values, const Window& window);
+
+/// What of a run still drifts up to the end of the window, a line each.
+[[nodiscard]] std::vector<std::string> drifts_in(const core::History& history, const std::vector<std::string>& species,
+                                                 const Window& window);
 
 /// Profiles of a run in the window.
 class WindowProfiles {

@@ -73,11 +73,19 @@ void write_work(Json& json, const core::JsonValue& record) {
   json.end_object();
 }
 
+/// Time by the clock; empty for a record of before it was kept.
+Number wall_of(const core::JsonValue& record) {
+  const auto found = record.object().find("wall_s");
+  return found == record.object().end() ? std::nullopt : Number(found->second.number());
+}
+
 void write_run(Json& json, const std::string& model, const ComparedRun& run, std::size_t profiles) {
   const core::JsonValue& record = run.record;
   json.key(model).begin_object();
   write_work(json, record);
-  json.member("cpu_s", record.of("cpu_s").number()).member("time_s", record.of("time_s").number());
+  json.member("cpu_s", record.of("cpu_s").number());
+  member(json, "wall_s", wall_of(record));
+  json.member("time_s", record.of("time_s").number());
   json.member("ranks", record.of("ranks").number()).member("state", record.of("state").text());
   json.member("directory", run.directory.string()).member("case_hash", record.of("case_hash").text());
   json.member("git_commit", record.of("git_commit").text()).member("profiles_in_window", std::uint64_t(profiles));
@@ -95,8 +103,9 @@ std::string top_text(const std::optional<OnTop>& top) {
 }
 
 std::string work_line(const std::string& model, const ComparedRun& run) {
-  std::string line = fmt::format("{}: {}, {:.4g} s simulated, {:.3g} CPU s;", model, run.record.of("state").text(),
+  std::string line = fmt::format("{}: {}, {:.4g} s simulated, {:.3g} CPU s,", model, run.record.of("state").text(),
                                  run.record.of("time_s").number(), run.record.of("cpu_s").number());
+  if (const Number wall = wall_of(run.record)) line += fmt::format(" {:.3g} s by the clock;", *wall);
   for (const char* name : {"rhs_evaluations", "linear_iterations", "steps", "particle_steps", "pair_checks"})
     if (const auto& work = run.record.of("work").object(); work.contains(name))
       line += fmt::format(" {} {:.4g}", name, work.at(name).number());
@@ -131,7 +140,9 @@ std::string comparison_json(const Comparison& comparison, const ComparedRun& tfm
   json.key("models").begin_object();
   write_run(json, "tfm", tfm, comparison.tfm_profiles);
   write_run(json, "dem", dem, comparison.dem_profiles);
-  json.end_object().key("warnings").begin_array();
+  json.end_object();
+  if (!comparison.inversion_file.empty()) json.member("inversion_file", comparison.inversion_file);
+  json.key("warnings").begin_array();
   for (const std::string& warning : comparison.warnings) json.value(warning);
   json.end_array().end_object();
   return json.text();

@@ -138,9 +138,31 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
       add_run(app, "compare", "run the case by both models, or take runs of it: how far they agree", compare);
   compare_command.add_option("--tfm", compare.tfm, "directory of a run of polybed tfm, finished or not");
   compare_command.add_option("--dem", compare.dem, "directory of a run of polybed dem, finished or not");
+  compare_command.add_option("--inversion", compare.inversion,
+                             "folder of polybed inversion --scan both; default that of the case in runs/");
 
   CaseOptions check;
   add_case(*app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run"), check);
+
+  CaseOptions effects;
+  CLI::App* effects_command =
+      app.add_subcommand("effects", "which effects the scene calls for, with the number that decides each");
+  add_case(*effects_command, effects);
+  effects_command->get_option("CASE")->required(false);
+  effects_command->require_subcommand(0, 1);
+  std::string audited;
+  bool audit_json = false;
+  CLI::App* audit_command = effects_command->add_subcommand(
+      "audit", "what a run has left out, evaluated on all that it stored; code 3 if that breaks the promise");
+  audit_command->add_option("RUN", audited, "run directory")->required();
+  audit_command->add_flag("--json", audit_json, "one JSON object");
+  int bench_rounds = 3;
+  bool bench_json = false;
+  CLI::App* bench_command =
+      effects_command->add_subcommand("bench", "what each effect costs per particle, contact or cell on this machine");
+  bench_command->add_option("--rounds", bench_rounds, "repetitions; the least times are told")
+      ->check(CLI::Range(1, 1000));
+  bench_command->add_flag("--json", bench_json, "one JSON object");
 
   DragOptions drag;
   std::string guard = "on";
@@ -155,12 +177,22 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   drag_command->add_flag("--json", drag.json, "one JSON object");
 
   InversionOptions inversion;
-  CLI::App* inversion_command = app.add_subcommand("inversion", "the inversion point by force balance, without a run");
+  CLI::App* inversion_command =
+      app.add_subcommand("inversion", "the inversion point of two species: by force balance, or by a scan of runs");
   add_case(*inversion_command, inversion);
   inversion_command->add_option("--law", inversion.law, "drag law in place of the case's");
   inversion_command->add_option("--temperature", inversion.temperature, "in place of the case's, e.g. \"20 degC\"");
   inversion_command->add_option("--method", inversion.method,
-                                "force_balance | bulk_density | expansion | density_maximum");
+                                "force_balance | bulk_density | expansion | density_maximum | all");
+  inversion_command->add_option("--scan", inversion.scan, "by runs instead: tfm | dem | both")
+      ->check(CLI::IsMember({"tfm", "dem", "both"}));
+  inversion_command->add_option("--from", inversion.from, "lowest velocity of the first bracket, e.g. \"30 mm/s\"");
+  inversion_command->add_option("--to", inversion.to, "highest; default a quarter about the force balance");
+  inversion_command->add_option("-o,--output", inversion.output,
+                                "folder of a scan; default runs/<case name>-inversion");
+  inversion_command->add_option("--until", inversion.until, "simulated time of each run, e.g. \"20 s\"");
+  inversion_command->add_flag("--quiet", inversion.quiet, "no line for each run");
+  inversion_command->add_flag("!--no-picture", inversion.picture, "no inversion.png at the end");
 
   CalibrateOptions calibrate;
   CLI::App* calibrate_command = app.add_subcommand(
@@ -209,6 +241,7 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   // Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
   for (const char* command : {"tfm", "dem", "compare", "check"})
     if (app.got_subcommand(command)) mpi.emplace(argc, argv);
+  if (!inversion.scan.empty()) mpi.emplace(argc, argv);
   if (app.got_subcommand("tfm")) run_tfm(tfm);
   if (app.got_subcommand("dem")) run_dem(dem);
   if (app.got_subcommand("compare")) run_compare(compare);
@@ -216,6 +249,15 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   if (app.got_subcommand("calibrate")) {
     if (calibrate.box.starts_with("bed")) mpi.emplace(argc, argv);
     run_calibrate(calibrate);
+  }
+  if (app.got_subcommand("effects")) {
+    if (audit_command->parsed()) return exit_code(run_effects_audit(audited, audit_json));
+    if (bench_command->parsed())
+      run_effects_bench(bench_rounds, bench_json);
+    else if (effects.case_path.empty())
+      throw core::CaseError("effects: name a CASE, audit RUN, or bench");
+    else
+      run_effects(effects);
   }
   if (app.got_subcommand("drag")) run_drag(drag);
   if (app.got_subcommand("inversion")) run_inversion(inversion);

@@ -19,9 +19,13 @@ namespace {
 /// Debian's own Python: another one may come first on the path and lack the packages.
 constexpr const char* python = "/usr/bin/python3";
 
-/// The installed package, or that of the sources the program was built from.
+/// The package installed beside this program, or that of the sources it was built from.
 std::string package() {
-  return std::filesystem::exists(POLYBED_PYTHON_INSTALLED) ? POLYBED_PYTHON_INSTALLED : POLYBED_PYTHON_SOURCE;
+  std::error_code unknown;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const std::filesystem::path installed = self.parent_path() / POLYBED_PYTHON_INSTALLED;
+  return !unknown && std::filesystem::exists(installed, unknown) ? installed.lexically_normal().string()
+                                                                 : POLYBED_PYTHON_SOURCE;
 }
 
 /// This process's environment with the package in front of Python's search path.

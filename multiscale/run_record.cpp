@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/case_file.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/ranks.hpp"
@@ -118,11 +119,27 @@ std::vector<std::string> drift_lines(const fluid::Drifts& drifts) {
   return lines;
 }
 
-RunTotals totals_of(const tfm::Model& model, double cpu_seconds) {
+core::JsonValue read_run_record(const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / "run.json";
+  if (!std::filesystem::exists(path))
+    throw core::FileError(fmt::format("{}: no run (it has no run.json)", directory.string()));
+  const core::Bytes bytes = core::read_whole_file(path);
+  try {
+    core::JsonValue record = core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (record.of("filetype").text() != "polybed run" || record.of("version").number() != 1)
+      throw core::FileError("no \"polybed run\" of version 1");
+    return record;
+  } catch (const core::FileError& error) {
+    throw core::FileError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds) {
   const core::Grid& grid = model.constants().grid;
   RunTotals totals;
   totals.ranks = grid.ranks ? grid.ranks->count() : 1;
   totals.cpu_seconds = core::sum_of_ranks(grid, cpu_seconds);
+  totals.wall_seconds = wall_seconds;
   totals.masses = tfm::masses(model);
   if (model.constants().openings.present()) totals.passed = model.passed();
   const tfm::Effects& effects = model.effects();
@@ -192,6 +209,7 @@ std::string run_record_text(const RunRecord& record) {
   json.member("momentum", model.momentum().name).member("momentum_reason", model.momentum().reason);
   json.member("unknowns", std::uint64_t(model.unknowns())).member("time_s", model.time());
   json.member("cpu_s", record.totals.cpu_seconds)
+      .member("wall_s", record.totals.wall_seconds)
       .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);
   write_work(json, model.work());
   write_timers(json, record.timers);
@@ -201,10 +219,12 @@ std::string run_record_text(const RunRecord& record) {
   write_well_posedness(json, record.observers.least_well_posed(), model.constants().grid.dimensions);
   write_drifts(json, record.observers.drifts());
   write_guards(json, record.totals.closures);
+  if (record.promise != nullptr) write_neglected(json, *record.promise);
   json.key("warnings").begin_array();
   for (const fluid::WorstInvariant& w : record.observers.invariants().worst())
     if (w.value > w.limit) json.value(w.name + " exceeded its limit");
   for (const std::string& line : drift_lines(record.observers.drifts())) json.value(line);
+  for (const std::string& line : record.warnings) json.value(line);
   json.end_array().end_object();
   return json.text();
 }

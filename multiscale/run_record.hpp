@@ -6,16 +6,22 @@
 #include <vector>
 
 #include "core/json.hpp"
+#include "core/json_value.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
+#include "multiscale/effects/neglected.hpp"
 #include "tfm/observers.hpp"
 
 namespace polybed::multiscale {
+
+/// The record of a run, run.json. Throws FileError if there is none, or of another version.
+[[nodiscard]] core::JsonValue read_run_record(const std::filesystem::path& directory);
 
 /// What the ranks of a run have done together.
 struct RunTotals {
   int ranks = 1;
   double cpu_seconds = 0;
+  double wall_seconds = 0;  ///< by the clock of the first rank
   std::vector<tfm::ClosureUse> closures;
   std::vector<double> masses;         ///< of the species in the column, kg
   std::vector<fluid::Passed> passed;  ///< through open ends; empty if there are none
@@ -23,7 +29,8 @@ struct RunTotals {
 
 /// Collective.
 /// \param cpu_seconds  of this process
-[[nodiscard]] RunTotals totals_of(const tfm::Model& model, double cpu_seconds);
+/// \param wall_seconds  likewise, by the clock
+[[nodiscard]] RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds);
 
 /// Everything that goes into the record; borrowed for the call.
 struct RunRecord {
@@ -34,6 +41,8 @@ struct RunRecord {
   std::string state;  ///< running | done | stopped by the user | failed: ...
   double begin;       ///< simulated time at which this process began, s
   RunTotals totals;
+  const Neglected* promise = nullptr;  ///< what a monitor has seen; null without one
+  std::vector<std::string> warnings;   ///< its own
 };
 
 /// Writes "size_classes": what became of the species with a distribution; nothing if there is none.

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "core/operators.hpp"
+#include "fluid/convection.hpp"
 
 namespace polybed::tfm {
 
@@ -38,26 +38,11 @@ void ConservativeConvection::carry_fluid(Fields& fields) {
 
 void ConservativeConvection::carry(const core::FaceField& flux, const core::FaceField& velocity, const Field& fraction,
                                    double floor, bool of_fluid, core::FaceField& acceleration) const {
-  const core::Grid& grid = constants_.grid;
-  for (int axis = 0; axis < grid.dimensions; ++axis) {
-    const auto a = std::size_t(axis);
-    const Index s = grid.stride(axis);
-    Field& rate = acceleration[a];
-    std::fill(rate.begin(), rate.end(), 0.0);
-    const core::Box inside = core::interior_faces(grid, axis);
-    if (limited_)
-      core::subtract_carried<core::LimitedFace>(grid, flux, velocity[a], axis, inside, rate);
-    else
-      core::subtract_carried<core::UpwindFace>(grid, flux, velocity[a], axis, inside, rate);
-    const double* phi = fraction.data();
-    core::for_each_row(grid, inside, [&](Index begin, Index end) {
-      for (Index c = begin; c < end; ++c) rate[std::size_t(c)] /= std::max(core::face_mean(phi, c, s), floor);
-    });
-    // Half the momentum of a face on the outlet would lie beyond it: there the row stays (U.grad)U.
-    core::Box at_outlet = boundaries_.moving_faces(axis, of_fluid);
-    at_outlet.lo[a] = inside.hi[a];
-    core::subtract_convection<core::UpwindDifference>(grid, velocity, axis, at_outlet, rate);
-  }
+  const auto on_face = [phi = fraction.data(), floor](std::size_t, Index c, Index s) {
+    return std::max(core::face_mean(phi, c, s), floor);
+  };
+  fluid::conservative_convection(constants_.grid, boundaries_, limited_, of_fluid, flux, velocity, on_face,
+                                 acceleration);
 }
 
 }  // namespace polybed::tfm

@@ -2,10 +2,8 @@
 //
 //   a = -[div(F U) - U div F] / phi,   phi = phi_j, F = F_j of a species; phi = eps, F = J - sum F_j of the fluid
 //
-// F between the cells of the momentum, each half of two cells of the fractions, is the mean of the fluxes of continuity
-// of both (Harlow and Welch 1965), so that div F is the mean of their -dphi/dt: with (1) the sum of phi rho U over
-// faces changes by what crosses the ends alone. A compressible fluid's density is taken as even over a cell of
-// momentum.
+// with fluid/convection.hpp and the fluxes of continuity, so that with (1) the sum of phi rho U over faces changes by
+// what crosses the ends alone.
 #pragma once
 
 #include "fluid/boundaries.hpp"

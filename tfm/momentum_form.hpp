@@ -1,4 +1,4 @@
-// Which form the convection of momentum takes, and why: as the case says, or by the densities.
+// Which form the convection of momentum takes, and why: as the case says, or the one that keeps momentum.
 #pragma once
 
 #include <string>
@@ -12,10 +12,9 @@ struct MomentumForm {
   std::string reason;
 };
 
-/// "auto" is "conservative" where the densest species is more than ten times as dense as the fluid, else "upwind".
-/// (U.grad)U takes to the solids below what thin solids above them have in velocity, not in momentum: next to nothing
-/// where the fluid holds falling solids back as a liquid does, up to the weight of the bed and more in a gas. Measured
-/// in beds of 1.4 and of 900 to 6500 times the fluid's density (docs/cost.md); few beds are near ten.
+/// "auto" is "conservative". (U.grad)U takes to the solids below what thin solids above them have in velocity, not in
+/// momentum: up to the weight of the bed and more in a gas, 2 to 5 % of it in a liquid bed that stirs itself, which is
+/// enough to decide which species lies on top (docs/cost.md).
 [[nodiscard]] MomentumForm momentum_form(const core::Scene& scene);
 
 }  // namespace polybed::tfm

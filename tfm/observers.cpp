@@ -152,7 +152,7 @@ void Observers::write_history(double time) {
       invariants_.see(constants.grid, fields.solids, fields.fluid, above, model_.velocity_scale(), force_balance_ - 1,
                       time, passed, account ? account->error(fluid_mass) : 0);
   const auto height = fluid::bed_height(profile);
-  bed_height_ = height.value_or(0);
+  bed_height_ = height;
   watch(time, height, profile);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
   for (std::size_t j = 0; j < constants.species(); ++j) {

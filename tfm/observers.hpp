@@ -39,7 +39,7 @@ class Observers {
 
   [[nodiscard]] const fluid::Invariants& invariants() const { return invariants_; }
   /// Bed height of the last row of the history, m.
-  [[nodiscard]] double bed_height() const { return bed_height_; }
+  [[nodiscard]] std::optional<double> bed_height() const { return bed_height_; }
   /// Pressure drop over buoyant weight in the last row of the history.
   [[nodiscard]] double force_balance() const { return force_balance_; }
   [[nodiscard]] const LeastWellPosed& least_well_posed() const { return least_well_posed_; }
@@ -65,7 +65,8 @@ class Observers {
   LeastWellPosed least_well_posed_;
   std::unique_ptr<Files> files_;
   std::optional<core::FieldWriter> fields_;  ///< every rank writes its block
-  double bed_height_ = 0, force_balance_ = 0;
+  std::optional<double> bed_height_;
+  double force_balance_ = 0;
 };
 
 /// Mass of each species in the column, kg. Collective.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "closures/bed_expansion.hpp"
 #include "closures/drag.hpp"
 #include "closures/drag_schiller_naumann.hpp"
 #include "closures/mixture.hpp"
@@ -59,25 +60,19 @@ double greatest_terminal_velocity(const Constants& constants) {
 }
 
 double expanded_fraction(const Constants& constants, const std::string& name, double velocity, double packed) {
-  const double excess = (mean_density(constants) - constants.fluid.density) * constants.gravity;
-  if (!(excess > 0)) return 0;
+  const double excess = mean_density(constants) - constants.fluid.density;
+  if (!(excess * constants.gravity > 0)) return 0;
   const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
   const double diameter = closures::sauter_diameter(constants.bed_share, constants.diameter);
-  const double reynolds = constants.fluid.density * velocity * diameter / constants.fluid.viscosity;
-  const auto carried = [&](double eps) {
-    double f = 0, slope = 0;
+  const auto f = [&](double eps, double re) {
+    double value = 0, slope = 0;
     closures::GuardCount count;
-    closures::drag_of_points(law, {&eps, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
-    return 18 * constants.fluid.viscosity * velocity * f / (diameter * diameter) > excess * eps;
+    closures::drag_of_points(law, {&eps, 1}, {&re, 1}, {&value, 1}, {&slope, 1}, count);
+    return value;
   };
-  double low = 1 - packed, high = 1 - 1e-6;
-  if (!carried(low)) return packed;
-  if (carried(high)) return 0;
-  for (int n = 0; n < 50; ++n) {
-    const double middle = 0.5 * (low + high);
-    (carried(middle) ? low : high) = middle;
-  }
-  return 1 - low;
+  const closures::CarriedBed bed{diameter, excess, constants.fluid.density, constants.fluid.viscosity,
+                                 constants.gravity};
+  return 1 - closures::carried_voidage(f, bed, velocity, 1 - packed);
 }
 
 std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Constants& constants, const Effects& effects,

@@ -108,9 +108,10 @@ double JkrCohesion::pull_off() const {
   return pull;
 }
 
-VanDerWaalsCohesion::VanDerWaalsCohesion(const Materials& materials, double hamaker, double least_gap)
+VanDerWaalsCohesion::VanDerWaalsCohesion(const Materials& materials, double hamaker, double least_gap,
+                                         std::optional<double> asperity_radius)
     : hamaker_(hamaker), least_gap_(least_gap) {
-  for (const PairMaterial& m : materials.kinds()) radius_.push_back(m.radius);
+  for (const PairMaterial& m : materials.kinds()) radius_.push_back(asperity_radius.value_or(m.radius));
   const double greatest = *std::max_element(radius_.begin(), radius_.end());
   reach_ = closures::van_der_waals_reach(
       hamaker, greatest, pull_at_reach * closures::van_der_waals_pull_off(hamaker, greatest, least_gap));

@@ -1,6 +1,7 @@
 // Attractions of two surfaces along n, cohesion_*.hpp.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "closures/cohesion_jkr.hpp"
@@ -52,8 +53,10 @@ class JkrCohesion final : public CohesionLaw {
 /// thousandth of the energy is left. A step that is to resolve the approach must move less than z_0.
 class VanDerWaalsCohesion final : public CohesionLaw {
  public:
-  /// \param hamaker  A, J  \param least_gap  z_0, m
-  VanDerWaalsCohesion(const Materials& materials, double hamaker, double least_gap);
+  /// \param hamaker  A, J  \param least_gap  z_0, m  \param asperity_radius  R* of rough surfaces, m; empty: of the
+  /// spheres
+  VanDerWaalsCohesion(const Materials& materials, double hamaker, double least_gap,
+                      std::optional<double> asperity_radius = {});
   void act(ContactBatch& batch) const override;
   [[nodiscard]] int memory_size() const override { return 0; }
   void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const override;

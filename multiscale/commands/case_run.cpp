@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -59,7 +61,30 @@ void CaseRun::go() {
       });
 }
 
+double CaseRun::wall_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_begin_).count();
+}
+
 bool CaseRun::after_step() { return !core::on_any_rank(ranks_.get(), interrupt_.wanted()); }
+
+void CaseRun::say(const std::vector<std::string>& lines) const {
+  if (options_.quiet) return;
+  for (const std::string& line : lines) fmt::print(stderr, "{}\n", line);
+}
+
+std::optional<Neglected> CaseRun::promise_of(const Monitor* monitor) {
+  if (monitor != nullptr) promise_ = monitor->result(ranks_.get());
+  return promise_;
+}
+
+void CaseRun::print_promise() const {
+  if (!promise_) return;
+  fmt::print(stderr, "{}", neglected_table(*promise_));
+  for (const core::Timers::Term& term : timers_.terms())
+    if (term.name == "monitor")
+      fmt::print(stderr, "watching it took {:.2g} % of the time\n",
+                 100 * term.seconds / std::max(core::cpu_seconds() - cpu_begin_, 1e-9));
+}
 
 void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");

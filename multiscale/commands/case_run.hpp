@@ -2,6 +2,7 @@
 // reads, writes and speaks.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "core/run.hpp"
 #include "core/timers.hpp"
 #include "multiscale/commands/run_directory.hpp"
+#include "multiscale/effects/monitor.hpp"
 
 namespace polybed::multiscale {
 
@@ -48,6 +50,24 @@ class CaseRun {
   [[nodiscard]] virtual bool after_step();
   [[nodiscard]] virtual std::vector<double> kinks() { return {}; }
 
+<<<<<<< HEAD
+  /// Lets a monitor, if there is one, look at the state after a step; says on the first rank what it has to say.
+  /// Collective.
+  template <class Model>
+  void watch(Monitor* monitor, const Model& model) {
+    if (monitor == nullptr || !monitor->due()) return;
+    const auto scope = timers_.scope("monitor");
+    say(monitor->look(model));
+  }
+  /// What a monitor has seen on all ranks, kept for print_promise(); empty without one. Collective.
+  [[nodiscard]] std::optional<Neglected> promise_of(const Monitor* monitor);
+  /// The table of bounds against what was seen; nothing without a monitor.
+  void print_promise() const;
+=======
+  /// Time by the clock since this process took up the run, s.
+  [[nodiscard]] double wall_seconds() const;
+>>>>>>> chain
+
   core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
   RunOptions options_;
   core::Scene scene_;
@@ -58,6 +78,12 @@ class CaseRun {
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
 
  private:
+<<<<<<< HEAD
+  void say(const std::vector<std::string>& lines) const;
+  std::optional<Neglected> promise_;
+=======
+  std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
+>>>>>>> chain
   void go();
   void write_checkpoint();
   void record(const std::string& state);

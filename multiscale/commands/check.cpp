@@ -13,6 +13,7 @@
 #include "core/timers.hpp"
 #include "dem/continuum_scene.hpp"
 #include "multiscale/commands/options.hpp"
+#include "multiscale/effects/choice.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
@@ -216,7 +217,7 @@ std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::
 }  // namespace
 
 void run_check(const CaseOptions& options) {
-  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
+  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
   if (const auto reasons = tfm::only_for_particles(scene); !reasons.empty())
     return check_particle_scene(scene, reasons, options.json);
   std::vector<std::string> hindrances;

@@ -13,6 +13,7 @@
 #include "multiscale/comparison_text.hpp"
 #include "multiscale/python_module.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/run_record.hpp"
 #include "tfm/particle_scene.hpp"
 
 namespace polybed::multiscale {
@@ -23,19 +24,9 @@ namespace fs = std::filesystem;
 
 /// A run's record; throws FileError if it is none of this model's.
 ComparedRun read_run(const fs::path& directory, const std::string& model) {
-  const fs::path path = directory / "run.json";
-  if (!fs::exists(path)) throw core::FileError(fmt::format("{}: no run (it has no run.json)", directory.string()));
-  const core::Bytes bytes = core::read_whole_file(path);
-  ComparedRun run{directory, {}};
-  try {
-    run.record = core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    if (run.record.of("filetype").text() != "polybed run" || run.record.of("version").number() != 1)
-      throw core::FileError("no \"polybed run\" of version 1");
-    if (run.record.of("model").text() != model)
-      throw core::FileError(fmt::format("a run of {}, not of {}", run.record.of("model").text(), model));
-  } catch (const core::FileError& error) {
-    throw core::FileError(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  ComparedRun run{directory, read_run_record(directory)};
+  if (const std::string& found = run.record.of("model").text(); found != model)
+    throw core::FileError(fmt::format("{}: a run of {}, not of {}", (directory / "run.json").string(), found, model));
   return run;
 }
 
@@ -89,6 +80,21 @@ void make_page(const CompareOptions& options, const fs::path& directory) {
     fmt::print(stderr, "no page: {}\n", end.not_started.empty() ? end.output : end.not_started);
 }
 
+/// Adds the score of the inversion velocity where a scan of the case by both models has found it, and near to it leaves
+/// the layers more room.
+void add_inversion(const CompareOptions& options, const core::Scene& scene, Comparison& comparison) {
+  std::optional<FoundInversion> found;
+  if (!options.inversion.empty() && !fs::exists(options.inversion / "inversion.json"))
+    throw core::FileError(fmt::format("{}: no scan (it has no inversion.json)", options.inversion.string()));
+  try {
+    found = read_inversion(
+        options.inversion.empty() ? default_run_directory(options.case_path, "inversion") : options.inversion, scene);
+  } catch (const core::CaseError&) {
+    if (!options.inversion.empty()) throw;  // the default one may be of the case as it was before
+  }
+  if (found) take_up(comparison, *found, scene.inlet.superficial_velocity.back().second);
+}
+
 void compare_runs(const CompareOptions& options, const core::Scene& scene, const fs::path& tfm_directory,
                   const fs::path& dem_directory) {
   const ComparedRun tfm = read_run(tfm_directory, "tfm"), dem = read_run(dem_directory, "dem");
@@ -96,6 +102,7 @@ void compare_runs(const CompareOptions& options, const core::Scene& scene, const
   refuse_difference(tfm_directory.string(), tfm_case, dem_directory.string(), dem_case);
   Comparison comparison = compare({core::read_history(tfm_directory), core::read_profiles(tfm_directory)},
                                   {core::read_history(dem_directory), core::read_profiles(dem_directory)});
+  add_inversion(options, scene, comparison);
   warn_if_unfinished(comparison, "tfm", tfm);
   warn_if_unfinished(comparison, "dem", dem);
   const fs::path directory = run_directory(options, "compare"), path = directory / "comparison.json";

@@ -57,6 +57,7 @@ class DemRun final : public CaseRun {
   /// Steps are short: asking all ranks at each whether the user wants to stop would cost more than some of them.
   bool after_step() override {
     observers_->see_step();
+    watch(monitor_.get(), model_);
     return model_.steps() % 64 != 0 || CaseRun::after_step();
   }
 
@@ -89,10 +90,12 @@ class DemRun final : public CaseRun {
     cpu_ = cpu[0];
     work_ = model_.work();
     find_fluid();
+    const std::optional<Neglected> promise = promise_of(monitor_.get());
     const int ranks = ranks_ ? ranks_->count() : 1;
     core::Json json;
     begin_record(json, scene_, "dem", state, ranks);
     json.member("particles", model_.particle_count()).member("time_s", model_.time()).member("cpu_s", cpu_);
+    json.member("wall_s", wall_seconds());
     json.member("integrator", model_.synchronised() ? "synchronised" : "thesis");
     json.member("integrator_reason", model_.limits().integrator_reason);
     write_step(json);
@@ -100,7 +103,11 @@ class DemRun final : public CaseRun {
     write_timers(json, timers_);
     if (fluid_) write_fluid(json, *fluid_);
     if (observers_) write_ledger(json);
-    json.key("warnings").begin_array().end_array().end_object();
+    if (promise) write_neglected(json, *promise);
+    json.key("warnings").begin_array();
+    if (monitor_)
+      for (const std::string& line : monitor_->warnings()) json.value(line);
+    json.end_array().end_object();
     return json.text();
   }
 
@@ -156,9 +163,11 @@ class DemRun final : public CaseRun {
     if (scene_.dem.ledger)
       fmt::print(stderr, "energy ledger: worst {:.2e}, limit {:.0e}{}\n", observers_->ledger_error(), ledger_limit,
                  observers_->ledger_error() > ledger_limit ? "  <-- exceeded" : "");
+    print_promise();
   }
 
   dem::Model model_;
+  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "dem");  ///< null: nothing is watched
   std::optional<dem::Observers> observers_;
   dem::Work work_;
   std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid

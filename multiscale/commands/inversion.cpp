@@ -1,5 +1,5 @@
 // polybed inversion: the inversion point of a binary case, with the bands of its inputs.
-#include "multiscale/inversion.hpp"
+#include "multiscale/inversion/models.hpp"
 
 #include <fmt/format.h>
 
@@ -7,29 +7,12 @@
 
 #include "core/case_file.hpp"
 #include "core/json.hpp"
-#include "fluid/properties.hpp"
 #include "multiscale/commands/options.hpp"
-#include "multiscale/roles.hpp"
+#include "multiscale/effects/choice.hpp"
 
 namespace polybed::multiscale {
 
 namespace {
-
-BinaryBed binary_bed(const core::Scene& scene) {
-  if (scene.species.size() != 2)
-    throw core::CaseError(fmt::format("inversion needs two species, the case has {}", scene.species.size()));
-  if (scene.bed.volume_share.size() != 2)
-    throw core::CaseError("inversion needs bed.volume_share: bed.start = \"" + scene.bed.start + "\" has none");
-  BinaryBed bed;
-  for (std::size_t j = 0; j < 2; ++j) {
-    bed.diameter[j] = scene.species[j].diameter;
-    bed.density[j] = scene.species[j].density;
-    bed.share[j] = scene.bed.volume_share[j];
-  }
-  bed.fluid = fluid::fluid_constants(scene.fluid);
-  bed.gravity = scene.column.gravity;
-  return bed;
-}
 
 /// How far one uncertain input moves the answer.
 struct Band {
@@ -84,13 +67,61 @@ void print_json(const std::string& law, const std::string& method, const std::ve
   fmt::print("{}\n", json.text());
 }
 
-}  // namespace
+/// A row of the table of all methods.
+struct MethodRow {
+  std::string method, law;
+  std::vector<InversionPoint> points;
+};
 
+<<<<<<< HEAD
 void run_inversion(const InversionOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (!options.temperature.empty()) overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
   if (!options.law.empty()) overrides.push_back("effects.drag=\"" + options.law + "\"");
-  const core::Scene scene = core::read_case(options.case_path, overrides, all_roles(), size_classes);
+  const core::Scene scene = read_chosen_case(options.case_path, overrides);
+=======
+/// Every method, with every drag law where it takes one.
+std::vector<MethodRow> all_methods(const BinaryBed& bed) {
+  const std::vector<core::Role> roles = all_roles();
+  const auto drag = std::find_if(roles.begin(), roles.end(), [](const core::Role& r) { return r.name == "drag"; });
+  std::vector<MethodRow> rows;
+  for (const InversionMethod& method : inversion_methods()) {
+    if (!method.takes_law) {
+      rows.push_back(
+          {method.name, "", inversion_points(bed, closures::drag_law("cello", closures::Guard::on), method.name)});
+      continue;
+    }
+    for (const core::Law& law : drag->laws)
+      rows.push_back({method.name, law.name,
+                      inversion_points(bed, closures::drag_law(law.name, closures::Guard::on), method.name)});
+  }
+  return rows;
+}
+
+void print_methods(const std::vector<MethodRow>& rows, bool as_json) {
+  core::Json json;
+  json.begin_object().key("methods").begin_array();
+  if (!as_json) fmt::print("{:16} {:20} {:>8} {:>8}\n", "method", "law", "mm/s", "voidage");
+  for (const MethodRow& row : rows) {
+    json.begin_object().member("method", row.method).key("law");
+    row.law.empty() ? json.null() : json.value(row.law);
+    json.key("roots").begin_array();
+    for (const InversionPoint& p : row.points)
+      json.begin_object().member("velocity_m_s", p.velocity).member("voidage", p.voidage).end_object();
+    json.end_array().end_object();
+    if (as_json) continue;
+    if (row.points.empty()) fmt::print("{:16} {:20} {:>8} {:>8}\n", row.method, row.law, "-", "-");
+    for (const InversionPoint& p : row.points)
+      fmt::print("{:16} {:20} {:8.2f} {:8.4f}\n", row.method, row.law, 1e3 * p.velocity, p.voidage);
+  }
+  json.end_array().end_object();
+  if (as_json) fmt::print("{}\n", json.text());
+}
+
+void run_without_a_run(const InversionOptions& options) {
+  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
+  if (options.method == "all") return print_methods(all_methods(binary_bed(scene)), options.json);
+>>>>>>> chain
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
   const closures::DragLaw law = closures::drag_law(named->second, closures::Guard::on);
@@ -104,6 +135,15 @@ void run_inversion(const InversionOptions& options) {
     fmt::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
                named->second);
   for (const Band& b : band) fmt::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
+}
+
+}  // namespace
+
+void run_inversion(const InversionOptions& options) {
+  InversionOptions chosen = options;
+  if (!options.temperature.empty()) chosen.overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
+  if (!options.law.empty()) chosen.overrides.push_back("effects.drag=\"" + options.law + "\"");
+  options.scan.empty() ? run_without_a_run(chosen) : run_inversion_scan(chosen);
 }
 
 }  // namespace polybed::multiscale

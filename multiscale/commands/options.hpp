@@ -28,7 +28,8 @@ struct RunOptions : CaseOptions {
 
 /// Options of the comparison of both models; those of a run are for the models that it runs itself.
 struct CompareOptions : RunOptions {
-  std::filesystem::path tfm, dem;  ///< runs to compare; empty: it is run
+  std::filesystem::path tfm, dem;   ///< runs to compare; empty: it is run
+  std::filesystem::path inversion;  ///< folder of a scan of the case; empty: the default one, if it is of the case
 };
 
 /// Options of the pictures of a run.
@@ -48,8 +49,11 @@ struct DragOptions {
   bool guard = true, json = false;
 };
 
-struct InversionOptions : CaseOptions {
+/// Options of the inversion point; those of a run are for the runs of a scan.
+struct InversionOptions : RunOptions {
   std::string law, temperature, method = "force_balance";
+  std::string scan;      ///< tfm | dem | both; empty: without a run
+  std::string from, to;  ///< velocities to begin the scan at; empty: about the force balance
 };
 
 /// Options of the calibration: boxes of particles for a table of the solids stress.
@@ -67,8 +71,13 @@ void run_dem(const RunOptions& options);
 void run_compare(const CompareOptions& options);
 void run_calibrate(const CalibrateOptions& options);
 void run_check(const CaseOptions& options);
+void run_effects(const CaseOptions& options);
+void run_effects_bench(int rounds, bool json);
+/// The code to end with: of numbers that failed where the promise is broken.
+core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
 void run_drag(const DragOptions& options);
 void run_inversion(const InversionOptions& options);
+void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);

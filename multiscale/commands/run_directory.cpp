@@ -5,7 +5,7 @@
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "multiscale/roles.hpp"
+#include "multiscale/effects/choice.hpp"
 
 namespace polybed::multiscale {
 
@@ -45,7 +45,7 @@ core::Scene read_scene(const RunOptions& options) {
     const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
     overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
   }
-  return core::read_case(options.case_path, overrides, all_roles(), size_classes);
+  return read_chosen_case(options.case_path, overrides);
 }
 
 fs::path default_run_directory(const fs::path& case_path, const std::string& model) {

@@ -59,6 +59,7 @@ class TfmRun final : public CaseRun {
 
   bool after_step() override {
     observers_->log_step();
+    watch(monitor_.get(), model_);
     return CaseRun::after_step();
   }
 
@@ -87,8 +88,15 @@ class TfmRun final : public CaseRun {
   }
 
   std::string record_text(const std::string& state) override {
+<<<<<<< HEAD
     totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_);
+    const std::optional<Neglected> promise = promise_of(monitor_.get());
+    return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, promise ? &*promise : nullptr,
+                            monitor_ ? monitor_->warnings() : std::vector<std::string>{}});
+=======
+    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_});
+>>>>>>> chain
   }
 
   void print_summary() override {
@@ -122,9 +130,11 @@ class TfmRun final : public CaseRun {
           "1 in {:.3g} % of the bed's cells at the end\n",
           least.cell.critical_slope, least.cell.least, place, least.time, 100 * least.share_below_now);
     for (const std::string& text : drift_lines(observers_->drifts())) fmt::print(stderr, "{}\n", text);
+    print_promise();
   }
 
   tfm::Model model_;
+  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: nothing is watched
   std::vector<double> initial_mass_;
   std::optional<tfm::Observers> observers_;
   RunTotals totals_;

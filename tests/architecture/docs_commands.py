@@ -2,7 +2,8 @@
 """Every command in a ```sh block of the README, the docs and the cases runs and ends with 0; so does every ```python block.
 
 A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
-`polybed tfm` line gets `--until 0.1s` in place of its own end, a `polybed dem` or `polybed compare` line 1 ms, and replaces an earlier run of the same page. Each page
+`polybed tfm` line gets `--until 0.1s` in place of its own end, a `polybed dem` or `polybed compare` line 1 ms, and replaces an earlier run of the same page;
+a scan for the inversion velocity is by the two-fluid model, of runs of 0.8 s. Each page
 has a folder of its own, so that it must stand alone. Usage: docs_commands.py PROGRAM
 """
 import os
@@ -20,6 +21,7 @@ import open_mpi  # noqa: E402
 PYTHON = "/usr/bin/python3"
 MOST_NOT_RUN = 6
 SHORT = ["--until", "0.1 s", "--quiet", "--no-picture"]
+SHORT_SCAN = ["--until", "0.8 s", "--set", 'output.history_every="2 ms"', *SHORT[2:]]
 SHORT_DEM = ["--until", "1 ms", *SHORT[2:]]  # its steps are microseconds
 
 
@@ -45,11 +47,15 @@ def shortened(command, program):
             at = words.index("--until")
             del words[at:at + 2]
         words += (SHORT if words[1] == "tfm" else SHORT_DEM) + ([] if {"--resume", "--force"} & set(words) else ["--force"])
+    if "--scan" in words:
+        words[words.index("--scan") + 1] = "tfm"
+        words += SHORT_SCAN
     return on_ranks + words
 
 
 def run(command, program, scratch):
-    environment = os.environ | open_mpi.SETTINGS | {"PYTHONPATH": str(ROOT / "multiscale/python")}
+    environment = os.environ | open_mpi.SETTINGS | {"PYTHONPATH": str(ROOT / "multiscale/python"),
+                                                   "POLYBED": os.path.abspath(program)}
     done = subprocess.run(shortened(command, program), cwd=scratch, env=environment, capture_output=True, text=True,
                           timeout=300)
     return [] if done.returncode == 0 else [f"{command}\n  ended with {done.returncode}: {done.stderr[-500:]}"]
@@ -62,6 +68,7 @@ def self_test():
     assert shortened("./polybed dem x --until '20 s'", "p") == ["p", "dem", "x", *SHORT_DEM, "--force"]
     assert shortened("./polybed -n 2 check x", "p") == ["mpirun", "-q", "-n", "2", "p", "check", "x"]
     assert shortened("./polybed compare x", "p") == ["p", "compare", "x", *SHORT_DEM, "--force"]
+    assert shortened("./polybed inversion x --scan both", "p") == ["p", "inversion", "x", "--scan", "tfm", *SHORT_SCAN]
     assert "--force" not in shortened("./polybed tfm x --resume", "p")
     assert run("false", "p", ".")
 
@@ -71,7 +78,7 @@ if __name__ == "__main__":
     problems, ran, left = [], 0, 0
     for path in tracked(".md"):
         with tempfile.TemporaryDirectory() as scratch:
-            for name in ("cases", "docs"):
+            for name in ("cases", "docs", "multiscale"):
                 os.symlink(ROOT / name, os.path.join(scratch, name))
             for mark, commands in blocks(path.read_text()):
                 if mark:

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """polybed compare as its user meets it: both models run or given, the table, the file, refusals. Usage: compare_test.py PROGRAM"""
 import html
+import json
 import pathlib
 import re
 import shlex
@@ -76,7 +77,9 @@ class Comparison(Scratch):
         self.assertEqual(found, strict_json((self.folder / "both/comparison.json").read_text()))
         for model in ("tfm", "dem"):
             record = strict_json((self.folder / "both" / model / "run.json").read_text())
-            self.assertEqual(found["models"][model]["cpu_s"], record["cpu_s"])
+            for time in ("cpu_s", "wall_s"):
+                self.assertEqual(found["models"][model][time], record[time])
+                self.assertGreater(record[time], 0)
             self.assertEqual(found["models"][model]["state"], "done")
             for counter, value in found["models"][model]["work"].items():
                 self.assertEqual(value, record["work"][counter])
@@ -117,7 +120,7 @@ class Comparison(Scratch):
 
     def test_the_table_for_people(self):
         told = self.given().stdout
-        for line in ("bed_height_m .*[+]-", "on top", "e_H .*goal 0.05", "CPU s; .*particle_steps", "comparison.json$"):
+        for line in ("bed_height_m .*[+]-", "on top", "e_H .*goal 0.05", "by the clock; .*particle_steps", "comparison.json$"):
             self.assertRegex(told, f"(?m){line}")
         self.assertIn("warning: tfm: not steady", told)  # after 20 ms no bed is
 
@@ -176,6 +179,24 @@ class Comparison(Scratch):
         self.assertEqual((tfm[:3], dem[:3]), (["polybed", "tfm", str(self.case)], ["polybed", "dem", str(self.case)]))
         again = self.ends(DONE, *last[1:], "--json", "--no-picture").stdout
         self.assertEqual(strict_json(again)["measures"], found["measures"])
+
+    def test_a_scan_of_the_case_gives_a_score_and_one_of_another_is_refused(self):
+        scan = {"outcome": "bracket", "velocity_m_s": 0.021, "error_m_s": 1e-4, "low_m_s": 0.0207, "high_m_s": 0.0213,
+                "slope_s_m": -10, "cpu_s": 1, "runs": []}
+        made = self.ends(DONE, "inversion", self.case, "--scan", "tfm", "--from", "19 mm/s", "--to", "21 mm/s", "--set",
+                         "output.history_every=1e-5", "--until", "2 ms", "-o", self.folder / "scan", *QUIET, "--json").stdout
+        found = strict_json(made) | {"models": {"tfm": scan, "dem": scan | {"velocity_m_s": 0.02}},
+                                     "agreement": {"value": 0.05, "error": 0.01, "goal": 0.05, "reached": True}}
+        path = self.folder / "scan/inversion.json"
+        path.write_text(json.dumps(found))
+        told = strict_json(self.given("--inversion", path.parent, "--json").stdout)
+        self.assertEqual(told["scores"]["u_inv"], {"value": 0.05, "error": 0.01, "goal": 0.05, "reached": True})
+        self.assertEqual(told["scores"]["D1"]["goal"], 0.1)  # 20 mm/s is within 5 % of it
+        self.assertEqual(told["inversion_file"], str(path))
+        self.assertNotIn("u_inv", self.found["scores"])
+        path.write_text(json.dumps(found | {"case_hash": "0"}))
+        self.assertIn("another case", self.given("--inversion", path.parent, code=WRONG_CASE).stderr)
+        self.assertIn("no scan", self.given("--inversion", self.folder, code=FILE).stderr)
 
     def test_resumed_it_goes_on_with_what_is_there(self):
         first = strict_json(self.compare(DONE, "--json", "--until", "2 ms").stdout)

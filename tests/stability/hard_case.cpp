@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "fluid/boundaries.hpp"
 #include "fluid/invariants.hpp"
 #include "fluid/measures.hpp"
 #include "naive/treatments.hpp"
@@ -74,7 +75,26 @@ double characteristic_time(const tfm::Model& model, const tfm::Fields& fields) {
   return shortest;
 }
 
-/// What carries the bed, pressure drop and solids pressure on the distributor, over buoyant weight per area, less 1.
+/// Momentum that the fluid brings in per time and area less what it takes out, Pa: it enters between the particles,
+/// faster than it leaves.
+double thrust(const tfm::Model& model, const tfm::Fields& fields, const fluid::Profile& profile) {
+  const auto voidage = [&](std::size_t k) {
+    double eps = 1;
+    for (const std::vector<double>& phi : profile.fraction) eps -= phi[k];
+    return eps;
+  };
+  const core::Grid& grid = model.constants().grid;
+  double flux = 0, area = 0;
+  fluid::for_each_boundary_row(grid, 1, 0, [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) flux += fields.fluid.flux[1][c];
+    area += double(end - begin);
+  });
+  flux /= area;
+  return model.constants().fluid.density * flux * flux * (1 / voidage(0) - 1 / voidage(profile.fraction[0].size() - 1));
+}
+
+/// What carries the bed, pressure drop, thrust and solids pressure on the distributor, over buoyant weight per area,
+/// less 1.
 double force_balance(const tfm::Model& model, const tfm::Fields& fields) {
   const tfm::Constants& constants = model.constants();
   fluid::Profile profile;
@@ -86,7 +106,7 @@ double force_balance(const tfm::Model& model, const tfm::Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j)
     for (const double phi : profile.fraction[j])
       weight += phi * profile.slab * (constants.density[j] - constants.fluid.density) * constants.gravity;
-  double carried = fluid::pressure_drop(profile);
+  double carried = fluid::pressure_drop(profile) + thrust(model, fields, profile);
   if (fields.stress.present()) {
     profile.pressure = fluid::lateral_mean(constants.grid, fields.stress.pressure);
     carried += fluid::pressure_drop(profile);

@@ -101,5 +101,50 @@ TEST(DemBed, PressureCarriesTheBuoyantWeight) {
   compare("pressure drop over buoyant weight", drop, 1, 1e-3);
 }
 
+/// Mean pressure drop over buoyant weight of a bed of two sizes in water, past 20 mm/s, between walls; 0.3 to 0.6 s.
+double weight_carried(const std::string& momentum) {
+  core::Scene scene = wet_box(0.807e-3, 1395, {999.19, 1.14e-3}, {13.333e-3, 0.1, 4.422e-3}, {4, 32, 1});
+  scene.species[0].name = "fine";
+  scene.species.push_back(scene.species[0]);
+  scene.species[1].name = "coarse";
+  scene.species[1].diameter = 2.010e-3;
+  scene.species[1].density = 1170;
+  scene.column.closed = false;
+  scene.column.gravity = g;
+  scene.effects["drag"] = "cello";
+  scene.bed.start = "mixed";
+  scene.bed.particles = {900, 44};
+  scene.bed.solids_fraction = 0.22;
+  scene.inlet.superficial_velocity = {{0.0, 20e-3}};
+  scene.tfm.momentum = momentum;
+  scene.dem.fluid_every = 16;
+  scene.dem.youngs_modulus = 1e5;
+  scene.dem.max_overlap = 0.1;
+  scene.dem.greatest_speed = 0.3;
+  core::Timers timers;
+  dem::Model model(scene, timers);
+  double weight = 0, drop = 0;
+  for (std::size_t j = 0; j < 2; ++j) {
+    const core::Species& s = scene.species[j];
+    weight += double(scene.bed.particles[j]) * pi / 6 * std::pow(s.diameter, 3) * (s.density - 999.19) * g;
+  }
+  int samples = 0;
+  while (model.time() < 0.6) {
+    for (int n = 0; n < 16; ++n) model.step(1e300);
+    if (model.time() < 0.3) continue;
+    drop += model.coupling()->pressure_drop();
+    ++samples;
+  }
+  return drop / samples / (weight / (13.333e-3 * 4.422e-3));
+}
+
+// The convection of a fluid whose voidage fluctuates with its velocity adds or loses momentum as (U.grad)U: 1.9 % of
+// this bed's weight. In conservative form 0.3 %, most of which the floor carries and the bed has yet to settle to;
+// 0.5 % is twice the scatter of a third of a second.
+TEST(DemBed, InWaterCarriesItsWeightWhereMomentumIsConserved) {
+  compare("pressure drop over buoyant weight", weight_carried("auto"), 1, 5e-3);
+  EXPECT_GT(weight_carried("limited"), 1.01) << "the textbook form should not carry the weight";
+}
+
 }  // namespace
 }  // namespace polybed::verification

@@ -1,5 +1,7 @@
-"""Reads and draws the runs of polybed. It computes no physics."""
+"""Runs polybed, reads what its runs hold, and draws it. It computes no physics."""
 
+from polybed.program import ProgramError, compare, inversion, run, sweep
+from polybed.quantities import Quantity
 from polybed.read import FormatError, Particles, Run, read
 
-__all__ = ["FormatError", "Particles", "Run", "read"]
+__all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "Run", "compare", "inversion", "read", "run", "sweep"]

@@ -85,6 +85,8 @@ def commands(found, records):
         words += ["--set", override]
     for model in records:
         words += [f"--{model}", found["models"][model]["directory"]]
+    if "inversion_file" in found:
+        words += ["--inversion", str(Path(found["inversion_file"]).parent)]
     return "\n".join(shlex.join(words) for words in [*lines, words + ["-o", found["directory"]]])
 
 
@@ -111,14 +113,16 @@ def scores(found):
            for model in ("tfm", "dem") if order[model]]
     verdict = {True: "the same", False: '<span class="missed">not the same</span>', None: ""}[order["same"]]
     told = f"<p>On top: {'; '.join(top)}; {verdict}.</p>" if top else ""
-    return table(["", "", "goal", ""], rows) + told + source("e_H and e_b from history.csv, D1 and profile_ from profiles.h5 of both runs")
+    return table(["", "", "goal", ""], rows) + told + source(
+        "e_H and e_b from history.csv, D1 and profile_ from profiles.h5 of both runs"
+        + (f"; u_inv from {file_name(found['inversion_file'])}" if "inversion_file" in found else ""))
 
 
 def models(found):
-    rows = [[NAMES[model], html.escape(run["state"]), number(run["time_s"]), number(run["cpu_s"]),
+    rows = [[NAMES[model], html.escape(run["state"]), number(run["time_s"]), number(run["cpu_s"]), number(run["wall_s"]),
              html.escape(", ".join(f"{name} {value:.4g}" for name, value in run["work"].items())),
              file_name(run["directory"], "run.json")] for model, run in found["models"].items()]
-    return table(["", "state", "simulated s", "CPU s", "work", "from"], rows)
+    return table(["", "state", "simulated s", "CPU s", "s by the clock", "work", "from"], rows)
 
 
 def pictures(found, runs):

@@ -4,6 +4,8 @@
     run = polybed.read("runs/bed-tfm")
     run.phi_fine[-1]                  # last stored field, [y][x]
     run.time, run.history["bed_height_m"], run.profiles["voidage"]
+    height = run.quantity("bed_height")    # numbers with their unit and times: height.values, .unit, .time
+    mean, deviation = height.last()        # over the last quarter
     last = run.particles[-1]          # of a run of particles
     last.position[last.of("fine")]    # [particle][x, y, z]
 
@@ -16,6 +18,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from polybed import quantities
+
 VERSIONS = {
     "polybed fields": 1,
     "polybed fields step": 1,
@@ -24,6 +28,7 @@ VERSIONS = {
     "polybed profiles": 1,
     "polybed run": 1,
     "polybed comparison": 1,
+    "polybed inversion": 1,
 }
 
 
@@ -227,6 +232,19 @@ class Run:
         with open_hdf5(path) as file:
             check_kind(file.attrs, "polybed profiles", path)
             return {name: data[...] for name, data in file.items()}
+
+    def quantity(self, name, source=None):
+        """What is called so in the history, the profiles or the fields, with its unit; see polybed.quantities.find."""
+        return quantities.find(self, name, source)
+
+    def names(self):
+        """What quantity() knows."""
+        return quantities.names(self)
+
+    def plot(self, what=None, **options):
+        """Draws the run, or one kind of picture of it, and returns the paths; see polybed.plot.pictures."""
+        from polybed import plot
+        return plot.pictures(self.directory, (what,) if isinstance(what, str) else what, **options)
 
     def step_at(self, time):
         """Number of the stored step nearest to a time."""

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"cells = [12, 120]", "cells = [12]", "column.cells has 1 numbers, column.size 2"},
         Wrong{"cells = [12, 120]", "cells = [0, 120]", "case.toml:4:10: column.cells = 0 is out of range: at least 1"},
         Wrong{"drag = \"cello\"", "drag = \"celo\"",
-              "case.toml:19:8: effects.drag = 'celo': allowed are none | cello | vbk; did you mean \"cello\"?"},
+              "case.toml:19:8: effects.drag = 'celo': allowed are none | auto | cello | vbk; did you mean \"cello\"?"},
         Wrong{"drag = \"cello\"", "darg = \"cello\"",
               "case.toml:19:1: unknown key 'darg' in [effects]; did you mean 'drag'?"},
         Wrong{"volume_share = [1.0]", "volume_share = [0.9]", "bed.volume_share sums to 0.9, not to 1"},

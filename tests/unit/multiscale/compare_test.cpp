@@ -205,8 +205,22 @@ TEST(Compare, TheFileHasTheContractsForm) {
   EXPECT_EQ(json.of("scores").of("order").of("tfm").of("species").text(), "coarse");
   EXPECT_EQ(json.of("models").of("dem").of("work").of("steps").number(), 3);
   EXPECT_EQ(json.of("models").of("dem").of("cpu_s").number(), 1.5);
+  EXPECT_TRUE(json.of("models").of("dem").of("wall_s").is_null());  // of a record of before it was kept
   EXPECT_EQ(json.of("overrides").array().at(0).text(), "bed.seed=2");
   EXPECT_THAT(comparison_table(c, run, run), HasSubstr("goal 0.05: missed"));
+}
+
+TEST(Compare, NearAnInversionTheLayersHaveMoreRoom) {
+  const FoundInversion found{"scan/inversion.json", {0.03, 0.01, 0.05}, 0.0309, 0.030};
+  // 5 % of 30.9 mm/s and of 30.0 mm/s reach from 28.5 to 32.4 mm/s
+  for (const auto& [velocity, goal] : {std::pair(0.0284, 0.05), {0.0286, 0.1}, {0.0324, 0.1}, {0.0326, 0.05}}) {
+    Comparison comparison = compare(at_rest(0.04, 0.08), at_rest(0.04, 0.08));
+    take_up(comparison, found, velocity);
+    EXPECT_EQ(score(comparison, "D1").goal, goal) << velocity;
+    EXPECT_EQ(score(comparison, "u_inv").value, 0.03);
+    EXPECT_EQ(score(comparison, "u_inv").reached(), true);
+    EXPECT_EQ(comparison.inversion_file, "scan/inversion.json");
+  }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Inversion points against the tables of the thesis and their recomputation.
-#include "multiscale/inversion.hpp"
+#include "multiscale/inversion/models.hpp"
 
 #include <gtest/gtest.h>
 

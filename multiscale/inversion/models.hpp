@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "closures/drag.hpp"
+#include "core/scene.hpp"
 #include "fluid/fluid_state.hpp"
 
 namespace polybed::multiscale {
@@ -20,6 +21,9 @@ struct BinaryBed {
   double gravity = 9.81;  ///< m/s2
 };
 
+/// The bed of a case; throws core::CaseError if it has not two species with their shares.
+[[nodiscard]] BinaryBed binary_bed(const core::Scene& scene);
+
 struct InversionPoint {
   double velocity;  ///< superficial, m/s
   double voidage;
@@ -28,6 +32,7 @@ struct InversionPoint {
 /// The methods by name, with what each is, for messages and lists.
 struct InversionMethod {
   std::string name, help;
+  bool takes_law;  ///< whether the drag law decides
 };
 [[nodiscard]] const std::vector<InversionMethod>& inversion_methods();
 

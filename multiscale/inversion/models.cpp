@@ -1,4 +1,6 @@
-#include "multiscale/inversion.hpp"
+#include "multiscale/inversion/models.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <functional>
@@ -7,6 +9,7 @@
 
 #include "closures/terminal_velocity.hpp"
 #include "core/error.hpp"
+#include "fluid/properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -181,12 +184,28 @@ std::vector<InversionPoint> by_density_maximum(const BinaryBed& bed) {
 
 }  // namespace
 
+BinaryBed binary_bed(const core::Scene& scene) {
+  if (scene.species.size() != 2)
+    throw core::CaseError(fmt::format("inversion needs two species, the case has {}", scene.species.size()));
+  if (scene.bed.volume_share.size() != 2)
+    throw core::CaseError("inversion needs bed.volume_share: bed.start = \"" + scene.bed.start + "\" has none");
+  BinaryBed bed;
+  for (std::size_t j = 0; j < 2; ++j) {
+    bed.diameter[j] = scene.species[j].diameter;
+    bed.density[j] = scene.species[j].density;
+    bed.share[j] = scene.bed.volume_share[j];
+  }
+  bed.fluid = fluid::fluid_constants(scene.fluid);
+  bed.gravity = scene.column.gravity;
+  return bed;
+}
+
 const std::vector<InversionMethod>& inversion_methods() {
   static const std::vector<InversionMethod> methods{
-      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)"},
-      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)"},
-      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)"},
-      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)"}};
+      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)", true},
+      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true},
+      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false},
+      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false}};
   return methods;
 }
 

@@ -1,0 +1,181 @@
+#include "multiscale/effects/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/case_file.hpp"
+#include "core/timers.hpp"
+#include "dem/model.hpp"
+#include "multiscale/roles.hpp"
+#include "tfm/model.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+const char* const bench_case = R"(
+title = "what effects cost"
+column = { size = ["24 mm", "60 mm"], cells = [12, 30], depth = "4 mm" }
+fluid = { name = "water", temperature = "20 degC" }
+bed = { volume_share = [0.5, 0.5], static_height = "6 mm", solids_fraction = 0.6 }
+inlet = { superficial_velocity = "25 mm/s" }
+effects = { drag = "cello", contact = "hertz_mindlin", solids_stress = "frictional" }
+run = { until = "10 s" }
+tfm = { integrator = "explicit" }
+dem = { rolling_friction = 0.1, hamaker_constant = 1e-20, cohesion_gap = "0.4 nm", asperity_radius = "50 nm" }
+[[species]]
+name = "fine"
+diameter = "0.8 mm"
+density = 2500
+[[species]]
+name = "coarse"
+diameter = "1.1 mm"
+density = 2000
+)";
+
+/// An effect that is added to that case, or with "none" taken from it.
+struct Benched {
+  const char *effect, *law, *model, *per;
+};
+
+constexpr Benched effects[] = {{"drag", "none", "dem", "particle"},
+                               {"added_mass", "zuber", "dem", "particle"},
+                               {"lift", "saffman_mei", "dem", "particle"},
+                               {"magnus", "rubinow_keller", "dem", "particle"},
+                               {"history", "basset", "dem", "particle"},
+                               {"lubrication", "wet_restitution", "dem", "contact"},
+                               {"lubrication", "film", "dem", "contact"},
+                               {"rolling", "cdt", "dem", "contact"},
+                               {"rolling", "epsd", "dem", "contact"},
+                               {"cohesion", "van_der_waals", "dem", "contact"},
+                               {"drag", "none", "tfm", "cell"},
+                               {"fluid_stress", "newtonian", "tfm", "cell"},
+                               {"solids_viscosity", "schaeffer", "tfm", "cell"},
+                               {"solids_stress", "kinetic", "tfm", "cell"},
+                               {"species_exchange", "syamlal", "tfm", "cell"}};
+
+struct Timing {
+  double per_unit = 0;  ///< s
+  std::size_t bytes = 0;
+  double units = 1;
+};
+
+core::Scene scene_with(const Benched* effect) {
+  core::Scene scene = core::parse_case(bench_case, "bench", {}, all_roles());
+  if (effect == nullptr) return scene;
+  const std::string law = effect->law;
+  law == "none" ? void(scene.effects.erase(effect->effect)) : void(scene.effects[effect->effect] = law);
+  return scene;
+}
+
+/// Time of the terms that effects are in, s: not of the pressure, whose iterations go up and down, nor of the solver.
+double seconds_of(const core::Timers& timers) {
+  double seconds = 0;
+  for (const core::Timers::Term& term : timers.terms())
+    if (term.name != "pressure" && term.name != "fluid" && term.name != "neighbours") seconds += term.seconds;
+  return seconds;
+}
+
+Timing time_particles(const Benched* effect, const std::string& per) {
+  core::Timers timers;
+  dem::Model model(scene_with(effect), timers);
+  constexpr int warm = 32, steps = 256;
+  for (int n = 0; n < warm; ++n) model.step(1e300);
+  const std::uint64_t contacts = model.work().contact_steps;
+  const double begin = seconds_of(timers);
+  for (int n = 0; n < steps; ++n) model.step(1e300);
+  const double seconds = seconds_of(timers) - begin;
+  const double units =
+      per == "contact" ? double(model.work().contact_steps - contacts) : double(steps) * double(model.particle_count());
+  const std::size_t numbers =
+      per == "contact" ? std::size_t(model.laws().memory_size()) : model.coupling()->sides().rows().width;
+  return {seconds / std::max(units, 1.0), numbers * sizeof(double), std::max(units, 1.0)};
+}
+
+Timing time_cells(const Benched* effect) {
+  core::Timers timers;
+  tfm::Model model(scene_with(effect), timers);
+  constexpr int warm = 4, steps = 24;
+  for (int n = 0; n < warm; ++n) model.step(1e300);
+  const std::uint64_t sides = model.work().right_hand_sides;
+  const double begin = seconds_of(timers);
+  for (int n = 0; n < steps; ++n) model.step(1e300);
+  const double seconds = seconds_of(timers) - begin;
+  const double units = double(model.work().right_hand_sides - sides) * double(model.constants().grid.cell_count());
+  return {seconds / std::max(units, 1.0), 0};
+}
+
+Timing time_of(const Benched* effect, const std::string& model, const std::string& per) {
+  return model == "dem" ? time_particles(effect, per) : time_cells(effect);
+}
+
+/// The least time, which nothing else has disturbed, and how far the next is from it.
+struct Least {
+  std::vector<double> times;
+  std::size_t bytes = 0;
+  double units = 1;
+  void add(const Timing& t) {
+    times.push_back(t.per_unit);
+    units = t.units;
+    std::sort(times.begin(), times.end());
+    bytes = t.bytes;
+  }
+  [[nodiscard]] double spread() const { return times.size() > 1 ? times[1] - times[0] : times[0]; }
+};
+
+}  // namespace
+
+std::vector<EffectCost> bench_effects(int rounds) {
+  std::map<std::string, Least> plain;
+  std::vector<Least> with(std::size(effects));
+  for (int round = 0; round < rounds; ++round) {
+    for (const char* per : {"particle", "contact", "cell"})
+      plain[per].add(time_of(nullptr, per == std::string("cell") ? "tfm" : "dem", per));
+    for (std::size_t n = 0; n < std::size(effects); ++n) {
+      Timing t = time_of(&effects[n], effects[n].model, effects[n].per);
+      // Per contact of the plain run: what reaches further has more pairs, and all of them are its cost.
+      if (effects[n].per == std::string("contact")) t.per_unit *= t.units / plain["contact"].units;
+      with[n].add(t);
+    }
+  }
+  std::vector<EffectCost> costs;
+  for (std::size_t n = 0; n < std::size(effects); ++n) {
+    const Benched& e = effects[n];
+    const Least& without = plain.at(e.per);
+    const bool taken = e.law == std::string("none");
+    const double sign = taken ? -1e9 : 1e9;
+    costs.push_back({e.effect, taken ? "cello" : e.law, e.model, e.per, sign * (with[n].times[0] - without.times[0]),
+                     1e9 * (with[n].spread() + without.spread()),
+                     with[n].bytes > without.bytes ? with[n].bytes - without.bytes : 0});
+  }
+  return costs;
+}
+
+std::string bench_table(const std::vector<EffectCost>& costs) {
+  std::string text =
+      fmt::format("{:18} {:16} {:6} {:>10} {:>10} {:>8}  {}\n", "effect", "law", "model", "ns", "+-", "bytes", "per");
+  for (const EffectCost& c : costs)
+    text += fmt::format("{:18} {:16} {:6} {:10.1f} {:10.1f} {:8}  {} and {}\n", c.effect, c.law, c.model, c.nanoseconds,
+                        c.spread, c.bytes, c.per, c.model == "dem" ? "step" : "right-hand side");
+  return text;
+}
+
+void write_bench(core::Json& json, const std::vector<EffectCost>& costs) {
+  json.key("costs").begin_array();
+  for (const EffectCost& c : costs)
+    json.begin_object()
+        .member("effect", c.effect)
+        .member("law", c.law)
+        .member("model", c.model)
+        .member("per", c.per)
+        .member("ns", c.nanoseconds)
+        .member("spread_ns", c.spread)
+        .member("bytes", std::uint64_t(c.bytes))
+        .end_object();
+  json.end_array();
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,51 @@
+// What a scene calls for: the rows of the table decided, and the case with its "auto" roles in words.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "multiscale/effects/effect_row.hpp"
+
+namespace polybed::multiscale {
+
+/// How rows are decided.
+struct DecisionRule {
+  double tolerance = 0.02;
+  bool transient = false;
+  std::set<std::string> on, off;  ///< roles that the case itself decides
+};
+
+/// Decides rows that are not yet decided (docs/effects.md):
+///   forces of acceleration only in transients; an uncertain number is a band and switches nothing;
+///   R > tolerance is on; of the remaining forces the largest goes on while their sum exceeds the tolerance.
+void decide(std::vector<EffectRow>& rows, const DecisionRule& rule);
+
+/// Sum of what is left out of the forces on particles, bands apart; what is called for and not built counts.
+[[nodiscard]] double neglected_sum(const std::vector<EffectRow>& rows);
+
+struct Choice {
+  std::vector<EffectRow> rows;
+  double tolerance = 0;
+  double neglected_sum = 0;  ///< of the choice, as a share of the buoyant weight
+  double case_sum = 0;       ///< of the roles that the case has, or is given
+};
+
+/// The choice for a scene: free where the case decides every role itself (what it should have decided), else of what it
+/// leaves to "auto".
+[[nodiscard]] Choice choose(const core::Scene& scene);
+
+/// Whether a scene has a role that it leaves to the chooser.
+[[nodiscard]] bool has_auto(const core::Scene& scene);
+
+/// The scene with every "auto" role given its law, or left out, and with what that law needs; the same scene if none
+/// is "auto". Records the roles in chooser.chosen.
+[[nodiscard]] core::Scene with_choice(core::Scene scene);
+
+/// Reads a case and resolves what it leaves to the chooser.
+[[nodiscard]] core::Scene read_chosen_case(const std::filesystem::path& path,
+                                           const std::vector<std::string>& overrides);
+
+}  // namespace polybed::multiscale

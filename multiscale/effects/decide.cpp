@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "multiscale/effects/choice.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using State = EffectRow::State;
+using Kind = EffectRow::Kind;
+
+bool of_acceleration(const EffectRow& row) { return row.effect == "added_mass" || row.effect == "history"; }
+
+/// Whether the value itself is the top of a band.
+bool is_uncertain(const EffectRow& row) { return row.band && row.band->most == row.value; }
+
+std::string number_text(double value) { return fmt::format("{:.2g}", value); }
+
+void decide_steady(EffectRow& row) {
+  row.state = State::off;
+  row.neglected = 0;
+  row.reason = "steady: the mean of what goes with acceleration vanishes";
+  if (row.band)
+    row.reason += fmt::format("; in a transient {:.2g} to {:.2g}", row.band->least, row.band->most);
+  else if (row.value)
+    row.reason += "; in a transient " + number_text(*row.value);
+}
+
+void decide_by_number(EffectRow& row) {
+  if (!row.value || !row.threshold) {
+    if (row.reason.empty()) row.reason = "no number: nothing moves through a fluid";
+    row.neglected = row.neglected.value_or(0);
+    return;
+  }
+  const bool uncertain = is_uncertain(row);
+  const bool beyond = row.below ? *row.value < *row.threshold : *row.value > *row.threshold;
+  if (beyond && !uncertain) {
+    row.state = State::on;
+    row.reason = fmt::format("{} {} {}", number_text(*row.value), row.below ? "<" : ">", number_text(*row.threshold));
+    return;
+  }
+  row.neglected = row.below ? 0 : *row.value;
+  row.reason = fmt::format("{} {} {}", number_text(*row.value), row.below ? ">=" : "<=", number_text(*row.threshold));
+  if (!row.band) return;
+  const bool known_small = !row.below && row.band->most <= *row.threshold;
+  if (uncertain && !known_small) row.neglected.reset();
+  row.reason = fmt::format("band {:.2g} to {:.2g}, uncertain there: not switched", row.band->least, row.band->most);
+}
+
+/// Whether leaving a row out counts in the sum.
+bool counts(const EffectRow& row) { return row.summed && row.state == State::off && row.neglected.value_or(0) > 0; }
+
+/// A row as the case has it.
+void take_from_case(EffectRow& row, bool on, bool transient) {
+  row.state = on ? State::on : State::off;
+  const bool vanishes = of_acceleration(row) && !transient;
+  if (on)
+    row.neglected.reset();
+  else if (row.value && !row.below && !is_uncertain(row))
+    row.neglected = vanishes ? 0 : *row.value;
+  row.reason = fmt::format("the case says {}{}", on ? "on" : "off", row.reason.empty() ? "" : ": " + row.reason);
+}
+
+void limit_sum(std::vector<EffectRow>& rows, const DecisionRule& rule) {
+  for (;;) {
+    double sum = 0;
+    EffectRow* largest = nullptr;
+    for (EffectRow& row : rows) {
+      if (!counts(row)) continue;
+      sum += *row.neglected;
+      const bool free = !rule.off.contains(row.effect) && row.not_built.empty();
+      if (free && (largest == nullptr || *row.neglected > *largest->neglected)) largest = &row;
+    }
+    if (sum <= rule.tolerance || largest == nullptr) return;
+    largest->state = State::on;
+    largest->neglected.reset();
+    largest->reason = fmt::format("{} alone is small, but the sum of what is left out would be {}",
+                                  number_text(*largest->value), number_text(sum));
+  }
+}
+
+}  // namespace
+
+void decide(std::vector<EffectRow>& rows, const DecisionRule& rule) {
+  for (EffectRow& row : rows) {
+    const bool decided = row.state != State::off || (!row.reason.empty() && !row.value);
+    if (row.kind != Kind::role && (row.kind == Kind::condition || !row.threshold || !row.value)) continue;
+    if (!decided || (row.kind == Kind::unmodelled)) {
+      const std::string said = row.kind == Kind::unmodelled ? row.reason : "";
+      of_acceleration(row) && !rule.transient ? decide_steady(row) : decide_by_number(row);
+      if (!said.empty()) row.reason = said;
+      if (row.kind == Kind::unmodelled && !row.is_force) row.neglected.reset();
+    }
+    if (row.kind != Kind::role) continue;
+    constexpr double powder = 10;  // pull over weight from which beds are not the ones that drag laws are known of
+    if (row.effect == "cohesion" && row.value.value_or(0) > powder)
+      row.reason += "; cohesive: outside the validated range";
+    if (rule.on.contains(row.effect)) take_from_case(row, true, rule.transient);
+    if (rule.off.contains(row.effect)) take_from_case(row, false, rule.transient);
+    if (row.state == State::on && !row.not_built.empty()) row.neglected = row.value;
+  }
+  limit_sum(rows, rule);
+}
+
+double neglected_sum(const std::vector<EffectRow>& rows) {
+  double sum = 0;
+  for (const EffectRow& row : rows)
+    if (row.summed && (row.state == State::off || !row.not_built.empty())) sum += row.neglected.value_or(0);
+  return sum;
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,42 @@
+// One line of the table of reasons: an effect, the number that decides it, and what was decided.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace polybed::multiscale {
+
+/// A band: the number itself is uncertain there.
+struct NumberBand {
+  double least = 0, most = 0;
+};
+
+struct EffectRow {
+  enum class State { on, off, unknown };
+  enum class Kind {
+    role,       ///< of [effects]
+    condition,  ///< decided by other keys, or always on
+    unmodelled  ///< nothing of it is in the product
+  };
+  std::string effect;               ///< role, or what it is called
+  std::string model;                ///< the law chosen; or the one that was weighed
+  std::string models = "tfm, dem";  ///< where it acts
+  std::string number;               ///< what decides, in words
+  std::optional<double> value;      ///< its greatest; least where `below`
+  std::optional<double> threshold;
+  bool below = false;                   ///< on where the value is below the threshold
+  std::optional<NumberBand> band;       ///< where the number is uncertain: not switched
+  std::string where;                    ///< species and zone of the value
+  std::map<std::string, double> zones;  ///< the value of each zone
+  State state = State::off;
+  Kind kind = Kind::role;
+  bool summed = false;              ///< a force on particles that counts in what is left out
+  bool is_force = false;            ///< of what is not modelled: its value is a share of the weight
+  std::optional<double> neglected;  ///< bound on what leaving it out neglects, in the table as decided
+  std::string reason;
+  std::string not_built;  ///< why a run cannot have it; empty: it can
+};
+
+}  // namespace polybed::multiscale

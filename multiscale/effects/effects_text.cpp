@@ -1,0 +1,92 @@
+#include "multiscale/effects/effects_text.hpp"
+
+#include <fmt/format.h>
+
+namespace polybed::multiscale {
+
+namespace {
+
+using State = EffectRow::State;
+using Kind = EffectRow::Kind;
+
+std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.2g}", *value) : "-"; }
+
+std::string value_text(const EffectRow& row) {
+  if (row.band && row.band->most == row.value) return fmt::format("{:.2g}..{:.2g}", row.band->least, row.band->most);
+  return number(row.value);
+}
+
+std::string state_text(const EffectRow& row) {
+  if (row.state == State::unknown) return "unknown";
+  if (row.state == State::off) return row.kind == Kind::unmodelled ? "no" : "off";
+  return row.kind == Kind::unmodelled || !row.not_built.empty() ? "MISSING" : "on";
+}
+
+/// What the case itself says of a role; empty for what is none.
+std::string case_text(const core::Scene& scene, const EffectRow& row) {
+  if (row.kind != Kind::role || !row.not_built.empty()) return "";
+  const std::string law = core::law_of(scene, row.effect);
+  return law == "none" ? "off" : law;
+}
+
+std::string reason_text(const EffectRow& row) {
+  std::string text = row.reason;
+  if (!row.where.empty()) text += " (" + row.where + ")";
+  if (row.state == State::on && !row.not_built.empty()) text += "; called for, but not built: " + row.not_built;
+  return text;
+}
+
+std::string line_of(const core::Scene& scene, const EffectRow& row) {
+  return fmt::format("{:20} {:15} {:8} {:>14} {:>8} {:>8}  {:7} {:14} {}\n", row.effect, row.model, row.models,
+                     value_text(row), row.threshold ? (row.below ? "<" : ">") + number(row.threshold) : "-",
+                     number(row.neglected), state_text(row), case_text(scene, row),
+                     (row.number == "-" ? "" : row.number + ": ") + reason_text(row));
+}
+
+}  // namespace
+
+std::string effects_table(const core::Scene& scene, const Choice& choice) {
+  std::string text = fmt::format("{:20} {:15} {:8} {:>14} {:>8} {:>8}  {:7} {:14} {}\n", "effect", "model", "acts in",
+                                 "value", "on if", "left out", "choice", "this case", "number: reason");
+  const Kind kinds[] = {Kind::role, Kind::condition, Kind::unmodelled};
+  for (const Kind kind : kinds) {
+    if (kind == Kind::condition) text += "\nno roles:\n";
+    if (kind == Kind::unmodelled) text += "\nnot modelled, estimated:\n";
+    for (const EffectRow& row : choice.rows)
+      if (row.kind == kind) text += line_of(scene, row);
+  }
+  text += fmt::format(
+      "\nforces on particles left out by this choice sum to {:.2g} of the buoyant weight (promise {:.2g}, {}){}\n",
+      choice.neglected_sum, choice.tolerance, scene.chooser.purpose,
+      choice.neglected_sum > choice.tolerance ? ": more than promised, since what would be needed is not to be had"
+                                              : "");
+  if (!has_auto(scene)) text += fmt::format("left out by the case as it stands: {:.2g}\n", choice.case_sum);
+  return text;
+}
+
+void write_effects(core::Json& json, const core::Scene& scene, const Choice& choice) {
+  const auto optional = [&](const char* name, const std::optional<double>& value) {
+    value&& std::isfinite(*value) ? json.member(name, *value) : json.key(name).null();
+  };
+  json.key("effects").begin_array();
+  for (const EffectRow& row : choice.rows) {
+    json.begin_object().member("effect", row.effect).member("model", row.model);
+    row.state == State::unknown ? json.key("on").null() : json.member("on", row.state == State::on);
+    json.member("number", row.number);
+    optional("value", row.value);
+    optional("threshold", row.threshold);
+    optional("neglected_bound", row.neglected);
+    json.member("reason", reason_text(row)).member("models", row.models).member("below", row.below);
+    json.member("kind", row.kind == Kind::role ? "role" : row.kind == Kind::condition ? "condition" : "unmodelled");
+    json.member("built", row.not_built.empty() && row.kind != Kind::unmodelled)
+        .member("in_case", case_text(scene, row));
+    if (row.band) json.key("band").begin_array().value(row.band->least).value(row.band->most).end_array();
+    json.key("zones").begin_object();
+    for (const auto& [zone, value] : row.zones) optional(zone.c_str(), value);
+    json.end_object().end_object();
+  }
+  json.end_array().member("neglected_sum", choice.neglected_sum).member("neglected_sum_of_case", choice.case_sum);
+  json.member("tolerance", choice.tolerance).member("purpose", scene.chooser.purpose);
+}
+
+}  // namespace polybed::multiscale

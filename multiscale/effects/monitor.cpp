@@ -1,0 +1,142 @@
+#include "multiscale/effects/monitor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/output_fields.hpp"
+#include "fluid/vorticity.hpp"
+#include "multiscale/effects/fluid_map.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using closures::Vec3;
+
+constexpr int samples_before_warning = 3;
+constexpr double least_fraction = 1e-3;
+
+FluidMap map_of(const dem::Coupling::Column& column, bool walls) {
+  const core::Grid& grid = column.grid;
+  FluidMap map;
+  map.dimensions = grid.dimensions;
+  map.cells = grid.cells;
+  map.spacing = grid.spacing;
+  map.walls = walls;
+  const core::FaceField mean = core::cell_means(grid, column.velocity);
+  map.velocity.reserve(grid.cell_count());
+  core::for_each_row(grid, [&](core::Index begin, core::Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+      map.velocity.push_back({mean[0][c], mean[1][c], grid.dimensions > 2 ? mean[2][c] : 0});
+  });
+  return map;
+}
+
+}  // namespace
+
+bool in_sample(std::int64_t number, int sample) {
+  auto z = std::uint64_t(number) + 0x9e3779b97f4a7c15ULL;  // SplitMix64 (Steele, Lea and Flood 2014)
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return (z ^ (z >> 31)) % std::uint64_t(sample) == 0;
+}
+
+std::unique_ptr<Monitor> Monitor::of(const core::Scene& scene, const std::string& model) {
+  const std::string& wish = scene.chooser.monitor;
+  if (wish == "off" || wish == core::automatic || scene.fluid.name == "none") return nullptr;
+  return std::make_unique<Monitor>(scene, model);
+}
+
+Monitor::Monitor(const core::Scene& scene, const std::string& model)
+    : scene_(scene),
+      seen_(scene, model),
+      latest_(seen_),
+      empty_(seen_),
+      samples_above_(seen_.observed().size(), 0),
+      since_(seen_.observed().size(), 0.0) {}
+
+std::vector<std::string> Monitor::look(const dem::Model& model) {
+  latest_ = empty_;
+  const dem::Particles& particles = model.particles();
+  const auto& load = model.coupling()->motion().load;
+  const FluidMap map = map_of(model.coupling()->column(), scene_.column.sides == "wall");
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!in_sample(particles.id[i], scene_.chooser.monitor_sample)) continue;
+    const auto& u = load[i].velocity;
+    const dem::Motion& m = particles.motion[i];
+    const Encounter met{std::size_t(particles.species[i]),
+                        Vec3{u[0] - m.v[0], u[1] - m.v[1], u[2] - m.v[2]},
+                        map.vorticity(map.cell_at(particles.place[i].x)),
+                        Vec3{m.w[0], m.w[1], m.w[2]},
+                        particles.place[i].x,
+                        model.time()};
+    latest_.see(met);
+    seen_.see(met);
+  }
+  return judge(model.ranks(), model.time());
+}
+
+std::vector<std::string> Monitor::look(const tfm::Model& model) {
+  latest_ = empty_;
+  const tfm::Fields& fields = model.fields();
+  const core::Grid& grid = model.constants().grid;
+  std::array<core::Field, 3> vorticity;
+  fluid::find_vorticity(grid, fields.fluid.velocity, vorticity);
+  const auto component = [&](const core::FaceField& u, std::size_t a, std::size_t c) {
+    if (a >= std::size_t(grid.dimensions)) return 0.0;
+    return 0.5 * (u[a][c] + u[a][c + std::size_t(grid.stride(int(a)))]);
+  };
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i) {
+        const std::int64_t row = grid.before[1] + j + std::int64_t(grid.column_cells(1)) * (grid.before[2] + k);
+        if (!in_sample(grid.before[0] + i + grid.column_cells(0) * row, scene_.chooser.monitor_sample)) continue;
+        const auto c = std::size_t(grid.index(i, j, k));
+        for (std::size_t s = 0; s < scene_.species.size(); ++s) {
+          if (!(fields.solids.fraction[s][c] > least_fraction)) continue;
+          std::array<double, 3> slip{};
+          for (std::size_t a = 0; a < 3; ++a)
+            slip[a] = component(fields.fluid.velocity, a, c) - component(fields.solids.velocity[s], a, c);
+          const Encounter met{s,
+                              Vec3{slip[0], slip[1], slip[2]},
+                              Vec3{vorticity[0][c], vorticity[1][c], vorticity[2][c]},
+                              {},
+                              {grid.centre(0, i), grid.centre(1, j), grid.centre(2, k)},
+                              model.time()};
+          latest_.see(met);
+          seen_.see(met);
+        }
+      }
+  return judge(grid.ranks.get(), model.time());
+}
+
+std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
+  latest_.gather(ranks);
+  std::vector<std::string> lines;
+  for (std::size_t n = 0; n < latest_.observed().size(); ++n) {
+    const Observed& o = latest_.observed()[n];
+    if (o.above == 0) continue;
+    if (samples_above_[n] == 0) since_[n] = time;
+    if (++samples_above_[n] != samples_before_warning) continue;
+    lines.push_back(
+        fmt::format("{} neglected (bound {:.2g} %) reaches {:.2g} % for {:.2g} % of the particles near x = {:.3g} m, y "
+                    "= {:.3g} m since "
+                    "t = {:.4g} s",
+                    o.effect == "sum" ? "the sum of all forces" : o.effect, 100 * o.bound, 100 * o.greatest,
+                    100.0 * double(o.above) / double(o.count), o.place[0], o.place[1], since_[n]));
+  }
+  warnings_.insert(warnings_.end(), lines.begin(), lines.end());
+  if (!lines.empty() && scene_.chooser.monitor == "stop")
+    throw core::NumericsError(lines.front() + "; chooser.monitor = \"stop\"");
+  return lines;
+}
+
+Neglected Monitor::result(const core::Ranks* ranks) const {
+  Neglected all = seen_;
+  all.gather(ranks);
+  return all;
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,51 @@
+// Watches, during a run, what its scene has left out: a sample of its particles or cells every so many steps. A run
+// that does not ask for it has no such object.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "dem/model.hpp"
+#include "multiscale/effects/neglected.hpp"
+#include "tfm/model.hpp"
+
+namespace polybed::multiscale {
+
+/// Whether a particle or cell is in the sample: one in `sample`, by a hash of its number, so that any number of ranks
+/// looks at the same ones.
+[[nodiscard]] bool in_sample(std::int64_t number, int sample);
+
+class Monitor {
+ public:
+  /// Null if the scene asks for none, or there is no fluid.
+  [[nodiscard]] static std::unique_ptr<Monitor> of(const core::Scene& scene, const std::string& model);
+  Monitor(const core::Scene& scene, const std::string& model);
+
+  /// After each step: whether this one is looked at.
+  [[nodiscard]] bool due() { return ++steps_ % scene_.chooser.monitor_every == 0; }
+
+  /// Looks at the state. Collective. Returns what there is to say for the first time; throws NumericsError with
+  /// monitor = "stop".
+  [[nodiscard]] std::vector<std::string> look(const dem::Model& model);
+  [[nodiscard]] std::vector<std::string> look(const tfm::Model& model);
+
+  /// Of all ranks. Collective.
+  [[nodiscard]] Neglected result(const core::Ranks* ranks) const;
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  [[nodiscard]] std::vector<std::string> judge(const core::Ranks* ranks, double time);
+
+  core::Scene scene_;
+  Neglected seen_, latest_;  ///< of the whole run, and of the sample at hand
+  Neglected empty_;
+  std::vector<int> samples_above_;
+  std::vector<double> since_;
+  std::vector<std::string> warnings_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace polybed::multiscale

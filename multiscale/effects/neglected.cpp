@@ -1,0 +1,160 @@
+#include "multiscale/effects/neglected.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "closures/relevance.hpp"
+#include "fluid/properties.hpp"
+#include "multiscale/effects/situation.hpp"
+#include "multiscale/effects/weigh.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+constexpr int bins = 240, bins_per_decade = 20;
+constexpr double least_share = 1e-10;
+
+/// Up to which the laws are told; beyond it they are a band (docs/effects.md).
+constexpr double greatest_reynolds = 100;
+
+std::size_t bin_of(double share) {
+  const double place = std::log10(std::max(share, least_share) / least_share) * bins_per_decade;
+  return std::size_t(std::clamp(place, 0.0, double(bins - 1)));
+}
+
+}  // namespace
+
+void Observed::add(double share, const Encounter& met, double tolerance) {
+  if (bins.empty()) bins.assign(multiscale::bins, 0);
+  ++count;
+  ++bins[bin_of(share)];
+  above += share > tolerance;
+  if (count > 1 && share <= greatest) return;
+  greatest = share;
+  time = met.time;
+  place = met.place;
+}
+
+double Observed::percentile() const {
+  std::uint64_t beyond = 0;
+  for (std::size_t n = bins.size(); n-- > 0;) {
+    beyond += bins[n];
+    if (100 * beyond > count) return std::min(least_share * std::pow(10, double(n + 1) / bins_per_decade), greatest);
+  }
+  return greatest;
+}
+
+Neglected::Neglected(const core::Scene& scene, const std::string& model)
+    : scene_(scene), tolerance_(scene.chooser.tolerance) {
+  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  fluid_density_ = fluid.density;
+  viscosity_ = fluid.viscosity;
+  for (const EffectRow& row : choose(scene).rows) {
+    if (!row.summed) continue;
+    const bool has_law = row.models.find(model) != std::string::npos && row.not_built.empty();
+    if (has_law && core::law_of(scene, row.effect) != "none") continue;
+    const bool evaluated = row.effect == "lift" || row.effect == "magnus" || row.effect == "cohesion";
+    if (!evaluated) {
+      if (row.value.value_or(0) > 1e-3 * tolerance_) not_evaluated_.push_back(row.effect);
+      continue;
+    }
+    Observed one;
+    one.effect = row.effect;
+    one.bound = std::max(row.value.value_or(0), row.band ? row.band->most : 0);
+    observed_.push_back(one);
+  }
+  Observed sum;
+  sum.effect = "sum";
+  for (const Observed& one : observed_) sum.bound += one.bound;
+  observed_.push_back(sum);
+}
+
+std::optional<double> Neglected::share_of(const std::string& effect, const Encounter& met) const {
+  const core::Species& s = scene_.species[met.species];
+  const double weight = closures::buoyant_weight(s.diameter, s.density, fluid_density_, scene_.column.gravity);
+  if (!(weight > 0)) return std::nullopt;
+  if (effect == "cohesion") {
+    const Surfaces surfaces = surfaces_of(scene_, fluid_density_ < 100);
+    return closures::van_der_waals_relevance(surfaces.hamaker, surfaces.roughness, weight);
+  }
+  const double speed = std::sqrt(closures::dot(met.slip, met.slip));
+  if (fluid_density_ * speed * s.diameter / viscosity_ > greatest_reynolds) return std::nullopt;
+  closures::Vec3 force{};
+  if (effect == "lift") {
+    force = closures::lift_saffman_mei(met.slip, met.vorticity, s.diameter, fluid_density_, viscosity_);
+  } else {
+    const closures::Vec3 relative =
+        met.spin ? closures::spin_relative_to_fluid(*met.spin, met.vorticity) : 0.5 * met.vorticity;
+    force = closures::magnus_rubinow_keller(met.slip, relative, s.diameter, fluid_density_, viscosity_);
+  }
+  return std::sqrt(closures::dot(force, force)) / weight;
+}
+
+void Neglected::see(const Encounter& met) {
+  double sum = 0;
+  for (std::size_t n = 0; n + 1 < observed_.size(); ++n) {
+    if (const auto share = share_of(observed_[n].effect, met)) {
+      observed_[n].add(*share, met, tolerance_);
+      sum += *share;
+    } else {
+      ++observed_[n].outside;
+    }
+  }
+  observed_.back().add(sum, met, tolerance_);
+}
+
+void Neglected::gather(const core::Ranks* ranks) {
+  if (ranks == nullptr) return;
+  for (Observed& one : observed_) {
+    one.bins.resize(bins);
+    std::vector<std::int64_t> counts(one.bins.begin(), one.bins.end());
+    counts.insert(counts.end(), {std::int64_t(one.count), std::int64_t(one.outside), std::int64_t(one.above)});
+    core::add_over_ranks(ranks, counts);
+    std::copy_n(counts.begin(), bins, one.bins.begin());
+    one.count = std::uint64_t(counts[bins]);
+    one.outside = std::uint64_t(counts[bins + 1]);
+    one.above = std::uint64_t(counts[bins + 2]);
+    const bool mine = ranks->rank() == core::rank_of_greatest(ranks, one.greatest);
+    std::array<double, 5> where{};
+    if (mine) where = {one.greatest, one.time, one.place[0], one.place[1], one.place[2]};
+    core::add_over_ranks(ranks, where);
+    one.greatest = where[0];
+    one.time = where[1];
+    one.place = {where[2], where[3], where[4]};
+  }
+}
+
+std::string neglected_table(const Neglected& neglected) {
+  std::string text = fmt::format("{:12} {:>9} {:>9} {:>9} {:>10} {:>12}  {}\n", "left out", "bound", "greatest",
+                                 "99 % below", "above tol.", "out of range", "greatest at");
+  for (const Observed& o : neglected.observed())
+    text += fmt::format("{:12} {:9.2g} {:9.2g} {:9.2g} {:9.2g}% {:11.2g}%  ({:.4g}, {:.4g}, {:.4g}) m, t = {:.4g} s\n",
+                        o.effect, o.bound, o.greatest, o.count > 0 ? o.percentile() : 0.0,
+                        100.0 * double(o.above) / double(std::max<std::uint64_t>(o.count, 1)),
+                        100.0 * double(o.outside) / double(std::max<std::uint64_t>(o.count + o.outside, 1)), o.place[0],
+                        o.place[1], o.place[2], o.time);
+  if (!neglected.not_evaluated().empty())
+    text += fmt::format("not evaluated: {}\n", fmt::join(neglected.not_evaluated(), ", "));
+  return text;
+}
+
+void write_neglected(core::Json& json, const Neglected& neglected) {
+  json.key("promise").begin_object().member("tolerance", neglected.tolerance()).member("kept", neglected.kept());
+  json.key("observed").begin_array();
+  for (const Observed& o : neglected.observed()) {
+    json.begin_object().member("effect", o.effect).member("bound", o.bound).member("greatest", o.greatest);
+    json.member("percentile_99", o.count > 0 ? o.percentile() : 0.0).member("encounters", o.count);
+    json.member("above_tolerance", o.above).member("out_of_range", o.outside).member("time_s", o.time);
+    json.key("place_m").begin_array();
+    for (const double x : o.place) json.value(x);
+    json.end_array().end_object();
+  }
+  json.end_array().key("not_evaluated").begin_array();
+  for (const std::string& effect : neglected.not_evaluated()) json.value(effect);
+  json.end_array().end_object();
+}
+
+}  // namespace polybed::multiscale

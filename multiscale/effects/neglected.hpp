@@ -1,0 +1,75 @@
+// The forces that a run leaves out, evaluated where its particles are: for the audit of stored states and for the
+// monitor of a running one, by the closures that the choice was made with.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "closures/vec3.hpp"
+#include "core/json.hpp"
+#include "core/ranks.hpp"
+#include "core/scene.hpp"
+#include "multiscale/effects/choice.hpp"
+
+namespace polybed::multiscale {
+
+/// What a particle meets, or the particles of a species in a cell.
+struct Encounter {
+  std::size_t species = 0;
+  closures::Vec3 slip{}, vorticity{};  ///< u_f - v, m/s; curl u_f, 1/s
+  std::optional<closures::Vec3>
+      spin;                       ///< of a particle, 1/s; of a continuum not known: it differs by half the vorticity
+  std::array<double, 3> place{};  ///< m
+  double time = 0;                ///< s
+};
+
+/// One neglected force, or their sum.
+struct Observed {
+  std::string effect;
+  double bound = 0;                 ///< that it was left out with
+  std::uint64_t count = 0;          ///< encounters within the closure's range
+  std::uint64_t outside = 0;        ///< beyond it: not counted otherwise
+  std::uint64_t above = 0;          ///< beyond the tolerance
+  double greatest = 0, time = 0;    ///< share of the weight, and when
+  std::array<double, 3> place{};    ///< and where
+  std::vector<std::uint64_t> bins;  ///< of the logarithm
+
+  void add(double share, const Encounter& met, double tolerance);
+  /// Of all that was seen: 99 of 100 are below, to a twentieth of a decade.
+  [[nodiscard]] double percentile() const;
+};
+
+class Neglected {
+ public:
+  /// \param model  "tfm" or "dem": what a model has no law of is left out whatever the case says
+  Neglected(const core::Scene& scene, const std::string& model);
+
+  void see(const Encounter& met);
+  /// Of all ranks. Collective.
+  void gather(const core::Ranks* ranks);
+
+  /// The forces that can be evaluated, and last their sum.
+  [[nodiscard]] const std::vector<Observed>& observed() const { return observed_; }
+  [[nodiscard]] const Observed& sum() const { return observed_.back(); }
+  /// What cannot: history and added mass need accelerations.
+  [[nodiscard]] const std::vector<std::string>& not_evaluated() const { return not_evaluated_; }
+  [[nodiscard]] double tolerance() const { return tolerance_; }
+  /// Whether 99 of 100 encounters keep the promise; greater extremes are told, not held against it.
+  [[nodiscard]] bool kept() const { return sum().percentile() <= tolerance_; }
+
+ private:
+  [[nodiscard]] std::optional<double> share_of(const std::string& effect, const Encounter& met) const;
+
+  core::Scene scene_;
+  double fluid_density_ = 0, viscosity_ = 0, tolerance_;
+  std::vector<Observed> observed_;
+  std::vector<std::string> not_evaluated_;
+};
+
+/// A table of bound against observed, and the same as members "promise" of an open object.
+[[nodiscard]] std::string neglected_table(const Neglected& neglected);
+void write_neglected(core::Json& json, const Neglected& neglected);
+
+}  // namespace polybed::multiscale

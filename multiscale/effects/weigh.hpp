@@ -1,0 +1,28 @@
+// The numbers that decide, effect by effect, over the situations of a scene: the rows of the table before a decision.
+#pragma once
+
+#include <vector>
+
+#include "core/scene.hpp"
+#include "multiscale/effects/effect_row.hpp"
+#include "multiscale/effects/situation.hpp"
+
+namespace polybed::multiscale {
+
+/// What the numbers rest on beside the situations.
+struct Surfaces {
+  double roughness, hamaker;  ///< m, J
+};
+[[nodiscard]] Surfaces surfaces_of(const core::Scene& scene, bool gas);
+
+/// Forces on particles: added mass, history, lift, magnus, brownian, gas_slip, lubrication, cohesion.
+[[nodiscard]] std::vector<EffectRow> weigh_forces(const core::Scene& scene, const Survey& survey);
+
+/// Drag, and what acts between cells, species and contacts: fluid_stress, solids_stress, granular_temperature,
+/// solids_viscosity, species_exchange, contact, rolling.
+[[nodiscard]] std::vector<EffectRow> weigh_phases(const core::Scene& scene, const Survey& survey);
+
+/// What is no role: weight, pressure gradient, equation of state, coupling, walls, level; and what is not modelled.
+[[nodiscard]] std::vector<EffectRow> weigh_conditions(const core::Scene& scene, const Survey& survey);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "closures/gas_slip.hpp"
+#include "closures/relevance.hpp"
+#include "closures/terminal_velocity.hpp"
+#include "multiscale/effects/supremum.hpp"
+#include "multiscale/effects/weigh.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using State = EffectRow::State;
+
+/// Beyond it lift and spin forces are no more than known by their order, also in sign.
+constexpr double greatest_certain_reynolds = 100;
+/// Specific gas constant of air, J/(kg K); that of other gases differs by their molar mass.
+constexpr double air_constant = 287.05;
+constexpr double room_temperature = 293.15;  ///< K, where the case names none
+
+EffectRow force_row(const char* effect, const char* model, const char* number, double tolerance) {
+  EffectRow row;
+  row.effect = effect;
+  row.model = model;
+  row.number = number;
+  row.threshold = tolerance;
+  row.summed = true;
+  return row;
+}
+
+/// A force as a share of the reference, whose law is trusted up to a Reynolds number of the slip.
+template <class Relevance>
+EffectRow weigh_sheared(EffectRow row, const Survey& survey, Relevance&& of_slip) {
+  Supremum greatest;
+  for (const Situation& s : survey.situations) {
+    // The share of the lift falls with the slip: its greatest lies within the range, from a fifth of it.
+    double value = 0;
+    for (int n = 0; n < 33; ++n) value = std::max(value, of_slip(s, s.slip * (0.2 + 0.8 * n / 32)));
+    if (s.particle_reynolds() > greatest_certain_reynolds)
+      greatest.add_uncertain(s, {0, value});
+    else
+      greatest.add(s, value);
+  }
+  greatest.fill(row);
+  return row;
+}
+
+EffectRow added_mass(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = force_row("added_mass", "zuber", "C_m s/(1 + C_m s)", scene.chooser.tolerance);
+  row.models = "dem";
+  Supremum greatest;
+  double ratio = 0;
+  for (const Situation& s : survey.situations) {
+    const double density_ratio = s.fluid_density / s.density;
+    ratio = std::max(ratio, density_ratio);
+    greatest.add(s, closures::added_mass_relevance(closures::added_mass_zuber(1 - s.voidage), density_ratio));
+  }
+  greatest.fill(row);
+  if (ratio >= 1) {
+    row.state = State::on;
+    row.reason = fmt::format("always with a fluid as dense as the particles or denser (s = {:.3g})", ratio);
+  }
+  return row;
+}
+
+EffectRow history(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = force_row("history", "basset", "Basset force over weight", scene.chooser.tolerance);
+  row.models = "dem";
+  Supremum greatest;
+  for (const Situation& s : survey.situations) {
+    const double value =
+        closures::history_relevance(s.diameter, s.fluid_density, s.viscosity, s.slip, s.time(), s.reference());
+    if (s.particle_reynolds() > 1)
+      greatest.add_uncertain(s, {closures::history_relevance_least(s.diameter, s.fluid_density, s.viscosity, s.slip,
+                                                                   s.time(), s.reference()),
+                                 value});
+    else
+      greatest.add(s, value);
+  }
+  greatest.fill(row);
+  return row;
+}
+
+EffectRow lift(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = force_row("lift", "saffman_mei", "lift over weight", scene.chooser.tolerance);
+  row.models = "dem";
+  return weigh_sheared(row, survey, [](const Situation& s, double slip) {
+    return closures::lift_relevance(s.diameter, s.fluid_density, s.viscosity, slip, s.shear, s.reference());
+  });
+}
+
+EffectRow magnus(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = force_row("magnus", "rubinow_keller", "Magnus force over weight", scene.chooser.tolerance);
+  row.models = "dem";
+  return weigh_sheared(row, survey, [](const Situation& s, double slip) {
+    return closures::magnus_relevance(s.diameter, s.fluid_density, s.viscosity, slip, 0.5 * s.shear, s.reference());
+  });
+}
+
+EffectRow brownian(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = force_row("brownian", "langevin", "1/Pe", scene.chooser.tolerance);
+  row.models = "dem";
+  row.not_built = "no law of it in this version";
+  Supremum greatest;
+  const auto drag = [](double, double re) { return closures::DragSchillerNaumann{}(1, re).f; };
+  for (const Situation& s : survey.situations) {
+    const double terminal = closures::terminal_velocity(drag, s.diameter, std::abs(s.density - s.fluid_density),
+                                                        s.fluid_density, s.viscosity, s.gravity);
+    const double falling = terminal > 0 ? terminal : s.slip;
+    const double temperature = s.temperature > 0 ? s.temperature : room_temperature;
+    greatest.add(s, closures::brownian_relevance(temperature, s.viscosity, s.diameter, falling));
+  }
+  greatest.fill(row);
+  return row;
+}
+
+EffectRow gas_slip(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = force_row("gas_slip", "cunningham", "1.257 Kn", scene.chooser.tolerance);
+  row.summed = false;  // it changes the drag, whose error is told apart
+  row.not_built = "no law of it in this version";
+  if (!survey.is_gas) {
+    row.neglected = 0;
+    row.reason = "a liquid does not slip";
+    return row;
+  }
+  Supremum greatest;
+  for (const Situation& s : survey.situations)
+    greatest.add(s, closures::gas_slip_relevance(
+                        closures::mean_free_path(s.fluid_density, s.viscosity,
+                                                 s.temperature > 0 ? s.temperature : room_temperature, air_constant),
+                        s.diameter));
+  greatest.fill(row);
+  return row;
+}
+
+EffectRow lubrication(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = force_row("lubrication", "wet_restitution", "least St*", 35 / scene.chooser.tolerance);
+  row.models = "dem";
+  row.summed = false;
+  row.below = true;
+  double most = 0;
+  for (const Situation& s : survey.situations) {
+    const auto stokes = [&](double speed) {
+      return closures::stokes_of_impact(s.density, s.fluid_density, s.diameter, speed, s.viscosity);
+    };
+    const double least = stokes(0.2 * s.slip);
+    most = std::max(most, stokes(s.slip));
+    if (!row.value || least < *row.value) {
+      row.value = least;
+      row.where = s.species + ", " + s.zone;
+    }
+    auto& zone = row.zones.try_emplace(s.zone, least).first->second;
+    zone = std::min(zone, least);
+  }
+  row.number = fmt::format("least St* (greatest {:.2g})", most);
+  return row;
+}
+
+EffectRow cohesion(const core::Scene& scene, const Survey& survey) {
+  const Surfaces surfaces = surfaces_of(scene, survey.is_gas || !survey.has_fluid);
+  EffectRow row = force_row("cohesion", "van_der_waals", "pull of rough surfaces over weight", scene.chooser.tolerance);
+  row.models = "dem";
+  Supremum greatest;
+  const auto pull = [&](double reference) {
+    return closures::van_der_waals_relevance(surfaces.hamaker, surfaces.roughness, reference);
+  };
+  for (const Situation& s : survey.situations) greatest.add(s, pull(s.reference()));
+  if (!survey.has_fluid && scene.column.gravity > 0)
+    for (const core::Species& species : scene.species) {
+      Situation dry;
+      dry.species = species.name;
+      dry.zone = "packed";
+      greatest.add(dry, pull(closures::buoyant_weight(species.diameter, species.density, 0, scene.column.gravity)));
+    }
+  greatest.fill(row);
+  return row;
+}
+
+}  // namespace
+
+Surfaces surfaces_of(const core::Scene& scene, bool gas) {
+  const double known = scene.dem.hamaker_constant;
+  return {scene.chooser.roughness.value_or(scene.dem.roughness),
+          scene.chooser.hamaker.value_or(known > 0 ? known : (gas ? 1e-19 : 1e-20))};
+}
+
+std::vector<EffectRow> weigh_forces(const core::Scene& scene, const Survey& survey) {
+  return {added_mass(scene, survey), history(scene, survey),  lift(scene, survey),        magnus(scene, survey),
+          brownian(scene, survey),   gas_slip(scene, survey), lubrication(scene, survey), cohesion(scene, survey)};
+}
+
+}  // namespace polybed::multiscale

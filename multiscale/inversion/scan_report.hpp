@@ -1,0 +1,55 @@
+// What a scan for the inversion velocity has found, by one model or by both: as a table and as inversion.json.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "multiscale/inversion/models.hpp"
+#include "multiscale/inversion/scan.hpp"
+
+namespace polybed::multiscale {
+
+/// A run of a scan with what its folder tells.
+struct RunOfScan {
+  std::filesystem::path directory;
+  bool reused = false;  ///< finished before
+  ScanMean mean;
+  double bed_height = 0, bed_height_error = 0;  ///< time mean and half-width, m
+  double begin = 0, end = 0;                    ///< of the window, s
+  double cpu_seconds = 0;
+  std::string integrator;
+  std::vector<std::string> drifts;  ///< what is not steady
+};
+
+struct ScanOfModel {
+  std::string model;  ///< tfm | dem
+  ScanResult result;
+  std::vector<RunOfScan> runs;  ///< as in the result
+};
+
+/// Whether the models agree: relative difference of the velocities, against the greater of 5 % and half of what both
+/// are unknown by (calibration.md, section 8). Empty unless both have found one.
+struct ScanAgreement {
+  double difference = 0, error = 0, goal = 0.05;
+};
+[[nodiscard]] std::optional<ScanAgreement> agreement_of(const std::vector<ScanOfModel>& scans);
+
+struct ScanRequest {
+  std::string case_file, case_hash;  ///< of the case without what a scan varies
+  std::vector<std::string> overrides, species;
+  std::filesystem::path directory;
+  std::optional<InversionPoint> force_balance;
+};
+
+/// inversion.json.
+[[nodiscard]] std::string scan_json(const std::vector<ScanOfModel>& scans, const ScanRequest& request);
+
+/// The head of the table, its line of a run, and what was found.
+[[nodiscard]] std::string scan_head();
+[[nodiscard]] std::string scan_line(const std::string& model, const ScanRun& run, const RunOfScan& of_run,
+                                    const std::optional<double>& from);
+[[nodiscard]] std::string scan_findings(const std::vector<ScanOfModel>& scans, const ScanRequest& request);
+
+}  // namespace polybed::multiscale

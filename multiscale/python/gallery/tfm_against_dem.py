@@ -1,0 +1,24 @@
+#!/usr/bin/python3
+"""One case by both models: what differs, in numbers and on a page to send to a colleague.
+
+    PYTHONPATH=multiscale/python /usr/bin/python3 multiscale/python/gallery/tfm_against_dem.py [CASE] [-o DIR] [--short]
+"""
+
+from common import options, plt, save
+
+import polybed
+from polybed.drawing.comparison import draw_history
+
+chosen = options(__doc__, "small-binary")
+short = {"until": "20 ms", "overrides": {"output.every": "1 ms", "output.history_every": "0.2 ms"}}
+folder = chosen.output / "both"
+found = polybed.compare(chosen.case, output=folder, page=True, **(short if chosen.short else {}))
+
+for name, measure in found["measures"].items():
+    print(f"{name:28} two-fluid {measure['tfm'] or 0:10.4g}   particles {measure['dem'] or 0:10.4g}")
+for name in ("e_H", "e_b", "D1"):
+    score = found["scores"][name]
+    print(f"{name:28} {score['value']:.3f}, goal {score['goal']}: {'reached' if score['reached'] else 'missed'}")
+runs = {model: polybed.read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
+save(draw_history(runs, found["window"]), chosen.output, "tfm-against-dem.png")
+print(folder / "comparison.html")

@@ -1,0 +1,87 @@
+"""Numbers with their unit: what a run holds, by name."""
+
+import numpy as np
+
+# Units by the end of a column's name, longest first.
+ENDINGS = {"_m": "m", "_s": "s", "_Pa": "Pa", "_J": "J", "_kg": "kg", "_N": "N"}
+# Units of fields, profiles and particles by the beginning of their name.
+BEGINNINGS = {"phi_": "1", "voidage": "1", "u_": "m/s", "theta_": "m2/s2", "total_pressure": "Pa", "pressure": "Pa",
+              "density": "kg/m3", "position": "m", "radius": "m", "velocity": "m/s", "spin": "1/s"}
+
+
+class Quantity:
+    """An array with its unit and the times of its first axis; numpy takes it as the array."""
+
+    def __init__(self, values, unit, time):
+        self.values, self.unit, self.time = np.asarray(values), unit, np.asarray(time)
+
+    def __array__(self, *arguments, **options):
+        return np.asarray(self.values, *arguments, **options)
+
+    def __len__(self):
+        return len(self.values)
+
+    def __getitem__(self, item):
+        return self.values[item]
+
+    def __repr__(self):
+        return f"Quantity of shape {self.values.shape} in {self.unit}"
+
+    def last(self, share=0.25):
+        """Mean and standard deviation over the last part of the time, a quarter, in its unit."""
+        late = self.values[self.time >= self.time[-1] - share * (self.time[-1] - self.time[0])]
+        return late.mean(axis=0), late.std(axis=0)
+
+
+def unit_of_column(name):
+    """Unit of a column of the history; "1" for what has none, as a number of contacts."""
+    for ending, unit in ENDINGS.items():
+        if name.endswith(ending):
+            return unit
+    return "1"
+
+
+def unit_of_field(name):
+    if name == "p":
+        return "Pa"
+    for beginning, unit in BEGINNINGS.items():
+        if name.startswith(beginning):
+            return unit
+    return "1"
+
+
+def find(run, name, source=None):
+    """A quantity of a run: of its history, where the unit at the end of a column's name may be left out ("bed_height"), of its
+    profiles, or of its fields. The first that has it, unless a source is named."""
+    found = {"history": of_history, "profiles": of_profiles, "fields": of_fields}
+    if source is not None and source not in found:
+        raise KeyError(f"there is no {source}; there are {', '.join(found)}")
+    for key, look in found.items():
+        quantity = look(run, name) if source in (None, key) else None
+        if quantity is not None:
+            return quantity
+    raise KeyError(f"{run.directory} holds no {name}; it holds {', '.join(names(run))}")
+
+
+def of_history(run, name):
+    history = run.history
+    for column in [name, *(name + ending for ending in ENDINGS)]:
+        if column in history:
+            return Quantity(history[column], unit_of_column(column), history["time_s"])
+    return None
+
+
+def of_profiles(run, name):
+    profiles = run.profiles
+    if name not in profiles or name in ("time_s", "y_m"):
+        return None
+    return Quantity(profiles[name], unit_of_field(name), profiles["time_s"])
+
+
+def of_fields(run, name):
+    return Quantity(run.field(name)[:], unit_of_field(name), run.time) if name in run.fields else None
+
+
+def names(run):
+    """What find() knows of a run."""
+    return sorted({*run.history, *run.profiles, *run.fields} - {"y_m"})

@@ -1,0 +1,96 @@
+"""Draws inversion.json of a scan, what `polybed inversion --scan` hands over to.
+
+    python3 -m polybed.scan DIR
+
+Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+try:
+    import matplotlib.pyplot as plt
+    import numpy as np
+
+    from polybed.drawing.style import COLOURS, GREY, PALE, STYLE
+    from polybed.plot import save
+    from polybed.read import FormatError, check_kind
+except ImportError as missing:
+    if (missing.name or "").startswith("polybed"):
+        raise
+    if __name__ == "__main__":
+        print(f"Python's package {missing.name} is missing, which the picture needs: "
+              "apt-get install python3-numpy python3-h5py python3-matplotlib", file=sys.stderr)
+        sys.exit(4)
+    raise
+
+NO_FILE = 4
+NAMES = {"tfm": "two-fluid", "dem": "particles"}
+
+
+def read_scan(directory):
+    """inversion.json of a folder, as a dictionary."""
+    path = Path(directory) / "inversion.json"
+    found = json.loads(path.read_text())
+    check_kind(found, "polybed inversion", path)
+    return found
+
+
+def columns(scan):
+    """Velocities in mm/s, means and half-widths of a model's runs, by rising velocity."""
+    rows = sorted((run["velocity_m_s"] * 1e3, run["centre_difference"], run["error"]) for run in scan["runs"])
+    return np.array(rows).T
+
+
+def known(scan):
+    """Between which velocities the inversion lies: the bracket where it is narrow, else the interval by the noise, m/s."""
+    if scan["outcome"] == "bracket":
+        return scan["low_m_s"], scan["high_m_s"]
+    return scan["velocity_m_s"] - scan["error_m_s"], scan["velocity_m_s"] + scan["error_m_s"]
+
+
+def draw(found):
+    """Mean difference of the centres over the velocity, by each model, with what was found."""
+    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    for n, (model, scan) in enumerate(found["models"].items()):
+        velocity, value, error = columns(scan)
+        label = NAMES[model]
+        if scan["velocity_m_s"] is not None:
+            low, high = known(scan)
+            axes.axvspan(low * 1e3, high * 1e3, color=COLOURS[n], alpha=0.15, linewidth=0)
+            label += f": {scan['velocity_m_s'] * 1e3:.3g} mm/s"
+        axes.errorbar(velocity, value, error, color=COLOURS[n], marker="os"[n % 2], markersize=4, linewidth=1, capsize=2,
+                      label=label)
+    axes.axhline(0, color=PALE, linewidth=0.8, zorder=0)
+    balance = found["force_balance"]
+    if balance:
+        axes.axvline(balance["velocity_m_s"] * 1e3, color=GREY, linestyle=":", linewidth=1,
+                     label=f"force balance: {balance['velocity_m_s'] * 1e3:.3g} mm/s")
+    first, second = found["species"]
+    axes.set_xlabel("superficial velocity (mm/s)")
+    axes.set_ylabel(f"centre of {second} less that of {first}, over the bed height")
+    axes.legend(fontsize=8)
+    return figure
+
+
+def picture(directory, output=None):
+    """Draws a scan into its folder as inversion.png, or where one says, and returns the path."""
+    with plt.rc_context(STYLE):
+        return save(draw(read_scan(directory)), Path(output) if output else Path(directory) / "inversion.png")
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="polybed.scan", description="Draws a scan for the inversion velocity.")
+    parser.add_argument("directory", help="folder of inversion.json")
+    try:
+        print(picture(parser.parse_args(arguments).directory))
+    except (OSError, FormatError) as error:
+        print(f"no picture: {error}", file=sys.stderr)
+        return NO_FILE
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

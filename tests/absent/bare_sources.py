@@ -1,0 +1,30 @@
+#!/usr/bin/python3
+"""Writes the registries of the particle model without lift and cohesion: bare_sources.py ROOT OUTPUT_FOLDER."""
+import pathlib
+import re
+import sys
+
+
+def without(text, pattern, count):
+    """The text without what a pattern matches, which has to be there: a registry that has changed must not go unread."""
+    text, found = re.subn(pattern, "", text, flags=re.M | re.S)
+    assert found == count, f"{found} matches, not {count}: {pattern}"
+    return text
+
+
+def bare_side_forces(text):
+    text = without(text, r'^#include "dem/effects/lift\.hpp"\n', 1)
+    return without(text, r'^  if \(calls_for\(scene, "lift"\)\).*?;\n', 1)
+
+
+def bare_effects(text):
+    text = without(text, r'^#include "dem/effects/cohesion\.hpp"\n', 1)
+    text = without(text, r"^std::unique_ptr<CohesionLaw> make_cohesion\(.*?^}\n", 1)
+    return without(text, r"^  laws\.cohesion = .*?;\n", 1)
+
+
+if __name__ == "__main__":
+    root, output = map(pathlib.Path, sys.argv[1:3])
+    output.mkdir(parents=True, exist_ok=True)
+    for name, bare in (("side_forces", bare_side_forces), ("effects", bare_effects)):
+        (output / f"bare_{name}.cpp").write_text(bare((root / "dem" / f"{name}.cpp").read_text()))

@@ -1,0 +1,52 @@
+// A small scene without lift and cohesion, to be counted instruction by instruction: built once with the whole particle
+// model, and once bare, without the files of those effects and their lines in the registries. What it prints is what an
+// absent effect must not change.
+#include <fmt/format.h>
+
+#include "absent/control.hpp"
+#include "core/case_file.hpp"
+#include "core/timers.hpp"
+#include "dem/model.hpp"
+
+namespace {
+
+using namespace polybed;
+
+const char* const text = R"(
+title = "absent"
+column = { size = ["6 mm", "4 mm", "10 mm"], cells = [3, 2, 5] }
+fluid = { name = "water", temperature = "20 degC" }
+bed = { volume_share = [1], static_height = "2 mm", solids_fraction = 0.5, start_solids_fraction = 0.35 }
+inlet = { superficial_velocity = "20 mm/s" }
+effects = { contact = "hertz_mindlin", lubrication = "wet_restitution" }
+run = { until = "1 s" }
+dem = { start_speed = "0.2 m/s", greatest_speed = "2 m/s" }
+[[species]]
+name = "beads"
+diameter = "1 mm"
+density = 2500
+)";
+
+std::size_t bytes_of(const core::Checkpoint& checkpoint) {
+  std::size_t bytes = 0;
+  for (const auto& [name, array] : checkpoint.arrays) bytes += name.size() + array.size() * sizeof(double);
+  bytes += checkpoint.numbers.size() * sizeof(double) + checkpoint.integers.size() * sizeof(std::int64_t);
+  return bytes;
+}
+
+}  // namespace
+
+int main() {
+  core::Scene scene = core::parse_case(text, "absent", {}, dem::roles());
+  scene.effects["drag"] = "cello";
+  core::Timers timers;
+  dem::Model model(scene, timers);
+  for (int n = 0; n < 60; ++n) model.step(1e300);
+  fmt::print("reach {}\ncontact memory {}\nside rows {}\nvorticity {}\n", model.laws().reach(),
+             model.laws().memory_size(), model.coupling()->sides().rows().width,
+             model.coupling()->sides().needs_vorticity());
+  for (const dem::StepLimit& limit : model.limits().all) fmt::print("limit {} {}\n", limit.name, limit.dt);
+  fmt::print("contact steps {}\n", model.work().contact_steps);
+  fmt::print("checkpoint {}\n", bytes_of(model.checkpoint()));
+  fmt::print("control {}\n", absent::control_kernel(1000));
+}

@@ -1,0 +1,179 @@
+#!/usr/bin/python3
+"""Which effects a scene calls for, as a user asks and gets told; and a case that leaves them to the program."""
+import program
+from program import CASE, DONE, NUMBERS, WRONG_CASE, Scratch, datasets, same_bits, strict_json
+
+# Three seconds of settling take a second; a few hundred particles in water.
+BEADS = """title = "beads in water"
+[column]
+size = ["12 mm", "60 mm"]
+cells = [6, 30]
+[fluid]
+name = "water"
+temperature = "20 degC"
+[[species]]
+name = "beads"
+diameter = "1 mm"
+density = 2500
+[bed]
+volume_share = [1]
+static_height = "12 mm"
+solids_fraction = 0.6
+[inlet]
+superficial_velocity = "30 mm/s"
+[run]
+until = "0.05 s"
+[output]
+every = "0.05 s"
+"""
+KEYS = {"effect", "model", "on", "number", "value", "threshold", "neglected_bound", "reason"}
+CATALOGUE = {"drag", "added_mass", "history", "lift", "magnus", "brownian", "gas_slip", "fluid_stress", "solids_stress",
+             "granular_temperature", "species_exchange", "contact", "rolling", "lubrication", "cohesion", "weight",
+             "pressure_gradient", "equation_of_state", "coupling", "walls", "level", "turbulence", "clusters",
+             "temperature", "charge", "sintering"}
+
+
+class Table(Scratch):
+    def table(self, case, *words):
+        answer = strict_json(self.ends(DONE, "effects", case, "--json", *words).stdout)
+        return answer, {row["effect"]: row for row in answer["effects"]}
+
+    def test_every_row_of_the_catalogue_has_its_reason(self):
+        answer, rows = self.table(CASE)
+        self.assertLessEqual(CATALOGUE, set(rows))
+        for row in answer["effects"]:
+            self.assertLessEqual(KEYS, set(row))
+            self.assertTrue(row["reason"], row["effect"])
+        self.assertLessEqual(answer["neglected_sum"], 0.02)
+        text = self.ends(DONE, "effects", CASE).stdout
+        for effect in CATALOGUE:
+            self.assertIn(f"\n{effect} ", "\n" + text)
+
+    def test_missing_data_are_said_to_be_unknown(self):
+        rows = self.table(CASE)[1]
+        self.assertIsNone(rows["charge"]["on"])
+        self.assertIn("unknown: needs charge", rows["charge"]["reason"])
+        self.assertIsNotNone(self.table(CASE, "--set", "chooser.charge=1e-12")[1]["charge"]["value"])
+
+    def test_ranges_widen_and_tolerance_decides(self):
+        case = self.write("beads.toml", BEADS)
+        narrow, wide = self.table(case)[1], self.table(case, "--set", 'chooser.velocity_range=["0 mm/s", "2 m/s"]')[1]
+        self.assertGreater(wide["lift"]["zones"]["freeboard"], narrow["lift"]["zones"]["freeboard"])
+        strict, strict_rows = self.table(case, "--set", "chooser.tolerance=1e-4")
+        self.assertTrue(strict_rows["lift"]["on"] or "band" in strict_rows["lift"])
+        transient = self.table(case, "--set", "chooser.purpose=transient")[1]
+        self.assertTrue(transient["added_mass"]["on"])
+        self.assertFalse(self.table(case)[1]["added_mass"]["on"])
+
+    def test_zones_can_be_chosen(self):
+        rows = self.table(CASE, "--set", 'chooser.zones=["wall"]')[1]
+        self.assertEqual(list(rows["lift"]["zones"]), ["wall"])
+
+    def test_what_is_wrong_is_told(self):
+        done = self.ends(WRONG_CASE, "effects", CASE, "--set", 'chooser.velocity_range=["5 mm/s", "1 mm/s"]')
+        self.assertIn("chooser.velocity_range", done.stderr)
+
+    def test_roles_that_contradict_each_other_are_told_with_both_lines(self):
+        case = self.write("wrong.toml", BEADS + '[effects]\ncontact = "hertz"\ndrag = "cello"\nmagnus = "rubinow_keller"\n')
+        line = len(BEADS.splitlines()) + 2
+        for command in ("effects", "check", "dem"):
+            told = self.ends(WRONG_CASE, command, case).stderr
+            self.assertIn(f"wrong.toml:{line}:1: effects.contact", told)
+            self.assertIn(f"wrong.toml:{line + 2}:1: effects.magnus", told)
+
+
+class Auto(Scratch):
+    def test_the_resolved_case_of_an_auto_run_gives_the_same_bits(self):
+        for model, files in (("tfm", ["fields.h5", "profiles.h5"]), ("dem", ["particles.h5", "fields.h5"])):
+            case = self.write("auto.toml", 'effects = "auto"\n' + BEADS)
+            first, second = self.folder / f"{model}-auto", self.folder / f"{model}-resolved"
+            self.ends(DONE, model, case, "-o", first, "--quiet", "--no-picture")
+            record = strict_json((first / "run.json").read_text())
+            resolved = self.write(f"{model}.toml", record["case"])
+            self.assertNotIn('"auto"', record["case"].split("[effects]")[1].split("[")[0])
+            self.assertIn('drag = "cello"', record["case"])
+            self.ends(DONE, model, resolved, "-o", second, "--quiet", "--no-picture")
+            for name in files:
+                self.assertEqual(same_bits(first / name, second / name), [], name)
+            self.assertEqual(record["case"], strict_json((second / "run.json").read_text())["case"])
+
+    def test_one_role_can_be_left_to_it(self):
+        case = self.write("one.toml", BEADS + '[effects]\ndrag = "ergun"\nlubrication = "auto"\ncontact = "hertz_mindlin"\n')
+        shown = self.ends(DONE, "check", case).stdout
+        self.assertIn('lubrication = "wet_restitution"', shown)
+        self.assertIn('drag = "ergun"', shown)
+        self.assertIn('chosen = ["lubrication"]', shown)
+
+
+# What the bed of beads has by hand; the spin of particles and the lift are left out.
+BY_HAND = BEADS + """[effects]
+drag = "cello"
+solids_stress = "frictional"
+contact = "hertz_mindlin"
+"""
+
+
+class Promise(Scratch):
+    def test_an_audit_holds_what_was_left_out_against_the_promise(self):
+        case = self.write("hand.toml", BY_HAND)
+        kept, broken = self.folder / "kept", self.folder / "broken"
+        # Of the same flow twice: a fifth of the weight is not left out, two hundredths are.
+        self.ends(DONE, "tfm", case, "-o", kept, "--quiet", "--until", "0.1 s", "--set", "chooser.tolerance=0.2")
+        self.ends(DONE, "tfm", case, "-o", broken, "--quiet", "--until", "0.1 s")
+        fine = strict_json(self.ends(DONE, "effects", "audit", kept, "--json").stdout)["promise"]
+        told = strict_json(self.ends(NUMBERS, "effects", "audit", broken, "--json").stdout)["promise"]
+        self.assertTrue(fine["kept"])
+        self.assertFalse(told["kept"])
+        for row in fine["observed"]:
+            self.assertLessEqual(row["greatest"], row["bound"], row["effect"])
+            self.assertGreater(row["encounters"], 50)
+        self.assertIn("broken", self.ends(NUMBERS, "effects", "audit", broken).stdout)
+
+    def test_an_auto_run_of_particles_keeps_its_promise(self):
+        case, run = self.write("auto.toml", 'effects = "auto"\n' + BEADS), self.folder / "run"
+        self.ends(DONE, "dem", case, "-o", run, "--quiet", "--no-picture")
+        self.assertTrue(strict_json((run / "run.json").read_text())["promise"]["kept"])
+        self.ends(DONE, "effects", "audit", run)
+
+    def ramp(self, name, monitor):
+        """The bed is weighed packed, where nothing shears; the inlet then lifts it."""
+        words = ["--set", 'chooser.zones=["packed"]', "--set", f"chooser.monitor={monitor}", "--set",
+                 "chooser.monitor_every=20", "--set", "chooser.monitor_sample=4", "--set", "chooser.tolerance=0.01",
+                 "--set", 'inlet.superficial_velocity=[["0 s", "1 mm/s"], ["0.05 s", "80 mm/s"]]']
+        case, run = self.write("ramp.toml", BY_HAND), self.folder / name
+        code = NUMBERS if monitor == "stop" else DONE
+        return self.ends(code, "dem", case, "-o", run, "--no-picture", *words), strict_json((run / "run.json").read_text()), run
+
+    def test_the_monitor_warns_stops_and_is_absent_when_off(self):
+        warned, record, run = self.ramp("warn", "warn")
+        lines = [line for line in warned.stderr.splitlines() if "neglected (bound" in line]
+        self.assertTrue(any(line.startswith("magnus") for line in lines), warned.stderr)
+        self.assertEqual(len(lines), len({line.split()[0] for line in lines}))  # each once
+        self.assertEqual([w for w in record["warnings"] if "neglected" in w], lines)
+        self.assertFalse(record["promise"]["kept"])
+        stopped, stopped_record, _ = self.ramp("stop", "stop")
+        self.assertIn("chooser.monitor", stopped.stderr)
+        self.assertLess(stopped_record["time_s"], 0.05)
+        _, off_record, off = self.ramp("off", "off")
+        self.assertNotIn("promise", off_record)
+        self.assertNotIn("monitor", off_record["timers"])
+        self.assertIn("monitor", record["timers"])
+        self.assertEqual(same_bits(run / "particles.h5", off / "particles.h5"), [])
+
+    def test_an_effect_without_strength_is_as_one_that_is_off(self):
+        case = self.write("hand.toml", BY_HAND)
+        runs = {"off": [], "weak": ["--set", "effects.cohesion=van_der_waals", "--set", "dem.hamaker_constant=1e-300"],
+                "history": ["--set", "effects.history=basset"]}
+        names = {}
+        for name, words in runs.items():
+            self.ends(DONE, "dem", case, "-o", self.folder / name, "--quiet", "--no-picture", "--until", "0.01 s",
+                      "--set", "column.depth=0.0025", *words)
+            names[name] = set(datasets(self.folder / name / "checkpoint.h5"))
+        self.assertEqual(same_bits(self.folder / "off/particles.h5", self.folder / "weak/particles.h5"), [])
+        # What an effect keeps is in the checkpoint of a run that has it, and of no other.
+        self.assertEqual(names["off"], names["weak"])
+        self.assertGreater(names["history"], names["off"])
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,113 @@
+#!/usr/bin/python3
+"""polybed inversion as its user meets it: the scan by runs, its table, file and picture, what is reused and what is refused.
+Usage: inversion_test.py PROGRAM"""
+import json
+import re
+
+import program
+from program import DONE, ROOT, WRONG_CASE, Scratch, history, strict_json
+
+CASE = ROOT / "cases/small-binary/case.toml"
+# On a coarse grid and for 0.8 s: enough to tell who is on top, not a result.
+SHORT = ["--set", "column.cells=[2,30]", "--set", "output.history_every=\"2 ms\"", "--set", "output.checkpoint_every=1", "--until",
+         "0.8 s", "--no-picture"]
+
+
+class Scan(Scratch):
+    def scan(self, code, *words, model="tfm", begin="30 mm/s"):
+        return self.ends(code, "inversion", CASE, "--scan", model, *SHORT, "--from", begin, "--to", "40 mm/s", "-o",
+                         self.folder / "scan", *words)
+
+    def runs(self):
+        return {path.name: (path / "run.json").stat().st_mtime_ns for path in (self.folder / "scan/tfm").iterdir()}
+
+    def test_a_scan_its_file_and_what_is_reused(self):
+        told = self.scan(DONE).stdout
+        found = strict_json((self.folder / "scan/inversion.json").read_text())
+        scan = found["models"]["tfm"]
+        lines = re.findall(r"(?m)^tfm +[0-9.]+ .*$", told)
+        self.assertEqual(len(lines), len(scan["runs"]))
+        first, second = scan["runs"][:2]
+        self.assertEqual((first["velocity_m_s"], first["from"], second["velocity_m_s"], second["from"]), (0.03, None, 0.04, 0))
+        for run in scan["runs"]:
+            self.means_are_those_of_its_history(run)
+            record = strict_json((self.folder / "scan" / run["directory"] / "run.json").read_text())
+            if run["from"] is not None:
+                source = scan["runs"][run["from"]]
+                self.assertIn(f"checkpoint:{source['directory']}/checkpoint.h5", record["case"])
+                ramp = json.loads(re.search(r"superficial_velocity = (\[\[.*\]\])", record["case"])[1])
+                self.assertEqual([ramp[0], ramp[1][1]], [[0, source["velocity_m_s"]], run["velocity_m_s"]])
+        before = self.runs()
+        self.assertEqual(len(before), len(scan["runs"]))
+        again = self.scan(DONE, "--json").stdout
+        self.assertEqual(self.runs(), before)  # nothing was run again
+        self.assertEqual(strict_json(again), found)
+        self.assertEqual(self.scan(DONE).stdout.count("finished before"), len(lines))
+
+    def means_are_those_of_its_history(self, run):
+        rows = history(self.folder / "scan" / run["directory"])
+        at = [n for n, t in enumerate(rows["time_s"]) if run["begin_s"] - 1e-9 <= t <= run["end_s"] + 1e-9]
+        self.assertGreaterEqual(run["begin_s"], 0.6 - 1e-9)  # the last quarter, or what is left of it
+        mean = sum((rows["centre_coarse_m"][n] - rows["centre_fine_m"][n]) / rows["bed_height_m"][n] for n in at) / len(at)
+        self.assertAlmostEqual(run["centre_difference"], mean, delta=1e-12)
+        self.assertAlmostEqual(run["bed_height_m"], sum(rows["bed_height_m"][n] for n in at) / len(at), delta=1e-12)
+
+    def test_what_was_killed_is_gone_on_with(self):
+        whole = strict_json(self.scan(DONE, "--json").stdout)
+        last = self.folder / "scan" / whole["models"]["tfm"]["runs"][-1]["directory"]
+        record = last / "run.json"
+        record.write_text(record.read_text().replace('"state": "done"', '"state": "running"'))
+        (last / "checkpoint.h5").unlink()
+        (last / "checkpoint.previous.h5").unlink(missing_ok=True)
+        again = strict_json(self.scan(DONE, "--json").stdout)
+        for model in (whole, again):
+            for run in model["models"]["tfm"]["runs"]:
+                del run["cpu_s"]
+            del model["models"]["tfm"]["cpu_s"]
+        self.assertEqual(again, whole)  # the same bits
+
+    def test_the_picture(self):
+        words = [word for word in SHORT if word != "--no-picture"]
+        self.ends(DONE, "inversion", CASE, "--scan", "tfm", *words, "--from", "30 mm/s", "-o", self.folder / "scan")
+        self.assertTrue((self.folder / "scan/inversion.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_refusals(self):
+        self.assertIn("--from", self.scan(WRONG_CASE, begin="3 mm").stderr)
+        self.assertIn("below", self.scan(WRONG_CASE, begin="50 mm/s").stderr)
+        self.assertIn("column.outlet", self.scan(WRONG_CASE, "--set", "column.outlet=open", model="both").stderr)
+        self.assertIn("history_every", self.scan(WRONG_CASE, "--set", "output.history_every=0.1").stderr)
+        self.ends(WRONG_CASE, "inversion", ROOT / "cases/van-wachem/case.toml", "--scan", "tfm")
+        self.assertIn("--from and --to", self.ends(
+            WRONG_CASE, "inversion", CASE, "--scan", "tfm", "--set", "species.coarse.density=2500").stderr)
+
+
+class WithoutARun(Scratch):
+    SYSTEM_B = ROOT / "cases/thesis-b/case.toml"
+
+    def test_all_methods_are_what_each_says_alone(self):
+        rows = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all", "--json").stdout)["methods"]
+        laws = [law["law"] for role in strict_json(self.ends(DONE, "list", "--json").stdout)["roles"] if role["role"] == "drag"
+                for law in role["laws"]]
+        self.assertEqual([row["law"] for row in rows if row["method"] == "force_balance"], laws)
+        self.assertEqual([row["method"] for row in rows if row["law"] is None], ["expansion", "density_maximum"])
+        for method, law in (("force_balance", "vbk_theory"), ("bulk_density", "di_felice"), ("density_maximum", None)):
+            alone = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--method", method, "--json",
+                                          *(["--law", law] if law else [])).stdout)
+            [row] = [row for row in rows if row["method"] == method and row["law"] == law]
+            self.assertEqual(row["roots"], alone["roots"])
+        # 37.3730 mm/s of tests/data/lbm/systems_ABC_macro.csv, for shares of 0.431 where these are of whole particles
+        [theory] = [row for row in rows if row["law"] == "vbk_theory" and row["method"] == "force_balance"]
+        self.assertAlmostEqual(theory["roots"][-1]["velocity_m_s"], 37.373e-3, delta=0.01 * 37.373e-3)
+        table = self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all").stdout
+        self.assertRegex(table, r"(?m)^force_balance +vbk_theory +37\.\d\d +0\.\d{4}$")
+
+    def test_law_and_temperature_reach_a_scan(self):
+        found = strict_json(self.ends(
+            DONE, "inversion", CASE, "--scan", "tfm", *SHORT, "--from", "33 mm/s", "--to", "45 mm/s", "--law", "vbk_theory", "--json",
+            "-o", self.folder / "scan").stdout)
+        self.assertIn('drag = "vbk_theory"',
+                      strict_json((self.folder / "scan" / found["models"]["tfm"]["runs"][0]["directory"] / "run.json").read_text())["case"])
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,126 @@
+#!/usr/bin/python3
+"""The Python package as a user's script meets it: runs, sweeps, comparisons and scans, the gallery, and the package as it is
+installed. Usage: python_test.py PROGRAM"""
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+import program
+from program import ROOT, WRONG_CASE, Scratch, strict_json
+
+sys.path.insert(0, str(ROOT / "multiscale/python"))
+import polybed  # noqa: E402
+
+CASE = ROOT / "cases/small-binary/case.toml"
+GALLERY = ROOT / "multiscale/python/gallery"
+SHORT = {"output.every": "1 ms", "output.history_every": "0.1 ms"}
+UNTIL = "10 ms"
+
+
+class Package(Scratch):
+    def setUp(self):
+        super().setUp()
+        os.environ["POLYBED"] = program.PROGRAM
+
+    def run_short(self, model="tfm", name="run"):
+        return polybed.run(CASE, model, SHORT, self.folder / name, UNTIL)
+
+    def test_a_run_is_what_the_command_makes(self):
+        run = self.run_short()
+        words = ["--set", "output.every=1 ms", "--set", "output.history_every=0.1 ms"]
+        program.run("tfm", CASE, *[word.replace("=", '="', 1) + '"' if "=" in word else word for word in words], "--until", UNTIL,
+                    "--quiet", "-o", self.folder / "other")
+        self.assertEqual(program.same_bits(run.directory / "checkpoint.h5", self.folder / "other/checkpoint.h5"), [])
+        self.assertEqual(run.record["overrides"], polybed.read(self.folder / "other").record["overrides"])
+
+    def test_numbers_come_with_their_unit(self):
+        run = self.run_short()
+        height = run.quantity("bed_height")
+        np.testing.assert_array_equal(height, run.history["bed_height_m"])
+        self.assertEqual((height.unit, run.quantity("bed_height_m").unit, len(height.time)), ("m", "m", 101))
+        self.assertEqual((run.quantity("pressure_drop").unit, run.quantity("mixing").unit), ("Pa", "1"))
+        phi, field = run.quantity("phi_fine", "profiles"), run.quantity("phi_fine", "fields")
+        self.assertEqual((phi.values.shape, phi.unit, field.values.shape), ((11, 30), "1", (11, 30, 2)))
+        self.assertEqual((run.quantity("u_coarse").unit, run.quantity("p").unit), ("m/s", "Pa"))
+        last = height.values[height.time >= 0.0075 - 1e-12]
+        self.assertEqual(height.last(), (last.mean(), last.std()))
+        with self.assertRaisesRegex(KeyError, "holds no heat; it holds .*bed_height_m"):
+            run.quantity("heat")
+        self.assertTrue(set(run.names()) > {"bed_height_m", "phi_fine", "u_fluid"})
+
+    def test_a_finished_run_is_opened_and_another_case_run_anew(self):
+        record = self.run_short().directory / "run.json"
+        made = record.stat().st_mtime_ns
+        self.run_short()
+        self.assertEqual(record.stat().st_mtime_ns, made)
+        run = polybed.run(CASE, "tfm", SHORT | {"inlet.superficial_velocity": 0.03}, self.folder / "run", UNTIL)
+        self.assertGreater(record.stat().st_mtime_ns, made)
+        self.assertIn("[[0.0, 0.03]]", run.record["case"])
+
+    def test_a_sweep_keeps_the_order_of_its_values(self):
+        runs = polybed.sweep(CASE, "inlet.superficial_velocity", ["40 mm/s", "20 mm/s"], overrides=SHORT, output=self.folder,
+                             until=UNTIL, at_once=2)
+        self.assertEqual(len({run.directory for run in runs}), 2)
+        for run, velocity in zip(runs, ("0.04", "0.02")):
+            self.assertIn(f"[[0.0, {velocity}]]", run.record["case"])
+
+    def test_a_comparison_of_given_and_of_made_runs(self):
+        found = polybed.compare(CASE, tfm=self.run_short(), overrides=SHORT, until=UNTIL, output=self.folder / "both")
+        self.assertEqual(found["models"]["tfm"]["directory"], str(self.folder / "run"))
+        self.assertEqual(found["models"]["dem"]["directory"], str(self.folder / "both/dem"))
+        self.assertIn("e_H", found["scores"])
+
+    def test_an_inversion_point_without_a_run(self):
+        found = polybed.inversion(CASE)
+        told = strict_json(program.run("inversion", CASE, "--json").stdout)
+        self.assertEqual(found, told)
+
+    def test_what_the_program_refuses_is_raised_with_its_words(self):
+        with self.assertRaisesRegex(polybed.ProgramError, "(?s)ended with 2.*bed.start") as caught:
+            polybed.run(CASE, overrides={"bed.start": "upside down"}, output=self.folder / "none")
+        self.assertEqual(caught.exception.code, WRONG_CASE)
+
+
+class Gallery(Scratch):
+    def test_every_script_makes_its_picture(self):
+        settings = dict(os.environ, POLYBED=program.PROGRAM, PYTHONPATH=str(ROOT / "multiscale/python"))
+        scripts = sorted(path for path in GALLERY.glob("*.py") if path.name != "common.py")
+        self.assertEqual(len(scripts), 5)
+        running = [subprocess.Popen(["/usr/bin/python3", script, "--short", "-o", self.folder], env=settings, text=True,
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE) for script in scripts]
+        for script, process in zip(scripts, running):
+            told, complaint = process.communicate(timeout=program.LONGEST * 4)
+            self.assertEqual(process.returncode, 0, f"{script}\n{complaint}")
+            drawn = [pathlib.Path(line) for line in told.splitlines() if line.endswith(".png")]
+            self.assertEqual(len(drawn), 1, told)
+            self.assertTrue(drawn[0].read_bytes().startswith(b"\x89PNG"), drawn)
+
+
+class Installed(Scratch):
+    def test_package_and_program_find_each_other(self):
+        build = pathlib.Path(program.PROGRAM).parent
+        done = subprocess.run(["cmake", "--install", build, "--prefix", self.folder], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        python = self.folder / "share/polybed/python"
+        settings = {name: value for name, value in os.environ.items() if name != "POLYBED"} | {"PYTHONPATH": str(python)}
+        script = ("import polybed, polybed.program as p; print(polybed.__file__); print(p.program()); "
+                  f"print(polybed.inversion('{self.folder}/share/polybed/cases/small-binary/case.toml')['velocity_m_s'])")
+        told = subprocess.run(["/usr/bin/python3", "-c", script], env=settings, cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        package, command, velocity = told.stdout.split()
+        self.assertEqual((package, command), (str(python / "polybed/__init__.py"), str(self.folder / "bin/polybed")))
+        self.assertGreater(float(velocity), 0)
+        # and the installed program draws with the installed package, not with that of the sources
+        (python / "polybed/plot.py").write_text("print('drawn by what is installed')")
+        case = self.folder / "share/polybed/cases/small-binary/case.toml"
+        bare = {name: value for name, value in settings.items() if name != "PYTHONPATH"}
+        ran = subprocess.run([self.folder / "bin/polybed", "tfm", case, "--until", "1 ms", "-o", self.folder / "run"],
+                             env=bare, check=True, capture_output=True, text=True)
+        self.assertIn("drawn by what is installed", ran.stderr)
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,145 @@
+// The rule of choice, and what is evaluated of a force that was left out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "closures/relevance.hpp"
+#include "core/case_file.hpp"
+#include "multiscale/effects/choice.hpp"
+#include "multiscale/effects/conflicts.hpp"
+#include "multiscale/effects/fluid_map.hpp"
+#include "multiscale/effects/monitor.hpp"
+#include "multiscale/effects/neglected.hpp"
+#include "multiscale/roles.hpp"
+
+namespace polybed::multiscale {
+namespace {
+
+EffectRow force(const std::string& name, double value) {
+  EffectRow row;
+  row.effect = name;
+  row.value = value;
+  row.threshold = 0.02;
+  row.summed = true;
+  return row;
+}
+
+bool on(const EffectRow& row) { return row.state == EffectRow::State::on; }
+
+TEST(Decision, TurnsTheLargestOnWhileTheSumIsTooGreat) {
+  std::vector<EffectRow> rows{force("a", 0.015), force("b", 0.012), force("c", 0.003), force("d", 0.03)};
+  decide(rows, {0.02, false, {}, {}});
+  EXPECT_TRUE(on(rows[0]) && !on(rows[1]) && !on(rows[2]) && on(rows[3]));
+  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.015);
+}
+
+TEST(Decision, LeavesWhatTheCaseDecidesAndCountsIt) {
+  std::vector<EffectRow> rows{force("a", 0.5), force("b", 0.012), force("c", 0.001)};
+  decide(rows, {0.02, false, {"c"}, {"a"}});
+  EXPECT_FALSE(on(rows[0]));
+  EXPECT_TRUE(on(rows[1]) && on(rows[2]));  // the sum is too great whatever b does: b is all that can be had
+  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.5);
+}
+
+TEST(Decision, SwitchesNothingByABand) {
+  std::vector<EffectRow> rows{force("a", 0.5)};
+  rows[0].band = NumberBand{0.001, 0.5};
+  decide(rows, {0.02, false, {}, {}});
+  EXPECT_FALSE(on(rows[0]));
+  EXPECT_FALSE(rows[0].neglected.has_value());
+  EXPECT_NE(rows[0].reason.find("band 0.001 to 0.5"), std::string::npos);
+}
+
+TEST(Decision, CountsWhatIsCalledForAndNotBuilt) {
+  std::vector<EffectRow> rows{force("a", 0.5)};
+  rows[0].not_built = "no law";
+  decide(rows, {0.02, false, {}, {}});
+  EXPECT_TRUE(on(rows[0]));
+  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.5);
+}
+
+// U = (3 + 2 x - 4 y, 1 + 5 x + y, 0): curl 5 + 4; walls are left out of what is asked, they mirror.
+TEST(FluidMap, IsExactOfALinearField) {
+  FluidMap map;
+  map.cells = {6, 5, 1};
+  map.spacing = {0.1, 0.2, 1};
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 6; ++i) {
+      const double x = (i + 0.5) * 0.1, y = (j + 0.5) * 0.2;
+      map.velocity.push_back({3 + 2 * x - 4 * y, 1 + 5 * x + y, 0});
+    }
+  const std::array<double, 3> place{0.33, 0.47, 0};
+  EXPECT_NEAR(map.velocity_at(place).x, 3 + 0.66 - 1.88, 1e-13);  // rounding
+  EXPECT_NEAR(map.velocity_at(place).y, 1 + 1.65 + 0.47, 1e-13);
+  EXPECT_NEAR(map.vorticity({3, 2, 0}).z, 9, 1e-12);
+  // At the left wall the image moves the other way: dv/dx = (v_1 + v_0)/(2 h).
+  const double v0 = 1 + 0.25 + 0.5, v1 = v0 + 0.5;
+  EXPECT_NEAR(map.vorticity({0, 2, 0}).z, (v1 + v0) / 0.2 + 4, 1e-12);
+}
+
+TEST(Sample, IsTheShareAskedForAndAlwaysTheSame) {
+  int count = 0;
+  for (std::int64_t n = 0; n < 64000; ++n) count += in_sample(n, 64);
+  EXPECT_NEAR(count, 1000, 4 * std::sqrt(1000.0));  // four deviations of a binomial count
+  for (std::int64_t n = 0; n < 100; ++n) EXPECT_TRUE(in_sample(n, 1));
+}
+
+const std::string text = R"(
+column = { size = [0.02, 0.1], cells = [4, 20] }
+fluid = { name = "water", temperature = "20 degC" }
+bed = { volume_share = [1], static_height = "40 mm", solids_fraction = 0.6 }
+inlet = { superficial_velocity = "10 mm/s" }
+run = { until = "1 s" }
+[[species]]
+name = "beads"
+diameter = "1 mm"
+density = 2500
+[effects]
+drag = "cello"
+contact = "hertz"
+magnus = "rubinow_keller"
+)";
+
+TEST(Neglected, EvaluatesTheClosureOfTheChoice) {
+  core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
+  scene.effects.erase("magnus");
+  Neglected neglected(scene, "dem");
+  Encounter met;
+  met.slip = {0, 0.02, 0};
+  met.vorticity = {0, 0, 5};
+  met.spin = closures::Vec3{0, 0, 2.5};  // turns with the fluid
+  for (int n = 0; n < 99; ++n) neglected.see(met);
+  met.vorticity = {0, 0, 50};
+  met.time = 3;
+  neglected.see(met);
+  const Observed& lift = neglected.observed()[0];
+  ASSERT_EQ(lift.effect, "lift");
+  const auto share = [](double vorticity) {  // water at 20 degC: 998.2 kg/m3, 1.0016 mPa s
+    return closures::lift_relevance(1e-3, 998.2, 1.0016e-3, 0.02, vorticity,
+                                    closures::buoyant_weight(1e-3, 2500, 998.2, 9.81));
+  };
+  EXPECT_NEAR(lift.greatest / share(50), 1, 1e-4);  // digits of the water's properties
+  EXPECT_EQ(lift.time, 3);
+  EXPECT_GE(lift.percentile(), share(5));  // 99 of 100 are not above: the edge of a bin of a twentieth of a decade
+  EXPECT_LE(lift.percentile(), share(5) * std::pow(10, 0.05));
+  ASSERT_EQ(neglected.observed()[1].effect, "magnus");
+  EXPECT_GT(neglected.observed()[1].greatest, 0);
+  // Beyond Re_p 100 the laws are a band: counted apart.
+  met.slip = {0, 1, 0};
+  neglected.see(met);
+  EXPECT_EQ(neglected.observed()[0].outside, 1U);
+}
+
+TEST(Conflicts, AreToldWithBothLines) {
+  const core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
+  const auto problems = role_conflicts(scene, text, "case.toml");
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_EQ(problems[0].line, 14);
+  EXPECT_EQ(problems[1].line, 13);
+  core::Scene without = scene;
+  without.effects["contact"] = "hertz_mindlin";
+  EXPECT_TRUE(role_conflicts(without, text, "case.toml").empty());
+}
+
+}  // namespace
+}  // namespace polybed::multiscale
