@@ -92,7 +92,7 @@ class TfmRun final : public CaseRun {
     totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_);
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, promise ? &*promise : nullptr,
-                            monitor_ ? monitor_->warnings() : std::vector<std::string>{}});
+                            monitor_ ? monitor_->warnings() : std::vector<std::string> {}});
 =======
     totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_});
