@@ -214,7 +214,8 @@ void CaseReader::check_given() {
   const bool anywhere = scene_.bed.start == "random" && given("bed.particles");
   if (!given("bed.solids_fraction") && ((!list && !anywhere) || !scene_.feeds.empty()))
     values_.add("bed.solids_fraction is missing: of the settled bed");
-  if (!scene_.column.closed && !given("inlet.superficial_velocity") && scene_.fluid.name != "none")
+  if (!scene_.column.closed && !given("inlet.superficial_velocity") && scene_.fluid.name != "none" &&
+      scene_.dem.shear_rate == 0)
     values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");
   if (scene_.column.closed && given("inlet.superficial_velocity"))
     values_.add("inlet.superficial_velocity cannot act: column.closed = true");

@@ -143,6 +143,20 @@ std::vector<Key> make_keys() {
   k.push_back({"dem", "asperity_radius", at<std::optional<double>>([](S& s, N) -> auto& { return s.dem.asperity_radius; }), "R* of the van der Waals force of rough surfaces; default: that of the spheres", dimension::length, 0, 1, true, {}, {}, false, "F = A R*/(6 max(z, z_0)^2)"});
   k.push_back({"dem", "roughness", at<double>([](S& s, N) -> auto& { return s.dem.roughness; }), "of surfaces: the film between them is not thinner (effects.lubrication = film)", dimension::length, 0, 1, true, "0.1 um", {}, false, "F = -6 pi mu R*^2 v_n/max(h, roughness)"});
 
+  k.push_back({"calibrate", "regime", at<std::string>([](S& s, N) -> auto& { return s.calibrate.regime; }), "boxes of polybed calibrate: dry: collisions alone; wet: sheared, with drag towards the flow and films; bed: fluidised; auto: dry where the shear rate times the relaxation time of the slip is 1 or more, else wet", {}, -infinity, infinity, false, "auto", {"auto", "dry", "wet", "bed"}});
+  k.push_back({"calibrate", "solids_fraction", at<std::vector<double>>([](S& s, N) -> auto& { return s.calibrate.solids_fraction; }), "of the boxes, rising; default: 0.1 to 0.5", {}, 0.01, 0.66});
+  k.push_back({"calibrate", "restitution", at<std::vector<double>>([](S& s, N) -> auto& { return s.calibrate.restitution; }), "of dry boxes, rising; default: dem.restitution", {}, 0.05, 0.9999});
+  k.push_back({"calibrate", "friction", at<std::vector<double>>([](S& s, N) -> auto& { return s.calibrate.friction; }), "of the boxes, rising; default: dem.friction", {}, 0, 2});
+  k.push_back({"calibrate", "stokes", at<std::vector<double>>([](S& s, N) -> auto& { return s.calibrate.stokes; }), "of wet boxes, rising; default: 1, 3, 10", {}, 1e-3, 1e4, false, {}, {}, false, "St = rho_p d^2 gamma/mu"});
+  k.push_back({"calibrate", "share", at<std::vector<double>>([](S& s, N) -> auto& { return s.calibrate.share; }), "volume of the second species over that of both, rising; default: spheres of one size, the Sauter diameter of the bed", {}, 0, 1});
+  k.push_back({"calibrate", "particles", at<int>([](S& s, N) -> auto& { return s.calibrate.particles; }), "of a box", {}, 100, 1e6, false, "1000"});
+  k.push_back({"calibrate", "seeds", at<int>([](S& s, N) -> auto& { return s.calibrate.seeds; }), "boxes at each point, with other random starts", {}, 1, 100, false, "2"});
+  k.push_back({"calibrate", "strain", at<double>([](S& s, N) -> auto& { return s.calibrate.strain; }), "over which a box is averaged, in 20 blocks", {}, 1, 1e4, false, "20"});
+  k.push_back({"calibrate", "discard_strain", at<double>([](S& s, N) -> auto& { return s.calibrate.discard_strain; }), "before that", {}, 0, 1e4, false, "5"});
+  k.push_back({"calibrate", "doublings", at<int>([](S& s, N) -> auto& { return s.calibrate.doublings; }), "of the averaged strain, at most, while blocks are not independent", {}, 0, 10, false, "2"});
+  k.push_back({"calibrate", "softness", at<double>([](S& s, N) -> auto& { return s.calibrate.softness; }), "of dry boxes: duration of a contact over the time between collisions", {}, 1e-3, 0.2, false, "0.03"});
+  k.push_back({"calibrate", "film_gap", at<double>([](S& s, N) -> auto& { return s.calibrate.film_gap; }), "of wet boxes: least thickness of a film over the diameter, if dem.roughness is not more; steps are as short as it needs", {}, 1e-5, 0.02, false, "0.005"});
+
   k.push_back({"jet", "from", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].from; }), "low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, depth) in three dimensions", dimension::length, 0, 1e3, false, {}, {}, true});
   k.push_back({"jet", "to", at<std::vector<double>>([](S& s, N n) -> auto& { return s.jets[n].to; }), "high corner", dimension::length, 0, 1e3, false, {}, {}, true});
   k.push_back({"jet", "superficial_velocity", at<Points>([](S& s, N n) -> auto& { return s.jets[n].superficial_velocity; }), "over the jet's own area, in place of inlet.superficial_velocity; a velocity or a table as there", dimension::velocity, -1e3, 1e3, false, {}, {}, true});

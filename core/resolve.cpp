@@ -348,6 +348,11 @@ std::string resolved_case(const Scene& given) {
     out += fmt::format("\n[{}]\n", table);
     write_table(scene, table, 0, out);
   }
+  std::string boxes, usual;
+  Scene bare;
+  write_table(scene, "calibrate", 0, boxes);
+  write_table(bare, "calibrate", 0, usual);
+  if (boxes != usual) out += "\n[calibrate]\n" + boxes;
   for (std::size_t n = 0; n < scene.contact_pairs.size(); ++n) {
     out += "\n[[contact_pair]]\n";
     write_table(scene, "contact_pair", n, out);

@@ -42,8 +42,10 @@ void periodic_ends(const Scene& scene, Messages& wrong) {
   contradicts(column.closed, "column.closed = true");
   contradicts(column.outlet == "open", "column.outlet = \"open\"");
   contradicts(!scene.feeds.empty(), "[[feed]]");
-  if (scene.fluid.name != "none")
-    wrong.push_back("column.ends = \"periodic\" is for particles without a fluid: set fluid.name = \"none\"");
+  if (scene.fluid.name != "none" && scene.dem.shear_rate == 0)
+    wrong.push_back(
+        "column.ends = \"periodic\" is for particles without a fluid, or for a sheared box whose fluid moves with its "
+        "flow: set fluid.name = \"none\", or dem.shear_rate");
 }
 
 void shear(const Scene& scene, Messages& wrong) {
@@ -54,6 +56,16 @@ void shear(const Scene& scene, Messages& wrong) {
   needs(scene.column.sides == "periodic", "column.sides = \"periodic\"");
   needs(scene.column.ends == "periodic", "column.ends = \"periodic\"");
   needs(scene.column.gravity == 0, fmt::format("column.gravity = 0, it is {:g} m/s2", scene.column.gravity));
+  if (scene.fluid.name == "none") return;
+  const auto idle = [&](bool set, const char* what) {
+    if (set) wrong.push_back(fmt::format("{} cannot act in a sheared box: its fluid moves with its flow", what));
+  };
+  idle(!scene.inlet.superficial_velocity.empty(), "inlet.superficial_velocity");
+  idle(!scene.jets.empty(), "[[jet]]");
+  idle(scene.dem.held, "dem.held = true");
+  idle(scene.fluid.equation_of_state != "incompressible", "fluid.equation_of_state");
+  for (const char* role : {"fluid_stress", "added_mass", "lift", "magnus", "history"})
+    idle(scene.effects.contains(role), (std::string("effects.") + role).c_str());
 }
 
 /// Particles in a fluid: what it cannot be, and what needs it.

@@ -169,6 +169,18 @@ struct Dem {
   double roughness = 1e-7;                 ///< least thickness of a film between surfaces, m
 };
 
+/// Boxes of particles that are run for a table of the solids stress; what is empty has a default of the plan.
+struct Calibrate {
+  std::string regime = "auto";                                 ///< auto | dry | wet | bed
+  std::vector<double> solids_fraction, restitution, friction;  ///< axes
+  std::vector<double> stokes;                                  ///< rho d^2 gamma/mu_f, of wet boxes
+  std::vector<double> share;                                   ///< of the second species in the solids
+  int particles = 1000, seeds = 2, doublings = 2;              ///< of a box; per point; of its length
+  double strain = 20, discard_strain = 5;                      ///< averaged, and before that
+  double softness = 0.03;                                      ///< t_c over the time between collisions
+  double film_gap = 0.005;                                     ///< least thickness of a film, over the diameter
+};
+
 struct ContactPair {
   std::vector<std::string> between;  ///< two names of species, or one and "wall"
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;
@@ -197,6 +209,7 @@ struct Scene {
   Tfm tfm;
   Dem dem;
   std::vector<ContactPair> contact_pairs;
+  Calibrate calibrate;
   std::vector<SizeClasses> size_classes;
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
 };

@@ -65,11 +65,22 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   look_ahead();
 }
 
-/// The fluid between the particles, if there is one.
+/// The fluid between the particles, if there is one. A sheared box has no room for its motion: there it is the flow.
 void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
   if (scene.fluid.name == "none") return;
   double volume = 0;
-  for (const Particle& p : all) volume += closures::sphere_volume(p.place.radius);
+  std::vector<double> share(scene.species.size(), 0.0);
+  for (const Particle& p : all) {
+    volume += closures::sphere_volume(p.place.radius);
+    share[std::size_t(p.species)] += closures::sphere_volume(p.place.radius);
+  }
+  if (box_.shear_rate != 0) {
+    if (!has_affine_drag(scene)) return;
+    for (double& x : share) x /= volume;
+    const double voidage = 1 - volume / (box_.size[0] * box_.size[1] * box_.size[2]);
+    affine_drag_.emplace(scene, materials_, share, voidage, force_unit_, energy_unit_);
+    return;
+  }
   coupling_.emplace(scene, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
                     limits_.greatest_speed, volume, count_);
   coupling_->motion().load.resize(particles_.owned);
@@ -125,7 +136,7 @@ void Model::step(double stop) {
 void Model::move(double dt) {
   {
     const auto scope = timers_.scope("motion", timed_);
-    verlet_.begin(particles_, fluid_motion());
+    verlet_.begin(particles_, around());
   }
   find_forces(dt);
   if (flow_work_) flow_work_->end_step();
@@ -134,7 +145,7 @@ void Model::move(double dt) {
     coupling_->find_forces(particles_);
   }
   const auto scope = timers_.scope("motion", timed_);
-  verlet_.end(particles_, fluid_motion());
+  verlet_.end(particles_, around());
   if (coupling_) coupling_->turn(particles_);
 }
 
@@ -142,8 +153,7 @@ void Model::move(double dt) {
 void Model::look_ahead() {
   const auto scope = timers_.scope("motion", timed_);
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
-  const Verlet::Drift drift =
-      held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, coupling_ ? &coupling_->motion() : nullptr);
+  const Verlet::Drift drift = held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, around());
   hasty_ = drift.hasty;
   const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0;
   const Ahead here = troubled ? Ahead::trouble : (list_goes_stale(drift.distance, since) ? Ahead::stale : Ahead::clear);

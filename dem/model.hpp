@@ -11,6 +11,7 @@
 #include "core/run.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
+#include "dem/affine_drag.hpp"
 #include "dem/box.hpp"
 #include "dem/contacts.hpp"
 #include "dem/coupling.hpp"
@@ -68,6 +69,8 @@ class Model : public core::Simulation {
   [[nodiscard]] const StepLimits& limits() const { return limits_; }
   [[nodiscard]] const core::Ranks* ranks() const { return ranks_.get(); }
   [[nodiscard]] const std::shared_ptr<const core::Ranks>& share() const { return ranks_; }
+  /// Of a sheared box with drag; null where there is none.
+  [[nodiscard]] const AffineDrag* affine_drag() const { return affine_drag_ ? &*affine_drag_ : nullptr; }
   /// With the fluid; null where there is none.
   [[nodiscard]] const Coupling* coupling() const { return coupling_ ? &*coupling_ : nullptr; }
   [[nodiscard]] Vector gravity() const { return gravity_; }
@@ -87,7 +90,9 @@ class Model : public core::Simulation {
   /// In the unit of energy: what this rank's contacts have dissipated, what the fluid has done on its particles, and
   /// its part of a sheared box.
   [[nodiscard]] std::int64_t dissipated() const { return ledger_ ? ledger_->units() : 0; }
-  [[nodiscard]] std::int64_t fluid_work() const { return coupling_ ? coupling_->motion().work() : 0; }
+  [[nodiscard]] std::int64_t fluid_work() const {
+    return coupling_ ? coupling_->motion().work() : (affine_drag_ ? affine_drag_->work() : 0);
+  }
   [[nodiscard]] std::int64_t flow_work() const { return flow_work_ ? flow_work_->units() : 0; }
 
  private:
@@ -109,7 +114,9 @@ class Model : public core::Simulation {
   [[nodiscard]] std::string trouble_of_haste() const;
   void wrap();
   void move(double dt);
-  [[nodiscard]] FluidMotion* fluid_motion() { return coupling_ ? &coupling_->motion() : nullptr; }
+  [[nodiscard]] Around around() {
+    return {coupling_ ? &coupling_->motion() : nullptr, affine_drag_ ? &*affine_drag_ : nullptr};
+  }
   void couple(const core::Scene& scene, const std::vector<Particle>& all);
 
   std::shared_ptr<const core::Ranks> ranks_;
@@ -121,10 +128,11 @@ class Model : public core::Simulation {
   StepLimits limits_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
-  std::optional<Ledger> ledger_;       ///< absent: energies lost are not counted
-  std::optional<Coupling> coupling_;   ///< absent: there is no fluid
-  bool held_;                          ///< the particles do not move
-  std::optional<FlowWork> flow_work_;  ///< absent: the box is not sheared, or there is no ledger
+  std::optional<Ledger> ledger_;           ///< absent: energies lost are not counted
+  std::optional<Coupling> coupling_;       ///< absent: there is no fluid
+  std::optional<AffineDrag> affine_drag_;  ///< absent: the box is not sheared, or has no drag
+  bool held_;                              ///< the particles do not move
+  std::optional<FlowWork> flow_work_;      ///< absent: the box is not sheared, or there is no ledger
   double skin_;
   Verlet verlet_;
   NeighbourSearch search_;

@@ -119,7 +119,7 @@ core::Checkpoint Model::checkpoint() const {
   std::array<std::int64_t, 4> sums{dissipated(), flow_work(), flow_work_ ? flow_work_->due() : 0, fluid_work()};
   core::add_over_ranks(ranks_.get(), sums);
   checkpoint.integers["dissipated"] = sums[0];
-  if (coupling_) checkpoint.integers["fluid_work"] = sums[3];
+  if (coupling_ || affine_drag_) checkpoint.integers["fluid_work"] = sums[3];
   if (flow_work_) {
     checkpoint.integers["flow_work"] = sums[1];
     checkpoint.integers["flow_work_due"] = sums[2];
@@ -146,6 +146,7 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
     return core::is_first(ranks_.get()) && checkpoint.integers.contains(key) ? checkpoint.integers.at(key) : 0;
   };
   if (flow_work_) flow_work_->set(first("flow_work"), first("flow_work_due"));
+  if (affine_drag_) affine_drag_->set_work(first("fluid_work"));
   core::take_from_first(ranks_.get(), head);
   particles.resize(std::size_t(head[0]));
   contacts.resize(std::size_t(head[1]));

@@ -80,7 +80,7 @@ double greatest_speed(const core::Scene& scene, const Box& box, const std::vecto
     speed = std::max(speed, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
     least = std::min(least, 2 * p.place.radius);
   }
-  if (scene.fluid.name != "none") speed = std::min(speed, speed_in_fluid(scene, start));
+  if (scene.fluid.name != "none" && scene.dem.shear_rate == 0) speed = std::min(speed, speed_in_fluid(scene, start));
   if (!(speed > 0) && scene.dem.fixed_step) speed = 0.01 * least / *scene.dem.fixed_step;
   if (!(speed > 0))
     throw core::CaseError(

@@ -42,13 +42,13 @@ void find_force(const PairLaws& laws, ContactBatch& batch) {
   for (int c = 0; c < batch.padded(); ++c) batch.normal[c] += force[c];
 }
 
-/// Adds the contacts that this rank counts. Returns how many touch.
-std::int64_t add_contacts(const Model& model, double per_unit, Sum& sum) {
+/// Calls `see` for every pair that acts on each other and that this rank counts, with the force on the first.
+template <class See>
+void each_contact(const Model& model, See&& see) {
   const Images images = model.images();
   const Contacts& contacts = model.pairs();
   const Particles& particles = model.particles();
   ContactBatch batch;
-  std::int64_t touching = 0;
   for (std::size_t begin = 0; begin < contacts.touching.size(); begin += ContactBatch::width) {
     model.pair_forces().loader().load_touching_pairs(particles, contacts, images, begin, batch);
     find_force(model.laws(), batch);
@@ -57,10 +57,18 @@ std::int64_t add_contacts(const Model& model, double per_unit, Sum& sum) {
       const Vector n{batch.distance[0][c], batch.distance[1][c], batch.distance[2][c]};
       Vector force;
       for (std::size_t k = 0; k < 3; ++k) force[k] = batch.normal[c] * n[k] + batch.tangential[k][c];
-      sum.add(n, force, (batch.arm_i[c] + batch.arm_j[c]) * per_unit);
-      touching += batch.overlap[c] > 0 ? 1 : 0;
+      see(ContactForce{std::size_t(batch.first[c]), n, force, batch.arm_i[c] + batch.arm_j[c], batch.overlap[c] > 0});
     }
   }
+}
+
+/// Adds the contacts that this rank counts. Returns how many touch.
+std::int64_t add_contacts(const Model& model, double per_unit, Sum& sum) {
+  std::int64_t touching = 0;
+  each_contact(model, [&](const ContactForce& c) {
+    sum.add(c.normal, c.force, c.length * per_unit);
+    touching += c.touches ? 1 : 0;
+  });
   return touching;
 }
 
@@ -78,6 +86,12 @@ void add_motion(const Model& model, std::vector<Sum>& kinetic, std::vector<std::
 }
 
 }  // namespace
+
+std::vector<ContactForce> contact_forces(const Model& model) {
+  std::vector<ContactForce> forces;
+  each_contact(model, [&](const ContactForce& c) { forces.push_back(c); });
+  return forces;
+}
 
 Stress stress_of(const Model& model) {
   const auto& materials = model.materials().species();

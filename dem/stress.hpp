@@ -35,4 +35,15 @@ struct Stress {
 /// laws act on a copy of their memory. Collective: the same on any number of ranks to the bit.
 [[nodiscard]] Stress stress_of(const Model& model);
 
+/// A pair that acts on each other, walls left out.
+struct ContactForce {
+  std::size_t first;     ///< its place among the particles
+  Vector normal, force;  ///< from the second to the first; on the first, N
+  double length;         ///< between the centres, m
+  bool touches;          ///< not only near, as with a film between them
+};
+
+/// Of the last step, those that this rank counts; as stress_of, nothing moves on.
+[[nodiscard]] std::vector<ContactForce> contact_forces(const Model& model);
+
 }  // namespace polybed::dem

@@ -82,18 +82,20 @@ void Verlet::end_with(Particles& particles, Push&& push) {
   }
 }
 
-void Verlet::begin(Particles& particles, FluidMotion* fluid) {
-  if (fluid != nullptr)
-    begin_with(particles, *fluid);
-  else
-    begin_with(particles, Free{gravity_, force_.unit});
+template <class Act>
+auto Verlet::with(Around around, Act&& act) const {
+  if (around.fluid != nullptr) return act(*around.fluid);
+  if (around.flow != nullptr) return act(*around.flow);
+  Free free{gravity_, force_.unit};
+  return act(free);
 }
 
-void Verlet::end(Particles& particles, FluidMotion* fluid) {
-  if (fluid != nullptr)
-    end_with(particles, *fluid);
-  else
-    end_with(particles, Free{gravity_, force_.unit});
+void Verlet::begin(Particles& particles, Around around) {
+  with(around, [&](auto& push) { begin_with(particles, push); });
+}
+
+void Verlet::end(Particles& particles, Around around) {
+  with(around, [&](auto& push) { end_with(particles, push); });
 }
 
 void Verlet::mark(const Particles& particles) {
@@ -101,9 +103,8 @@ void Verlet::mark(const Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) marked_[i] = particles.place[i].x;
 }
 
-Verlet::Drift Verlet::next_drift(const Particles& particles, double time, const FluidMotion* fluid) const {
-  return fluid != nullptr ? next_drift_with(particles, time, *fluid)
-                          : next_drift_with(particles, time, Free{gravity_, force_.unit});
+Verlet::Drift Verlet::next_drift(const Particles& particles, double time, Around around) const {
+  return with(around, [&](const auto& push) { return next_drift_with(particles, time, push); });
 }
 
 template <class Push>

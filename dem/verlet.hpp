@@ -4,11 +4,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "dem/affine_drag.hpp"
 #include "dem/box.hpp"
 #include "dem/fluid_motion.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {
+
+/// What the particles move through: a fluid, the flow of a sheared box, or neither.
+struct Around {
+  FluidMotion* fluid = nullptr;
+  AffineDrag* flow = nullptr;
+};
 
 /// U' = U + F dt/(2 m); x += U' dt; F = F(x, U'); U = U' + F dt/(2 m), and the same for spins.
 ///
@@ -20,10 +27,10 @@ class Verlet {
   Verlet(bool synchronised, double dt, Vector gravity, FixedPoint force, FixedPoint torque, double shear_rate);
 
   /// First half: afterwards positions and the velocities that the force needs are there, and loads are clear.
-  /// \param fluid  that the particles move through; null: none, here and below
-  void begin(Particles& particles, FluidMotion* fluid);
+  /// \param around  what the particles move through, here and below
+  void begin(Particles& particles, Around around);
   /// Second half: the velocities of the full step.
-  void end(Particles& particles, FluidMotion* fluid);
+  void end(Particles& particles, Around around);
 
   [[nodiscard]] bool synchronised() const { return synchronised_; }
   [[nodiscard]] double dt() const { return dt_; }
@@ -36,11 +43,13 @@ class Verlet {
     std::int64_t hasty = -1;  ///< id of an owned particle that it will move by more than a tenth of its diameter
   };
   /// \param time  from the mark to then, s
-  [[nodiscard]] Drift next_drift(const Particles& particles, double time, const FluidMotion* fluid) const;
+  [[nodiscard]] Drift next_drift(const Particles& particles, double time, Around around) const;
 
  private:
-  // Push is what moves particles beside their spin, FluidMotion or the lack of it: kick() tells what a time does to one
-  // of them, account() keeps what of that was the fluid's.
+  // Push is what moves particles beside their spin, FluidMotion, AffineDrag or the lack of both: kick() tells what a
+  // time does to one of them, account() keeps what of that was the fluid's.
+  template <class Act>
+  auto with(Around around, Act&& act) const;
   template <class Push>
   void begin_with(Particles& particles, Push&& push);
   template <class Push>

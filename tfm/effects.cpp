@@ -3,12 +3,16 @@
 #include <string_view>
 
 #include "closures/drag.hpp"
+#include "closures/stress_reference.hpp"
 #include "core/error.hpp"
+#include "fluid/shear_regime.hpp"
+#include "fluid/solids_table.hpp"
 #include "tfm/effects/drag.hpp"
 #include "tfm/effects/fluid_stress_newtonian.hpp"
 #include "tfm/effects/solids_stress_frictional.hpp"
 #include "tfm/effects/solids_stress_kinetic.hpp"
 #include "tfm/effects/solids_stress_table.hpp"
+#include "tfm/effects/solids_stress_wet.hpp"
 #include "tfm/effects/solids_viscosity_frictional.hpp"
 #include "tfm/effects/solids_wall_johnson_jackson.hpp"
 #include "tfm/effects/species_exchange_syamlal.hpp"
@@ -33,7 +37,8 @@ std::vector<core::Role> roles() {
            "particles have contacts instead",
            {{"frictional", "Johnson and Jackson 1987, with bulk viscosity"},
             {"kinetic", "the same, and kinetic theory of collisions: pressure and viscosity"},
-            {"table:FILE", "frictional, and the pressure of a fluidised bed from a file of regime \"bed\""}}},
+            {"table:FILE",
+             "frictional, and what polybed calibrate measured: of a fluidised bed, or of sheared particles"}}},
           {"granular_temperature",
            "tfm",
            "Scalar",
@@ -63,6 +68,57 @@ namespace {
                         "\": not in the continuum model; see polybed list");
 }
 
+/// A table of sheared particles has to be of the scene's regime: the other misses the stress by factors.
+void require_regime(const core::Scene& scene, const std::string& file, const std::string& regime) {
+  const fluid::Regime here = fluid::shear_regime(scene);
+  if (here.name.empty() || here.name == regime) return;
+  throw core::CaseError("effects.solids_stress = \"table:" + file + "\" is a " + regime +
+                        " table, and the solids here are " + here.name + ": " + here.reason +
+                        " (calibrate.regime says otherwise)");
+}
+
+/// Where a scene lies in a table.
+fluid::TablePlace place_of(const core::Scene& scene, const Constants& constants) {
+  fluid::TablePlace place;
+  for (std::size_t j = 0; j < scene.species.size(); ++j) {
+    place.restitution += constants.bed_share[j] * scene.species[j].restitution.value_or(scene.dem.restitution);
+    place.friction += constants.bed_share[j] * scene.species[j].friction.value_or(scene.dem.friction);
+  }
+  place.share = constants.species() == 2 ? constants.bed_share[1] : 0;
+  return place;
+}
+
+/// The stress of a table: friction, a fluidised bed's pressure if the file has it, and that of sheared particles.
+void make_table_stress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
+                       const std::string& file, Fields& fields, Effects& effects) {
+  const std::string regime = fluid::regime_of_table(file);
+  if (regime == "bed") {
+    effects.solids_stress =
+        std::make_unique<TableStress>(scene, constants, boundaries, read_bed_pressure(file), file, fields);
+    return;
+  }
+  const fluid::SolidsTable table = fluid::read_solids_table(file);
+  require_regime(scene, file, regime);
+  if (table.bed_phi.empty())
+    effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
+  else
+    effects.solids_stress = std::make_unique<TableStress>(
+        scene, constants, boundaries, bed_curve(table.bed_phi, table.bed_pressure, file), file, fields);
+  const fluid::TablePlace place = place_of(scene, constants);
+  closures::StressRatios ratios = fluid::ratios_at(table, place);
+  if (regime == "wet") {
+    effects.collisions =
+        std::make_unique<WetStress>(constants, boundaries, std::move(ratios),
+                                    closures::jamming_fraction(place.friction), table.inertia, file, fields);
+    return;
+  }
+  const bool transported = core::law_of(scene, "granular_temperature") == "transported";
+  auto kinetic = std::make_unique<KineticStress>(scene, constants, boundaries, transported,
+                                                 effects.solids_stress->max_packing(), fields);
+  kinetic->multiply(std::move(ratios), file);
+  effects.collisions = std::move(kinetic);
+}
+
 /// All that fills the slot Stress of the solids, in the order in which it is evaluated.
 void make_solids_stress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                         Fields& fields, Effects& effects) {
@@ -72,8 +128,7 @@ void make_solids_stress(const core::Scene& scene, const Constants& constants, co
   if (stress == "frictional" || stress == "kinetic")
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else if (stress.starts_with(table))
-    effects.solids_stress =
-        std::make_unique<TableStress>(scene, constants, boundaries, stress.substr(table.size()), fields);
+    make_table_stress(scene, constants, boundaries, stress.substr(table.size()), fields, effects);
   else if (stress != "none")
     refuse("solids_stress", stress);
   if (viscosity == "schaeffer" || viscosity == "mu_i") {
@@ -86,9 +141,9 @@ void make_solids_stress(const core::Scene& scene, const Constants& constants, co
   if (stress == "kinetic")
     effects.collisions = std::make_unique<KineticStress>(scene, constants, boundaries, temperature == "transported",
                                                          effects.solids_stress->max_packing(), fields);
-  else if (temperature != "none")
+  else if (temperature != "none" && dynamic_cast<KineticStress*>(effects.collisions.get()) == nullptr)
     throw core::CaseError("effects.granular_temperature = \"" + temperature +
-                          "\" acts only with solids_stress = \"kinetic\"");
+                          "\" acts only with solids_stress = \"kinetic\" or a dry table");
   if (scene.tfm.solids_wall == "johnson_jackson")
     effects.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);
 }

@@ -79,6 +79,8 @@ class CollisionalStress {
  public:
   virtual ~CollisionalStress() = default;
   virtual void add(Fields& fields) = 0;
+  /// Of a stress with a range; empty of one that holds everywhere.
+  [[nodiscard]] virtual std::optional<ClosureUse> use() const { return {}; }
 };
 
 /// What walls do to solids that slip along them, where that is neither nothing nor all.

@@ -23,7 +23,8 @@ struct RunOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-<model>
   std::string until;             ///< empty: as the case says
   bool resume = false, force = false, quiet = false;
-  bool picture = true;  ///< drawn at the end
+  bool picture = true;              ///< drawn at the end
+  bool stress_uncertainty = false;  ///< of the TFM: again with its stress table at plus and minus one standard error
 };
 
 /// Options of the comparison of both models; those of a run are for the models that it runs itself.
@@ -82,10 +83,20 @@ struct StabilityOptions {
   bool json = false;
 };
 
+/// Options of the calibration: boxes of particles for a table of the solids stress.
+struct CalibrateOptions : CaseOptions {
+  std::filesystem::path output;  ///< empty: runs/<case name>-calibrate
+  std::filesystem::path check;   ///< a table to check; empty: one is made
+  std::string box;               ///< one box, as the command tells itself; empty: all of them
+  int jobs = 1;                  ///< boxes at once
+  bool plan_only = false, quiet = false;
+};
+
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
 void run_compare(const CompareOptions& options);
+void run_calibrate(const CalibrateOptions& options);
 void run_check(const CaseOptions& options);
 void run_effects(const CaseOptions& options);
 void run_effects_bench(int rounds, bool json);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "multiscale/commands/case_run.hpp"
+#include "multiscale/commands/stress_uncertainty.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/run_record.hpp"
 #include "tfm/observers.hpp"
@@ -148,8 +149,9 @@ void run_tfm(const RunOptions& options) {
     require_memory(scene);
     check_directory(directory, options);
   });
-  TfmRun run(options, std::move(scene), directory, ranks);
-  run.run();
+  if (options.stress_uncertainty) require_table(scene);
+  TfmRun(options, std::move(scene), directory, ranks).run();
+  if (options.stress_uncertainty) run_stress_uncertainty(options);
 }
 
 }  // namespace polybed::multiscale

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/operators.hpp"
@@ -57,11 +59,32 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
     conduction_diagonal_ += 2 / std::pow(constants.grid.spacing[std::size_t(axis)], 2);
 }
 
+void KineticStress::multiply(closures::StressRatios ratios, const std::string& name) {
+  model_ = closures::KineticModel::garzo_dufty;
+  dense_ = false;
+  ratios_ = std::move(ratios);
+  use_ = ClosureUse{"solids stress " + name};
+}
+
 void KineticStress::add(Fields& fields) {
+  if (!ratios_) return add_with(fields, NoRatios{});
+  add_with(fields, *ratios_);
+  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) {
+      const double phi = fields.solids_fraction[std::size_t(c)];
+      use_->guarded += phi > collision_fraction_floor && ratios_->outside(phi, 0) ? 1 : 0;
+    }
+    use_->evaluations += std::uint64_t(end - begin);
+  });
+}
+
+template <class Ratios>
+void KineticStress::add_with(Fields& fields, const Ratios& ratios) {
   core::for_each_row(constants_.grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       const double phi = std::max(fields.solids_fraction[std::size_t(c)], collision_fraction_floor);
-      add_cell(fields, c, dense_ ? closures::radial_distribution_dense(phi) : closures::radial_carnahan_starling(phi));
+      add_cell(fields, c, dense_ ? closures::radial_distribution_dense(phi) : closures::radial_carnahan_starling(phi),
+               ratios);
     }
   });
   boundaries_.fill_cells(fields.stress.pressure);
@@ -128,7 +151,9 @@ void KineticStress::balance_terms(const Fields& fields, std::size_t c, double ph
 }
 
 /// Temperatures of one cell, and what they add to pressure, viscosity and the friction of walls.
-void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialValue& radial) const {
+template <class Ratios>
+void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialValue& radial,
+                             const Ratios& ratios) const {
   const auto c = std::size_t(cell);
   const double solids = std::max(fields.solids_fraction[c], 0.0), phi = std::max(solids, collision_fraction_floor);
   const double fade = collision_share(solids);
@@ -139,6 +164,16 @@ void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialV
   for (std::size_t j = 0; j < constants_.species(); ++j) {
     Local& here = local[j];
     balance_terms(fields, c, phi, j, motion, here);
+    double pressure = 1 + here.collisions, slope = 1 + here.collisions * (2 + phi * radial.slope / radial.value);
+    if constexpr (!std::is_same_v<Ratios, NoRatios>) {
+      const closures::RatioValues ratio = ratios(phi, 0);
+      slope = slope * ratio.pressure.pressure + phi * pressure * ratio.pressure.slope;
+      pressure *= ratio.pressure.pressure;
+      here.compression *= ratio.pressure.pressure;
+      here.viscosity *= ratio.viscosity.pressure;
+      here.shear *= ratio.viscosity.pressure;
+      here.loss *= ratio.dissipation.pressure;
+    }
     double& theta = fields.solids.temperature[j][c];
     double s = std::sqrt(std::max(theta, 0.0));
     if (transported_) {
@@ -149,8 +184,8 @@ void KineticStress::add_cell(Fields& fields, Index cell, const closures::RadialV
     }
     const double share = fields.share[j][c], rho = constants_.density[j];
     const double energy = fade * share * rho * s * s;
-    fields.stress.pressure[c] += solids * energy * (1 + here.collisions);
-    fields.stress.slope[c] += energy * (1 + here.collisions * (2 + phi * radial.slope / radial.value));
+    fields.stress.pressure[c] += solids * energy * pressure;
+    fields.stress.slope[c] += energy * slope;
     fields.stress.viscosity[c] += share * here.viscosity * s;
     wall += share * closures::wall_collisions(s * s, specularity_, rho, 1, here.g0, max_packing_);
   }

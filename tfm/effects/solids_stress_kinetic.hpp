@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "closures/kinetic_theory.hpp"
+#include "closures/stress_ratios.hpp"
 #include "tfm/effects.hpp"
 
 namespace polybed::tfm {
@@ -22,8 +24,13 @@ class KineticStress : public CollisionalStress {
   KineticStress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                 bool transported, double max_packing, Fields& fields);
   void add(Fields& fields) override;
+  /// Of a stress that was measured: pressure, viscosity and dissipation times these ratios, which are to Garzo and
+  /// Dufty with the g0 of Carnahan and Starling. \param name  of the table, for the count of what lies outside it
+  void multiply(closures::StressRatios ratios, const std::string& name);
+  [[nodiscard]] std::optional<ClosureUse> use() const override { return use_; }
 
  private:
+  struct NoRatios {};
   static constexpr std::size_t most_species = 15;  ///< as the case file allows
   /// One species in one cell, per volume of the species; s = sqrt theta.
   struct Local {
@@ -38,7 +45,10 @@ class KineticStress : public CollisionalStress {
   [[nodiscard]] Motion motion_in(const Fields& fields, core::Index cell) const;
   void balance_terms(const Fields& fields, std::size_t cell, double phi, std::size_t species, const Motion& motion,
                      Local& local) const;
-  void add_cell(Fields& fields, core::Index cell, const closures::RadialValue& radial) const;
+  template <class Ratios>
+  void add_with(Fields& fields, const Ratios& ratios);
+  template <class Ratios>
+  void add_cell(Fields& fields, core::Index cell, const closures::RadialValue& radial, const Ratios& ratios) const;
   void find_rate(Fields& fields, std::size_t cell, double phi, std::size_t species, const Local& local) const;
   void add_wall_energy(Fields& fields) const;
 
@@ -47,6 +57,8 @@ class KineticStress : public CollisionalStress {
   closures::KineticModel model_;
   bool dense_, transported_;
   std::vector<double> restitution_;
+  std::optional<closures::StressRatios> ratios_;  ///< absent: kinetic theory alone
+  std::optional<ClosureUse> use_;
   double specularity_, wall_restitution_, max_packing_, conduction_diagonal_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/output_file.hpp"
@@ -13,8 +14,11 @@ using core::Index;
 closures::MonotoneCurve read_bed_pressure(const std::string& file) {
   const core::OutputFile table(file, core::FileKind{"polybed solids table", 1});
   if (const std::string regime = table.text_attribute("/", "regime"); regime != "bed")
-    throw core::CaseError(file + ": a table of regime \"" + regime + "\"; only \"bed\" is known yet");
-  std::vector<double> phi = table.read("phi").values, pressure = table.read("p_bed").values;
+    throw core::CaseError(file + ": a table of regime \"" + regime + "\", not of a fluidised bed");
+  return bed_curve(table.read("phi").values, table.read("p_bed").values, file);
+}
+
+closures::MonotoneCurve bed_curve(std::vector<double> phi, std::vector<double> pressure, const std::string& file) {
   if (!phi.empty() && phi.front() > 0) {
     phi.insert(phi.begin(), 0.0);
     pressure.insert(pressure.begin(), 0.0);
@@ -29,11 +33,11 @@ closures::MonotoneCurve read_bed_pressure(const std::string& file) {
 }
 
 TableStress::TableStress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
-                         const std::string& file, Fields& fields)
+                         closures::MonotoneCurve pressure, const std::string& file, Fields& fields)
     : constants_(constants),
       boundaries_(boundaries),
       frictional_(scene, constants, boundaries, fields),
-      bed_pressure_(read_bed_pressure(file)),
+      bed_pressure_(std::move(pressure)),
       use_{"solids stress " + file} {
   for (std::size_t j = 0; j < constants.species(); ++j) {
     unit_.push_back(std::abs(constants.density[j] - constants.fluid.density) * constants.gravity *

@@ -12,8 +12,9 @@ namespace polybed::tfm {
 /// p_bed is held, which is counted.
 class TableStress : public StressEffect {
  public:
+  /// \param pressure  p_bed  \param name  of its file
   TableStress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
-              const std::string& file, Fields& fields);
+              closures::MonotoneCurve pressure, const std::string& name, Fields& fields);
   void evaluate(Fields& fields) override;
   [[nodiscard]] double max_packing() const override { return frictional_.max_packing(); }
   [[nodiscard]] double packing_of(std::span<const double> share) const override {
@@ -33,6 +34,11 @@ class TableStress : public StressEffect {
   double bed_unit_ = 0;       ///< of the whole bed's composition
   ClosureUse use_;
 };
+
+/// p_bed(phi) as a curve: an empty bed has no pressure, so one that begins above phi = 0 gets that knot. Throws
+/// core::CaseError if it does not rise. \param name  of its file
+[[nodiscard]] closures::MonotoneCurve bed_curve(std::vector<double> phi, std::vector<double> pressure,
+                                                const std::string& name);
 
 /// Reads p_bed(phi) from a file of type "polybed solids table", version 1, attribute regime = "bed", datasets `phi` and
 /// `p_bed` (in units of (rho_p - rho_f) g D). An empty bed has no pressure: a table that begins above phi = 0 gets that

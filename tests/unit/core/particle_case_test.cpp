@@ -206,6 +206,16 @@ INSTANTIATE_TEST_SUITE_P(ContactPair, WrongParticleCase,
                                               "between = [\"wall\", \"fine\"]",
                                               "two [[contact_pair]] of fine and wall: write one")));
 
+TEST(ParticleCase, TheFluidOfAShearedBoxIsItsFlow) {
+  Lines sheared{"ends = \"periodic\"\nsides = \"periodic\"\ngravity = 0", {}, {}, {}, {}, {}};
+  sheared.dem = "shear_rate = 2";
+  std::string text = dry_case(sheared);
+  text.replace(text.find("\"none\""), 6, "\"water\"\ntemperature = \"20 degC\"");
+  EXPECT_EQ(message_of(text), "") << "no inlet is asked for";
+  EXPECT_THAT(message_of(text + "\n[inlet]\nsuperficial_velocity = 0.1\n"),
+              HasSubstr("inlet.superficial_velocity cannot act in a sheared box"));
+}
+
 TEST(ParticleCase, EndsAreJoinedOnlyWithoutAFluid) {
   std::string text = dry_case({"ends = \"periodic\"", {}, {}, {}, {}, "[inlet]\nsuperficial_velocity = 0.1"});
   text.replace(text.find("\"none\""), 6, "\"water\"");

@@ -1,0 +1,65 @@
+// Closed forms that measured stresses of sheared particles are divided by, so that a table holds numbers near 1, and
+// the numbers that tell which of them a scene calls for. phi solids fraction, gamma shear rate, theta = <v'^2>/3.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "closures/kinetic_theory.hpp"
+
+namespace polybed::closures {
+
+/// St_gamma = rho_p d^2 gamma/mu: inertia of a sheared particle over the liquid's drag.
+[[nodiscard]] inline double stokes_of_shear(double density, double diameter, double shear_rate, double viscosity) {
+  return density * diameter * diameter * shear_rate / viscosity;
+}
+
+/// Shear rate at which a bed moves, 1/s: max(10 w/L, w/(10 d)), w = U/eps, L the width.
+[[nodiscard]] inline double bed_shear_rate(double velocity, double voidage, double width, double diameter) {
+  const double slip = velocity / voidage;
+  return std::max(10 * slip / width, 0.1 * slip / diameter);
+}
+
+/// tau_p = m over the drag per slip, s, crowding included: rho d^2/(18 mu eps f) with f the pure drag over Stokes'.
+[[nodiscard]] inline double relaxation_time(double density, double diameter, double viscosity, double voidage,
+                                            double f_pure) {
+  return density * diameter * diameter / (18 * viscosity * voidage * f_pure);
+}
+
+/// Solids fraction at which sheared spheres jam, from Chialvo, Sun and Sundaresan (Phys. Rev. E 85, 2012, 021305):
+/// .636 .613 .596 .587 .581 at friction 0 .1 .3 .5 1, linear between, the last beyond.
+[[nodiscard]] inline double jamming_fraction(double friction) {
+  constexpr std::array<double, 5> mu{0, 0.1, 0.3, 0.5, 1}, phi{0.636, 0.613, 0.596, 0.587, 0.581};
+  for (std::size_t n = 1; n < mu.size(); ++n)
+    if (friction < mu[n]) return phi[n - 1] + (phi[n] - phi[n - 1]) * (friction - mu[n - 1]) / (mu[n] - mu[n - 1]);
+  return phi.back();
+}
+
+/// e - 1.5 mu_p exp(-3 mu_p): restitution of smooth spheres that lose as much as rough ones (the same source).
+[[nodiscard]] inline double effective_restitution(double restitution, double friction) {
+  return restitution - 1.5 * friction * std::exp(-3 * friction);
+}
+
+/// p/(mu_f gamma) of a suspension at St -> 0: (phi/(phi_m - phi))^2, Boyer, Guazzelli and Pouliquen (Phys. Rev. Lett.
+/// 107, 2011, 188301), and its slope. From phi_m - 0.01 on its tangent, so that it has no pole. phi >= 0.
+[[nodiscard]] inline RadialValue viscous_stress_form(double phi, double jammed) {
+  constexpr double margin = 0.01;
+  const double at = std::min(phi, jammed - margin), gap = jammed - at, root = at / gap;
+  const double slope = 2 * root * jammed / (gap * gap);
+  return {root * root + slope * (phi - at), slope};
+}
+
+/// theta/(gamma d)^2 = mu*/Gamma* of steady simple shear without a fluid.
+[[nodiscard]] inline double shear_temperature(double viscosity_star, double dissipation_star) {
+  return viscosity_star / dissipation_star;
+}
+
+/// theta/(gamma d)^2 with drag, rate r = 1/(gamma tau_d): mu* s = Gamma* s^3 + 3 phi r s^2, s = sqrt(theta)/(gamma d).
+[[nodiscard]] inline double shear_temperature_with_drag(double viscosity_star, double dissipation_star, double phi,
+                                                        double rate) {
+  const double s = balanced_speed(dissipation_star, 3 * phi * rate, viscosity_star, 0);
+  return s * s;
+}
+
+}  // namespace polybed::closures

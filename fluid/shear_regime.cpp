@@ -1,0 +1,92 @@
+#include "fluid/shear_regime.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "closures/drag.hpp"
+#include "closures/lubrication.hpp"
+#include "closures/stress_reference.hpp"
+#include "core/error.hpp"
+#include "fluid/properties.hpp"
+
+namespace polybed::fluid {
+
+namespace {
+
+closures::DragLaw law_of_scene(const core::Scene& scene) {
+  const std::string name = core::law_of(scene, "drag");
+  if (name == "none")
+    throw core::CaseError("calibrate: particles in a fluid need a drag law: [effects] drag = ..., see polybed list");
+  return closures::drag_law(name, closures::Guard::on);
+}
+
+/// f of one species alone.
+double pure_drag(const closures::DragLaw& law, const core::Species& species, const FluidConstants& fluid,
+                 double velocity, double voidage) {
+  const double share = 1, diameter = species.diameter, slip = velocity;
+  double f = 0, slope = 0;
+  closures::drag_of_mixture(law, voidage, {&share, 1}, {&diameter, 1}, {&slip, 1}, fluid.density, fluid.viscosity,
+                            {&f, 1}, {&slope, 1});
+  return f;
+}
+
+/// Voidage at which drag carries the buoyant weight: 18 mu f u/d^2 = eps |rho_p - rho_f| g, T(1.50); in [0.4, 0.99].
+double floating_voidage(const core::Scene& scene, const closures::DragLaw& law, const core::Species& species,
+                        const FluidConstants& fluid, double velocity) {
+  const double weight = std::abs(species.density - fluid.density) * scene.column.gravity;
+  double low = 0.4, high = 0.99;
+  for (int n = 0; n < 60; ++n) {
+    const double eps = 0.5 * (low + high), d = species.diameter;
+    const double drag = 18 * fluid.viscosity * pure_drag(law, species, fluid, velocity, eps) * velocity / (d * d);
+    (drag > eps * weight ? low : high) = eps;
+  }
+  return 0.5 * (low + high);
+}
+
+double greatest_velocity(const core::Scene& scene) {
+  double most = 0;
+  for (const auto& [time, velocity] : scene.inlet.superficial_velocity) most = std::max(most, std::abs(velocity));
+  return most;
+}
+
+}  // namespace
+
+RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, double velocity, double voidage) {
+  const core::Species& s = scene.species[species];
+  const FluidConstants fluid = fluid_constants(scene.fluid);
+  const closures::DragLaw law = law_of_scene(scene);
+  RegimeNumbers n;
+  n.species = s.name;
+  n.velocity = velocity;
+  n.voidage = voidage > 0 ? voidage : floating_voidage(scene, law, s, fluid, velocity);
+  n.shear_rate = closures::bed_shear_rate(velocity, n.voidage, scene.column.size[0], s.diameter);
+  const double slip = velocity / n.voidage;
+  n.stokes_least = closures::stokes_of_impact(s.density, fluid.density, s.diameter, 0.2 * slip, fluid.viscosity);
+  n.stokes_most = 5 * n.stokes_least;
+  n.stokes_of_shear = closures::stokes_of_shear(s.density, s.diameter, n.shear_rate, fluid.viscosity);
+  n.shear_times_relaxation = n.shear_rate * closures::relaxation_time(s.density, s.diameter, fluid.viscosity, n.voidage,
+                                                                      pure_drag(law, s, fluid, velocity, n.voidage));
+  return n;
+}
+
+Regime shear_regime(const core::Scene& scene) {
+  if (scene.fluid.name == "none") return {"dry", "there is no fluid", {}};
+  const std::string& given = scene.calibrate.regime;
+  Regime regime{given == "dry" || given == "wet" ? given : "", "as the case says", {}};
+  const double velocity = greatest_velocity(scene);
+  for (std::size_t j = 0; velocity > 0 && j < scene.species.size(); ++j)
+    regime.numbers.push_back(regime_numbers(scene, j, velocity, 0));
+  if (!regime.name.empty() || regime.numbers.empty()) return regime;
+  const RegimeNumbers& most = *std::max_element(
+      regime.numbers.begin(), regime.numbers.end(),
+      [](const auto& a, const auto& b) { return a.shear_times_relaxation < b.shear_times_relaxation; });
+  regime.name = most.shear_times_relaxation >= 1 ? "dry" : "wet";
+  regime.reason =
+      fmt::format("gamma tau_p = {:.2g} of {}, {}; St* = {:.2g} to {:.2g}", most.shear_times_relaxation, most.species,
+                  regime.name == "dry" ? "1 or more" : "below 1", most.stokes_least, most.stokes_most);
+  return regime;
+}
+
+}  // namespace polybed::fluid

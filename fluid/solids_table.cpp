@@ -1,0 +1,147 @@
+#include "fluid/solids_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/output_file.hpp"
+
+namespace polybed::fluid {
+
+namespace {
+
+const core::FileKind kind{"polybed solids table", 1};
+
+/// Weights of the two knots around a value, the edges held.
+struct Between {
+  std::size_t low = 0, high = 0;
+  double share = 0;  ///< of the high one
+};
+
+Between between(const std::vector<double>& axis, double value) {
+  if (axis.size() == 1 || value <= axis.front()) return {};
+  if (value >= axis.back()) return {axis.size() - 1, axis.size() - 1, 0};
+  const auto high = std::size_t(std::upper_bound(axis.begin(), axis.end(), value) - axis.begin());
+  return {high - 1, high, (value - axis[high - 1]) / (axis[high] - axis[high - 1])};
+}
+
+/// A quantity along phi at one Stokes number, linear in the other axes.
+std::vector<double> along_phi(const SolidsTable& t, const TableQuantity& q, std::size_t stokes,
+                              const TablePlace& place) {
+  const Between e = between(t.restitution, place.restitution), m = between(t.friction, place.friction),
+                x = between(t.share, place.share);
+  std::vector<double> values;
+  for (std::size_t p = 0; p < t.phi.size(); ++p) {
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const bool he = corner & 1, hm = corner & 2, hx = corner & 4;
+      const double weight = (he ? e.share : 1 - e.share) * (hm ? m.share : 1 - m.share) * (hx ? x.share : 1 - x.share);
+      const std::size_t n = t.index(p, stokes, he ? e.high : e.low, hm ? m.high : m.low, hx ? x.high : x.low);
+      sum += weight * (q.value[n] + place.sigma * q.error[n]);
+    }
+    values.push_back(sum);
+  }
+  return values;
+}
+
+using Quantities = std::array<std::pair<const char*, TableQuantity SolidsTable::*>, 4>;
+constexpr Quantities quantities{{{"p_ratio", &SolidsTable::pressure},
+                                 {"mu_ratio", &SolidsTable::viscosity},
+                                 {"gamma_ratio", &SolidsTable::dissipation},
+                                 {"T_ratio_12", &SolidsTable::temperature}}};
+using Axes = std::array<std::pair<const char*, std::vector<double> SolidsTable::*>, 5>;
+constexpr Axes axes{{{"phi", &SolidsTable::phi},
+                     {"stokes", &SolidsTable::stokes},
+                     {"e", &SolidsTable::restitution},
+                     {"mu_p", &SolidsTable::friction},
+                     {"x2", &SolidsTable::share}}};
+using Numbers = std::array<std::pair<const char*, double SolidsTable::*>, 4>;
+constexpr Numbers numbers{{{"lambda", &SolidsTable::inertia},
+                           {"size_ratio", &SolidsTable::size_ratio},
+                           {"fit_residual", &SolidsTable::residual},
+                           {"left_out_residual", &SolidsTable::left_out}}};
+using Texts = std::array<std::pair<const char*, std::string SolidsTable::*>, 4>;
+constexpr Texts texts{{{"regime", &SolidsTable::regime},
+                       {"reference", &SolidsTable::reference},
+                       {"case_hash", &SolidsTable::case_hash},
+                       {"created", &SolidsTable::created}}};
+
+}  // namespace
+
+closures::StressRatios ratios_at(const SolidsTable& table, const TablePlace& place) {
+  std::vector<closures::RatioCurves> curves;
+  for (std::size_t s = 0; s < table.stokes.size(); ++s)
+    curves.push_back({table.stokes[s],
+                      {table.phi, along_phi(table, table.pressure, s, place)},
+                      {table.phi, along_phi(table, table.viscosity, s, place)},
+                      {table.phi, along_phi(table, table.dissipation, s, place)}});
+  return closures::StressRatios(std::move(curves));
+}
+
+bool outside(const SolidsTable& table, const TablePlace& place) {
+  const auto off = [](const std::vector<double>& axis, double value) {
+    return value < axis.front() || value > axis.back();
+  };
+  return (table.regime == "dry" && off(table.restitution, place.restitution)) || off(table.friction, place.friction) ||
+         (table.share.size() > 1 && off(table.share, place.share));
+}
+
+std::string regime_of_table(const std::filesystem::path& path) {
+  return core::OutputFile(path, kind).text_attribute("/", "regime");
+}
+
+void write_solids_table(const std::filesystem::path& path, const SolidsTable& table) {
+  core::OutputFile file(kind);
+  for (const auto& [name, text] : texts) file.set_attribute("/", name, table.*text);
+  for (const auto& [name, number] : numbers) file.set_attribute("/", name, table.*number);
+  file.set_attribute("/", "units", std::string("ratios to the reference; p_bed over |rho_p - rho_f| g D"));
+  std::vector<std::size_t> shape;
+  for (const auto& [name, axis] : axes) {
+    shape.push_back((table.*axis).size());
+    file.write(name, {shape.back()}, table.*axis);
+  }
+  for (const auto& [name, quantity] : quantities) {
+    const TableQuantity& q = table.*quantity;
+    file.write(name, shape, q.value);
+    file.write(std::string(name) + "_se", shape, q.error);
+    file.write(std::string(name) + "_n", shape, q.seeds);
+  }
+  file.write("S", shape, table.shear_number);
+  if (!table.bed_phi.empty()) {
+    file.write("phi_bed", {table.bed_phi.size()}, table.bed_phi);
+    file.write("p_bed", {table.bed_phi.size()}, table.bed_pressure);
+    file.write("p_bed_se", {table.bed_phi.size()}, table.bed_error);
+  }
+  file.save(path);
+}
+
+SolidsTable read_solids_table(const std::filesystem::path& path) {
+  const core::OutputFile file(path, kind);
+  SolidsTable table;
+  for (const auto& [name, text] : texts) table.*text = file.text_attribute("/", name);
+  if (table.regime != "dry" && table.regime != "wet")
+    throw core::FileError(
+        fmt::format("{}: a table of regime \"{}\" holds no sheared boxes", path.string(), table.regime));
+  for (const auto& [name, number] : numbers) table.*number = file.attribute("/", name);
+  for (const auto& [name, axis] : axes) table.*axis = file.read(name).values;
+  for (const auto& [name, quantity] : quantities) {
+    TableQuantity& q = table.*quantity;
+    q = {file.read(name).values, file.read(std::string(name) + "_se").values,
+         file.read(std::string(name) + "_n").values};
+    if (q.value.size() != table.size() || q.error.size() != table.size())
+      throw core::FileError(fmt::format("{}: {} has another number of values than the axes say", path.string(), name));
+  }
+  table.shear_number = file.read("S").values;
+  table.git_commit = file.text_attribute("/", "git_commit");
+  if (!file.has("p_bed")) return table;
+  table.bed_phi = file.read("phi_bed").values;
+  table.bed_pressure = file.read("p_bed").values;
+  table.bed_error = file.read("p_bed_se").values;
+  return table;
+}
+
+}  // namespace polybed::fluid

@@ -1,0 +1,57 @@
+// The file of a table of the solids stress: what sheared boxes of particles have measured, over closed forms.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "closures/stress_ratios.hpp"
+
+namespace polybed::fluid {
+
+/// A ratio at every point of the table, its standard error, and how many seeds it is the mean of.
+struct TableQuantity {
+  std::vector<double> value, error, seeds;  ///< [phi][stokes][restitution][friction][share]
+};
+
+struct SolidsTable {
+  std::string regime;                                             ///< dry | wet
+  std::string reference;                                          ///< GD-CS | viscous
+  std::vector<double> phi, stokes, restitution, friction, share;  ///< axes; stokes of a dry table: 0
+  TableQuantity pressure, viscosity, dissipation, temperature;    ///< temperature: T_2/T_1
+  std::vector<double> shear_number;                               ///< S = gamma d/sqrt(theta) at every point
+  std::vector<double> bed_phi, bed_pressure, bed_error;           ///< p_bed of a fluidised bed; empty if not in it
+  double inertia = 0;                                             ///< lambda of the viscous form
+  double size_ratio = 1;                                          ///< of the two species, if share is an axis
+  double residual = 0;                                            ///< of the fit, beyond two standard errors
+  double left_out = 0;  ///< greatest error of p where a solids fraction is left out of the fit
+  std::string case_hash, created, git_commit;
+
+  [[nodiscard]] std::size_t size() const {
+    return phi.size() * stokes.size() * restitution.size() * friction.size() * share.size();
+  }
+  [[nodiscard]] std::size_t index(std::size_t p, std::size_t s, std::size_t e, std::size_t m, std::size_t x) const {
+    return (((p * stokes.size() + s) * restitution.size() + e) * friction.size() + m) * share.size() + x;
+  }
+};
+
+/// Where in a table a scene lies, other than phi and the Stokes number, and by how many standard errors it is moved.
+struct TablePlace {
+  double restitution = 0, friction = 0, share = 0, sigma = 0;
+};
+
+/// The ratios at a place: linear in restitution, friction and share, the edges held. Throws std::invalid_argument for
+/// axes that do not rise.
+[[nodiscard]] closures::StressRatios ratios_at(const SolidsTable& table, const TablePlace& place);
+
+/// Whether a place lies outside the axes of a table.
+[[nodiscard]] bool outside(const SolidsTable& table, const TablePlace& place);
+
+/// Regime of a file of type "polybed solids table": dry, wet or bed. Throws core::FileError.
+[[nodiscard]] std::string regime_of_table(const std::filesystem::path& path);
+
+void write_solids_table(const std::filesystem::path& path, const SolidsTable& table);
+/// Throws core::FileError if it is another file, or of regime "bed".
+[[nodiscard]] SolidsTable read_solids_table(const std::filesystem::path& path);
+
+}  // namespace polybed::fluid

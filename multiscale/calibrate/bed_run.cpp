@@ -1,0 +1,182 @@
+// Fluidised boxes: the pressure of particles that a stream carries, by their stress in slabs and by the balance of the
+// forces above.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "closures/drag.hpp"
+#include "closures/sphere.hpp"
+#include "core/error.hpp"
+#include "core/timers.hpp"
+#include "dem/stress.hpp"
+#include "fluid/properties.hpp"
+#include "multiscale/calibrate/bed_scene.hpp"
+#include "multiscale/calibrate/box_result.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+/// Width of the box and of its cells, in diameters; height of the column over that of the bed.
+constexpr double width = 8, cell = 2, headroom = 1.6;
+/// Times of the stream through the bed: before the average, and of it.
+constexpr double settle = 2, average = 8;
+/// Deviation of the Gaussian of a slab, in diameters.
+constexpr double slab = 1.5;
+/// Part of the bed's height that is looked at: away from the distributor and from the surface.
+constexpr double low_part = 0.3, high_part = 0.7;
+constexpr int heights = 9, blocks_of_a_run = 20;
+
+/// Superficial velocity at which drag carries the buoyant weight at a voidage: 18 mu f u/d^2 = eps |rho_p - rho_f| g.
+double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, double voidage) {
+  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const std::string name = core::law_of(scene, "drag");
+  if (name == "none") throw core::CaseError("calibrate.regime = \"bed\" needs a drag law: [effects] drag = ...");
+  const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
+  const double weight = voidage * std::abs(mean.density - fluid.density) * scene.column.gravity, d = mean.diameter;
+  double low = 0, high = 10;
+  for (int n = 0; n < 80; ++n) {
+    const double u = 0.5 * (low + high), share = 1;
+    double f = 0, slope = 0;
+    closures::drag_of_mixture(law, voidage, {&share, 1}, {&d, 1}, {&u, 1}, fluid.density, fluid.viscosity, {&f, 1},
+                              {&slope, 1});
+    (18 * fluid.viscosity * f * u / (d * d) < weight ? low : high) = u;
+  }
+  return 0.5 * (low + high);
+}
+
+/// What a bed is told by, at one of the heights or summed over them.
+struct Slabs {
+  double phi = 0, stress = 0, balance = 0;
+};
+
+class BedRun {
+ public:
+  BedRun(const core::Scene& scene, const BoxPoint& point) : box_(scene_of_bed(scene, point)), model_(box_, timers_) {
+    result_.point = point;
+    result_.hash = box_hash(scene, point);
+    const dem::Species& s = model_.materials().species()[0];
+    result_.diameter = 2 * s.radius;
+    result_.density = s.density;
+    const double rho = fluid::fluid_constants(box_.fluid).density;
+    unit_ = std::abs(s.density - rho) * box_.column.gravity * result_.diameter;
+    area_ = box_.column.size[0] * box_.column.size[2];
+    height_ = double(box_.bed.particles[0]) * closures::sphere_volume(s.radius) / (area_ * point.phi);
+  }
+
+  BoxResult run() {
+    const double begin = core::cpu_seconds();
+    const double transit = height_ / box_.inlet.superficial_velocity[0].second;
+    for (double until = settle * transit; model_.time() < until;) model_.step(1e300);
+    std::vector<double> phi, stress, balance;
+    const int every = box_.dem.fluid_every;
+    for (int b = 1; b <= blocks_of_a_run; ++b) {
+      Slabs sum;
+      std::int64_t looks = 0;
+      for (double until = (settle + average * b / blocks_of_a_run) * transit; model_.time() < until; ++looks) {
+        for (int k = 0; k < every; ++k) model_.step(1e300);
+        look(sum);
+      }
+      phi.push_back(sum.phi / double(looks));
+      stress.push_back(sum.stress / double(looks) / unit_);
+      balance.push_back(sum.balance / double(looks) / unit_);
+    }
+    result_.bed_phi = estimate_of(phi).mean;
+    result_.bed_pressure = estimate_of(stress);
+    result_.bed_balance = estimate_of(balance);
+    result_.balance = result_.bed_balance.mean / result_.bed_pressure.mean;
+    result_.cpu_seconds = core::cpu_seconds() - begin;
+    result_.particle_steps = double(model_.work().particle_steps);
+    return result_;
+  }
+
+ private:
+  [[nodiscard]] double sigma() const { return slab * result_.diameter; }
+  [[nodiscard]] double place(int k) const { return height_ * (low_part + (high_part - low_part) * k / (heights - 1)); }
+  /// A Gaussian of a slab over the area, 1/m3.
+  [[nodiscard]] double weight(double distance) const {
+    const double z = distance / sigma();
+    return std::exp(-0.5 * z * z) / (std::sqrt(2 * std::numbers::pi) * sigma() * area_);
+  }
+
+  void look(Slabs& sum) const {
+    const dem::Particles& p = model_.particles();
+    const double volume = closures::sphere_volume(0.5 * result_.diameter);
+    const dem::FluidMotion& fluid = model_.coupling()->motion();
+    const double per = 1.0 / heights;
+    for (std::size_t i = 0; i < p.owned; ++i) {
+      const double y = p.place[i].x[1], v = p.motion[i].v[1], mass = 1 / p.motion[i].inverse_mass;
+      const dem::FluidLoad& load = fluid.load[i];
+      const double force =
+          load.drag * (load.velocity[1] - v) + load.force[1] + mass * fluid.net_gravity(p.species[i])[1];
+      for (int k = 0; k < heights; ++k) {
+        const double distance = y - place(k), w = weight(distance) * per;
+        sum.phi += volume * w;
+        sum.stress += mass * v * v * w;
+        // What lies above presses: the share of the slab's Gaussian that lies below the particle.
+        sum.balance -= force * 0.5 * std::erfc(-distance / (std::sqrt(2.0) * sigma())) / area_ * per;
+      }
+    }
+    for (const dem::ContactForce& c : dem::contact_forces(model_)) {
+      const double y = p.place[c.first].x[1] - 0.5 * c.length * c.normal[1];
+      const double virial = c.length * c.normal[1] * c.force[1] * per;
+      for (int k = 0; k < heights; ++k) sum.stress += virial * weight(y - place(k));
+    }
+  }
+
+  core::Scene box_;
+  core::Timers timers_;
+  dem::Model model_;
+  BoxResult result_;
+  double unit_ = 0, area_ = 0, height_ = 0;
+};
+
+}  // namespace
+
+core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
+  const MeanSphere mean = mean_sphere(scene.species, scene.bed.volume_share);
+  const double d = mean.diameter, number = scene.calibrate.particles;
+  core::Scene box;
+  box.title = "a fluidised box of polybed calibrate";
+  box.fluid = scene.fluid;
+  box.species.resize(1);
+  box.species[0].name = "mean";
+  box.species[0].diameter = d;
+  box.species[0].density = mean.density;
+  box.bed.particles = {scene.calibrate.particles};
+  const double height = number * closures::sphere_volume(0.5 * d) / (width * width * d * d * point.phi);
+  const int cells = int(std::ceil(headroom * height / (cell * d))), across = int(width / cell);
+  box.column.dimensions = 3;
+  box.column.size = {width * d, cells * cell * d, width * d};
+  box.column.given_size = {width * d, width * d, cells * cell * d};
+  box.column.cells = {across, cells, across};
+  box.column.given_cells = {across, across, cells};
+  box.column.gravity = scene.column.gravity;
+  box.column.sides = "periodic";
+  box.bed.start = "mixed";
+  box.bed.solids_fraction = 0.6;
+  box.bed.start_solids_fraction = std::min(point.phi, 0.5);
+  box.bed.static_height = height * point.phi / box.bed.solids_fraction;
+  box.bed.volume_share = {1};
+  box.bed.seed = std::uint64_t(point.seed);
+  const double velocity = carrying_velocity(scene, mean, 1 - point.phi);
+  box.inlet.superficial_velocity = {{0, velocity}};
+  for (const char* role : {"drag", "lubrication", "added_mass"})
+    if (const std::string law = core::law_of(scene, role); law != "none") box.effects[role] = law;
+  box.effects["contact"] = "hertz_mindlin";
+  box.dem = scene.dem;
+  box.dem.shear_rate = 0;
+  box.dem.friction = point.friction;
+  box.dem.restitution = point.restitution;
+  box.dem.skin = std::nullopt;
+  box.dem.kernel = "bilinear";
+  box.dem.kernel_width = std::nullopt;
+  box.dem.greatest_speed = scene.dem.greatest_speed.value_or(4 * velocity / (1 - point.phi));
+  box.dem.ledger = false;
+  box.run.until = (settle + average) * height / velocity;
+  return box;
+}
+
+BoxResult run_bed_box(const core::Scene& scene, const BoxPoint& point) { return BedRun(scene, point).run(); }
+
+}  // namespace polybed::multiscale

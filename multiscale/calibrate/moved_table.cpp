@@ -1,0 +1,49 @@
+#include "multiscale/calibrate/moved_table.hpp"
+
+#include <fmt/format.h>
+
+#include "closures/stress_table.hpp"
+#include "core/error.hpp"
+#include "core/output_file.hpp"
+#include "fluid/solids_table.hpp"
+#include "multiscale/calibrate/fit.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+std::vector<double> moved_by(const std::vector<double>& values, const std::vector<double>& errors, double sigma) {
+  std::vector<double> moved = values;
+  for (std::size_t n = 0; n < moved.size(); ++n) moved[n] += sigma * errors[n];
+  return moved;
+}
+
+/// A table of regime "bed" alone.
+void write_moved_bed(const std::filesystem::path& path, double sigma, const std::filesystem::path& moved) {
+  const core::FileKind kind{"polybed solids table", 1};
+  const core::OutputFile table(path, kind);
+  if (!table.has("p_bed_se"))
+    throw core::CaseError(path.string() + ": no p_bed_se: nothing tells how uncertain p_bed is");
+  const std::vector<double> phi = table.read("phi").values,
+                            pressure = moved_by(table.read("p_bed").values, table.read("p_bed_se").values, sigma);
+  core::OutputFile file(kind);
+  file.set_attribute("/", "regime", std::string("bed"));
+  file.write("phi", {phi.size()}, phi);
+  file.write("p_bed", {pressure.size()}, pressure);
+  file.save(moved);
+}
+
+}  // namespace
+
+void write_moved_table(const std::filesystem::path& path, double sigma, const std::filesystem::path& moved) {
+  if (fluid::regime_of_table(path) == "bed") return write_moved_bed(path, sigma, moved);
+  fluid::SolidsTable table = fluid::read_solids_table(path);
+  for (fluid::TableQuantity* q : {&table.pressure, &table.viscosity}) q->value = moved_by(q->value, q->error, sigma);
+  table.bed_pressure = moved_by(table.bed_pressure, table.bed_error, sigma);
+  if (const auto falls = falls_of(table); !falls.empty())
+    throw core::CaseError(
+        fmt::format("{} moved by {:+g} standard errors: its pressure falls {}", path.string(), sigma, falls.front()));
+  fluid::write_solids_table(moved, table);
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,109 @@
+#include "multiscale/calibrate/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "closures/stress_reference.hpp"
+#include "core/case_file.hpp"
+#include "core/error.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+std::vector<double> axis(const std::vector<double>& given, std::vector<double> usual, const char* key) {
+  std::vector<double> values = given.empty() ? std::move(usual) : given;
+  for (std::size_t n = 1; n < values.size(); ++n)
+    if (!(values[n] > values[n - 1])) throw core::CaseError(fmt::format("calibrate.{} must rise", key));
+  return values;
+}
+
+double restitution_of(const core::Scene& scene) {
+  double sum = 0;
+  for (const core::Species& s : scene.species) sum += s.restitution.value_or(scene.dem.restitution);
+  return sum / double(scene.species.size());
+}
+
+double friction_of(const core::Scene& scene) {
+  double sum = 0;
+  for (const core::Species& s : scene.species) sum += s.friction.value_or(scene.dem.friction);
+  return sum / double(scene.species.size());
+}
+
+TableAxes axes_of(const core::Scene& scene, const std::string& regime) {
+  const core::Calibrate& c = scene.calibrate;
+  const bool sheared = regime != "bed";
+  TableAxes a;
+  a.phi = axis(c.solids_fraction,
+               sheared ? std::vector{0.1, 0.2, 0.3, 0.4, 0.45, 0.5} : std::vector{0.2, 0.3, 0.4, 0.45, 0.5},
+               "solids_fraction");
+  a.stokes = regime == "wet" ? axis(c.stokes, {1, 3, 10}, "stokes") : std::vector{0.0};
+  a.restitution = regime == "dry" ? axis(c.restitution, {restitution_of(scene)}, "restitution")
+                                  : std::vector{restitution_of(scene)};
+  a.friction = sheared ? axis(c.friction, {friction_of(scene)}, "friction") : std::vector{friction_of(scene)};
+  a.share = sheared ? axis(c.share, {0}, "share") : std::vector{0.0};
+  if (a.phi.size() < 2) throw core::CaseError("calibrate.solids_fraction: a table needs two of them or more");
+  if (!c.share.empty() && scene.species.size() != 2)
+    throw core::CaseError(fmt::format("calibrate.share is of two species, the case has {}", scene.species.size()));
+  for (const double mu : a.friction)
+    if (sheared && a.phi.back() > closures::jamming_fraction(mu) - 0.02)
+      throw core::CaseError(
+          fmt::format("calibrate.solids_fraction = {:g}: spheres of friction {:g} jam at {:.3f}; a sheared box stays "
+                      "0.02 below",
+                      a.phi.back(), mu, closures::jamming_fraction(mu)));
+  for (const double e : a.restitution)
+    if (regime == "dry" && !(e < 1)) throw core::CaseError("calibrate.restitution: a dry box needs less than 1");
+  return a;
+}
+
+/// As calibrate.regime says, or by the numbers of the scene.
+fluid::Regime regime_of(const core::Scene& scene) {
+  const std::string& given = scene.calibrate.regime;
+  if (scene.fluid.name == "none" && (given == "wet" || given == "bed"))
+    throw core::CaseError("calibrate.regime = \"" + given + "\" needs a fluid: fluid.name is \"none\"");
+  fluid::Regime regime = fluid::shear_regime(scene);
+  if (given == "bed") {
+    regime.name = given;
+    regime.reason = "as the case says";
+  }
+  if (regime.name.empty())
+    throw core::CaseError("calibrate.regime = \"auto\" needs inlet.superficial_velocity, or say dry or wet");
+  return regime;
+}
+
+}  // namespace
+
+Plan plan_of(const core::Scene& scene) {
+  Plan plan{regime_of(scene), {}, !scene.calibrate.share.empty(), {}};
+  plan.axes = axes_of(scene, plan.regime.name);
+  const TableAxes& a = plan.axes;
+  for (const double phi : a.phi)
+    for (const double stokes : a.stokes)
+      for (const double e : a.restitution)
+        for (const double mu : a.friction)
+          for (const double share : a.share)
+            for (int seed = 1; seed <= scene.calibrate.seeds; ++seed)
+              plan.boxes.push_back({plan.regime.name, phi, stokes, e, mu, share, plan.binary, seed});
+  return plan;
+}
+
+MeanSphere mean_sphere(const std::vector<core::Species>& species, const std::vector<double>& share) {
+  double per_diameter = 0, density = 0;
+  for (std::size_t j = 0; j < species.size(); ++j) {
+    per_diameter += share[j] / species[j].diameter;
+    density += share[j] * species[j].density;
+  }
+  return {1 / per_diameter, density};
+}
+
+std::string box_hash(const core::Scene& scene, const BoxPoint& point) {
+  const core::Calibrate& c = scene.calibrate;
+  constexpr int method = 1;  // counted up when a box would be measured in another way
+  core::Scene box = scene_of_box(scene, point);
+  return core::text_hash(fmt::format("{} {} {} {} {} {}\n{}", method, point.seed, c.strain, c.discard_strain,
+                                     c.doublings, c.softness, core::resolved_case(box)));
+}
+
+}  // namespace polybed::multiscale

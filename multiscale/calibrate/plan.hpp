@@ -1,0 +1,53 @@
+// Which boxes a calibration runs: the axes of its table, and every point with its seeds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "fluid/shear_regime.hpp"
+
+namespace polybed::multiscale {
+
+/// One box: where it stands in the table, and with which random numbers it begins.
+struct BoxPoint {
+  std::string regime;  ///< dry | wet | bed
+  double phi = 0, stokes = 0, restitution = 0, friction = 0, share = 0;
+  bool binary = false;  ///< two species, `share` the volume of the second; else one of the bed's mean size
+  int seed = 1;
+};
+
+/// Values of the axes, each rising; stokes is 0 alone of dry boxes, share 0 alone of spheres of one size.
+struct TableAxes {
+  std::vector<double> phi, stokes, restitution, friction, share;
+  [[nodiscard]] std::size_t points() const {
+    return phi.size() * stokes.size() * restitution.size() * friction.size() * share.size();
+  }
+};
+
+struct Plan {
+  fluid::Regime regime;  ///< dry | wet | bed
+  TableAxes axes;
+  bool binary = false;
+  std::vector<BoxPoint> boxes;  ///< [phi][stokes][restitution][friction][share][seed]
+};
+
+/// Throws core::CaseError for axes that do not rise or cannot be run.
+[[nodiscard]] Plan plan_of(const core::Scene& scene);
+
+/// The scene of a box: a cube for `dry` and `wet`, a column for `bed`.
+[[nodiscard]] core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point);
+
+/// Steps of a box times its particles, without the doublings.
+[[nodiscard]] double particle_steps_of(const core::Scene& scene, const BoxPoint& point);
+
+/// A name that changes with everything that the box's result depends on.
+[[nodiscard]] std::string box_hash(const core::Scene& scene, const BoxPoint& point);
+
+/// Sauter diameter, m, and mean density by volume, kg/m3, of the solids of a scene.
+struct MeanSphere {
+  double diameter, density;
+};
+[[nodiscard]] MeanSphere mean_sphere(const std::vector<core::Species>& species, const std::vector<double>& share);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,25 @@
+// The closed forms that a box's stress is divided by: those that the two-fluid model multiplies again.
+#pragma once
+
+#include <vector>
+
+namespace polybed::multiscale {
+
+/// One species of a box.
+struct BoxSpecies {
+  double diameter, density, phi, theta;  ///< m, kg/m3, its own solids fraction, m2/s2
+};
+
+struct ReferenceStress {
+  double pressure, viscosity, dissipation;  ///< Pa, Pa s, W/m3
+};
+
+/// Kinetic theory of a mixture at given temperatures, as solids_stress = "kinetic" has it: Enskog's pressure, and
+/// viscosity and dissipation of Garzo and Dufty, species by species; g0 of Carnahan and Starling.
+[[nodiscard]] ReferenceStress kinetic_reference(const std::vector<BoxSpecies>& species, double restitution);
+
+/// Viscous form: p = mu_f gamma V(phi), mu_s = mu_f V(phi), closures/stress_reference.hpp. No dissipation of its own:
+/// mu_f V gamma^2.
+[[nodiscard]] ReferenceStress viscous_reference(double phi, double friction, double viscosity, double shear_rate);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,90 @@
+#include "multiscale/commands/stress_uncertainty.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/output.hpp"
+#include "core/ranks.hpp"
+#include "fluid/time_mean.hpp"
+#include "multiscale/calibrate/moved_table.hpp"
+#include "multiscale/commands/run_directory.hpp"
+#include "multiscale/compare_window.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view word = "table:";
+
+/// A mean over the last quarter of a run.
+std::optional<double> late_mean(const core::History& history, const Series& values) {
+  if (values.empty()) return {};
+  const Series& time = history.of("time_s");
+  const Series late = within(time, values, {0.75 * time.back(), time.back(), false});
+  const auto mean = fluid::time_mean(late);
+  return mean ? std::optional(mean->mean) : std::nullopt;
+}
+
+/// What is banded: bed height and normalised centre difference of a run.
+struct Seen {
+  std::optional<double> height, difference;
+};
+
+Seen seen(const fs::path& directory) {
+  const core::History history = core::read_history(directory);
+  return {late_mean(history, history.of("bed_height_m")),
+          late_mean(history, centre_difference(history, species_of(history)))};
+}
+
+void write_band(core::Json& json, const char* name, const char* unit, const std::array<std::optional<double>, 3>& v) {
+  if (!v[0] || !v[1] || !v[2]) return;
+  const auto [least, most] = std::minmax({*v[0], *v[1], *v[2]});
+  json.key(name).begin_object().member("table", *v[1]).member("minus", *v[0]).member("plus", *v[2]);
+  json.member("low", least).member("high", most).end_object();
+  fmt::print(stderr, "{}: {:.5g}{}, {:.5g} to {:.5g} within one standard error of the table\n", name, *v[1], unit,
+             least, most);
+}
+
+}  // namespace
+
+void require_table(const core::Scene& scene) {
+  if (!core::law_of(scene, "solids_stress").starts_with(word))
+    throw core::CaseError("--stress-uncertainty is that of a table: effects.solids_stress = \"table:FILE\"");
+}
+
+void run_stress_uncertainty(const RunOptions& options) {
+  const core::Scene scene = read_scene(options);
+  const fs::path table = core::law_of(scene, "solids_stress").substr(word.size());
+  const fs::path directory = run_directory(options, "tfm");
+  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  for (const auto& [name, sigma] : {std::pair("minus", -1.0), std::pair("plus", 1.0)}) {
+    const fs::path moved = directory / (std::string("table-") + name + ".h5");
+    core::on_first(ranks.get(), [&] { write_moved_table(table, sigma, moved); });
+    RunOptions run = options;
+    run.output = directory / name;
+    run.overrides.push_back("effects.solids_stress=\"table:" + moved.string() + "\"");
+    run.stress_uncertainty = run.json = run.picture = false;
+    run.resume = options.resume && fs::exists(checkpoint_path(run.output));
+    run_tfm(run);
+  }
+  core::on_first(ranks.get(), [&] {
+    const std::array<Seen, 3> all{seen(directory / "minus"), seen(directory), seen(directory / "plus")};
+    core::Json json;
+    json.begin_object().member("filetype", "polybed stress uncertainty").member("version", 1);
+    json.member("table", table.string()).member("standard_errors", 1).member("window", "last quarter of the run");
+    write_band(json, "bed_height_m", " m", {all[0].height, all[1].height, all[2].height});
+    write_band(json, "centre_difference", "", {all[0].difference, all[1].difference, all[2].difference});
+    core::write_atomically(directory / "stress_uncertainty.json", json.end_object().text() + "\n");
+  });
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,81 @@
+// The file of a table of sheared particles: written, read, taken at a place.
+#include "fluid/solids_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../core/scratch.hpp"
+#include "core/error.hpp"
+#include "core/output_file.hpp"
+
+namespace polybed::fluid {
+namespace {
+
+/// 3 x 2 x 2 x 1 x 1, p_ratio linear in e and growing with phi and stokes.
+SolidsTable sample() {
+  SolidsTable t;
+  t.regime = "wet";
+  t.reference = "viscous";
+  t.phi = {0.1, 0.3, 0.5};
+  t.stokes = {1, 10};
+  t.restitution = {0.7, 0.9};
+  t.friction = {0.3};
+  t.share = {0};
+  t.inertia = 0.125;
+  t.residual = 0.01;
+  t.case_hash = "abc";
+  t.created = "2026-11-21T00:00:00Z";
+  for (std::size_t n = 0; n < t.size(); ++n) {
+    const double value = 1 + 0.1 * double(n);
+    for (TableQuantity* q : {&t.pressure, &t.viscosity, &t.dissipation, &t.temperature}) {
+      q->value.push_back(value);
+      q->error.push_back(0.01 * value);
+      q->seeds.push_back(3);
+    }
+    t.shear_number.push_back(double(n));
+  }
+  return t;
+}
+
+TEST(SolidsTable, RoundTripKeepsEveryBit) {
+  const test::Scratch scratch;
+  SolidsTable t = sample();
+  t.bed_phi = {0.2, 0.5};
+  t.bed_pressure = {0.1, 0.4};
+  t.bed_error = {0.01, 0.02};
+  const auto path = scratch.path() / "table.h5";
+  write_solids_table(path, t);
+  EXPECT_EQ(regime_of_table(path), "wet");
+  const SolidsTable r = read_solids_table(path);
+  EXPECT_EQ(r.phi, t.phi);
+  EXPECT_EQ(r.stokes, t.stokes);
+  EXPECT_EQ(r.pressure.value, t.pressure.value);
+  EXPECT_EQ(r.viscosity.error, t.viscosity.error);
+  EXPECT_EQ(r.temperature.seeds, t.temperature.seeds);
+  EXPECT_EQ(r.shear_number, t.shear_number);
+  EXPECT_EQ(r.bed_pressure, t.bed_pressure);
+  EXPECT_EQ(r.inertia, t.inertia);
+  EXPECT_EQ(r.case_hash, t.case_hash);
+  EXPECT_FALSE(r.git_commit.empty());
+}
+
+// Index (phi, stokes, e): n = 4 p + 2 s + e. At phi 0.3, stokes 1: 1.4 at e 0.7, 1.5 at e 0.9; half way 1.45.
+TEST(SolidsTable, IsLinearBetweenAndMovesByStandardErrors) {
+  const SolidsTable t = sample();
+  EXPECT_NEAR(ratios_at(t, {0.8, 0.3, 0, 0})(0.3, 1).pressure.pressure, 1.45, 1e-12);
+  EXPECT_NEAR(ratios_at(t, {0.8, 0.3, 0, 1})(0.3, 1).pressure.pressure, 1.45 * 1.01, 1e-12);
+  EXPECT_NEAR(ratios_at(t, {0.2, 0.3, 0, 0})(0.3, 1).pressure.pressure, 1.4, 1e-12);  // held
+  EXPECT_FALSE(outside(t, {0.2, 0.3, 0, 0})) << "restitution is no matter of wet boxes";
+  EXPECT_TRUE(outside(t, {0.8, 0.5, 0, 0}));
+}
+
+TEST(SolidsTable, OtherFilesAreRefused) {
+  const test::Scratch scratch;
+  core::OutputFile file(core::FileKind{"polybed solids table", 1});
+  file.set_attribute("/", "regime", std::string("bed"));
+  file.save(scratch.path() / "bed.h5");
+  EXPECT_THROW((void)read_solids_table(scratch.path() / "bed.h5"), core::FileError);
+  EXPECT_THROW((void)read_solids_table(scratch.path() / "none.h5"), core::FileError);
+}
+
+}  // namespace
+}  // namespace polybed::fluid

@@ -1,0 +1,185 @@
+// Plans, blocks and fits of the calibration: no box is run.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../core/scratch.hpp"
+#include "closures/kinetic_theory.hpp"
+#include "core/error.hpp"
+#include "multiscale/calibrate/box_result.hpp"
+#include "multiscale/calibrate/fit.hpp"
+#include "multiscale/calibrate/reference.hpp"
+
+namespace polybed::multiscale {
+namespace {
+
+core::Scene dry_scene() {
+  core::Scene scene;
+  scene.fluid.name = "none";
+  scene.species.resize(1);
+  scene.species[0].diameter = 1e-3;
+  scene.species[0].density = 2500;
+  scene.bed.volume_share = {1};
+  scene.dem.friction = 0;
+  scene.calibrate.solids_fraction = {0.1, 0.2, 0.3, 0.4, 0.45};
+  scene.calibrate.restitution = {0.8, 0.9};
+  return scene;
+}
+
+/// Boxes of a plan whose pressure is that of chi_eff = chi_CS (1 + a S), S = 0.5 everywhere, with an error of their
+/// own.
+std::vector<BoxResult> synthetic(const Plan& plan, double a, double scatter) {
+  std::vector<BoxResult> boxes;
+  for (const BoxPoint& p : plan.boxes) {
+    BoxResult b;
+    b.point = p;
+    b.shear_rate = 10;
+    b.diameter = 1e-3;
+    b.theta = {std::pow(b.shear_rate * b.diameter / 0.5, 2), 0};
+    const double chi = closures::radial_carnahan_starling(p.phi).value;
+    const double ratio = closures::kinetic_pressure(p.phi, chi * (1 + a * 0.5), p.restitution) /
+                         closures::kinetic_pressure(p.phi, chi, p.restitution);
+    b.pressure_ratio = {ratio * (1 + (p.seed == 1 ? scatter : -scatter)), 0.001};
+    b.viscosity_ratio = b.dissipation_ratio = b.temperature_ratio = {1, 0.001};
+    boxes.push_back(b);
+  }
+  return boxes;
+}
+
+TEST(CalibratePlan, EveryPointWithItsSeeds) {
+  const Plan plan = plan_of(dry_scene());
+  EXPECT_EQ(plan.regime.name, "dry");
+  ASSERT_EQ(plan.boxes.size(), 5u * 2 * 2);
+  EXPECT_EQ(plan.boxes[0].seed, 1);
+  EXPECT_EQ(plan.boxes[1].seed, 2);
+  EXPECT_EQ(plan.boxes[2].restitution, 0.9);
+  EXPECT_EQ(plan.boxes[4].phi, 0.2);
+}
+
+TEST(CalibratePlan, WrongAxesAreRefused) {
+  core::Scene scene = dry_scene();
+  scene.calibrate.solids_fraction = {0.3, 0.2};
+  EXPECT_THROW((void)plan_of(scene), core::CaseError);
+  scene.calibrate.solids_fraction = {0.3, 0.63};  // smooth spheres jam at 0.636
+  EXPECT_THROW((void)plan_of(scene), core::CaseError);
+  scene = dry_scene();
+  scene.calibrate.regime = "wet";
+  EXPECT_THROW((void)plan_of(scene), core::CaseError);
+  scene = dry_scene();
+  scene.calibrate.share = {0.3, 0.5};
+  EXPECT_THROW((void)plan_of(scene), core::CaseError) << "one species has no share";
+}
+
+TEST(CalibratePlan, AnythingThatABoxDependsOnChangesItsName) {
+  const core::Scene scene = dry_scene();
+  const BoxPoint point = plan_of(scene).boxes[0];
+  core::Scene longer = scene;
+  longer.calibrate.strain *= 2;
+  BoxPoint other = point;
+  other.seed = 7;
+  EXPECT_EQ(box_hash(scene, point), box_hash(scene, point));
+  EXPECT_NE(box_hash(scene, point), box_hash(longer, point));
+  EXPECT_NE(box_hash(scene, point), box_hash(scene, other));
+  longer = scene;
+  longer.run.until = 99;  // of the case, no matter of a box
+  EXPECT_EQ(box_hash(scene, point), box_hash(longer, point));
+}
+
+// 20 blocks 1, -1, 1, ...: mean 0; of single blocks sqrt(20/(20 19)), of pairs 0. Slow: 10 of 1, 10 of -1.
+TEST(CalibrateBlocks, TheErrorIsThatOfTheSlowestBlocks) {
+  std::vector<double> fast, slow;
+  for (int n = 0; n < 20; ++n) {
+    fast.push_back(n % 2 == 0 ? 1 : -1);
+    slow.push_back(n < 10 ? 1 : -1);
+  }
+  EXPECT_NEAR(estimate_of(fast).error, std::sqrt(20.0 / (20 * 19)), 1e-15);
+  EXPECT_FALSE(error_grows(fast));
+  // 5 blocks of 4: 1, 1, 0, -1, -1: squares 4, sqrt(4/20); 10 of 2: sqrt(10/90); the former is more.
+  EXPECT_NEAR(estimate_of(slow).error, std::sqrt(4.0 / 20), 1e-15);
+  EXPECT_TRUE(error_grows(slow));
+}
+
+TEST(CalibrateFit, ASyntheticTableIsRecovered) {
+  const Plan plan = plan_of(dry_scene());
+  const fluid::SolidsTable t = fitted(plan, synthetic(plan, 0.18, 0.001));
+  for (const double a : structure_coefficients(t)) EXPECT_NEAR(a, 0.18, 1e-12);  // scatter cancels in the mean
+  EXPECT_NO_THROW(require_usable(t));
+  EXPECT_LT(t.residual, 1e-12) << "the scatter of 0.1 % lies within two standard errors of it";
+  EXPECT_EQ(t.pressure.seeds[0], 2);
+  // (2 x 0.1 % / 2)^2 over 2 seeds: the scatter's error 0.1 % of the ratio equals that of the boxes/sqrt 2.
+  EXPECT_NEAR(t.pressure.error[0] / t.pressure.value[0], 1e-3, 1e-12);
+}
+
+TEST(CalibrateFit, APressureThatFallsIsRefusedAndItsPlaceNamed) {
+  const Plan plan = plan_of(dry_scene());
+  std::vector<BoxResult> boxes = synthetic(plan, 0.18, 0);
+  for (BoxResult& b : boxes)
+    if (b.point.phi == 0.3 && b.point.restitution == 0.8) b.pressure_ratio.mean *= 0.3;
+  const fluid::SolidsTable t = fitted(plan, boxes);
+  const std::vector<std::string> falls = falls_of(t);
+  ASSERT_EQ(falls.size(), 1u);
+  EXPECT_NE(falls[0].find("e = 0.8"), std::string::npos);
+  try {
+    require_usable(t);
+    FAIL() << "accepted";
+  } catch (const core::NumericsError& error) {
+    EXPECT_NE(std::string(error.what()).find("phi = 0.2"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CalibrateFit, SeedsThatDisagreeAreRefused) {
+  const Plan plan = plan_of(dry_scene());
+  EXPECT_NO_THROW(require_usable(fitted(plan, synthetic(plan, 0.18, 0.03))));
+  EXPECT_THROW(require_usable(fitted(plan, synthetic(plan, 0.18, 0.08))), core::NumericsError);
+}
+
+// A dilute gas in shear grows hotter as it thins: without a fluid p at fixed gamma falls up to phi of about 0.17.
+TEST(CalibrateFit, TheFallInShearOfADiluteGasIsTold) {
+  const Plan plan = plan_of(dry_scene());
+  const double up_to = falls_in_shear_up_to(fitted(plan, synthetic(plan, 0, 0)));
+  EXPECT_GT(up_to, 0.1);
+  EXPECT_LT(up_to, 0.2);
+}
+
+// p/(mu gamma V) = 2 (1 + 0.3 St) at St 1, 3, 10: lambda 0.3 by least squares, exactly.
+TEST(CalibrateFit, InertiaOfAWetTable) {
+  fluid::SolidsTable t;
+  t.regime = "wet";
+  t.phi = {0.2, 0.4};
+  t.stokes = {1, 3, 10};
+  t.restitution = t.friction = t.share = {0};
+  std::vector<double> p;
+  for (std::size_t n = 0; n < 6; ++n) p.push_back(2 * (1 + 0.3 * t.stokes[n % 3]));
+  EXPECT_NEAR(fitted_inertia(t, p), 0.3, 1e-12);
+}
+
+// Of one size it is Garzo and Dufty; a size cut in two by name is the same. phi 0.3, e 0.9, theta 0.01 m2/s2, 1 mm,
+// 2500 kg/m3: p = 2500 0.01 0.3 [1 + 3.8 0.3 2.4781341] = 28.688 Pa.
+TEST(CalibrateReference, PressureByHandAndCutInTwo) {
+  const ReferenceStress one = kinetic_reference({{1e-3, 2500, 0.3, 0.01}}, 0.9);
+  EXPECT_NEAR(one.pressure, 28.688, 1e-3);
+  const ReferenceStress two = kinetic_reference({{1e-3, 2500, 0.1, 0.01}, {1e-3, 2500, 0.2, 0.01}}, 0.9);
+  EXPECT_NEAR(two.pressure, one.pressure, 1e-12 * one.pressure);
+  EXPECT_NEAR(two.viscosity, one.viscosity, 1e-12 * one.viscosity);
+  EXPECT_NEAR(two.dissipation, one.dissipation, 1e-12 * one.dissipation);
+}
+
+TEST(CalibrateBox, ItsFileIsReadBackAndNoOther) {
+  const test::Scratch scratch;
+  BoxResult b;
+  b.point = {"wet", 0.4, 3, 0.9, 0.3, 0, false, 5};
+  b.hash = "0123";
+  b.pressure = {1.0 / 3, 0.01};
+  b.balance = 0.999;
+  write_box(scratch.path() / "box.json", b);
+  const auto back = read_box(scratch.path() / "box.json", "0123");
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->pressure.mean, 1.0 / 3);
+  EXPECT_EQ(back->point.seed, 5);
+  EXPECT_EQ(back->balance, 0.999);
+  EXPECT_FALSE(read_box(scratch.path() / "box.json", "4567")) << "of another box";
+  EXPECT_FALSE(read_box(scratch.path() / "none.json", "0123"));
+}
+
+}  // namespace
+}  // namespace polybed::multiscale
