@@ -15,18 +15,6 @@ namespace polybed::closures {
   return density * diameter * diameter * shear_rate / viscosity;
 }
 
-/// Shear rate at which a bed moves, 1/s: max(10 w/L, w/(10 d)), w = U/eps, L the width.
-[[nodiscard]] inline double bed_shear_rate(double velocity, double voidage, double width, double diameter) {
-  const double slip = velocity / voidage;
-  return std::max(10 * slip / width, 0.1 * slip / diameter);
-}
-
-/// tau_p = m over the drag per slip, s, crowding included: rho d^2/(18 mu eps f) with f the pure drag over Stokes'.
-[[nodiscard]] inline double relaxation_time(double density, double diameter, double viscosity, double voidage,
-                                            double f_pure) {
-  return density * diameter * diameter / (18 * viscosity * voidage * f_pure);
-}
-
 /// Solids fraction at which sheared spheres jam, from Chialvo, Sun and Sundaresan (Phys. Rev. E 85, 2012, 021305):
 /// .636 .613 .596 .587 .581 at friction 0 .1 .3 .5 1, linear between, the last beyond.
 [[nodiscard]] inline double jamming_fraction(double friction) {

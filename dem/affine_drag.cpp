@@ -1,9 +1,9 @@
 #include "dem/affine_drag.hpp"
 
-#include <numbers>
 #include <utility>
 
 #include "closures/drag.hpp"
+#include "closures/relevance.hpp"
 #include "fluid/properties.hpp"
 
 namespace polybed::dem {
@@ -19,7 +19,7 @@ AffineDrag::AffineDrag(const core::Scene& scene, const Materials& materials, std
   std::vector<double> f(diameter.size()), slope(diameter.size());
   closures::drag_of_mixture(law, voidage, share, diameter, slip, fluid.density, fluid.viscosity, f, slope);
   for (std::size_t j = 0; j < diameter.size(); ++j)
-    drag_.push_back(3 * std::numbers::pi * fluid.viscosity * diameter[j] * voidage * f[j]);
+    drag_.push_back(closures::drag_per_slip(diameter[j], fluid.viscosity, voidage, f[j]));
 }
 
 }  // namespace polybed::dem

@@ -7,6 +7,7 @@
 
 #include "closures/drag.hpp"
 #include "closures/lubrication.hpp"
+#include "closures/relevance.hpp"
 #include "closures/stress_reference.hpp"
 #include "core/error.hpp"
 #include "fluid/properties.hpp"
@@ -61,13 +62,14 @@ RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, doub
   n.species = s.name;
   n.velocity = velocity;
   n.voidage = voidage > 0 ? voidage : floating_voidage(scene, law, s, fluid, velocity);
-  n.shear_rate = closures::bed_shear_rate(velocity, n.voidage, scene.column.size[0], s.diameter);
   const double slip = velocity / n.voidage;
+  n.shear_rate = closures::shear_rate_at_wall(slip, scene.column.size[0], s.diameter);
   n.stokes_least = closures::stokes_of_impact(s.density, fluid.density, s.diameter, 0.2 * slip, fluid.viscosity);
   n.stokes_most = 5 * n.stokes_least;
   n.stokes_of_shear = closures::stokes_of_shear(s.density, s.diameter, n.shear_rate, fluid.viscosity);
-  n.shear_times_relaxation = n.shear_rate * closures::relaxation_time(s.density, s.diameter, fluid.viscosity, n.voidage,
-                                                                      pure_drag(law, s, fluid, velocity, n.voidage));
+  n.shear_times_relaxation =
+      n.shear_rate * closures::slip_relaxation_time(s.diameter, s.density, fluid.viscosity, n.voidage,
+                                                    pure_drag(law, s, fluid, velocity, n.voidage));
   return n;
 }
 
