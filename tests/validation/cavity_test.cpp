@@ -1,6 +1,7 @@
 // Lid-driven cavity: convection, viscous stress and pressure of the fluid alone against a published solution.
 #include <gtest/gtest.h>
 
+#include "../verification/scenes.hpp"
 #include "core/operators.hpp"
 #include "fluid/viscous_stress.hpp"
 #include "multiscale/stability/problems/box_equations.hpp"

@@ -60,10 +60,10 @@ class HeldShear {
     sides.begin(particles, gather_, motion.load);
   }
   void step() {
-    verlet_.begin(particles, &motion);
+    verlet_.begin(particles, {&motion});
     drag_.find(particles, gather_, motion.load);
     sides.find(particles, gather_, motion.load);
-    verlet_.end(particles, &motion);
+    verlet_.end(particles, {&motion});
     sides.turn(particles, motion);
     if (++steps_ % every_ != 0) return;
     drag_.find(particles, gather_, motion.load);

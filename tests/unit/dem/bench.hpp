@@ -67,9 +67,9 @@ class Bench {
     walls.memory.resize(walls.pairs.size() * std::size_t(walls.memory_size));
   }
   void step() {
-    verlet.begin(particles, nullptr);
+    verlet.begin(particles, {});
     forces.add_walls(particles, walls, dt);
-    verlet.end(particles, nullptr);
+    verlet.end(particles, {});
   }
   /// The force on particle 0 with prescribed overlap and motion, after a step dt.
   Vector press(double overlap, const Vector& velocity, const Vector& spin = {}) {

@@ -92,9 +92,9 @@ TEST(Verlet, WhatIsNotANumberHasMovedTooFar) {
   Particles particles = two_apart(0.1);
   verlet.mark(particles);
   particles.motion[1].v[1] = 2;
-  EXPECT_DOUBLE_EQ(verlet.next_drift(particles, 0.1, nullptr).distance, 0.2);  // 2 m/s for 0.1 s
+  EXPECT_DOUBLE_EQ(verlet.next_drift(particles, 0.1, {}).distance, 0.2);  // 2 m/s for 0.1 s
   particles.place[0].x[0] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(std::isnan(verlet.next_drift(particles, 0.1, nullptr).distance));
+  EXPECT_TRUE(std::isnan(verlet.next_drift(particles, 0.1, {}).distance));
 }
 
 }  // namespace

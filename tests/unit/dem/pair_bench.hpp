@@ -53,9 +53,9 @@ class PairBench {
   PairBench& operator=(const PairBench&) = delete;
 
   void step() {
-    verlet_.begin(particles, nullptr);
+    verlet_.begin(particles, {});
     find(dt);
-    verlet_.end(particles, nullptr);
+    verlet_.end(particles, {});
   }
   /// Of the first two.
   [[nodiscard]] double gap() const {
