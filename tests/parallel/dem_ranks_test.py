@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 import h5py
 import numpy as np
@@ -198,6 +199,17 @@ def ulps_up(value, count=1):
     return repr(float(value))
 
 
+def runs_in(folder):
+    """Whether a process is alive that was started on a folder."""
+    for command in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            if str(folder).encode() in command.read_bytes():
+                return True
+        except OSError:  # gone meanwhile
+            pass
+    return False
+
+
 class DemRanks(Scratch):
     def start_on(self, ranks, *words):
         """`polybed dem` on a number of ranks, begun."""
@@ -282,8 +294,11 @@ class DemRanks(Scratch):
         self.on(1, case, *often, "-o", self.folder / "whole")
         process = self.start_on(3, case, *often, "-o", self.folder / "killed")
         program.wait_until(process, (self.folder / "killed/checkpoint.h5").exists)
-        process.send_signal(signal.SIGKILL)  # mpirun's own ranks end when it is gone
+        process.send_signal(signal.SIGKILL)  # mpirun's own ranks end when they see that it is gone
         process.communicate(timeout=60)
+        deadline = time.monotonic() + 60
+        while runs_in(self.folder / "killed") and time.monotonic() < deadline:
+            time.sleep(0.05)
         middle = hash_of(self.folder / "killed/checkpoint.h5")
         self.on(2, case, *often, "--resume", "-o", self.folder / "killed")
         end = hash_of(self.folder / "killed/checkpoint.h5")
