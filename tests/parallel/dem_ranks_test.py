@@ -199,15 +199,26 @@ def ulps_up(value, count=1):
     return repr(float(value))
 
 
-def runs_in(folder):
-    """Whether a process is alive that was started on a folder."""
+def processes_of(folder):
+    """Those that were started on a folder: mpirun and its ranks."""
     for command in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
         try:
             if str(folder).encode() in command.read_bytes():
-                return True
+                yield int(command.parent.name)
         except OSError:  # gone meanwhile
             pass
-    return False
+
+
+def kill_all(folder):
+    """Kills them and waits until they are gone: ranks outlive an mpirun that is killed, and would go on writing."""
+    deadline = time.monotonic() + 60
+    while (alive := list(processes_of(folder))) and time.monotonic() < deadline:
+        for process in alive:
+            try:
+                os.kill(process, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        time.sleep(0.01)
 
 
 class DemRanks(Scratch):
@@ -294,11 +305,8 @@ class DemRanks(Scratch):
         self.on(1, case, *often, "-o", self.folder / "whole")
         process = self.start_on(3, case, *often, "-o", self.folder / "killed")
         program.wait_until(process, (self.folder / "killed/checkpoint.h5").exists)
-        process.send_signal(signal.SIGKILL)  # mpirun's own ranks end when they see that it is gone
+        kill_all(self.folder / "killed")
         process.communicate(timeout=60)
-        deadline = time.monotonic() + 60
-        while runs_in(self.folder / "killed") and time.monotonic() < deadline:
-            time.sleep(0.05)
         middle = hash_of(self.folder / "killed/checkpoint.h5")
         self.on(2, case, *often, "--resume", "-o", self.folder / "killed")
         end = hash_of(self.folder / "killed/checkpoint.h5")
