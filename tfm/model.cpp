@@ -26,6 +26,7 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   Constants constants;
   constants.grid = core::grid_of(scene.column, ranks);
   constants.gravity = scene.column.gravity;
+  constants.down = scene.column.down;
   constants.fluid = fluid::fluid_constants(scene.fluid);
   constants.bed_share = scene.bed.volume_share;
   for (const core::Species& species : scene.species) {
