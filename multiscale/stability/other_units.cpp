@@ -50,10 +50,12 @@ double number_of_one(const core::Dimension& dimension, const UnitSystem& units) 
 }
 
 core::Scene in_units(core::Scene scene, const UnitSystem& units) {
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
-  scene.fluid.name = "test fluid";
-  scene.fluid.density = fluid.density;
-  scene.fluid.viscosity = fluid.viscosity;
+  if (scene.fluid.name != "none") {
+    const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+    scene.fluid.name = "test fluid";
+    scene.fluid.density = fluid.density;
+    scene.fluid.viscosity = fluid.viscosity;
+  }
   for (const core::Key& key : core::keys()) {
     const double factor = number_of_one(key.dimension, units);
     for (std::size_t n = 0; n < count_of(scene, key.table); ++n)

@@ -200,7 +200,8 @@ void KineticStress::find_rate(Fields& fields, std::size_t cell, double phi, std:
   const double theta = fields.solids.temperature[species][cell], s = std::sqrt(std::max(theta, 0.0));
   const double rho = constants_.density[species], per_energy = 2 / (3 * rho);
   const double least = least_agitation * least_shear_rate_ * constants_.diameter[species];
-  const double slip = local.slip / std::sqrt(std::max(theta, 0.0) + least * least);
+  const double rounded = std::max(theta, 0.0) + least * least;
+  const double slip = local.slip / std::sqrt(rounded);
   fields.solids.temperature_rate[species][cell] =
       per_energy * (local.shear * s - (local.compression + local.drag + local.loss * s) * theta + slip);
   const double conductivity = collision_share(fields.solids_fraction[cell]) *
@@ -208,8 +209,7 @@ void KineticStress::find_rate(Fields& fields, std::size_t cell, double phi, std:
                               constants_.diameter[species] * s / phi;
   fields.granular.conductivity[species][cell] = conductivity;
   fields.granular.decay[species][cell] =
-      per_energy * (local.drag + 1.5 * local.loss * s + 0.5 * slip / (std::max(theta, 0.0) + least_temperature) +
-                    conduction_diagonal_ * conductivity);
+      per_energy * (local.drag + 1.5 * local.loss * s + 0.5 * slip / rounded + conduction_diagonal_ * conductivity);
 }
 
 /// Johnson and Jackson's exchange of fluctuation energy with walls, in the cells that touch them.
