@@ -75,7 +75,7 @@ class CoupledCases(Scratch):
 
     def test_drafting_kissing_tumbling(self):
         """In this order, and before the lower sphere is a diameter over the floor. Nothing is said of times."""
-        _, directory = self.dem("drafting-kissing-tumbling")
+        _, directory = self.dem("drafting-kissing-tumbling", run__until=0.93, output__every=5e-3)
         done = program.subprocess.run([sys.executable, ROOT / "cases/drafting-kissing-tumbling/events.py", directory],
                                       capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout)
