@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Cells and kernel of a strip of system C, each changed alone: grid_and_kernel.py PROGRAM RUNS [PICTURE]
 
-Heights of the cells are the thesis's, 1.55 and 1.80 coarse diameters; kernels bilinear weights (as wide as a cell) and Gaussians of
-two and four coarse diameters. One run is repeated from another mixed start, which tells what differences mean nothing. A run that
-is done is not run again and one that was stopped goes on, so that the command may be killed and given again.
+Heights of the cells are the thesis's, 1.55 and 1.80 coarse diameters; kernels bilinear weights (as wide as a cell) and a Gaussian
+of four coarse diameters. One run is repeated from another mixed start, which tells what differences mean nothing. A run that is
+done is not run again and one that was stopped goes on, so that the command may be killed and given again.
 """
 import json
 import subprocess
@@ -25,12 +25,11 @@ COARSE = 0.776  # mm, diameter
 END = 1.3  # s
 HEIGHT = 33.6  # mm, of the column: 28 cells of 1.2 mm or 24 of 1.4 mm
 CELLS = {"1.55": 28, "1.80": 24}  # height over the coarse diameter: number
-KERNELS = {"bilinear": None, "2 diameters": 2 * COARSE, "4 diameters": 4 * COARSE}
-COLOURS = {"bilinear": "tab:blue", "2 diameters": "tab:orange", "4 diameters": "tab:green"}
-CORNERS = [(cell, kernel, 1) for kernel in ("bilinear", "4 diameters", "2 diameters") for cell in CELLS]
-CORNERS += [("1.55", "bilinear", 2)]
+KERNELS = {"bilinear": None, "4 diameters": 4 * COARSE}
+COLOURS = {"1.55": "tab:blue", "1.80": "tab:orange"}
+CORNERS = [(cell, kernel, 1) for kernel in KERNELS for cell in CELLS] + [("1.55", "bilinear", 2)]
 # Two sevenths of the width and about a third of the bed's height, the particles in proportion; cells 1.2 mm wide. To make it cheap:
-# a third of the weight bears softer contacts, a longer step keeps a fifth of what is stable, a little depth allows a thicker skin.
+# a third of the weight bears softer contacts, a step of 0.3 sqrt(m/k) still resolves them, a little depth allows a thicker skin.
 STRIP = [f'column.size=["4.8 mm","{HEIGHT} mm"]', 'column.depth="1.7 mm"', 'dem.skin="0.06 mm"', "bed.particles=[3484,66]",
          'inlet.superficial_velocity="10 mm/s"', 'dem.youngs_modulus="0.05 MPa"', 'dem.fixed_step="25 us"', "dem.fluid_every=8",
          "dem.max_overlap=0.1", "dem.ledger=false", 'output.every="0.5 s"', 'output.history_every="10 ms"',
@@ -64,10 +63,10 @@ def apart(history):
     return 1e3 * (history["centre_coarse_m"] - history["centre_fine_m"])
 
 
-def mean(values):
+def mean(values, digits=2):
     """Mean and standard error from four batches."""
     batches = [np.mean(part) for part in np.array_split(values, 4)]
-    return f"{np.mean(values):.2f} ± {np.std(batches, ddof=1) / 2:.2f}"
+    return f"{np.mean(values):.{digits}f} ± {np.std(batches, ddof=1) / 2:.{digits}f}"
 
 
 def row(name, run):
@@ -76,18 +75,18 @@ def row(name, run):
     late = (history["time_s"] >= 0.5 * END) & (history["time_s"] <= END)
     height = 1e3 * history["bed_height_m"]
     drop = np.mean(history["pressure_drop_Pa"][late] / history["buoyant_weight_Pa"][late])
-    return [*name, mean(height[late]), mean(apart(history)[late]), mean((apart(history) / height)[late]), f"{drop:.3f}"]
+    return [*name, mean(height[late]), mean(apart(history)[late]), mean((apart(history) / height)[late], 3), f"{drop:.3f}"]
 
 
 def draw(runs, picture):
     with plt.rc_context(STYLE):
         figure, panels = plt.subplots(1, 2, figsize=(9, 3.4), dpi=130, sharey=True, layout="constrained")
-        for panel, cell in zip(panels, CELLS):
-            for (c, kernel, seed), each in runs.items():
-                if c == cell:
-                    panel.plot(each.history["time_s"], apart(each.history), color=COLOURS[kernel], lw=1.2,
-                               ls="-" if seed == 1 else ":", label=kernel if seed == 1 else f"{kernel}, another start")
-            panel.set(title=f"cells {cell} coarse diameters high", xlabel="time, s")
+        for panel, kernel in zip(panels, KERNELS):
+            for (cell, k, seed), each in runs.items():
+                if k == kernel:
+                    panel.plot(each.history["time_s"], apart(each.history), color=COLOURS[cell], lw=1.2,
+                               ls="-" if seed == 1 else ":", label=f"cells {cell} D_2" + ("" if seed == 1 else ", another start"))
+            panel.set(title=f"kernel: {kernel}", xlabel="time, s")
         panels[0].set_ylabel("coarse over fine, mm")
         panels[0].legend()
         figure.savefig(picture)
