@@ -2,8 +2,8 @@
 """Cells and kernel of a strip of system C, each changed alone: grid_and_kernel.py PROGRAM RUNS [PICTURE]
 
 Heights of the cells are the thesis's, 1.55 and 1.80 coarse diameters; kernels bilinear weights (as wide as a cell) and a Gaussian
-of four coarse diameters. One run is repeated from another mixed start, which tells what differences mean nothing. A run that is
-done is not run again and one that was stopped goes on, so that the command may be killed and given again.
+of four coarse diameters. A run that is done is not run again and one that was stopped goes on, so that the command may be killed
+and given again.
 """
 import json
 import subprocess
@@ -27,7 +27,7 @@ HEIGHT = 33.6  # mm, of the column: 28 cells of 1.2 mm or 24 of 1.4 mm
 CELLS = {"1.55": 28, "1.80": 24}  # height over the coarse diameter: number
 KERNELS = {"bilinear": None, "4 diameters": 4 * COARSE}
 COLOURS = {"1.55": "tab:blue", "1.80": "tab:orange"}
-CORNERS = [(cell, kernel, 1) for kernel in KERNELS for cell in CELLS] + [("1.55", "bilinear", 2)]
+CORNERS = [(cell, kernel) for kernel in KERNELS for cell in CELLS]
 # Two sevenths of the width and about a third of the bed's height, the particles in proportion; cells 1.2 mm wide. To make it cheap:
 # a third of the weight bears softer contacts, a step of 0.3 sqrt(m/k) still resolves them, a little depth allows a thicker skin.
 STRIP = [f'column.size=["4.8 mm","{HEIGHT} mm"]', 'column.depth="1.7 mm"', 'dem.skin="0.06 mm"', "bed.particles=[3484,66]",
@@ -36,10 +36,10 @@ STRIP = [f'column.size=["4.8 mm","{HEIGHT} mm"]', 'column.depth="1.7 mm"', 'dem.
          'output.checkpoint_every="0.5 s"', f'run.until="{END} s"']
 
 
-def settings(cell, kernel, seed):
+def settings(cell, kernel):
     width = KERNELS[kernel]
     chosen = ["dem.kernel=bilinear"] if width is None else ["dem.kernel=diffusion", f'dem.kernel_width="{width} mm"']
-    return [*STRIP, *chosen, f"column.cells=[4,{CELLS[cell]}]", f"bed.seed={seed}"]
+    return [*STRIP, *chosen, f"column.cells=[4,{CELLS[cell]}]"]
 
 
 def finished(directory):
@@ -82,10 +82,9 @@ def draw(runs, picture):
     with plt.rc_context(STYLE):
         figure, panels = plt.subplots(1, 2, figsize=(9, 3.4), dpi=130, sharey=True, layout="constrained")
         for panel, kernel in zip(panels, KERNELS):
-            for (cell, k, seed), each in runs.items():
-                if k == kernel:
-                    panel.plot(each.history["time_s"], apart(each.history), color=COLOURS[cell], lw=1.2,
-                               ls="-" if seed == 1 else ":", label=f"cells {cell} D_2" + ("" if seed == 1 else ", another start"))
+            for cell in CELLS:
+                history = runs[cell, kernel].history
+                panel.plot(history["time_s"], apart(history), color=COLOURS[cell], lw=1.2, label=f"cells {cell} D_2 high")
             panel.set(title=f"kernel: {kernel}", xlabel="time, s")
         panels[0].set_ylabel("coarse over fine, mm")
         panels[0].legend()
@@ -95,12 +94,11 @@ def draw(runs, picture):
 def main(program, folder, picture=None):
     runs = {}
     for corner in CORNERS:
-        cell, kernel, seed = corner
-        directory = folder / f"C-{cell}-{kernel.replace(' ', '-')}-{seed}"
+        directory = folder / "C-{}-{}".format(*corner).replace(" ", "-")
         run(program, directory, settings(*corner))
         runs[corner] = polybed.read(directory)
-    head = ["cell / D_2", "kernel", "start", "bed height, mm", "coarse over fine, mm", "over the height", "drop / weight"]
-    for cells in (head, ["---"] * len(head), *(row(map(str, corner), each) for corner, each in runs.items())):
+    head = ["cell / D_2", "kernel", "bed height, mm", "coarse over fine, mm", "over the height", "drop / weight"]
+    for cells in (head, ["---"] * len(head), *(row(corner, each) for corner, each in runs.items())):
         print("| " + " | ".join(cells) + " |")
     if picture:
         draw(runs, picture)
