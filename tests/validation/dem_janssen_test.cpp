@@ -94,6 +94,19 @@ struct Column {
 /// W/(2 mu K) between two plates (Janssen, Z. Ver. Dt. Ing. 39, 1895, 1045).
 double janssen(double depth_over_lambda) { return (1 - std::exp(-depth_over_lambda)) / depth_over_lambda; }
 
+/// Root mean square by which the stress leaves Janssen's, rho g lambda (1 - exp(-z/lambda)), over that on the floor. mu
+/// K is that of all of the wall, so that both meet on the floor: it is the shape that is looked at.
+double off_the_exponential(const Column& column) {
+  const double lambda = width / (2 * column.friction_ratio(0, slices)), loads = column.weight / (width * depth);
+  double squares = 0;
+  for (std::size_t s = 0; s < slices; ++s) {
+    const double z = column.height * double(s + 1) / slices;
+    const double off = column.stress[s] - loads / column.height * lambda * (1 - std::exp(-z / lambda));
+    squares += off * off;
+  }
+  return std::sqrt(squares / slices) / column.stress[slices - 1];
+}
+
 /// A column after a step of gravity, at rest again.
 std::unique_ptr<dem::Model> under(core::Scene& scene, double g, const dem::Model& before, double time,
                                   core::Timers& timers) {
@@ -105,8 +118,8 @@ std::unique_ptr<dem::Model> under(core::Scene& scene, double g, const dem::Model
 }
 
 /// Janssen takes for granted that the column slides down its walls. One that has fallen together rebounds a little in
-/// the end, and hardly any friction is left at its walls (measured: 5 % of what they could bear). So its weight is
-/// taken away and given back in steps, under which it yields downwards everywhere.
+/// the end, and hardly any friction is left at its walls (measured: 9 and 15 % of what they could give). So its weight
+/// is taken away and given back in steps, under which it yields downwards everywhere.
 Column settled(std::uint64_t seed) {
   core::Timers timers;
   core::Scene scene = silo(seed);
@@ -119,10 +132,12 @@ Column settled(std::uint64_t seed) {
   return Column(*model);
 }
 
-// From what the walls bear in the upper half Janssen's exponential tells what the floor bears.
-TEST(DemJanssen, FloorLoadFromTheUpperHalf) {
+// Stress against depth, and from what the walls bear in the upper half what the floor bears. Janssen takes friction at
+// the walls and the ratio of stresses for constants; of a column at rest they are not. Allowed is twice what three
+// columns were found to have, 1.5 % of the shape and 5.6 % of the load on the floor: 1 %, this project's goal, is not
+// met.
+TEST(DemJanssen, StressAgainstDepth) {
   constexpr std::size_t top = 2, middle = 10;  // not the surface, where a slice is half empty
-  std::vector<double> off;
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Column column = settled(seed);
     const std::string run = fmt::format(" of column {}", seed);
@@ -130,16 +145,17 @@ TEST(DemJanssen, FloorLoadFromTheUpperHalf) {
     compare("floor and walls over the weight" + run, (column.floor + column.all_carried()) / column.weight, 1, 1e-3);
     const double above = column.friction_ratio(top, middle), below = column.friction_ratio(middle, slices - 1);
     const double expected = janssen(2 * above * column.height / width), share = column.floor / column.weight;
-    off.push_back(share / expected - 1);
-    compare("share of the floor" + run, share, expected, 0.1);
+    compare("share of the floor" + run, share, expected, 0.11);
+    compare("stress off the exponential" + run, off_the_exponential(column), 0, 0.03, 1);
     std::string profile;
     for (const double s : column.stress) profile += fmt::format("{:.1f} ", s);
     const double pushed = std::accumulate(column.pushed.begin(), column.pushed.end(), 0.0);
     testing::Test::RecordProperty(
         "column" + run,
-        fmt::format("height {:.4g} m, mu K above {:.4g}, below {:.4g}, friction "
+        fmt::format("height {:.4g} m, weight {:.5g} Pa, mu K {:.4g}, above {:.4g}, below {:.4g}, friction "
                     "mobilised {:.3g} of {}; stress from the top, Pa: {}",
-                    column.height, above, below, column.all_carried() / pushed, wall_friction, profile));
+                    column.height, column.weight / (width * depth), column.friction_ratio(0, slices), above, below,
+                    column.all_carried() / pushed, wall_friction, profile));
     EXPECT_LT(share, 0.9) << "the walls carry something";
   }
 }
