@@ -6,6 +6,7 @@
 
 #include "core/scene.hpp"
 #include "dem/box.hpp"
+#include "dem/energy_sum.hpp"
 #include "dem/fluid_motion.hpp"
 #include "dem/materials.hpp"
 #include "dem/particles.hpp"
@@ -41,22 +42,23 @@ class AffineDrag {
     return kick;
   }
   /// Keeps the work of the drag in a kick, before the velocity changes.
-  void account(const Particles& particles, std::size_t i, const Kick& kick, double) {
+  void account(const Particles& particles, std::size_t i, const Kick& kick, double, WorkShare share) {
     const Motion& m = particles.motion[i];
     double work = 0;
-    for (std::size_t k = 0; k < 3; ++k) work += (m.v[k] + 0.5 * kick.dv[k]) * (kick.dv[k] - kick.free[k]);
-    work_ += std::int64_t(work / m.inverse_mass * energy_.per_unit);
+    for (std::size_t k = 0; k < 3; ++k)
+      work += (m.v[k] + 0.5 * kick.dv[k]) * kick.dv[k] - (m.v[k] + share.load * kick.dv[k]) * kick.free[k];
+    work_.add(work / m.inverse_mass * energy_.per_unit);
   }
 
   /// Work on this rank's particles since the start, at rest with the bottom of the box.
-  [[nodiscard]] std::int64_t work() const { return work_; }
-  void set_work(std::int64_t units) { work_ = units; }
+  [[nodiscard]] const EnergySum& work() const { return work_; }
+  void set_work(const EnergySum& work) { work_ = work; }
 
  private:
   std::vector<double> drag_;  ///< k_j, kg/s
   double shear_rate_;
   FixedPoint force_, energy_;
-  std::int64_t work_ = 0;
+  EnergySum work_;
 };
 
 /// Whether the drag of a scene is that of a sheared box.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+
+#include "dem/batch_rows.hpp"
 
 namespace polybed::dem {
 
@@ -45,11 +48,50 @@ POLYBED_ALL_VECTOR_WIDTHS void split_velocity(ContactBatch& b) {
   }
 }
 
-void load_memory(const Contacts& contacts, ContactBatch& b) {
-  for (int c = 0; c < b.count; ++c) {
-    const double* memory = contacts.memory_of(b.pair[c]);
-    for (int m = 0; m < contacts.memory_size; ++m) b.memory[m][c] = memory[m];
+/// Velocities of both against each other, and their spins. Rows are filled by fours: beyond the last contact with more
+/// of the first, which is finite.
+POLYBED_ALL_VECTOR_WIDTHS void load_motion(const Motion* motion, ContactBatch& b) {
+  for (int c = b.count; (c & 3) != 0; ++c) {
+    b.first[c] = b.first[0];
+    b.second[c] = b.second[0];
   }
+  static_assert(offsetof(Motion, w) == 3 * sizeof(double) && sizeof(Motion) == 8 * sizeof(double));
+  for (int c = 0; c < b.count; c += 4) {
+    Four velocity[4], spin_i[4], spin_j[4];  // and one number more, which nobody reads
+    for (int k = 0; k < 4; ++k) {
+      const auto* i = reinterpret_cast<const std::byte*>(motion + b.first[c + k]);
+      const auto* j = reinterpret_cast<const std::byte*>(motion + b.second[c + k]);
+      Four other;
+      get_four(i, velocity[k]);
+      get_four(j, other);
+      velocity[k] -= other;
+      get_four(i + offsetof(Motion, w), spin_i[k]);
+      get_four(j + offsetof(Motion, w), spin_j[k]);
+    }
+    transpose(velocity);
+    transpose(spin_i);
+    transpose(spin_j);
+    for (int k = 0; k < 3; ++k) {
+      put_four(velocity[k], b.velocity[k] + c);
+      put_four(spin_i[k], b.spin_i[k] + c);
+      put_four(spin_j[k], b.spin_j[k] + c);
+    }
+  }
+}
+
+/// Likewise, and what is left of their number one by one.
+POLYBED_ALL_VECTOR_WIDTHS void load_memory(const double* memory, int size, ContactBatch& b) {
+  for (int c = b.count; (c & 3) != 0; ++c) b.pair[c] = b.pair[0];
+  int m = 0;
+  for (; m + 4 <= size; m += 4)
+    for (int c = 0; c < b.count; c += 4) {
+      Four kept[4];
+      for (int k = 0; k < 4; ++k) get_four(memory + std::ptrdiff_t(b.pair[c + k]) * size + m, kept[k]);
+      transpose(kept);
+      for (int k = 0; k < 4; ++k) put_four(kept[k], b.memory[m + k] + c);
+    }
+  for (; m < size; ++m)
+    for (int c = 0; c < b.count; ++c) b.memory[m][c] = memory[std::ptrdiff_t(b.pair[c]) * size + m];
 }
 
 void name_pair(const Contacts& contacts, std::int32_t p, int c, ContactBatch& b) {
@@ -120,21 +162,15 @@ std::int32_t ContactLoader::find_walls(const Particles& particles, const Contact
 
 void ContactLoader::load_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
                                ContactBatch& b) const {
-  for (int c = 0; c < b.count; ++c) {
-    const Motion &i = particles.motion[std::size_t(b.first[c])], &j = particles.motion[std::size_t(b.second[c])];
-    for (std::size_t k = 0; k < 3; ++k) {
-      b.velocity[k][c] = i.v[k] - j.v[k];
-      b.spin_i[k][c] = i.w[k];
-      b.spin_j[k][c] = j.w[k];
-    }
-    const Kind& kind = kinds_[std::size_t(b.kind[c])];
+  load_motion(particles.motion.data(), b);
+  fill_by_kind(b, kinds_, [&](const Kind& kind, int c) {
     b.radius_i[c] = kind.first;
     b.radius_j[c] = kind.second;
-  }
+  });
   if (box_.shear_rate != 0)
     for (int c = 0; c < b.count; ++c)
       b.velocity[0][c] -= images.speed[std::size_t(contacts.pairs[std::size_t(b.pair[c])].image)];
-  load_memory(contacts, b);
+  load_memory(contacts.memory.data(), contacts.memory_size, b);
   shape_pairs(b);
   split_velocity(b);
 }
@@ -155,7 +191,7 @@ void ContactLoader::load_walls(const Particles& particles, const Contacts& conta
     b.arm_j[c] = 0;
     b.overlap[c] = radius - b.arm_i[c];
   }
-  load_memory(contacts, b);
+  load_memory(contacts.memory.data(), contacts.memory_size, b);
   split_velocity(b);
 }
 

@@ -1,13 +1,13 @@
 // Work that the flow of a sheared box does on the particles in it.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "dem/box.hpp"
 #include "dem/contact_batch.hpp"
 #include "dem/contacts.hpp"
+#include "dem/energy_sum.hpp"
 
 namespace polybed::dem {
 
@@ -30,31 +30,30 @@ class FlowWork {
            const Images& images) {
     for (int c = 0; c < batch.count; ++c) {
       const double speed = images.speed[std::size_t(contacts.pairs[std::size_t(batch.pair[c])].image)];
-      now_ += std::int64_t(counted[c] * batch.force[0][c] * speed * per_force_);
+      now_.add(counted[c] * batch.force[0][c] * speed * per_force_);
     }
   }
   /// After all forces at the start, and after all of a step.
-  void begin() { before_ = std::exchange(now_, 0); }
+  void begin() { before_ = std::exchange(now_, EnergySum()); }
   void end_step() {
-    units_ += before_ + now_;
+    sum_.add(before_);
+    sum_.add(now_);
     begin();
   }
   /// A particle has come back through the other face. \param mass  kg  \param from, to  v_x, m/s
-  void wrapped(double mass, double from, double to) {
-    units_ += std::llround(0.5 * mass * (to - from) * (to + from) * per_energy_);
-  }
+  void wrapped(double mass, double from, double to) { sum_.add(0.5 * mass * (to - from) * (to + from) * per_energy_); }
 
-  /// J, of this rank since the start, and the half of the last forces that is due in the next step.
-  [[nodiscard]] std::int64_t units() const { return units_; }
-  [[nodiscard]] std::int64_t due() const { return before_; }
-  void set(std::int64_t units, std::int64_t due) {
-    units_ = units;
+  /// In the unit given: of this rank since the start, and the half of the last forces that is due in the next step.
+  [[nodiscard]] const EnergySum& sum() const { return sum_; }
+  [[nodiscard]] const EnergySum& due() const { return before_; }
+  void set(const EnergySum& sum, const EnergySum& due) {
+    sum_ = sum;
     before_ = due;
   }
 
  private:
   double per_force_, per_energy_;
-  std::int64_t units_ = 0, before_ = 0, now_ = 0;
+  EnergySum sum_, before_, now_;
 };
 
 }  // namespace polybed::dem

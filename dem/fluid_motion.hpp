@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dem/box.hpp"
+#include "dem/energy_sum.hpp"
 #include "dem/materials.hpp"
 #include "dem/particles.hpp"
 
@@ -19,6 +20,17 @@ struct FluidLoad {
   Vector force{};     ///< what else the fluid does: -V grad p, N
   double added = 0;   ///< added mass, kg
   Vector impulse{};   ///< that drag and added mass have given it since the fluid's last step, kg m/s
+};
+
+/// With which velocity the work of other forces in a kick is counted: v + share dv, v before the kick and dv its
+/// change. A weight does work along the drift beside the kick. So does a contact's force, by the thesis scheme; by the
+/// synchronised one it has the velocity at the time of the force (see Ledger). The fluid's work is what the kinetic
+/// energy changes by less theirs: with a slip that relaxes far within a step the mean of v and v + dv is neither.
+struct WorkShare {
+  double weight, load;
+
+  static constexpr WorkShare before_drift(bool synchronised) { return {1, synchronised ? 0.0 : 1.0}; }
+  static constexpr WorkShare after_drift(bool synchronised) { return {0, synchronised ? 1.0 : 0.0}; }
 };
 
 /// (1 - exp(-x))/x, 1 at 0; x >= 0.
@@ -59,7 +71,7 @@ class FluidMotion {
     return kick;
   }
   /// Keeps what a kick takes from the fluid, before the velocity changes.
-  void account(const Particles& particles, std::size_t i, const Kick& kick, double h) {
+  void account(const Particles& particles, std::size_t i, const Kick& kick, double h, WorkShare share) {
     const Motion& m = particles.motion[i];
     FluidLoad& f = load[i];
     const double mass = mass_[std::size_t(particles.species[i])], inertia = mass + f.added;
@@ -67,24 +79,25 @@ class FluidMotion {
     double work = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       f.impulse[k] += inertia * (kick.dv[k] - kick.free[k]) - f.added * kick.dv[k];
-      const double others = double(particles.load[i].force[k]) * unit + mass * (gravity_[k] * h);
-      work += (m.v[k] + 0.5 * kick.dv[k]) * (mass * kick.dv[k] - others);
+      const double v = m.v[k], dv = kick.dv[k], contacts = double(particles.load[i].force[k]) * unit;
+      work += (v + 0.5 * dv) * mass * dv - (v + share.weight * dv) * mass * (gravity_[k] * h) -
+              (v + share.load * dv) * contacts;
     }
-    work_ += std::int64_t(work * energy_.per_unit);
+    work_.add(work * energy_.per_unit);
   }
   /// A change of velocity that the fluid alone has made.
   void account_answer(const Motion& m, const Vector& dv) {
     double work = 0;
     for (std::size_t k = 0; k < 3; ++k) work += (m.v[k] + 0.5 * dv[k]) * dv[k];
-    work_ += std::int64_t(work / m.inverse_mass * energy_.per_unit);
+    work_.add(work / m.inverse_mass * energy_.per_unit);
   }
 
   /// Other work of the fluid, J.
-  void account_work(double work) { work_ += std::int64_t(work * energy_.per_unit); }
+  void account_work(double work) { work_.add(work * energy_.per_unit); }
 
   /// Work of the fluid on this rank's particles since the start, its buoyancy included.
-  [[nodiscard]] std::int64_t work() const { return work_; }
-  void set_work(std::int64_t units) { work_ = units; }
+  [[nodiscard]] const EnergySum& work() const { return work_; }
+  void set_work(const EnergySum& work) { work_ = work; }
   [[nodiscard]] const Vector& net_gravity(std::int32_t species) const { return net_gravity_[std::size_t(species)]; }
 
   std::vector<FluidLoad> load;  ///< of the owned particles
@@ -94,7 +107,7 @@ class FluidMotion {
   std::vector<double> mass_;         ///< of each species, kg
   std::vector<Vector> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
   FixedPoint force_, energy_;
-  std::int64_t work_ = 0;
+  EnergySum work_;
 };
 
 }  // namespace polybed::dem

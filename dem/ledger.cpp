@@ -26,10 +26,8 @@ void add_stored(ContactBatch& b, int m, const Row& stored, Row& gained, Row& hel
   }
 }
 
-std::int64_t units_of(const Row& lost, const Row& counted, int count, double per_unit) {
-  std::int64_t sum = 0;
-  for (int c = 0; c < count; ++c) sum += std::int64_t(counted[c] * lost[c] * per_unit);
-  return sum;
+void add_counted(const Row& lost, const Row& counted, int count, double per_unit, EnergySum& sum) {
+  for (int c = 0; c < count; ++c) sum.add(counted[c] * lost[c] * per_unit);
 }
 
 }  // namespace
@@ -73,7 +71,7 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
     if_parted[c] = (ended ? elastic_share_ * batch.elastic[c] * batch.overlap[c] : half * now[c]) + held[c];
   }
   if (laws_.cohesion) laws_.cohesion->add_loss(batch, lost);
-  units_ += units_of(lost, counted, batch.count, unit_.per_unit);
+  add_counted(lost, counted, batch.count, unit_.per_unit, lost_);
 }
 
 void Ledger::act_film(ContactBatch& batch, const Row& force, const Row& counted, double dt) {
@@ -86,15 +84,15 @@ void Ledger::act_film(ContactBatch& batch, const Row& force, const Row& counted,
     due[c] = synchronised_ ? now : force[c];
     if_parted[c] = now;
   }
-  units_ += units_of(lost, counted, batch.count, unit_.per_unit);
+  add_counted(lost, counted, batch.count, unit_.per_unit, lost_);
 }
 
 void Ledger::part(const Contacts& contacts, std::size_t owned) {
   contacts.each_parted([&](std::int32_t pair) {
     if (std::size_t(contacts.pairs[std::size_t(pair)].first) >= owned) return;
     const double* memory = contacts.memory_of(pair) + place_;
-    units_ += std::int64_t(memory[1] * unit_.per_unit);
-    if (laws_.film) units_ += std::int64_t(memory[before_film(laws_) + 1] * unit_.per_unit);
+    lost_.add(memory[1] * unit_.per_unit);
+    if (laws_.film) lost_.add(memory[before_film(laws_) + 1] * unit_.per_unit);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "dem/contact_batch.hpp"
 #include "dem/contacts.hpp"
 #include "dem/effects.hpp"
+#include "dem/energy_sum.hpp"
 
 namespace polybed::dem {
 
@@ -45,9 +46,9 @@ class Ledger {
   /// \param owned  pairs whose first particle is below it are counted here
   void part(const Contacts& contacts, std::size_t owned);
 
-  /// J, of this rank's contacts since the start.
-  [[nodiscard]] std::int64_t units() const { return units_; }
-  void set_units(std::int64_t units) { units_ = units; }
+  /// In the unit given, of this rank's contacts since the start.
+  [[nodiscard]] const EnergySum& lost() const { return lost_; }
+  void set_lost(const EnergySum& lost) { lost_ = lost; }
 
  private:
   [[nodiscard]] static int before_film(const PairLaws& laws) {
@@ -59,7 +60,7 @@ class Ledger {
   bool synchronised_;
   double elastic_share_;  ///< energy of the normal spring over force and overlap
   FixedPoint unit_;
-  std::int64_t units_ = 0;
+  EnergySum lost_;
 };
 
 }  // namespace polybed::dem

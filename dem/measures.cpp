@@ -9,16 +9,16 @@ namespace polybed::dem {
 
 namespace {
 
-/// Sums that are the same in any order: each number in whole units of the greatest there is.
+/// Sums that are the same in any order: each number in whole units of the greatest there is, and parts of them.
 class Sum {
  public:
   explicit Sum(FixedPoint unit) : unit_(unit) {}
-  void add(double value) { units_ += std::llround(value * unit_.per_unit); }
-  [[nodiscard]] std::int64_t units() const { return units_; }
+  void add(double value) { sum_.add(value * unit_.per_unit); }
+  [[nodiscard]] const EnergySum& sum() const { return sum_; }
 
  private:
   FixedPoint unit_;
-  std::int64_t units_ = 0;
+  EnergySum sum_;
 };
 
 /// Elastic energy and that of attraction, number and extremes of contacts that this rank counts.
@@ -54,10 +54,11 @@ void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum&
 Totals totals_of(const Model& model) {
   Totals totals;
   const FixedPoint unit = model.energy_unit(), momentum_unit = model.momentum_unit();
-  Sum kinetic(unit), rotational(unit), potential(unit), elastic(unit);
+  Sum kinetic(unit), rotational(unit), potential(unit), elastic(unit), highest(unit);
   std::array<Sum, 3> momentum{Sum(momentum_unit), Sum(momentum_unit), Sum(momentum_unit)};
   const Particles& particles = model.particles();
-  const Vector g = model.gravity();
+  const Vector g = model.gravity(), &size = model.box().size;
+  const double far = std::abs(g[0]) * size[0] + std::abs(g[1]) * size[1] + std::abs(g[2]) * size[2];
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Motion& m = particles.motion[i];
     const Vector& x = particles.place[i].x;
@@ -66,25 +67,29 @@ Totals totals_of(const Model& model) {
     kinetic.add(0.5 * vv / m.inverse_mass);
     rotational.add(0.5 * ww / m.inverse_inertia);
     potential.add(-(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / m.inverse_mass);
+    highest.add(far / m.inverse_mass);
     for (std::size_t k = 0; k < 3; ++k) momentum[k].add(m.v[k] / m.inverse_mass);
     totals.greatest_speed = std::max(totals.greatest_speed, std::sqrt(vv));
   }
   add_contacts(model, model.pairs(), false, elastic, totals);
   add_contacts(model, model.walls(), true, elastic, totals);
-  std::array<std::int64_t, 10> sums{kinetic.units(),     rotational.units(),
-                                    potential.units(),   elastic.units(),
-                                    model.dissipated(),  totals.contacts,
-                                    momentum[0].units(), momentum[1].units(),
-                                    momentum[2].units(), model.flow_work() + model.fluid_work()};
-  core::add_over_ranks(model.ranks(), sums);
-  totals.kinetic = double(sums[0]) * unit.unit;
-  totals.rotational = double(sums[1]) * unit.unit;
-  totals.potential = double(sums[2]) * unit.unit;
-  totals.elastic = double(sums[3]) * unit.unit;
-  totals.dissipated = double(sums[4]) * unit.unit;
-  totals.contacts = sums[5];
-  totals.work = double(sums[9]) * unit.unit;
-  for (std::size_t k = 0; k < 3; ++k) totals.momentum[k] = double(sums[6 + k]) * momentum_unit.unit;
+  EnergySum work = model.flow_work();
+  work.add(model.fluid_work());
+  std::array<EnergySum, 10> sums{
+      kinetic.sum(), rotational.sum(),  potential.sum(),   elastic.sum(),     model.dissipated(),
+      work,          momentum[0].sum(), momentum[1].sum(), momentum[2].sum(), highest.sum()};
+  add_over_ranks(model.ranks(), sums);
+  std::array<std::int64_t, 1> contacts{totals.contacts};
+  core::add_over_ranks(model.ranks(), contacts);
+  totals.kinetic = sums[0].units() * unit.unit;
+  totals.rotational = sums[1].units() * unit.unit;
+  totals.potential = sums[2].units() * unit.unit;
+  totals.elastic = sums[3].units() * unit.unit;
+  totals.dissipated = sums[4].units() * unit.unit;
+  totals.work = sums[5].units() * unit.unit;
+  totals.rounding = rounding_of_places(sums[9].units() * unit.unit, model.steps());
+  totals.contacts = contacts[0];
+  for (std::size_t k = 0; k < 3; ++k) totals.momentum[k] = sums[6 + k].units() * momentum_unit.unit;
   totals.max_overlap = core::greatest_of_ranks(model.ranks(), totals.max_overlap);
   totals.max_force = core::greatest_of_ranks(model.ranks(), totals.max_force);
   totals.greatest_speed = core::greatest_of_ranks(model.ranks(), totals.greatest_speed);

@@ -20,6 +20,20 @@ void store(std::vector<double>& out, std::int64_t units) {
 }
 std::int64_t recalled(const double* in) { return (std::int64_t(in[0]) << 32) + std::int64_t(in[1]); }
 
+void write_sum(core::Checkpoint& checkpoint, const std::string& key, const EnergySum& sum) {
+  checkpoint.integers[key] = sum.whole();
+  checkpoint.integers[key + "_part"] = sum.part();
+}
+
+/// Of all ranks, on the first; 0 on the others and where a checkpoint has none, as of particles that were not sheared
+/// before.
+EnergySum sum_on_first(const core::Ranks* ranks, const core::Checkpoint& checkpoint, const std::string& key) {
+  const auto found = [&](const std::string& name) {
+    return core::is_first(ranks) && checkpoint.integers.contains(name) ? checkpoint.integers.at(name) : 0;
+  };
+  return {found(key), found(key + "_part")};
+}
+
 constexpr std::size_t particle_width = 2 + 9 + 12;
 
 void write_particles(core::Checkpoint& checkpoint, const std::vector<Particle>& particles) {
@@ -63,11 +77,12 @@ std::vector<KeptContact> read_contacts(const std::vector<double>& numbers, std::
   return kept;
 }
 
-/// What each particle costs: itself and its contacts.
-std::vector<std::int32_t> work_of(const std::vector<Particle>& particles, const std::vector<KeptContact>& contacts) {
+/// What each particle costs: itself and its contacts. \param own  Model::own_work()
+std::vector<std::int32_t> work_of(const std::vector<Particle>& particles, const std::vector<KeptContact>& contacts,
+                                  std::int32_t own) {
   std::unordered_map<std::int64_t, std::size_t> where;
   for (std::size_t n = 0; n < particles.size(); ++n) where[particles[n].id] = n;
-  std::vector<std::int32_t> work(particles.size(), 1);
+  std::vector<std::int32_t> work(particles.size(), own);
   for (const KeptContact& c : contacts) {
     ++work.at(where.at(c.low));
     if (c.high >= 0) ++work.at(where.at(c.high));
@@ -116,13 +131,13 @@ core::Checkpoint Model::checkpoint() const {
   checkpoint.integers["memory_size"] = pairs_.memory_size;
   checkpoint.numbers["dt"] = limits_.dt;
   checkpoint.numbers["time"] = reported_;
-  std::array<std::int64_t, 4> sums{dissipated(), flow_work(), flow_work_ ? flow_work_->due() : 0, fluid_work()};
-  core::add_over_ranks(ranks_.get(), sums);
-  checkpoint.integers["dissipated"] = sums[0];
-  if (coupling_ || affine_drag_) checkpoint.integers["fluid_work"] = sums[3];
+  std::array<EnergySum, 4> sums{dissipated(), flow_work(), flow_work_ ? flow_work_->due() : EnergySum(), fluid_work()};
+  add_over_ranks(ranks_.get(), sums);
+  write_sum(checkpoint, "dissipated", sums[0]);
+  if (coupling_ || affine_drag_) write_sum(checkpoint, "fluid_work", sums[3]);
   if (flow_work_) {
-    checkpoint.integers["flow_work"] = sums[1];
-    checkpoint.integers["flow_work_due"] = sums[2];
+    write_sum(checkpoint, "flow_work", sums[1]);
+    write_sum(checkpoint, "flow_work_due", sums[2]);
   }
   return checkpoint;
 }
@@ -140,11 +155,8 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
     if (checkpoint.integers.at("memory_size") != pairs_.memory_size || (same_step && head[3] != limits_.dt))
       throw core::FileError("the checkpoint is of another law of contact or another time step");
   });
-  if (ledger_) ledger_->set_units(core::is_first(ranks_.get()) ? checkpoint.integers.at("dissipated") : 0);
-  // Particles that were not sheared before begin without any work.
-  const auto first = [&](const char* key) {
-    return core::is_first(ranks_.get()) && checkpoint.integers.contains(key) ? checkpoint.integers.at(key) : 0;
-  };
+  const auto first = [&](const char* key) { return sum_on_first(ranks_.get(), checkpoint, key); };
+  if (ledger_) ledger_->set_lost(first("dissipated"));
   if (flow_work_) flow_work_->set(first("flow_work"), first("flow_work_due"));
   if (affine_drag_) affine_drag_->set_work(first("fluid_work"));
   core::take_from_first(ranks_.get(), head);
@@ -158,7 +170,7 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   for (std::size_t n = 0; n < particles.size(); n += particle_width)
     all.push_back(read_particle(particles.data() + n, materials_));
   std::vector<KeptContact> kept = read_contacts(contacts, std::size_t(pairs_.memory_size));
-  place(all, work_of(all, kept));
+  place(all, work_of(all, kept, own_work()));
   if (coupling_) take_up_fluid(checkpoint, all);
   if (coupling_ && same_step && coupling_->sides().present()) take_up_sides(checkpoint, all.size());
   list_pairs(kept);
@@ -179,7 +191,7 @@ void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<
   for (std::size_t i = 0; i < particles_.owned; ++i)
     coupling_->motion().load[i] = read_load(loads.data() + row.at(particles_.id[i]) * load_width);
   coupling_->read(checkpoint);
-  coupling_->motion().set_work(core::is_first(ranks_.get()) ? checkpoint.integers.at("fluid_work") : 0);
+  coupling_->motion().set_work(sum_on_first(ranks_.get(), checkpoint, "fluid_work"));
 }
 
 /// What side forces had kept of the particles.

@@ -115,7 +115,7 @@ void Observers::close_ledger() {
   greatest_energy_ = std::max({greatest_energy_, totals_.kinetic + totals_.rotational, totals_.dissipated,
                                totals_.elastic, std::abs(totals_.work)});
   if (greatest_energy_ > 0)
-    ledger_error_ = std::max(ledger_error_, std::abs(totals_.sum() - initial_energy_) / greatest_energy_);
+    ledger_error_ = std::max(ledger_error_, ledger_miss(totals_, initial_energy_, greatest_energy_));
 }
 
 void Observers::write_history(double time) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dem/batch_rows.hpp"
+
 namespace polybed::dem {
 
 namespace {
@@ -57,11 +59,21 @@ POLYBED_ALL_VECTOR_WIDTHS bool any_deeper(const ContactBatch& b, double max_over
   return deeper != 0;
 }
 
-void store_memory(Contacts& contacts, const ContactBatch& b) {
-  for (int c = 0; c < b.count; ++c) {
-    double* memory = contacts.memory_of(b.pair[c]);
-    for (int m = 0; m < contacts.memory_size; ++m) memory[m] = b.memory[m][c];
+POLYBED_ALL_VECTOR_WIDTHS void store_memory(double* memory, int size, const ContactBatch& b) {
+  int m = 0;
+  const int fours = b.count & ~3;
+  for (; m + 4 <= size; m += 4) {
+    for (int c = 0; c < fours; c += 4) {
+      Four kept[4];
+      for (int k = 0; k < 4; ++k) get_four(b.memory[m + k] + c, kept[k]);
+      transpose(kept);
+      for (int k = 0; k < 4; ++k) put_four(kept[k], memory + std::ptrdiff_t(b.pair[c + k]) * size + m);
+    }
+    for (int c = fours; c < b.count; ++c)
+      for (int k = m; k < m + 4; ++k) memory[std::ptrdiff_t(b.pair[c]) * size + k] = b.memory[k][c];
   }
+  for (; m < size; ++m)
+    for (int c = 0; c < b.count; ++c) memory[std::ptrdiff_t(b.pair[c]) * size + m] = b.memory[m][c];
 }
 
 void add_load(Load& load, const ContactBatch::Row* force, int sign, const ContactBatch::Row* torque, int c) {
@@ -127,7 +139,7 @@ void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall
   }
   if (ledger_ != nullptr) mark_counted(particles.owned);
   act(dt);
-  store_memory(contacts, batch_);
+  store_memory(contacts.memory.data(), contacts.memory_size, batch_);
   contacts.touching.insert(contacts.touching.end(), batch_.pair, batch_.pair + batch_.count);
 }
 

@@ -30,7 +30,7 @@ struct Free {
     for (std::size_t k = 0; k < 3; ++k) kick.dv[k] = double(load.force[k]) * linear + gravity[k] * time;
     return kick;
   }
-  void account(const Particles&, std::size_t, const Kick&, double) const {}
+  void account(const Particles&, std::size_t, const Kick&, double, WorkShare) const {}
 };
 
 void turn(Particles& particles, std::size_t i, double unit, double time) {
@@ -41,11 +41,12 @@ void turn(Particles& particles, std::size_t i, double unit, double time) {
 
 }  // namespace
 
-/// What the load, the weight and the fluid do to a particle in a time, s.
+/// What the load, the weight and the fluid do to a particle in half a step.
 template <class Push>
-void Verlet::kick(Particles& particles, std::size_t i, Push& push, double time) const {
+void Verlet::kick(Particles& particles, std::size_t i, Push& push, WorkShare share) const {
+  const double time = 0.5 * dt_;
   const auto given = push.kick(particles, i, time);
-  push.account(particles, i, given, time);
+  push.account(particles, i, given, time, share);
   for (std::size_t k = 0; k < 3; ++k) particles.motion[i].v[k] += given.dv[k];
   turn(particles, i, torque_.unit, time);
 }
@@ -54,7 +55,7 @@ template <class Push>
 void Verlet::begin_with(Particles& particles, Push&& push) {
   const double half = 0.5 * dt_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    kick(particles, i, push, half);
+    kick(particles, i, push, WorkShare::before_drift(synchronised_));
     for (std::size_t k = 0; k < 3; ++k) particles.place[i].x[k] += particles.motion[i].v[k] * dt_;
   }
   if (synchronised_) {
@@ -72,13 +73,12 @@ void Verlet::begin_with(Particles& particles, Push&& push) {
 
 template <class Push>
 void Verlet::end_with(Particles& particles, Push&& push) {
-  const double half = 0.5 * dt_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (synchronised_) {
       particles.motion[i].v = half_[i].v;
       particles.motion[i].w = half_[i].w;
     }
-    kick(particles, i, push, half);
+    kick(particles, i, push, WorkShare::after_drift(synchronised_));
   }
 }
 

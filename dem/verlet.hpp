@@ -57,7 +57,7 @@ class Verlet {
   template <class Push>
   [[nodiscard]] Drift next_drift_with(const Particles& particles, double time, Push&& push) const;
   template <class Push>
-  void kick(Particles& particles, std::size_t i, Push& push, double time) const;
+  void kick(Particles& particles, std::size_t i, Push& push, WorkShare share) const;
 
   bool synchronised_;
   double dt_;

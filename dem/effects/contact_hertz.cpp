@@ -5,6 +5,7 @@
 
 #include "closures/contact_hertz.hpp"
 #include "closures/restitution.hpp"
+#include "dem/batch_rows.hpp"
 
 namespace polybed::dem {
 
@@ -41,12 +42,11 @@ HertzContact::HertzContact(const Materials& materials, const std::string& tail)
 
 void HertzContact::act(ContactBatch& batch) const {
   alignas(64) ContactBatch::Row radius = {}, modulus = {}, dashpot = {};
-  for (int c = 0; c < batch.count; ++c) {
-    const Constants& k = constants_[std::size_t(batch.kind[c])];
+  fill_by_kind(batch, constants_, [&](const Constants& k, int c) {
     radius[c] = k.radius;
     modulus[c] = k.modulus;
     dashpot[c] = k.dashpot;
-  }
+  });
   hertz(batch, radius, modulus, dashpot, least_force_);
 }
 

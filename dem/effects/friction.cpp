@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "closures/contact_tangential.hpp"
+#include "dem/batch_rows.hpp"
 #include "dem/effects/rows.hpp"
 
 namespace polybed::dem {
@@ -73,13 +74,12 @@ SpringFriction::SpringFriction(const Materials& materials, double normal_stiffne
 
 void SpringFriction::act(ContactBatch& batch, double dt) const {
   alignas(64) ContactBatch::Row friction = {}, per_radius = {}, constant = {}, dashpot = {};
-  for (int c = 0; c < batch.count; ++c) {
-    const Constants& k = constants_[std::size_t(batch.kind[c])];
+  fill_by_kind(batch, constants_, [&](const Constants& k, int c) {
     friction[c] = k.friction;
     per_radius[c] = k.per_radius;
     constant[c] = k.constant;
     dashpot[c] = k.dashpot;
-  }
+  });
   spring(batch, place_, friction, per_radius, constant, dashpot, dt);
 }
 
@@ -97,12 +97,11 @@ MindlinFriction::MindlinFriction(const Materials& materials, int place) : place_
 
 void MindlinFriction::act(ContactBatch& batch, double dt) const {
   alignas(64) ContactBatch::Row friction = {}, per_radius = {}, dashpot = {};
-  for (int c = 0; c < batch.count; ++c) {
-    const Constants& k = constants_[std::size_t(batch.kind[c])];
+  fill_by_kind(batch, constants_, [&](const Constants& k, int c) {
     friction[c] = k.friction;
     per_radius[c] = k.per_radius;
     dashpot[c] = k.dashpot;
-  }
+  });
   increment(batch, place_, friction, per_radius, dashpot, dt);
 }
 

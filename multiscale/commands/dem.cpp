@@ -115,10 +115,10 @@ class DemRun final : public CaseRun {
   /// Collective.
   void find_fluid() {
     if (!observers_ || observers_->fluid() == nullptr) return;
-    std::array<std::int64_t, 1> work{model_.fluid_work()};
-    core::add_over_ranks(ranks_.get(), work);
+    std::array<dem::EnergySum, 1> work{model_.fluid_work()};
+    dem::add_over_ranks(ranks_.get(), work);
     fluid_ = fluid_report(scene_, *model_.coupling(), observers_->fluid()->totals(), model_.limits().dt,
-                          double(work[0]) * model_.energy_unit().unit);
+                          work[0].units() * model_.energy_unit().unit);
   }
 
   void write_step(core::Json& json) const {

@@ -38,7 +38,7 @@ void Grains::see() {
   greatest_energy_ = std::max({greatest_energy_, totals_.kinetic + totals_.rotational, totals_.dissipated,
                                totals_.elastic, std::abs(totals_.work)});
   if (watch_.energy && greatest_energy_ > 0)
-    trial_.measure("V5 energy", std::abs(totals_.sum() - *initial_energy_) / greatest_energy_, 1e-3);
+    trial_.measure("V5 energy", dem::ledger_miss(totals_, *initial_energy_, greatest_energy_), 1e-3);
 }
 
 bool Grains::steps(std::int64_t number, std::int64_t every) {

@@ -93,7 +93,7 @@ void ParticleRun::kick(std::size_t i) {
   dem::FluidMotion::Kick kick = motion_.kick(particles_, i, h);
   if (treatment_ == Treatment::drag_explicit)
     for (std::size_t k = 0; k < 3; ++k) kick.dv[k] = kick.free[k] + h * f.drag / mass * (f.velocity[k] - m.v[k]);
-  motion_.account(particles_, i, kick, h);
+  motion_.account(particles_, i, kick, h, {0.5, 0.5});
   for (std::size_t k = 0; k < 3; ++k) m.v[k] += kick.dv[k];
   if (treatment_ != Treatment::added_mass_lagged) return;
   for (std::size_t k = 0; k < 3; ++k) {

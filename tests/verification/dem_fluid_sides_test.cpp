@@ -50,7 +50,7 @@ TEST(Magnus, SpinOfASphereDecaysInStillFluidAndComesToThatOfAShear) {
     // of 8e-25 J.
     const double inertia = 0.1 * mass_of(0.5e-3, 2500) * 1e-6;
     const double lost = 0.5 * inertia * (1300 + 1e4 - w[0] * w[0] - w[1] * w[1] - w[2] * w[2]);
-    if (rate == 0) compare("work of the fluid, J", -double(bench.motion.work()) * HeldShear::energy.unit, lost, 1e-12);
+    if (rate == 0) compare("work of the fluid, J", -bench.motion.work().units() * HeldShear::energy.unit, lost, 1e-12);
   }
 }
 

@@ -69,7 +69,7 @@ class PairBench {
       sum += 0.5 / m.inverse_mass * (m.v[0] * m.v[0] + m.v[1] * m.v[1] + m.v[2] * m.v[2]);
     return sum;
   }
-  [[nodiscard]] double dissipated() const { return double(ledger_.units()) * energy_.unit; }
+  [[nodiscard]] double dissipated() const { return ledger_.lost().units() * energy_.unit; }
   [[nodiscard]] const PairMaterial& kind() const { return materials.kinds()[std::size_t(materials.kind(0, 0))]; }
 
  private:

@@ -1,0 +1,164 @@
+// Janssen's silo: what the walls carry of a column of spheres at rest, and what is left for its floor. Minutes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "../verification/dem_scenes.hpp"
+
+namespace polybed::verification {
+namespace {
+
+constexpr double diameter = 1e-3, density = 2500, gravity = 9.81;  // m, kg/m3, m/s2
+constexpr double width = 8 * diameter, depth = 5 * diameter;       // between two walls, and periodic
+constexpr double wall_friction = 0.2;                              // of spheres with each other 0.5
+constexpr int slices = 20;
+
+/// Some 40 diameters high once it has settled.
+core::Scene silo(std::uint64_t seed) {
+  core::Scene scene = dry_box(0.5 * diameter, {3e6, 0.25, density}, {width, 88 * diameter, depth});
+  scene.column.dimensions = 2;
+  scene.column.gravity = gravity;
+  scene.dem.youngs_modulus = 3e6;
+  scene.dem.poisson_ratio = 0.25;
+  scene.dem.friction = 0.5;
+  scene.dem.restitution = 0.5;
+  scene.contact_pairs = {{{"a", "wall"}, {}, {}, wall_friction, {}}};
+  scene.bed.start = "mixed";
+  scene.bed.start_solids_fraction = 0.4;
+  scene.bed.solids_fraction = 0.6;
+  scene.bed.particles = {1833};
+  scene.bed.seed = seed;
+  return scene;
+}
+
+/// The particle at a height and what a wall does to it.
+struct WallForce {
+  double height, normal, up;  ///< m, N
+  bool floor;
+};
+
+std::vector<WallForce> wall_forces(const dem::Model& model) {
+  std::vector<WallForce> forces;
+  const dem::Contacts& walls = model.walls();
+  dem::ContactBatch batch;
+  for (std::size_t begin = 0; begin < walls.touching.size(); begin += dem::ContactBatch::width) {
+    model.pair_forces().loader().load_touching_walls(model.particles(), walls, begin, batch);
+    model.laws().normal->act(batch);
+    model.laws().tangential->act(batch, 0);
+    for (int c = 0; c < batch.count; ++c)
+      forces.push_back({model.particles().place[std::size_t(batch.first[c])].x[1], batch.normal[c],
+                        batch.tangential[1][c], model.box().walls[std::size_t(batch.second[c])].axis == 1});
+  }
+  return forces;
+}
+
+/// A column in slices from the top down: weight and what the walls carry of it, N, and vertical stress below, Pa.
+struct Column {
+  double height = 0, weight = 0, floor = 0;  ///< m, N
+  std::array<double, slices> carried{}, pushed{}, stress{};
+
+  explicit Column(const dem::Model& model) {
+    const dem::Particles& p = model.particles();
+    for (std::size_t i = 0; i < p.owned; ++i) height = std::max(height, p.place[i].x[1] + 0.5 * diameter);
+    const auto slice = [&](double y) { return std::size_t(std::clamp(int((1 - y / height) * slices), 0, slices - 1)); };
+    std::array<double, slices> loads{};
+    for (std::size_t i = 0; i < p.owned; ++i) loads[slice(p.place[i].x[1])] += gravity / p.motion[i].inverse_mass;
+    for (const WallForce& f : wall_forces(model)) {
+      if (f.floor) floor += f.normal;
+      if (f.floor) continue;
+      carried[slice(f.height)] += f.up;
+      pushed[slice(f.height)] += f.normal;
+    }
+    double above = 0;
+    for (std::size_t s = 0; s < slices; ++s) {
+      weight += loads[s];
+      above += loads[s] - carried[s];
+      stress[s] = above / (width * depth);
+    }
+  }
+  [[nodiscard]] double all_carried() const { return std::accumulate(carried.begin(), carried.end(), 0.0); }
+  /// mu K of Janssen: friction of the walls over the vertical stress beside them, from slices first to last - 1.
+  [[nodiscard]] double friction_ratio(std::size_t first, std::size_t last) const {
+    double shear = 0, vertical = 0;
+    for (std::size_t s = first; s < last; ++s) {
+      shear += carried[s];
+      vertical += 0.5 * (stress[s] + (s > 0 ? stress[s - 1] : 0)) * 2 * depth * height / slices;
+    }
+    return shear / vertical;
+  }
+};
+
+/// Share of the weight that is left at a depth, of a column that deep: (lambda/z)(1 - exp(-z/lambda)), lambda =
+/// W/(2 mu K) between two plates (Janssen, Z. Ver. Dt. Ing. 39, 1895, 1045).
+double janssen(double depth_over_lambda) { return (1 - std::exp(-depth_over_lambda)) / depth_over_lambda; }
+
+/// Root mean square by which the stress leaves Janssen's, rho g lambda (1 - exp(-z/lambda)), over that on the floor. mu
+/// K is that of all of the wall, so that both meet on the floor: it is the shape that is looked at.
+double off_the_exponential(const Column& column) {
+  const double lambda = width / (2 * column.friction_ratio(0, slices)), loads = column.weight / (width * depth);
+  double squares = 0;
+  for (std::size_t s = 0; s < slices; ++s) {
+    const double z = column.height * double(s + 1) / slices;
+    const double off = column.stress[s] - loads / column.height * lambda * (1 - std::exp(-z / lambda));
+    squares += off * off;
+  }
+  return std::sqrt(squares / slices) / column.stress[slices - 1];
+}
+
+/// A column after a step of gravity, at rest again.
+std::unique_ptr<dem::Model> under(core::Scene& scene, double g, const dem::Model& before, double time,
+                                  core::Timers& timers) {
+  scene.column.gravity = g;
+  auto next = std::make_unique<dem::Model>(scene, timers);
+  next->start_from(before.checkpoint());
+  while (next->time() < time) next->step(1e300);
+  return next;
+}
+
+/// Janssen takes for granted that the column slides down its walls. One that has fallen together rebounds a little in
+/// the end, and hardly any friction is left at its walls (measured: 9 and 15 % of what they could give). So its weight
+/// is taken away and given back in steps, under which it yields downwards everywhere.
+Column settled(std::uint64_t seed) {
+  core::Timers timers;
+  core::Scene scene = silo(seed);
+  auto model = std::make_unique<dem::Model>(scene, timers);
+  while (model->time() < 0.25) model->step(1e300);
+  for (const double share : {0.5, 0.25, 0.125}) model = under(scene, share * gravity, *model, 0.015, timers);
+  constexpr int steps = 10;
+  for (int k = 1; k <= steps; ++k)
+    model = under(scene, gravity * std::pow(0.125, 1 - double(k) / steps), *model, k < steps ? 0.015 : 0.15, timers);
+  return Column(*model);
+}
+
+// Stress against depth, and from what the walls bear in the upper half what the floor bears. Janssen takes friction at
+// the walls and the ratio of stresses for constants; of a column at rest they are not. Allowed is twice what three
+// columns were found to have, 1.5 % of the shape and 5.6 % of the load on the floor: 1 %, this project's goal, is not
+// met.
+TEST(DemJanssen, StressAgainstDepth) {
+  constexpr std::size_t top = 2, middle = 10;  // not the surface, where a slice is half empty
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Column column = settled(seed);
+    const std::string run = fmt::format(" of column {}", seed);
+    // Rest: what moves still is below a thousandth of the weight.
+    compare("floor and walls over the weight" + run, (column.floor + column.all_carried()) / column.weight, 1, 1e-3);
+    const double above = column.friction_ratio(top, middle), below = column.friction_ratio(middle, slices - 1);
+    const double expected = janssen(2 * above * column.height / width), share = column.floor / column.weight;
+    compare("share of the floor" + run, share, expected, 0.11);
+    compare("stress off the exponential" + run, off_the_exponential(column), 0, 0.03, 1);
+    std::string profile;
+    for (const double s : column.stress) profile += fmt::format("{:.1f} ", s);
+    const double pushed = std::accumulate(column.pushed.begin(), column.pushed.end(), 0.0);
+    testing::Test::RecordProperty(
+        "column" + run,
+        fmt::format("height {:.4g} m, weight {:.5g} Pa, mu K {:.4g}, above {:.4g}, below {:.4g}, friction "
+                    "mobilised {:.3g} of {}; stress from the top, Pa: {}",
+                    column.height, column.weight / (width * depth), column.friction_ratio(0, slices), above, below,
+                    column.all_carried() / pushed, wall_friction, profile));
+    EXPECT_LT(share, 0.9) << "the walls carry something";
+  }
+}
+
+}  // namespace
+}  // namespace polybed::verification
