@@ -51,6 +51,7 @@ void each_number(BoxResult& r, const std::function<void(const char*, double&)>& 
   see("cpu_s", r.cpu_seconds);
   see("particle_steps", r.particle_steps);
   see("bed_phi", r.bed_phi);
+  see("velocity_m_s", r.velocity);
 }
 
 void each_estimate(BoxResult& r, const std::function<void(const char*, Estimate&)>& see) {
@@ -75,6 +76,18 @@ Estimate estimate_of(const std::vector<double>& blocks) {
   for (int n = 0; n < 3 && longer.size() >= 4; ++n, longer = merged(longer))
     result.error = std::max(result.error, simple(longer).error);
   return result;
+}
+
+Estimate mean_of_seeds(const std::vector<Estimate>& seeds) {
+  double sum = 0, squares = 0, scatter = 0;
+  const double n = double(seeds.size());
+  for (const Estimate& s : seeds) {
+    sum += s.mean;
+    squares += s.error * s.error;
+  }
+  for (const Estimate& s : seeds) scatter += (s.mean - sum / n) * (s.mean - sum / n);
+  const double inner = std::sqrt(squares) / n, outer = n > 1 ? std::sqrt(scatter / (n * (n - 1))) : 0;
+  return {sum / n, std::max(inner, outer)};
 }
 
 bool error_grows(const std::vector<double>& blocks) {

@@ -220,8 +220,8 @@ class BoxRun {
 
 }  // namespace
 
-BoxResult run_box(const core::Scene& scene, const BoxPoint& point) {
-  if (point.regime == "bed") return run_bed_box(scene, point);
+BoxResult run_box(const core::Scene& scene, const BoxPoint& point, std::shared_ptr<const core::Ranks> ranks) {
+  if (point.regime == "bed") return run_bed_box(scene, point, std::move(ranks));
   return BoxRun(scene, point).run();
 }
 

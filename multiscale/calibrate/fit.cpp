@@ -14,19 +14,11 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Mean over seeds; the error is that of the boxes or of their scatter, whichever is more.
 void add_mean(fluid::TableQuantity& q, const std::vector<Estimate>& seeds, double per) {
-  double sum = 0, squares = 0, scatter = 0;
-  const double n = double(seeds.size());
-  for (const Estimate& s : seeds) {
-    sum += s.mean;
-    squares += s.error * s.error;
-  }
-  for (const Estimate& s : seeds) scatter += (s.mean - sum / n) * (s.mean - sum / n);
-  const double inner = std::sqrt(squares) / n, outer = n > 1 ? std::sqrt(scatter / (n * (n - 1))) : 0;
-  q.value.push_back(sum / n * per);
-  q.error.push_back(std::max(inner, outer) * per);
-  q.seeds.push_back(n);
+  const Estimate mean = mean_of_seeds(seeds);
+  q.value.push_back(mean.mean * per);
+  q.error.push_back(mean.error * per);
+  q.seeds.push_back(double(seeds.size()));
 }
 
 /// Visits every line of a table along phi.

@@ -10,6 +10,7 @@
 #include "core/json.hpp"
 #include "core/progress.hpp"
 #include "core/version.hpp"
+#include "fluid/properties.hpp"
 #include "multiscale/calibrate/bed_table.hpp"
 #include "multiscale/calibrate/check_table.hpp"
 #include "multiscale/calibrate/fit.hpp"
@@ -184,8 +185,10 @@ void check_table(const CalibrateOptions& options, const core::Scene& scene, cons
 /// Fluidised boxes: p_bed by both measures, and the table of that by slabs.
 void finish_bed(const CalibrateOptions& options, const fs::path& directory, const core::Scene& scene, const Plan& plan,
                 const std::vector<BoxResult>& boxes) {
-  const BedTable table = bed_table(plan, boxes);
-  const std::string lines = bed_lines(boxes);
+  const double density = fluid::fluid_constants(scene.fluid).density, solid = boxes.front().density;
+  const double weight = std::abs(1 - density / solid) * scene.column.gravity * boxes.front().diameter;
+  const BedTable table = bed_table(plan, boxes, weight);
+  const std::string lines = bed_lines(boxes) + "\n" + bed_rows(table);
   fmt::print(people(options), "{}", lines);
   core::write_atomically(directory / "boxes.txt", lines);
   require_usable(table);
