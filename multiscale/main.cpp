@@ -243,6 +243,8 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   inversion_command->add_option("-o,--output", inversion.output,
                                 "folder of a scan; default runs/<case name>-inversion");
   inversion_command->add_option("--until", inversion.until, "simulated time of each run, e.g. \"20 s\"");
+  inversion_command->add_flag("--stress-uncertainty", inversion.stress_uncertainty,
+                              "of a scan by the TFM: again with its stress table at plus and minus one standard error");
   inversion_command->add_flag("--quiet", inversion.quiet, "no line for each run");
   inversion_command->add_flag("!--no-picture", inversion.picture, "no inversion.png at the end");
 
