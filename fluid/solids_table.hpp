@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "closures/stress_ratios.hpp"
+#include "closures/stress_reference.hpp"
 
 namespace polybed::fluid {
 
@@ -14,9 +15,12 @@ struct TableQuantity {
   std::vector<double> value, error, seeds;  ///< [phi][stokes][restitution][friction][share]
 };
 
+/// Name of kinetic theory at closures::effective_restitution.
+inline const std::string effective_reference = "GD-CS e_eff";
+
 struct SolidsTable {
   std::string regime;                                             ///< dry | wet
-  std::string reference;                                          ///< GD-CS | viscous
+  std::string reference;                                          ///< GD-CS | GD-CS e_eff | viscous
   std::vector<double> phi, stokes, restitution, friction, share;  ///< axes; stokes of a dry table: 0
   TableQuantity pressure, viscosity, dissipation, temperature;    ///< temperature: T_2/T_1
   std::vector<double> shear_number;                               ///< S = gamma d/sqrt(theta) at every point
@@ -27,6 +31,11 @@ struct SolidsTable {
   double left_out = 0;  ///< greatest error of p where a solids fraction is left out of the fit
   std::string case_hash, created, git_commit;
 
+  /// Restitution at which the reference of a dry table is taken: that of smooth spheres that lose as much as rough
+  /// ones, but in files written before it was ("GD-CS").
+  [[nodiscard]] double reference_restitution(double restitution, double friction) const {
+    return reference == effective_reference ? closures::effective_restitution(restitution, friction) : restitution;
+  }
   [[nodiscard]] std::size_t size() const {
     return phi.size() * stokes.size() * restitution.size() * friction.size() * share.size();
   }

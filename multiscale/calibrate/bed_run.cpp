@@ -27,6 +27,8 @@ constexpr double settle = 2, average = 8;
 constexpr double slab = 1.5;
 /// Part of the bed's height that is looked at: away from the distributor and from the surface.
 constexpr double low_part = 0.3, high_part = 0.7;
+/// Solids fraction up to which a narrow column of spheres is filled at random without trouble.
+constexpr double most_at_start = 0.4;
 constexpr int heights = 9, blocks_of_a_run = 20;
 
 /// Superficial velocity at which drag carries the buoyant weight at a voidage: 18 mu f u/d^2 = eps |rho_p - rho_f| g.
@@ -175,7 +177,7 @@ core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
   box.column.sides = "periodic";
   box.bed.start = "mixed";
   box.bed.solids_fraction = 0.6;
-  box.bed.start_solids_fraction = std::min(point.phi, 0.5);
+  box.bed.start_solids_fraction = std::min(point.phi, most_at_start);
   box.bed.static_height = height * point.phi / box.bed.solids_fraction;
   box.bed.volume_share = {1};
   box.bed.seed = std::uint64_t(point.seed);

@@ -77,6 +77,13 @@ void write_bed_table(const std::filesystem::path& path, const BedTable& table, c
   file.save(path);
 }
 
+void take_bed(fluid::SolidsTable& table, const std::filesystem::path& path) {
+  const core::OutputFile file(path, core::FileKind{"polybed solids table", 1});
+  table.bed_phi = file.read("phi").values;
+  table.bed_pressure = file.read("p_bed").values;
+  table.bed_error = file.read("p_bed_se").values;
+}
+
 std::string bed_rows(const BedTable& t) {
   std::string out = fmt::format("{:>8} {:>8} {:>20} {:>20} {:>12} {:>8}\n", "mm/s", "phi", "p_bed by slabs",
                                 "by balance", "difference", "theta");

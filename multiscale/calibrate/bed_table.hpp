@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fluid/solids_table.hpp"
 #include "multiscale/calibrate/box_result.hpp"
 
 namespace polybed::multiscale {
@@ -31,6 +32,9 @@ void require_usable(const BedTable& table);
 /// A file of regime "bed" for solids_stress = "table:FILE".
 void write_bed_table(const std::filesystem::path& path, const BedTable& table, const std::string& created,
                      const std::string& case_hash);
+
+/// Puts p_bed of such a file beside the stress of sheared boxes: the two-fluid model adds both.
+void take_bed(fluid::SolidsTable& table, const std::filesystem::path& path);
 
 /// One line per box, and one per row of the table, for people.
 [[nodiscard]] std::string bed_lines(const std::vector<BoxResult>& boxes);

@@ -175,7 +175,7 @@ class BoxRun {
       for (std::size_t j = 0; j < phi_.size(); ++j)
         species.push_back(
             {box_.species[j].diameter, box_.species[j].density, phi_[j], estimate_of(rows_[first + j]).mean});
-      form = kinetic_reference(species, r.point.restitution);
+      form = kinetic_reference(species, closures::effective_restitution(r.point.restitution, r.point.friction));
     } else {
       form = viscous_reference(r.point.phi, r.point.friction, fluid::fluid_constants(box_.fluid).viscosity,
                                box_.dem.shear_rate);

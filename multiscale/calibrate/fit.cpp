@@ -70,7 +70,9 @@ double pressure_shape(const fluid::SolidsTable& t, const closures::MonotoneCurve
                       double phi) {
   if (t.regime == "wet")
     return closures::viscous_stress_form(phi, closures::jamming_fraction(mu)).value * ratio(phi).pressure;
-  return closures::kinetic_pressure(phi, closures::radial_carnahan_starling(phi).value, e) * ratio(phi).pressure;
+  return closures::kinetic_pressure(phi, closures::radial_carnahan_starling(phi).value,
+                                    t.reference_restitution(e, mu)) *
+         ratio(phi).pressure;
 }
 
 /// Ten points for each distance of knots, from 0 to 0.02 below jamming.
@@ -110,7 +112,7 @@ double fitted_inertia(const fluid::SolidsTable& t, const std::vector<double>& pr
 fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes) {
   fluid::SolidsTable t;
   t.regime = plan.regime.name;
-  t.reference = t.regime == "wet" ? "viscous" : "GD-CS";
+  t.reference = t.regime == "wet" ? "viscous" : fluid::effective_reference;
   t.phi = plan.axes.phi;
   t.stokes = plan.axes.stokes;
   t.restitution = plan.axes.restitution;
@@ -170,7 +172,8 @@ double falls_in_shear_up_to(const fluid::SolidsTable& t) {
         mu(t.phi, line_of(t, t.viscosity, s, e, m, x)), loss(t.phi, line_of(t, t.dissipation, s, e, m, x));
     double last = -1;
     for (double phi = t.phi.front(); phi <= t.phi.back(); phi += 0.005) {
-      const double rest = t.restitution[e], g0 = closures::radial_carnahan_starling(phi).value;
+      const double rest = t.reference_restitution(t.restitution[e], t.friction[m]),
+                   g0 = closures::radial_carnahan_starling(phi).value;
       const double theta = closures::kinetic_viscosity(gd, phi, g0, rest) * mu(phi).pressure /
                            (closures::kinetic_dissipation(gd, phi, g0, rest) * loss(phi).pressure);
       const double here = closures::kinetic_pressure(phi, g0, rest) * p(phi).pressure * theta;
@@ -201,8 +204,9 @@ std::vector<double> structure_coefficients(const fluid::SolidsTable& t) {
         for (std::size_t x = 0; x < t.share.size(); ++x) {
           const std::size_t n = t.index(p, 0, e, m, x);
           const double chi = closures::radial_carnahan_starling(t.phi[p]).value;
-          const double pressure = closures::kinetic_pressure(t.phi[p], chi, t.restitution[e]) * t.pressure.value[n];
-          const double effective = (pressure / t.phi[p] - 1) / (2 * (1 + t.restitution[e]) * t.phi[p]);
+          const double rest = t.reference_restitution(t.restitution[e], t.friction[m]);
+          const double pressure = closures::kinetic_pressure(t.phi[p], chi, rest) * t.pressure.value[n];
+          const double effective = (pressure / t.phi[p] - 1) / (2 * (1 + rest) * t.phi[p]);
           a.push_back((effective / chi - 1) / t.shear_number[n]);
         }
   return a;

@@ -54,7 +54,10 @@ TableAxes axes_of(const core::Scene& scene, const std::string& regime) {
                       "0.02 below",
                       a.phi.back(), mu, closures::jamming_fraction(mu)));
   for (const double e : a.restitution)
-    if (regime == "dry" && !(e < 1)) throw core::CaseError("calibrate.restitution: a dry box needs less than 1");
+    for (const double mu : a.friction)
+      if (regime == "dry" && !(e < 1 && closures::effective_restitution(e, mu) > 0))
+        throw core::CaseError(
+            "calibrate.restitution: a dry box needs less than 1, and e - 1.5 mu exp(-3 mu) above 0 of its friction");
   return a;
 }
 
