@@ -33,8 +33,9 @@ bool fails_alike(const stability::Draw& draw, const std::string& kind) {
 
 std::string json_text(const StabilityOptions& options, const std::vector<stability::Result>& results) {
   core::Json json;
-  json.begin_object().member("draws", options.draws).member("seed", options.seed);
-  json.member("commit", core::git_commit()).key("results").begin_array();
+  json.begin_object().member("filetype", "polybed fuzz").member("version", 1);
+  json.member("git_commit", core::git_commit()).member("draws", options.draws).member("seed", options.seed);
+  json.key("results").begin_array();
   for (std::size_t n = 0; n < results.size(); ++n) {
     const stability::Result& r = results[n];
     json.begin_object().member("draw", std::uint64_t(n)).member("outcome", name_of(r.outcome));
