@@ -23,6 +23,7 @@ struct SolidsTable {
   std::string reference;                                          ///< GD-CS | GD-CS e_eff | viscous
   std::vector<double> phi, stokes, restitution, friction, share;  ///< axes; stokes of a dry table: 0
   TableQuantity pressure, viscosity, dissipation, temperature;    ///< temperature: T_2/T_1
+  TableQuantity exchange;                                         ///< beta_12 of two species; empty if not in it
   std::vector<double> shear_number;                               ///< S = gamma d/sqrt(theta) at every point
   std::vector<double> bed_phi, bed_pressure, bed_error;           ///< p_bed of a fluidised bed; empty if not in it
   double inertia = 0;                                             ///< lambda of the viscous form

@@ -31,6 +31,8 @@ struct BoxResult {
   BoxPoint point;
   std::string hash;
   Estimate theta, pressure, viscosity, dissipation, temperature_ratio;  ///< of all, m2/s2, Pa, Pa s, W/m3; T_2/T_1
+  Estimate exchange, exchange_ratio;  ///< beta_12 of a pushed box, kg/(m3 s), and over species_exchange_kinetic
+  double slip = 0;                    ///< |U_1 - U_2|/sqrt(theta) of it
   Estimate pressure_ratio, viscosity_ratio, dissipation_ratio;
   double first_normal = 0, second_normal = 0;  ///< N_1/p, N_2/p
   double contact_share = 0;                    ///< of contacts in the pressure

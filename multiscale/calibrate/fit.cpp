@@ -53,8 +53,8 @@ double left_out_of(const fluid::SolidsTable& t) {
 
 double residual_of(const fluid::SolidsTable& t, const Plan& plan, const std::vector<BoxResult>& boxes) {
   double worst = 0;
-  const std::size_t seeds = boxes.size() / plan.axes.points();
-  for (std::size_t n = 0; n < boxes.size(); ++n) {
+  const std::size_t seeds = plan.seeds();
+  for (std::size_t n = 0; n < plan.axes.points() * seeds; ++n) {
     const double inertia = 1 + t.inertia * boxes[n].point.stokes;
     const auto over = [&](const Estimate& box, double fit) {
       worst = std::max(worst, (std::abs(box.mean / inertia - fit) - 2 * box.error / inertia) / fit);
@@ -118,7 +118,7 @@ fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes)
   t.restitution = plan.axes.restitution;
   t.friction = plan.axes.friction;
   t.share = plan.axes.share;
-  const std::size_t seeds = boxes.size() / plan.axes.points();
+  const std::size_t seeds = plan.seeds();
   const auto at = [&](std::size_t point, Estimate BoxResult::*what) {
     std::vector<Estimate> all;
     for (std::size_t n = 0; n < seeds; ++n) all.push_back(boxes[point * seeds + n].*what);
@@ -140,6 +140,8 @@ fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes)
     add_mean(t.dissipation, at(n, &BoxResult::dissipation_ratio), per);
     add_mean(t.temperature, at(n, &BoxResult::temperature_ratio), 1);
   }
+  if (plan.pushed())
+    for (std::size_t n = 0; n < t.size(); ++n) add_mean(t.exchange, at(t.size() + n, &BoxResult::exchange_ratio), 1);
   t.residual = residual_of(t, plan, boxes);
   t.left_out = left_out_of(t);
   return t;

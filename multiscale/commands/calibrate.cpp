@@ -35,12 +35,13 @@ std::string now() {
 void run_one(const core::Scene& scene, const fs::path& directory, const std::string& text) {
   BoxPoint p;
   char regime[8] = {};
-  int binary = 0;
-  if (std::sscanf(text.c_str(), "%7s %lf %lf %lf %lf %lf %d %d", regime, &p.phi, &p.stokes, &p.restitution, &p.friction,
-                  &p.share, &binary, &p.seed) != 8)
+  int binary = 0, pushed = 0;
+  if (std::sscanf(text.c_str(), "%7s %lf %lf %lf %lf %lf %d %d %d", regime, &p.phi, &p.stokes, &p.restitution,
+                  &p.friction, &p.share, &binary, &pushed, &p.seed) != 9)
     throw core::CaseError("--box is for the command's own use");
   p.regime = regime;
   p.binary = binary != 0;
+  p.pushed = pushed != 0;
   core::make_directories(directory / "boxes");
   write_box(file_of(directory, scene, p), run_box(scene, p));
 }
@@ -57,7 +58,7 @@ void print_plan(const Plan& plan, const Boxes& boxes, const CalibrateOptions& op
                n.shear_rate);
   fmt::print(out, "{} boxes: phi {}, stokes {}, e {}, mu_p {}, x2 {}, seeds {}; {} left, about {} on {} at once\n",
              plan.boxes.size(), plan.axes.phi.size(), plan.axes.stokes.size(), plan.axes.restitution.size(),
-             plan.axes.friction.size(), plan.axes.share.size(), plan.boxes.size() / plan.axes.points(), boxes.left(),
+             plan.axes.friction.size(), plan.axes.share.size(), plan.seeds(), boxes.left(),
              core::duration_text(boxes.expected_left() / boxes.at_once()), boxes.at_once());
 }
 

@@ -130,8 +130,8 @@ std::vector<std::string> Boxes::arguments(const BoxPoint& p) const {
                              "-o",
                              directory_.string(),
                              "--box",
-                             fmt::format("{} {} {} {} {} {} {} {}", p.regime, p.phi, p.stokes, p.restitution,
-                                         p.friction, p.share, p.binary ? 1 : 0, p.seed)};
+                             fmt::format("{} {} {} {} {} {} {} {} {}", p.regime, p.phi, p.stokes, p.restitution,
+                                         p.friction, p.share, p.binary ? 1 : 0, p.pushed ? 1 : 0, p.seed)};
   for (const std::string& set : options_.overrides) a.insert(a.end(), {"--set", set});
   return a;
 }
