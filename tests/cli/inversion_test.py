@@ -68,7 +68,7 @@ class Scan(Scratch):
 
     def test_the_band_of_a_stress_table(self):
         table = ROOT / "cases/solids-stress-b/table.h5"  # of another liquid: what it says of this bed is not looked at
-        words = ["--stress-uncertainty", "--set", f'effects.solids_stress="table:{table}"']
+        words = ["--stress-uncertainty", "--set", 'calibrate.regime="wet"', "--set", f'effects.solids_stress="table:{table}"']
         told = self.scan(DONE, *words).stdout
         scan = strict_json((self.folder / "scan/inversion.json").read_text())["models"]["tfm"]
         band = scan["stress_uncertainty"]

@@ -109,7 +109,7 @@ TEST(InversionScan, TheBandOfATableHoldsAllThreeAnswersOrNone) {
 
 TEST(InversionScan, TheModelsAgreeWithinFivePercentOrTheirBrackets) {
   const auto scan = [](const std::string& model, double velocity, double error, double low, double high) {
-    ScanOfModel found{model, {}, {}};
+    ScanOfModel found{model, {}, {}, {}};
     found.result.end = ScanEnd::bracket;
     found.result.velocity = velocity;
     found.result.error = error;
