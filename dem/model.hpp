@@ -54,6 +54,10 @@ class Model : public core::Simulation {
 
   /// All particles and contacts, to the bit, on the first rank; it does not depend on how many ranks there are.
   [[nodiscard]] core::Checkpoint checkpoint() const;
+  /// Changes the velocities of each species, between steps, as a body force on it for a while would: what drives
+  /// species
+  /// apart in a box. Collective. \param dv  by species, m/s
+  void push(const std::vector<Vector>& dv);
   /// Takes a run up again, on any number of ranks; only the first rank's checkpoint is read.
   void resume(const core::Checkpoint& checkpoint);
   /// Begins at time 0 from the particles of a checkpoint.

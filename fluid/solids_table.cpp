@@ -110,6 +110,11 @@ void write_solids_table(const std::filesystem::path& path, const SolidsTable& ta
     file.write(std::string(name) + "_se", shape, q.error);
     file.write(std::string(name) + "_n", shape, q.seeds);
   }
+  if (!table.exchange.value.empty()) {
+    file.write("beta_12_ratio", shape, table.exchange.value);
+    file.write("beta_12_ratio_se", shape, table.exchange.error);
+    file.write("beta_12_ratio_n", shape, table.exchange.seeds);
+  }
   file.write("S", shape, table.shear_number);
   if (!table.bed_phi.empty()) {
     file.write("phi_bed", {table.bed_phi.size()}, table.bed_phi);
@@ -137,6 +142,9 @@ SolidsTable read_solids_table(const std::filesystem::path& path) {
   }
   table.shear_number = file.read("S").values;
   table.git_commit = file.text_attribute("/", "git_commit");
+  if (file.has("beta_12_ratio"))
+    table.exchange = {file.read("beta_12_ratio").values, file.read("beta_12_ratio_se").values,
+                      file.read("beta_12_ratio_n").values};
   if (!file.has("p_bed")) return table;
   table.bed_phi = file.read("phi_bed").values;
   table.bed_pressure = file.read("p_bed").values;

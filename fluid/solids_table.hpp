@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "closures/stress_ratios.hpp"
+#include "closures/stress_reference.hpp"
 
 namespace polybed::fluid {
 
@@ -14,11 +15,15 @@ struct TableQuantity {
   std::vector<double> value, error, seeds;  ///< [phi][stokes][restitution][friction][share]
 };
 
+/// Name of kinetic theory at closures::effective_restitution.
+inline const std::string effective_reference = "GD-CS e_eff";
+
 struct SolidsTable {
   std::string regime;                                             ///< dry | wet
-  std::string reference;                                          ///< GD-CS | viscous
+  std::string reference;                                          ///< GD-CS | GD-CS e_eff | viscous
   std::vector<double> phi, stokes, restitution, friction, share;  ///< axes; stokes of a dry table: 0
   TableQuantity pressure, viscosity, dissipation, temperature;    ///< temperature: T_2/T_1
+  TableQuantity exchange;                                         ///< beta_12 of two species; empty if not in it
   std::vector<double> shear_number;                               ///< S = gamma d/sqrt(theta) at every point
   std::vector<double> bed_phi, bed_pressure, bed_error;           ///< p_bed of a fluidised bed; empty if not in it
   double inertia = 0;                                             ///< lambda of the viscous form
@@ -27,6 +32,11 @@ struct SolidsTable {
   double left_out = 0;  ///< greatest error of p where a solids fraction is left out of the fit
   std::string case_hash, created, git_commit;
 
+  /// Restitution at which the reference of a dry table is taken: that of smooth spheres that lose as much as rough
+  /// ones, but in files written before it was ("GD-CS").
+  [[nodiscard]] double reference_restitution(double restitution, double friction) const {
+    return reference == effective_reference ? closures::effective_restitution(restitution, friction) : restitution;
+  }
   [[nodiscard]] std::size_t size() const {
     return phi.size() * stokes.size() * restitution.size() * friction.size() * share.size();
   }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <functional>
@@ -65,6 +66,11 @@ class Mpi {
  private:
   int ranks_ = 1, rank_ = 0;
 };
+
+/// Whether this process is one of mpirun's, by what Open MPI or MPICH say to those that they start.
+bool started_by_mpirun() {
+  return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
+}
 
 void add_case(CLI::App& command, multiscale::CaseOptions& options, bool required = true) {
   command.add_option("CASE", options.case_path, "the case file")->required(required);
@@ -243,6 +249,8 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   inversion_command->add_option("-o,--output", inversion.output,
                                 "folder of a scan; default runs/<case name>-inversion");
   inversion_command->add_option("--until", inversion.until, "simulated time of each run, e.g. \"20 s\"");
+  inversion_command->add_flag("--stress-uncertainty", inversion.stress_uncertainty,
+                              "of a scan by the TFM: again with its stress table at plus and minus one standard error");
   inversion_command->add_flag("--quiet", inversion.quiet, "no line for each run");
   inversion_command->add_flag("!--no-picture", inversion.picture, "no inversion.png at the end");
 
@@ -255,6 +263,8 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   calibrate_command->add_flag("--plan", calibrate.plan_only, "which boxes, and how long; nothing is run");
   calibrate_command->add_option("--check", calibrate.check,
                                 "TABLE: run a few points that it was not fitted to, and compare");
+  calibrate_command->add_option("--bed", calibrate.bed,
+                                "TABLE of fluidised boxes (regime bed): its p_bed is put beside what is sheared");
   calibrate_command->add_option("--box", calibrate.box)->group("");
   calibrate_command->add_flag("--quiet", calibrate.quiet, "no progress");
 
@@ -311,7 +321,8 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   if (app.got_subcommand("compare")) run_compare(compare);
   if (app.got_subcommand("check") && mpi->first()) run_check(check);
   if (app.got_subcommand("calibrate")) {
-    if (calibrate.box.starts_with("bed")) mpi.emplace(argc, argv);
+    calibrate.launched = started_by_mpirun() && calibrate.box.empty();
+    if (calibrate.launched || calibrate.box.starts_with("bed")) mpi.emplace(argc, argv);
     run_calibrate(calibrate);
   }
   if (app.got_subcommand("effects")) {

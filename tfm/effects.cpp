@@ -115,7 +115,15 @@ void make_table_stress(const core::Scene& scene, const Constants& constants, con
   const bool transported = core::law_of(scene, "granular_temperature") == "transported";
   auto kinetic = std::make_unique<KineticStress>(scene, constants, boundaries, transported,
                                                  effects.solids_stress->max_packing(), fields);
-  kinetic->multiply(std::move(ratios), file);
+  std::vector<double> restitution;
+  for (const core::Species& s : scene.species) {
+    const double e = s.restitution.value_or(scene.dem.restitution), friction = s.friction.value_or(scene.dem.friction);
+    restitution.push_back(table.reference_restitution(e, friction));
+    if (!(restitution.back() > 0))
+      throw core::CaseError(file + ": a restitution of " + std::to_string(e) + " with a friction of " +
+                            std::to_string(friction) + " is beyond e - 1.5 mu exp(-3 mu), which the table is over");
+  }
+  kinetic->multiply(std::move(ratios), std::move(restitution), file);
   effects.collisions = std::move(kinetic);
 }
 

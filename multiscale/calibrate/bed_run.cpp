@@ -1,12 +1,14 @@
 // Fluidised boxes: the pressure of particles that a stream carries, by their stress in slabs and by the balance of the
 // forces above.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "closures/drag.hpp"
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 #include "core/timers.hpp"
 #include "dem/stress.hpp"
 #include "fluid/properties.hpp"
@@ -25,6 +27,8 @@ constexpr double settle = 2, average = 8;
 constexpr double slab = 1.5;
 /// Part of the bed's height that is looked at: away from the distributor and from the surface.
 constexpr double low_part = 0.3, high_part = 0.7;
+/// Solids fraction up to which a narrow column of spheres is filled at random without trouble.
+constexpr double most_at_start = 0.4;
 constexpr int heights = 9, blocks_of_a_run = 20;
 
 /// Superficial velocity at which drag carries the buoyant weight at a voidage: 18 mu f u/d^2 = eps |rho_p - rho_f| g.
@@ -48,11 +52,15 @@ double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, doubl
 /// What a bed is told by, at one of the heights or summed over them.
 struct Slabs {
   double phi = 0, stress = 0, balance = 0;
+  double number = 0, square = 0;  ///< of the particles there: how many, and of their velocities about the bed's
+
+  [[nodiscard]] std::array<double, 5> all() const { return {phi, stress, balance, number, square}; }
 };
 
 class BedRun {
  public:
-  BedRun(const core::Scene& scene, const BoxPoint& point) : box_(scene_of_bed(scene, point)), model_(box_, timers_) {
+  BedRun(const core::Scene& scene, const BoxPoint& point, std::shared_ptr<const core::Ranks> ranks)
+      : box_(scene_of_bed(scene, point)), ranks_(std::move(ranks)), model_(box_, timers_, ranks_) {
     result_.point = point;
     result_.hash = box_hash(scene, point);
     const dem::Species& s = model_.materials().species()[0];
@@ -68,8 +76,9 @@ class BedRun {
     const double begin = core::cpu_seconds();
     const double transit = height_ / box_.inlet.superficial_velocity[0].second;
     for (double until = settle * transit; model_.time() < until;) model_.step(1e300);
-    std::vector<double> phi, stress, balance;
-    const int every = box_.dem.fluid_every;
+    std::vector<double> phi, stress, balance, theta;
+    // Drag is integrated between the fluid's steps: looks that fall on all phases of one see its mean.
+    const int every = box_.dem.fluid_every + 1;
     for (int b = 1; b <= blocks_of_a_run; ++b) {
       Slabs sum;
       std::int64_t looks = 0;
@@ -77,15 +86,22 @@ class BedRun {
         for (int k = 0; k < every; ++k) model_.step(1e300);
         look(sum);
       }
-      phi.push_back(sum.phi / double(looks));
-      stress.push_back(sum.stress / double(looks) / unit_);
-      balance.push_back(sum.balance / double(looks) / unit_);
+      std::array<double, 5> all = sum.all();
+      core::add_over_ranks(ranks_.get(), all);
+      phi.push_back(all[0] / double(looks));
+      stress.push_back(all[1] / double(looks) / unit_);
+      balance.push_back(all[2] / double(looks) / unit_);
+      theta.push_back(all[4] / (3 * std::max(all[3], 1.0)));
     }
+    result_.theta = estimate_of(theta);
+    result_.velocity = box_.inlet.superficial_velocity[0].second;
     result_.bed_phi = estimate_of(phi).mean;
     result_.bed_pressure = estimate_of(stress);
     result_.bed_balance = estimate_of(balance);
     result_.balance = result_.bed_balance.mean / result_.bed_pressure.mean;
-    result_.cpu_seconds = core::cpu_seconds() - begin;
+    std::array<double, 1> cpu{core::cpu_seconds() - begin};
+    core::add_over_ranks(ranks_.get(), cpu);
+    result_.cpu_seconds = cpu[0];
     result_.particle_steps = double(model_.work().particle_steps);
     return result_;
   }
@@ -109,6 +125,11 @@ class BedRun {
       const dem::FluidLoad& load = fluid.load[i];
       const double force =
           load.drag * (load.velocity[1] - v) + load.force[1] + mass * fluid.net_gravity(p.species[i])[1];
+      if (y > low_part * height_ && y < high_part * height_) {
+        const dem::Vector& u = p.motion[i].v;
+        sum.number += 1;
+        sum.square += u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+      }
       for (int k = 0; k < heights; ++k) {
         const double distance = y - place(k), w = weight(distance) * per;
         sum.phi += volume * w;
@@ -126,6 +147,7 @@ class BedRun {
 
   core::Scene box_;
   core::Timers timers_;
+  std::shared_ptr<const core::Ranks> ranks_;
   dem::Model model_;
   BoxResult result_;
   double unit_ = 0, area_ = 0, height_ = 0;
@@ -155,7 +177,7 @@ core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
   box.column.sides = "periodic";
   box.bed.start = "mixed";
   box.bed.solids_fraction = 0.6;
-  box.bed.start_solids_fraction = std::min(point.phi, 0.5);
+  box.bed.start_solids_fraction = std::min(point.phi, most_at_start);
   box.bed.static_height = height * point.phi / box.bed.solids_fraction;
   box.bed.volume_share = {1};
   box.bed.seed = std::uint64_t(point.seed);
@@ -177,6 +199,8 @@ core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
   return box;
 }
 
-BoxResult run_bed_box(const core::Scene& scene, const BoxPoint& point) { return BedRun(scene, point).run(); }
+BoxResult run_bed_box(const core::Scene& scene, const BoxPoint& point, std::shared_ptr<const core::Ranks> ranks) {
+  return BedRun(scene, point, std::move(ranks)).run();
+}
 
 }  // namespace polybed::multiscale

@@ -17,22 +17,28 @@ constexpr double agreement = 0.05;
 
 }  // namespace
 
-BedTable bed_table(const Plan& plan, const std::vector<BoxResult>& boxes) {
+BedTable bed_table(const Plan& plan, const std::vector<BoxResult>& boxes, double weight) {
   BedTable table;
   const std::size_t seeds = boxes.size() / plan.axes.points();
   for (std::size_t p = 0; p < plan.axes.phi.size(); ++p) {
-    double phi = 0, pressure = 0, squares = 0, balance = 0;
+    double phi = 0, theta = 0;
+    std::vector<Estimate> slabs, balance;
     for (std::size_t k = 0; k < seeds; ++k) {
       const BoxResult& b = boxes[p * seeds + k];
       phi += b.bed_phi / double(seeds);
-      pressure += b.bed_pressure.mean / double(seeds);
-      balance += b.bed_balance.mean / double(seeds);
-      squares += b.bed_pressure.error * b.bed_pressure.error + b.bed_balance.error * b.bed_balance.error;
+      theta += b.theta.mean / double(seeds);
+      slabs.push_back(b.bed_pressure);
+      balance.push_back(b.bed_balance);
     }
+    const Estimate pressure = mean_of_seeds(slabs), other = mean_of_seeds(balance);
     table.phi.push_back(phi);
-    table.pressure.push_back(pressure);
-    table.balance.push_back(balance);
-    table.error.push_back(std::sqrt(squares) / double(seeds));
+    table.velocity.push_back(boxes[p * seeds].velocity);
+    table.pressure.push_back(pressure.mean);
+    table.error.push_back(pressure.error);
+    table.balance.push_back(other.mean);
+    table.balance_error.push_back(other.error);
+    table.temperature.push_back(theta / weight);
+    table.seeds.push_back(double(seeds));
   }
   return table;
 }
@@ -40,7 +46,7 @@ BedTable bed_table(const Plan& plan, const std::vector<BoxResult>& boxes) {
 void require_usable(const BedTable& t) {
   for (std::size_t n = 0; n < t.phi.size(); ++n) {
     const double off = std::abs(t.balance[n] - t.pressure[n]);
-    if (off > agreement * std::abs(t.pressure[n]) && off > 2 * t.error[n])
+    if (off > agreement * std::abs(t.pressure[n]) && off > 2 * std::hypot(t.error[n], t.balance_error[n]))
       throw core::NumericsError(
           fmt::format("at phi = {:.3f} the pressure is {:.4g} by slabs and {:.4g} by the balance of forces, over the "
                       "unit: {:.0f} % apart, {:.0f} % are allowed",
@@ -55,15 +61,38 @@ void write_bed_table(const std::filesystem::path& path, const BedTable& table, c
                      const std::string& case_hash) {
   core::OutputFile file(core::FileKind{"polybed solids table", 1});
   file.set_attribute("/", "regime", std::string("bed"));
-  file.set_attribute("/", "units", std::string("p_bed over |rho_p - rho_f| g D"));
+  file.set_attribute("/", "units",
+                     std::string("p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity m/s"));
   file.set_attribute("/", "created", created);
   file.set_attribute("/", "case_hash", case_hash);
   const std::vector<std::size_t> shape{table.phi.size()};
   file.write("phi", shape, table.phi);
   file.write("p_bed", shape, table.pressure);
   file.write("p_bed_se", shape, table.error);
+  file.write("p_bed_n", shape, table.seeds);
   file.write("p_bed_by_balance", shape, table.balance);
+  file.write("p_bed_by_balance_se", shape, table.balance_error);
+  file.write("theta_bed", shape, table.temperature);
+  file.write("velocity", shape, table.velocity);
   file.save(path);
+}
+
+void take_bed(fluid::SolidsTable& table, const std::filesystem::path& path) {
+  const core::OutputFile file(path, core::FileKind{"polybed solids table", 1});
+  table.bed_phi = file.read("phi").values;
+  table.bed_pressure = file.read("p_bed").values;
+  table.bed_error = file.read("p_bed_se").values;
+}
+
+std::string bed_rows(const BedTable& t) {
+  std::string out = fmt::format("{:>8} {:>8} {:>20} {:>20} {:>12} {:>8}\n", "mm/s", "phi", "p_bed by slabs",
+                                "by balance", "difference", "theta");
+  for (std::size_t n = 0; n < t.phi.size(); ++n)
+    out += fmt::format("{:>8.3f} {:>8.4f} {:>20} {:>20} {:>12} {:>8.3g}\n", 1e3 * t.velocity[n], t.phi[n],
+                       fmt::format("{:.4g}+-{:.1g}", t.pressure[n], t.error[n]),
+                       fmt::format("{:.4g}+-{:.1g}", t.balance[n], t.balance_error[n]),
+                       fmt::format("{:+.1f} %", 100 * t.difference(n)), t.temperature[n]);
+  return out;
 }
 
 std::string bed_lines(const std::vector<BoxResult>& boxes) {

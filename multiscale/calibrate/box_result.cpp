@@ -51,6 +51,8 @@ void each_number(BoxResult& r, const std::function<void(const char*, double&)>& 
   see("cpu_s", r.cpu_seconds);
   see("particle_steps", r.particle_steps);
   see("bed_phi", r.bed_phi);
+  see("slip_over_sqrt_theta", r.slip);
+  see("velocity_m_s", r.velocity);
 }
 
 void each_estimate(BoxResult& r, const std::function<void(const char*, Estimate&)>& see) {
@@ -62,6 +64,8 @@ void each_estimate(BoxResult& r, const std::function<void(const char*, Estimate&
   see("p_ratio", r.pressure_ratio);
   see("mu_ratio", r.viscosity_ratio);
   see("gamma_ratio", r.dissipation_ratio);
+  see("exchange_kg_m3_s", r.exchange);
+  see("exchange_ratio", r.exchange_ratio);
   see("p_bed", r.bed_pressure);
   see("p_bed_by_balance", r.bed_balance);
 }
@@ -77,6 +81,18 @@ Estimate estimate_of(const std::vector<double>& blocks) {
   return result;
 }
 
+Estimate mean_of_seeds(const std::vector<Estimate>& seeds) {
+  double sum = 0, squares = 0, scatter = 0;
+  const double n = double(seeds.size());
+  for (const Estimate& s : seeds) {
+    sum += s.mean;
+    squares += s.error * s.error;
+  }
+  for (const Estimate& s : seeds) scatter += (s.mean - sum / n) * (s.mean - sum / n);
+  const double inner = std::sqrt(squares) / n, outer = n > 1 ? std::sqrt(scatter / (n * (n - 1))) : 0;
+  return {sum / n, std::max(inner, outer)};
+}
+
 bool error_grows(const std::vector<double>& blocks) {
   std::vector<double> longer = blocks;
   while (longer.size() > 20) longer = merged(longer);
@@ -89,7 +105,7 @@ void write_box(const std::filesystem::path& path, const BoxResult& result) {
   BoxResult r = result;
   core::Json json;
   json.begin_object().member("hash", r.hash).member("regime", r.point.regime).member("seed", r.point.seed);
-  json.member("binary", r.point.binary);
+  json.member("binary", r.point.binary).member("pushed", r.point.pushed);
   each_number(r, [&](const char* name, double& value) { json.member(name, value); });
   each_estimate(r, [&](const char* name, Estimate& value) {
     json.key(name).begin_array().value(value.mean).value(value.error).end_array();
@@ -111,6 +127,7 @@ std::optional<BoxResult> read_box(const std::filesystem::path& path, const std::
     r.point.regime = json.of("regime").text();
     r.point.seed = int(json.of("seed").number());
     r.point.binary = json.of("binary").truth();
+    r.point.pushed = json.of("pushed").truth();
     each_number(r, [&](const char* name, double& value) { value = json.of(name).number(); });
     each_estimate(r, [&](const char* name, Estimate& value) {
       value = {json.of(name).array().at(0).number(), json.of(name).array().at(1).number()};

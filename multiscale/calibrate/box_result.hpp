@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/ranks.hpp"
 #include "multiscale/calibrate/plan.hpp"
 
 namespace polybed::multiscale {
@@ -18,6 +20,9 @@ struct Estimate {
 /// Mean and standard error of blocks of equal length, their number a multiple of 4.
 [[nodiscard]] Estimate estimate_of(const std::vector<double>& blocks);
 
+/// Mean over seeds; the error is that of the boxes or of their scatter, whichever is more.
+[[nodiscard]] Estimate mean_of_seeds(const std::vector<Estimate>& seeds);
+
 /// Whether the error from blocks twice as long is more than 1.3 times that of these: they are not independent.
 [[nodiscard]] bool error_grows(const std::vector<double>& blocks);
 
@@ -26,6 +31,8 @@ struct BoxResult {
   BoxPoint point;
   std::string hash;
   Estimate theta, pressure, viscosity, dissipation, temperature_ratio;  ///< of all, m2/s2, Pa, Pa s, W/m3; T_2/T_1
+  Estimate exchange, exchange_ratio;  ///< beta_12 of a pushed box, kg/(m3 s), and over species_exchange_kinetic
+  double slip = 0;                    ///< |U_1 - U_2|/sqrt(theta) of it
   Estimate pressure_ratio, viscosity_ratio, dissipation_ratio;
   double first_normal = 0, second_normal = 0;  ///< N_1/p, N_2/p
   double contact_share = 0;                    ///< of contacts in the pressure
@@ -38,6 +45,7 @@ struct BoxResult {
   double cpu_seconds = 0, particle_steps = 0;
   Estimate bed_pressure, bed_balance;  ///< of a fluidised bed: by slabs and by the balance of forces, over the unit
   double bed_phi = 0;                  ///< where these are taken
+  double velocity = 0;                 ///< superficial, of a fluidised bed, m/s
 
   /// S = gamma d/sqrt(theta).
   [[nodiscard]] double shear_number() const;
@@ -47,8 +55,10 @@ struct BoxResult {
 void write_box(const std::filesystem::path& path, const BoxResult& result);
 [[nodiscard]] std::optional<BoxResult> read_box(const std::filesystem::path& path, const std::string& hash);
 
-/// Runs a box of spheres in shear, or a fluidised one (bed_run.cpp).
-[[nodiscard]] BoxResult run_box(const core::Scene& scene, const BoxPoint& point);
-[[nodiscard]] BoxResult run_bed_box(const core::Scene& scene, const BoxPoint& point);
+/// Runs a box of spheres in shear on one rank, or a fluidised one (bed_run.cpp). \param ranks  that share the latter
+[[nodiscard]] BoxResult run_box(const core::Scene& scene, const BoxPoint& point,
+                                std::shared_ptr<const core::Ranks> ranks = nullptr);
+[[nodiscard]] BoxResult run_bed_box(const core::Scene& scene, const BoxPoint& point,
+                                    std::shared_ptr<const core::Ranks> ranks);
 
 }  // namespace polybed::multiscale

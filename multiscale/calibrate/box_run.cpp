@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "closures/kinetic_theory.hpp"
+#include "closures/species_exchange_kinetic.hpp"
 #include "closures/sphere.hpp"
 #include "closures/stress_reference.hpp"
 #include "core/timers.hpp"
@@ -21,6 +22,10 @@ namespace {
 /// Four or five looks at the stress in a contact: half a sine wave summed so is exact to 1e-3.
 constexpr std::int64_t steps_per_look = 4;
 constexpr int blocks_of_a_run = 20;
+
+/// Difference of the mean velocities over sqrt(theta) that a push aims at: slow, as the reference is, and well above
+/// noise.
+constexpr double slip_aimed_at = 0.25;
 
 /// What is averaged over a block, SI; theta_j follow.
 enum Column : std::size_t {
@@ -49,6 +54,7 @@ class BoxRun {
       phi_.push_back(number_.back() * closures::sphere_volume(s.radius) / volume_);
     }
     rows_.resize(first + box_.species.size());
+    if (point.pushed) choose_push();
   }
 
   BoxResult run() {
@@ -72,26 +78,70 @@ class BoxRun {
 
  private:
   void run_for(double strain) {
-    for (std::int64_t n = std::llround(strain / box_.dem.shear_rate / model_.limits().dt); n > 0; --n)
+    for (std::int64_t n = std::llround(strain / box_.dem.shear_rate / model_.limits().dt); n > 0; --n) {
+      if (n % steps_per_look == 0) push();
       model_.step(1e300);
+    }
   }
 
   void add_block(double strain) {
     std::vector<double> sum(rows_.size(), 0.0);
+    double slip = 0;
     const dem::Totals before = dem::totals_of(model_);
     const double duration = strain / box_.dem.shear_rate;
     const auto looks =
         std::max<std::int64_t>(std::llround(duration / (double(steps_per_look) * model_.limits().dt)), 1);
     for (std::int64_t n = 0; n < looks; ++n) {
+      push();
       for (std::int64_t k = 0; k < steps_per_look; ++k) model_.step(1e300);
       add_look(sum);
+      if (!push_.empty()) slip += drift_apart() / double(looks);
     }
+    slips_.push_back(slip);
     const dem::Totals after = dem::totals_of(model_);
     const double time = double(looks * steps_per_look) * model_.limits().dt;
     sum[dissipation] = double(looks) * (after.dissipated - before.dissipated) / (time * volume_);
     for (std::size_t q = 0; q < sum.size(); ++q) rows_[q].push_back(sum[q] / double(looks));
     result_.max_overlap = std::max(result_.max_overlap, after.max_overlap / model_.materials().least_diameter());
     time_ += time;
+  }
+
+  /// Forces of opposite sense along z, which shear leaves alone, for the slip aimed at by the reference at the
+  /// temperature that the box begins with.
+  void choose_push() {
+    const double theta = box_.dem.start_speed * box_.dem.start_speed;
+    force_ = exchange_reference(theta, theta) * slip_aimed_at * std::sqrt(theta);
+    const double time = double(steps_per_look) * model_.limits().dt;
+    for (std::size_t j = 0; j < 2; ++j)
+      push_.push_back({0, 0, (j == 0 ? 1 : -1) * force_ * time / (phi_[j] * box_.species[j].density)});
+  }
+  void push() {
+    if (!push_.empty()) model_.push(push_);
+  }
+  /// <U_z> of the first species less that of the second, m/s.
+  [[nodiscard]] double drift_apart() const {
+    std::array<double, 2> sum{};
+    const dem::Particles& p = model_.particles();
+    for (std::size_t i = 0; i < p.owned; ++i) sum[std::size_t(p.species[i])] += p.motion[i].v[2];
+    return sum[0] / number_[0] - sum[1] / number_[1];
+  }
+  [[nodiscard]] double exchange_reference(double theta_1, double theta_2) const {
+    const auto at = [&](std::size_t j, double value) {
+      return closures::DriftingSpecies{box_.species[j].diameter, box_.species[j].density, phi_[j], value};
+    };
+    const closures::DriftingSpecies one = at(0, theta_1), two = at(1, theta_2);
+    const double g = closures::radial_of_pair(1 - one.phi - two.phi, one.phi / one.diameter + two.phi / two.diameter,
+                                              one.diameter, two.diameter);
+    const BoxPoint& p = result_.point;
+    return closures::species_exchange_kinetic(one, two, g, closures::effective_restitution(p.restitution, p.friction));
+  }
+  void find_exchange() {
+    const Estimate slip = estimate_of(slips_);
+    const double beta = force_ / slip.mean, relative = slip.error / std::abs(slip.mean);
+    const double form = exchange_reference(estimate_of(rows_[first]).mean, estimate_of(rows_[first + 1]).mean);
+    result_.exchange = {beta, std::abs(beta) * relative};
+    result_.exchange_ratio = {beta / form, std::abs(beta / form) * relative};
+    result_.slip = slip.mean / std::sqrt(result_.theta.mean);
   }
 
   void add_look(std::vector<double>& sum) const {
@@ -142,9 +192,11 @@ class BoxRun {
     const dem::Totals after = dem::totals_of(model_);
     const double stored = (stored_energy() - begin_energy_) / (volume_ * time_);
     const double lost = (after.dissipated - begin_.dissipated) / (volume_ * time_);
-    r.balance = stress.mean * rate / (lost + r.sink + stored);
+    const double pushed = push_.empty() ? 0 : force_ * estimate_of(slips_).mean;
+    r.balance = (stress.mean * rate + pushed) / (lost + r.sink + stored);
     r.drift = drift();
     find_ratios();
+    if (!push_.empty()) find_exchange();
     r.softness = softness();
   }
 
@@ -175,7 +227,7 @@ class BoxRun {
       for (std::size_t j = 0; j < phi_.size(); ++j)
         species.push_back(
             {box_.species[j].diameter, box_.species[j].density, phi_[j], estimate_of(rows_[first + j]).mean});
-      form = kinetic_reference(species, r.point.restitution);
+      form = kinetic_reference(species, closures::effective_restitution(r.point.restitution, r.point.friction));
     } else {
       form = viscous_reference(r.point.phi, r.point.friction, fluid::fluid_constants(box_.fluid).viscosity,
                                box_.dem.shear_rate);
@@ -215,13 +267,16 @@ class BoxRun {
   double volume_ = 0, mass_ = 0, begin_energy_ = 0, time_ = 0;
   dem::Totals begin_;
   std::vector<double> number_, phi_;
+  std::vector<dem::Vector> push_;          ///< change of velocity at each look; empty: the species are not pushed apart
+  std::vector<double> slips_;              ///< of each block, m/s
+  double force_ = 0;                       ///< on each species, N/m3
   std::vector<std::vector<double>> rows_;  ///< [Column][block]
 };
 
 }  // namespace
 
-BoxResult run_box(const core::Scene& scene, const BoxPoint& point) {
-  if (point.regime == "bed") return run_bed_box(scene, point);
+BoxResult run_box(const core::Scene& scene, const BoxPoint& point, std::shared_ptr<const core::Ranks> ranks) {
+  if (point.regime == "bed") return run_bed_box(scene, point, std::move(ranks));
   return BoxRun(scene, point).run();
 }
 

@@ -14,19 +14,11 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Mean over seeds; the error is that of the boxes or of their scatter, whichever is more.
 void add_mean(fluid::TableQuantity& q, const std::vector<Estimate>& seeds, double per) {
-  double sum = 0, squares = 0, scatter = 0;
-  const double n = double(seeds.size());
-  for (const Estimate& s : seeds) {
-    sum += s.mean;
-    squares += s.error * s.error;
-  }
-  for (const Estimate& s : seeds) scatter += (s.mean - sum / n) * (s.mean - sum / n);
-  const double inner = std::sqrt(squares) / n, outer = n > 1 ? std::sqrt(scatter / (n * (n - 1))) : 0;
-  q.value.push_back(sum / n * per);
-  q.error.push_back(std::max(inner, outer) * per);
-  q.seeds.push_back(n);
+  const Estimate mean = mean_of_seeds(seeds);
+  q.value.push_back(mean.mean * per);
+  q.error.push_back(mean.error * per);
+  q.seeds.push_back(double(seeds.size()));
 }
 
 /// Visits every line of a table along phi.
@@ -61,8 +53,8 @@ double left_out_of(const fluid::SolidsTable& t) {
 
 double residual_of(const fluid::SolidsTable& t, const Plan& plan, const std::vector<BoxResult>& boxes) {
   double worst = 0;
-  const std::size_t seeds = boxes.size() / plan.axes.points();
-  for (std::size_t n = 0; n < boxes.size(); ++n) {
+  const std::size_t seeds = plan.seeds();
+  for (std::size_t n = 0; n < plan.axes.points() * seeds; ++n) {
     const double inertia = 1 + t.inertia * boxes[n].point.stokes;
     const auto over = [&](const Estimate& box, double fit) {
       worst = std::max(worst, (std::abs(box.mean / inertia - fit) - 2 * box.error / inertia) / fit);
@@ -78,7 +70,9 @@ double pressure_shape(const fluid::SolidsTable& t, const closures::MonotoneCurve
                       double phi) {
   if (t.regime == "wet")
     return closures::viscous_stress_form(phi, closures::jamming_fraction(mu)).value * ratio(phi).pressure;
-  return closures::kinetic_pressure(phi, closures::radial_carnahan_starling(phi).value, e) * ratio(phi).pressure;
+  return closures::kinetic_pressure(phi, closures::radial_carnahan_starling(phi).value,
+                                    t.reference_restitution(e, mu)) *
+         ratio(phi).pressure;
 }
 
 /// Ten points for each distance of knots, from 0 to 0.02 below jamming.
@@ -118,13 +112,13 @@ double fitted_inertia(const fluid::SolidsTable& t, const std::vector<double>& pr
 fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes) {
   fluid::SolidsTable t;
   t.regime = plan.regime.name;
-  t.reference = t.regime == "wet" ? "viscous" : "GD-CS";
+  t.reference = t.regime == "wet" ? "viscous" : fluid::effective_reference;
   t.phi = plan.axes.phi;
   t.stokes = plan.axes.stokes;
   t.restitution = plan.axes.restitution;
   t.friction = plan.axes.friction;
   t.share = plan.axes.share;
-  const std::size_t seeds = boxes.size() / plan.axes.points();
+  const std::size_t seeds = plan.seeds();
   const auto at = [&](std::size_t point, Estimate BoxResult::*what) {
     std::vector<Estimate> all;
     for (std::size_t n = 0; n < seeds; ++n) all.push_back(boxes[point * seeds + n].*what);
@@ -146,6 +140,8 @@ fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes)
     add_mean(t.dissipation, at(n, &BoxResult::dissipation_ratio), per);
     add_mean(t.temperature, at(n, &BoxResult::temperature_ratio), 1);
   }
+  if (plan.pushed())
+    for (std::size_t n = 0; n < t.size(); ++n) add_mean(t.exchange, at(t.size() + n, &BoxResult::exchange_ratio), 1);
   t.residual = residual_of(t, plan, boxes);
   t.left_out = left_out_of(t);
   return t;
@@ -178,7 +174,8 @@ double falls_in_shear_up_to(const fluid::SolidsTable& t) {
         mu(t.phi, line_of(t, t.viscosity, s, e, m, x)), loss(t.phi, line_of(t, t.dissipation, s, e, m, x));
     double last = -1;
     for (double phi = t.phi.front(); phi <= t.phi.back(); phi += 0.005) {
-      const double rest = t.restitution[e], g0 = closures::radial_carnahan_starling(phi).value;
+      const double rest = t.reference_restitution(t.restitution[e], t.friction[m]),
+                   g0 = closures::radial_carnahan_starling(phi).value;
       const double theta = closures::kinetic_viscosity(gd, phi, g0, rest) * mu(phi).pressure /
                            (closures::kinetic_dissipation(gd, phi, g0, rest) * loss(phi).pressure);
       const double here = closures::kinetic_pressure(phi, g0, rest) * p(phi).pressure * theta;
@@ -209,8 +206,9 @@ std::vector<double> structure_coefficients(const fluid::SolidsTable& t) {
         for (std::size_t x = 0; x < t.share.size(); ++x) {
           const std::size_t n = t.index(p, 0, e, m, x);
           const double chi = closures::radial_carnahan_starling(t.phi[p]).value;
-          const double pressure = closures::kinetic_pressure(t.phi[p], chi, t.restitution[e]) * t.pressure.value[n];
-          const double effective = (pressure / t.phi[p] - 1) / (2 * (1 + t.restitution[e]) * t.phi[p]);
+          const double rest = t.reference_restitution(t.restitution[e], t.friction[m]);
+          const double pressure = closures::kinetic_pressure(t.phi[p], chi, rest) * t.pressure.value[n];
+          const double effective = (pressure / t.phi[p] - 1) / (2 * (1 + rest) * t.phi[p]);
           a.push_back((effective / chi - 1) / t.shear_number[n]);
         }
   return a;

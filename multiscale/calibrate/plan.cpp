@@ -54,7 +54,10 @@ TableAxes axes_of(const core::Scene& scene, const std::string& regime) {
                       "0.02 below",
                       a.phi.back(), mu, closures::jamming_fraction(mu)));
   for (const double e : a.restitution)
-    if (regime == "dry" && !(e < 1)) throw core::CaseError("calibrate.restitution: a dry box needs less than 1");
+    for (const double mu : a.friction)
+      if (regime == "dry" && !(e < 1 && closures::effective_restitution(e, mu) > 0))
+        throw core::CaseError(
+            "calibrate.restitution: a dry box needs less than 1, and e - 1.5 mu exp(-3 mu) above 0 of its friction");
   return a;
 }
 
@@ -85,7 +88,15 @@ Plan plan_of(const core::Scene& scene) {
         for (const double mu : a.friction)
           for (const double share : a.share)
             for (int seed = 1; seed <= scene.calibrate.seeds; ++seed)
-              plan.boxes.push_back({plan.regime.name, phi, stokes, e, mu, share, plan.binary, seed});
+              plan.boxes.push_back({plan.regime.name, phi, stokes, e, mu, share, plan.binary, false, seed});
+  if (!plan.pushed()) return plan;
+  // One species alone has no other to exchange with: such boxes are left to the reader of the table to see.
+  for (const double x : a.share)
+    if (!(x > 0 && x < 1)) throw core::CaseError("calibrate.share: of dry boxes of two species above 0 and below 1");
+  for (std::size_t n = 0, count = plan.boxes.size(); n < count; ++n) {
+    plan.boxes.push_back(plan.boxes[n]);
+    plan.boxes.back().pushed = true;
+  }
   return plan;
 }
 
@@ -100,10 +111,10 @@ MeanSphere mean_sphere(const std::vector<core::Species>& species, const std::vec
 
 std::string box_hash(const core::Scene& scene, const BoxPoint& point) {
   const core::Calibrate& c = scene.calibrate;
-  constexpr int method = 1;  // counted up when a box would be measured in another way
+  constexpr int method = 2;  // counted up when a box would be measured in another way
   core::Scene box = scene_of_box(scene, point);
-  return core::text_hash(fmt::format("{} {} {} {} {} {}\n{}", method, point.seed, c.strain, c.discard_strain,
-                                     c.doublings, c.softness, core::resolved_case(box)));
+  return core::text_hash(fmt::format("{} {} {} {} {} {}{}\n{}", method, point.seed, c.strain, c.discard_strain,
+                                     c.doublings, c.softness, point.pushed ? " pushed" : "", core::resolved_case(box)));
 }
 
 }  // namespace polybed::multiscale

@@ -14,6 +14,7 @@ struct BoxPoint {
   std::string regime;  ///< dry | wet | bed
   double phi = 0, stokes = 0, restitution = 0, friction = 0, share = 0;
   bool binary = false;  ///< two species, `share` the volume of the second; else one of the bed's mean size
+  bool pushed = false;  ///< both species also pushed apart, for what they exchange; its stress is not taken
   int seed = 1;
 };
 
@@ -29,7 +30,10 @@ struct Plan {
   fluid::Regime regime;  ///< dry | wet | bed
   TableAxes axes;
   bool binary = false;
-  std::vector<BoxPoint> boxes;  ///< [phi][stokes][restitution][friction][share][seed]
+  [[nodiscard]] std::size_t seeds() const { return boxes.size() / axes.points() / (pushed() ? 2 : 1); }
+  [[nodiscard]] bool pushed() const { return binary && regime.name == "dry"; }
+  std::vector<BoxPoint>
+      boxes;  ///< [phi][stokes][restitution][friction][share][seed]; then, dry and binary, as many pushed
 };
 
 /// Throws core::CaseError for axes that do not rise or cannot be run.

@@ -25,6 +25,22 @@ std::string range(const std::vector<BoxResult>& boxes, double BoxResult::*what) 
   return fmt::format("[{:.6g}, {:.6g}]", least, most);
 }
 
+/// Temperature ratio and exchange of boxes of two species; nothing of others.
+std::string species_lines(const std::vector<BoxResult>& boxes) {
+  std::string out;
+  for (const BoxResult& b : boxes) {
+    if (!b.point.binary) continue;
+    if (out.empty())
+      out = fmt::format("{:>6} {:>6} {:>5} {:>4} {:>16} {:>16} {:>8} {:>8}\n", "phi", "e", "x2", "seed", "T_2/T_1",
+                        "beta_12/ref", "slip", "balance");
+    const auto text = [](const Estimate& e) { return fmt::format("{:.4g}+-{:.1g}", e.mean, e.error); };
+    out += fmt::format("{:>6g} {:>6g} {:>5g} {:>4} {:>16} {:>16} {:>8.3f} {:>8.5f}\n", b.point.phi, b.point.restitution,
+                       b.point.share, b.point.seed, text(b.temperature_ratio),
+                       b.point.pushed ? text(b.exchange_ratio) : "", b.slip, b.balance);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string table_toml(const fluid::SolidsTable& t, const Plan& plan, const std::vector<BoxResult>& boxes) {
@@ -47,9 +63,12 @@ std::string table_toml(const fluid::SolidsTable& t, const Plan& plan, const std:
                      list(t.restitution), list(t.friction), list(t.share));
   out += fmt::format(
       "\n[ratios]  # [phi][stokes][e][mu_p][x2]\np = {}\np_se = {}\nmu = {}\nmu_se = {}\ngamma = {}\n"
-      "gamma_se = {}\nT_12 = {}\nS = {}\n",
+      "gamma_se = {}\nT_12 = {}\nT_12_se = {}\nS = {}\n",
       list(t.pressure.value), list(t.pressure.error), list(t.viscosity.value), list(t.viscosity.error),
-      list(t.dissipation.value), list(t.dissipation.error), list(t.temperature.value), list(t.shear_number));
+      list(t.dissipation.value), list(t.dissipation.error), list(t.temperature.value), list(t.temperature.error),
+      list(t.shear_number));
+  if (!t.exchange.value.empty())
+    out += fmt::format("beta_12 = {}\nbeta_12_se = {}\n", list(t.exchange.value), list(t.exchange.error));
   if (t.regime == "dry")
     out += fmt::format("\n[fit]  # chi_eff = chi_CS (1 + a S)\na = {}\n", list(structure_coefficients(t)));
   return out;
@@ -60,6 +79,7 @@ std::string box_lines(const std::vector<BoxResult>& boxes) {
       "{:>6} {:>6} {:>6} {:>5} {:>5} {:>4} {:>7} {:>16} {:>16} {:>16} {:>7} {:>7} {:>7} {:>8}\n", "phi", "St", "e",
       "mu_p", "x2", "seed", "S", "theta/(g d)^2", "p", "mu", "p/ref", "mu/ref", "G/ref", "balance");
   for (const BoxResult& b : boxes) {
+    if (b.point.pushed) continue;
     const double unit = b.density * b.diameter * b.diameter * b.shear_rate;
     const auto text = [](const Estimate& e, double per) {
       return fmt::format("{:.4g}+-{:.1g}", e.mean / per, e.error / per);
@@ -71,7 +91,7 @@ std::string box_lines(const std::vector<BoxResult>& boxes) {
         b.shear_number(), text(b.theta, std::pow(b.shear_rate * b.diameter, 2)), text(b.pressure, unit * b.shear_rate),
         text(b.viscosity, unit), b.pressure_ratio.mean, b.viscosity_ratio.mean, b.dissipation_ratio.mean, b.balance);
   }
-  return out;
+  return out + species_lines(boxes);
 }
 
 }  // namespace polybed::multiscale

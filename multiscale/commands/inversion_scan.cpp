@@ -10,6 +10,7 @@
 #include "dem/continuum_scene.hpp"
 #include "fluid/time_mean.hpp"
 #include "multiscale/commands/run_directory.hpp"
+#include "multiscale/commands/stress_uncertainty.hpp"
 #include "multiscale/compare_window.hpp"
 #include "multiscale/inversion/scan_file.hpp"
 #include "multiscale/python_module.hpp"
@@ -43,27 +44,32 @@ fluid::TimeMean mean_of(const fs::path& directory, const core::History& history,
 /// The runs of a scan by one model, each in a folder called by its velocity and the hash of its case.
 class RunsOfModel {
  public:
-  RunsOfModel(const InversionOptions& options, std::string model, fs::path directory, double until)
+  /// \param name  of the scan, and of its folder  \param table  hash of its table of the solids stress, or empty
+  RunsOfModel(const InversionOptions& options, std::string model, std::string name, std::string table,
+              const fs::path& directory, double until)
       : options_(options),
         until_(until),
         model_(std::move(model)),
-        directory_(std::move(directory)),
+        name_(std::move(name)),
+        table_(std::move(table)),
+        directory_(directory / name_),
         ranks_(core::Ranks::of_program()) {}
 
   ScanOfModel scan(const ScanRange& range) {
     ScanResult result = scan_inversion(range, [&](double velocity, const auto& from) { return run(velocity, from); });
-    return {model_, std::move(result), std::move(runs_)};
+    return {model_, std::move(result), std::move(runs_), {}};
   }
 
  private:
   ScanMean run(double velocity, std::optional<std::size_t> from) {
     RunOptions run = options_;
-    run.json = run.picture = false;
+    run.json = run.picture = run.stress_uncertainty = false;
     run.quiet = true;
     const std::vector<std::string> start = start_of(velocity, from);
     run.overrides.insert(run.overrides.end(), start.begin(), start.end());
-    const std::string hash = core::text_hash(core::resolved_case(read_scene(run)));
-    run.output = directory_ / model_ / fmt::format("{:.3f}mm_s-{}", 1e3 * velocity, hash.substr(0, 10));
+    const core::Scene scene = read_scene(run);
+    const std::string hash = core::text_hash(core::resolved_case(scene) + table_);
+    run.output = directory_ / fmt::format("{:.3f}mm_s-{}", 1e3 * velocity, hash.substr(0, 10));
     RunOfScan found;
     found.directory = run.output;
     found.reused = finished(run.output);
@@ -77,7 +83,7 @@ class RunsOfModel {
     velocities_.push_back(velocity);
     if (core::is_first(ranks_.get()) && !options_.json && !options_.quiet) {
       const std::optional<double> other = from ? std::optional(velocities_[*from]) : std::nullopt;
-      fmt::print("{}", scan_line(model_, {velocity, from, found.mean}, found, other));
+      fmt::print("{}", scan_line(name_, {velocity, from, found.mean}, found, other));
       std::fflush(stdout);
     }
     return found.mean;
@@ -131,7 +137,7 @@ class RunsOfModel {
 
   const InversionOptions& options_;
   double until_;  ///< s
-  std::string model_;
+  std::string model_, name_, table_;
   fs::path directory_;
   std::shared_ptr<const core::Ranks> ranks_;
   std::vector<RunOfScan> runs_;
@@ -165,6 +171,20 @@ ScanRange range_of(const InversionOptions& options, const std::optional<Inversio
   return range;
 }
 
+/// Scans of one model; with --stress-uncertainty those of the two-fluid model again, its table moved both ways.
+ScanOfModel scan_of(const InversionOptions& options, const core::Scene& scene, const std::string& model,
+                    const fs::path& directory, const ScanRange& range) {
+  const std::string table = hash_of_table(scene);
+  ScanOfModel scan = RunsOfModel(options, model, model, table, directory, scene.run.until).scan(range);
+  if (!options.stress_uncertainty || model != "tfm") return scan;
+  for (const auto& [name, sigma] : {std::pair("tfm-minus", -1.0), std::pair("tfm-plus", 1.0)}) {
+    InversionOptions moved = options;
+    moved.overrides.push_back(with_moved_table(scene, directory, name, sigma));
+    scan.moved.push_back(RunsOfModel(moved, model, name, table, directory, scene.run.until).scan(range));
+  }
+  return scan;
+}
+
 void draw(const InversionOptions& options, const fs::path& directory) {
   const PythonEnd end = run_python("polybed.scan", {"--", directory.string()}, PythonOutput::keep);
   if (options.json || options.quiet) return;
@@ -183,6 +203,10 @@ void run_inversion_scan(const InversionOptions& options) {
       options.scan == "both" ? std::vector<std::string>{"tfm", "dem"} : std::vector<std::string>{options.scan};
   if (options.scan != "dem") tfm::refuse_particle_scene(scene);
   if (options.scan != "tfm") dem::refuse_continuum_scene(scene);
+  if (options.stress_uncertainty) {
+    if (options.scan == "dem") throw core::CaseError("--stress-uncertainty is of the two-fluid model: --scan tfm");
+    require_table(scene);
+  }
   ScanRequest request{options.case_path.string(),          hash_of_scanned(scene), options.overrides, {},
                       run_directory(options, "inversion"), force_balance(scene)};
   for (const core::Species& species : scene.species) request.species.push_back(species.name);
@@ -191,8 +215,7 @@ void run_inversion_scan(const InversionOptions& options) {
   const bool speaks = core::is_first(ranks.get()) && !options.json;
   if (speaks && !options.quiet) fmt::print("{}", scan_head());
   std::vector<ScanOfModel> scans;
-  for (const std::string& model : models)
-    scans.push_back(RunsOfModel(options, model, request.directory, scene.run.until).scan(range));
+  for (const std::string& model : models) scans.push_back(scan_of(options, scene, model, request.directory, range));
   core::on_first(ranks.get(), [&] {
     const std::string text = scan_json(scans, request);
     core::write_atomically(request.directory / "inversion.json", text + "\n");

@@ -87,8 +87,10 @@ struct StabilityOptions {
 struct CalibrateOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-calibrate
   std::filesystem::path check;   ///< a table to check; empty: one is made
+  std::filesystem::path bed;     ///< a table of fluidised boxes to put beside a sheared one; empty: none
   std::string box;               ///< one box, as the command tells itself; empty: all of them
-  int jobs = 1;                  ///< boxes at once
+  int jobs = 1;                  ///< boxes at once, each a process of its own
+  bool launched = false;         ///< by mpirun: boxes are run by its ranks
   bool plan_only = false, quiet = false;
 };
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/case_file.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/output.hpp"
@@ -61,17 +62,33 @@ void require_table(const core::Scene& scene) {
     throw core::CaseError("--stress-uncertainty is that of a table: effects.solids_stress = \"table:FILE\"");
 }
 
+std::string hash_of_table(const core::Scene& scene) {
+  const std::string stress = core::law_of(scene, "solids_stress");
+  if (!stress.starts_with(word)) return "";
+  const core::Bytes bytes = core::read_whole_file(stress.substr(word.size()));
+  return core::text_hash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::string with_moved_table(const core::Scene& scene, const fs::path& directory, const std::string& name,
+                             double sigma) {
+  const fs::path table = core::law_of(scene, "solids_stress").substr(word.size());
+  const fs::path moved = directory / ("table-" + name + ".h5");
+  core::on_first(core::Ranks::of_program().get(), [&] {
+    core::make_directories(directory);
+    write_moved_table(table, sigma, moved);
+  });
+  return "effects.solids_stress=\"table:" + moved.string() + "\"";
+}
+
 void run_stress_uncertainty(const RunOptions& options) {
   const core::Scene scene = read_scene(options);
   const fs::path table = core::law_of(scene, "solids_stress").substr(word.size());
   const fs::path directory = run_directory(options, "tfm");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   for (const auto& [name, sigma] : {std::pair("minus", -1.0), std::pair("plus", 1.0)}) {
-    const fs::path moved = directory / (std::string("table-") + name + ".h5");
-    core::on_first(ranks.get(), [&] { write_moved_table(table, sigma, moved); });
     RunOptions run = options;
     run.output = directory / name;
-    run.overrides.push_back("effects.solids_stress=\"table:" + moved.string() + "\"");
+    run.overrides.push_back(with_moved_table(scene, directory, name, sigma));
     run.stress_uncertainty = run.json = run.picture = false;
     run.resume = options.resume && fs::exists(checkpoint_path(run.output));
     run_tfm(run);

@@ -30,9 +30,11 @@ void write_run(Json& json, const ScanRun& run, const RunOfScan& of_run) {
   json.end_array().end_object();
 }
 
-void write_scan(Json& json, const ScanOfModel& scan) {
+void write_band(Json& json, const ScanOfModel& scan);
+
+void write_scan(Json& json, const ScanOfModel& scan, const std::string& name) {
   const ScanResult& found = scan.result;
-  json.key(scan.model).begin_object().member("outcome", name_of(found.end));
+  json.key(name).begin_object().member("outcome", name_of(found.end));
   member(json, "velocity_m_s", found.velocity);
   member(json, "error_m_s", found.error);
   json.member("low_m_s", found.low).member("high_m_s", found.high);
@@ -41,7 +43,21 @@ void write_scan(Json& json, const ScanOfModel& scan) {
   for (const RunOfScan& run : scan.runs) cpu += run.cpu_seconds;
   json.member("cpu_s", cpu).key("runs").begin_array();
   for (std::size_t n = 0; n < scan.runs.size(); ++n) write_run(json, found.runs[n], scan.runs[n]);
-  json.end_array().end_object();
+  json.end_array();
+  write_band(json, scan);
+  json.end_object();
+}
+
+/// Both scans with the table moved, and the band; nothing where there are none.
+void write_band(Json& json, const ScanOfModel& scan) {
+  if (scan.moved.empty()) return;
+  json.key("stress_uncertainty").begin_object().member("standard_errors", 1);
+  const auto band = stress_band(scan);
+  member(json, "low_m_s", band ? std::optional(band->low) : std::nullopt);
+  member(json, "high_m_s", band ? std::optional(band->high) : std::nullopt);
+  write_scan(json, scan.moved[0], "minus");
+  write_scan(json, scan.moved[1], "plus");
+  json.end_object();
 }
 
 void write_agreement(Json& json, const std::optional<ScanAgreement>& agreement) {
@@ -55,6 +71,13 @@ void write_agreement(Json& json, const std::optional<ScanAgreement>& agreement) 
   json.end_object();
 }
 
+std::string band_line(const ScanOfModel& scan) {
+  if (const auto band = stress_band(scan))
+    return fmt::format("{}: {:.4g} to {:.4g} mm/s within one standard error of the table\n", scan.model,
+                       1e3 * band->low, 1e3 * band->high);
+  return scan.moved.empty() ? "" : fmt::format("{}: no band of the table: not every scan has found one\n", scan.model);
+}
+
 std::string finding(const ScanOfModel& scan) {
   const ScanResult& found = scan.result;
   if (!found.velocity)
@@ -66,6 +89,16 @@ std::string finding(const ScanOfModel& scan) {
 }
 
 }  // namespace
+
+std::optional<StressBand> stress_band(const ScanOfModel& scan) {
+  if (scan.moved.empty() || !scan.result.velocity) return std::nullopt;
+  StressBand band{*scan.result.velocity, *scan.result.velocity};
+  for (const ScanOfModel& moved : scan.moved) {
+    if (!moved.result.velocity) return std::nullopt;
+    band = {std::min(band.low, *moved.result.velocity), std::max(band.high, *moved.result.velocity)};
+  }
+  return band;
+}
 
 std::optional<ScanAgreement> agreement_of(const std::vector<ScanOfModel>& scans) {
   const auto of = [&](const std::string& model) -> const ScanResult* {
@@ -94,7 +127,7 @@ std::string scan_json(const std::vector<ScanOfModel>& scans, const ScanRequest& 
   else
     json.null();
   json.key("models").begin_object();
-  for (const ScanOfModel& scan : scans) write_scan(json, scan);
+  for (const ScanOfModel& scan : scans) write_scan(json, scan, scan.model);
   json.end_object();
   write_agreement(json, agreement_of(scans));
   return json.end_object().text();
@@ -117,7 +150,7 @@ std::string scan_line(const std::string& model, const ScanRun& run, const RunOfS
 
 std::string scan_findings(const std::vector<ScanOfModel>& scans, const ScanRequest& request) {
   std::string text = "\n";
-  for (const ScanOfModel& scan : scans) text += finding(scan);
+  for (const ScanOfModel& scan : scans) text += finding(scan) + band_line(scan);
   if (request.force_balance) text += fmt::format("force balance: {:.4g} mm/s\n", 1e3 * request.force_balance->velocity);
   if (const auto agreement = agreement_of(scans))
     text += fmt::format("tfm/dem - 1: {:.3f} +-{:.1g}, goal {:.3f}: {}\n", agreement->difference, agreement->error,

@@ -27,7 +27,17 @@ struct ScanOfModel {
   std::string model;  ///< tfm | dem
   ScanResult result;
   std::vector<RunOfScan> runs;  ///< as in the result
+  /// Scans of the same range with the case's table of the solids stress at minus and plus one standard error; empty
+  /// where that was not asked for.
+  std::vector<ScanOfModel> moved;
 };
+
+/// Between which velocities a scan's answer lies with its table moved by one standard error; empty unless each of the
+/// three has found one.
+struct StressBand {
+  double low = 0, high = 0;  ///< m/s
+};
+[[nodiscard]] std::optional<StressBand> stress_band(const ScanOfModel& scan);
 
 /// Whether the models agree: relative difference of the velocities, against the greater of 5 % and half of what both
 /// are unknown by (calibration.md, section 8). Empty unless both have found one.

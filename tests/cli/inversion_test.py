@@ -66,6 +66,27 @@ class Scan(Scratch):
             del model["models"]["tfm"]["cpu_s"]
         self.assertEqual(again, whole)  # the same bits
 
+    def test_the_band_of_a_stress_table(self):
+        table = ROOT / "cases/solids-stress-b/table.h5"  # of another liquid: what it says of this bed is not looked at
+        words = ["--stress-uncertainty", "--set", 'calibrate.regime="wet"', "--set", f'effects.solids_stress="table:{table}"']
+        told = self.scan(DONE, *words).stdout
+        scan = strict_json((self.folder / "scan/inversion.json").read_text())["models"]["tfm"]
+        band = scan["stress_uncertainty"]
+        found = [which["velocity_m_s"] for which in (scan, band["minus"], band["plus"])]
+        if None in found:  # 0.8 s may be too short for one of them
+            self.assertEqual((band["low_m_s"], band["high_m_s"]), (None, None))
+            self.assertIn("no band of the table", told)
+        else:
+            self.assertEqual((band["low_m_s"], band["high_m_s"]), (min(found), max(found)))
+            self.assertIn("within one standard error of the table", told)
+        for name in ("minus", "plus"):
+            case = strict_json((self.folder / "scan" / band[name]["runs"][0]["directory"] / "run.json").read_text())["case"]
+            self.assertIn(f"table-tfm-{name}.h5", case)
+        again = self.scan(DONE, *words).stdout
+        self.assertEqual(again.count("finished before"), sum(len(s["runs"]) for s in (scan, band["minus"], band["plus"])))
+        self.assertIn("table", self.scan(WRONG_CASE, "--stress-uncertainty").stderr)
+        self.assertIn("two-fluid", self.scan(WRONG_CASE, *words, model="dem").stderr)
+
     def test_the_picture(self):
         words = [word for word in SHORT if word != "--no-picture"]
         self.ends(DONE, "inversion", CASE, "--scan", "tfm", *words, "--from", "30 mm/s", "-o", self.folder / "scan")

@@ -61,7 +61,8 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
     conduction_diagonal_ += 2 / std::pow(constants.grid.spacing[std::size_t(axis)], 2);
 }
 
-void KineticStress::multiply(closures::StressRatios ratios, const std::string& name) {
+void KineticStress::multiply(closures::StressRatios ratios, std::vector<double> restitution, const std::string& name) {
+  restitution_ = std::move(restitution);
   model_ = closures::KineticModel::garzo_dufty;
   dense_ = false;
   ratios_ = std::move(ratios);

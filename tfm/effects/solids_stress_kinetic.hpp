@@ -25,8 +25,9 @@ class KineticStress : public CollisionalStress {
                 bool transported, double max_packing, Fields& fields);
   void add(Fields& fields) override;
   /// Of a stress that was measured: pressure, viscosity and dissipation times these ratios, which are to Garzo and
-  /// Dufty with the g0 of Carnahan and Starling. \param name  of the table, for the count of what lies outside it
-  void multiply(closures::StressRatios ratios, const std::string& name);
+  /// Dufty with the g0 of Carnahan and Starling. \param restitution  of each species, in that reference
+  /// \param name  of the table, for the count of what lies outside it
+  void multiply(closures::StressRatios ratios, std::vector<double> restitution, const std::string& name);
   [[nodiscard]] std::optional<ClosureUse> use() const override { return use_; }
 
  private:

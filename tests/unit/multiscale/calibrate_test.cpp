@@ -6,6 +6,7 @@
 #include "../core/scratch.hpp"
 #include "closures/kinetic_theory.hpp"
 #include "core/error.hpp"
+#include "multiscale/calibrate/bed_table.hpp"
 #include "multiscale/calibrate/box_result.hpp"
 #include "multiscale/calibrate/fit.hpp"
 #include "multiscale/calibrate/reference.hpp"
@@ -164,10 +165,72 @@ TEST(CalibrateReference, PressureByHandAndCutInTwo) {
   EXPECT_NEAR(two.dissipation, one.dissipation, 1e-12 * one.dissipation);
 }
 
+// With friction the reference is at e_eff = e - 1.5 mu exp(-3 mu): 0.717 of 0.9 and 0.3. A table whose boxes press as
+// smooth spheres of that restitution do then has a ratio of 1 and no structure.
+TEST(CalibrateFit, RoughSpheresAreHeldAgainstSmoothOnesThatLoseAsMuch) {
+  core::Scene scene = dry_scene();
+  scene.dem.friction = 0.3;
+  scene.calibrate.restitution = {0.9};
+  const Plan plan = plan_of(scene);
+  const fluid::SolidsTable t = fitted(plan, synthetic(plan, 0, 0));
+  EXPECT_NEAR(t.reference_restitution(0.9, 0.3), 0.717044, 1e-6);
+  for (const double a : structure_coefficients(t)) EXPECT_NEAR(a, 0, 1e-12);
+  fluid::SolidsTable before = t;
+  before.reference = "GD-CS";  // of files that are older
+  EXPECT_EQ(before.reference_restitution(0.9, 0.3), 0.9);
+  scene.calibrate.restitution = {0.15};
+  EXPECT_THROW((void)plan_of(scene), core::CaseError) << "0.15 - 0.183 is no restitution";
+}
+
+TEST(CalibratePlan, DryBoxesOfTwoSpeciesAreAlsoPushedApart) {
+  core::Scene scene = dry_scene();
+  scene.species.push_back(scene.species[0]);
+  scene.species[1].diameter *= 2;
+  scene.bed.volume_share = {0.5, 0.5};
+  scene.calibrate.share = {0.3, 0.5};
+  const Plan plan = plan_of(scene);
+  ASSERT_EQ(plan.boxes.size(), 2 * 5u * 2 * 2 * 2);
+  EXPECT_EQ(plan.seeds(), 2u);
+  EXPECT_FALSE(plan.boxes[39].pushed);
+  EXPECT_TRUE(plan.boxes[40].pushed);
+  EXPECT_EQ(plan.boxes[40].phi, plan.boxes[0].phi);
+  EXPECT_NE(box_hash(scene, plan.boxes[0]), box_hash(scene, plan.boxes[40]));
+  scene.calibrate.share = {0, 0.5};
+  EXPECT_THROW((void)plan_of(scene), core::CaseError) << "one species alone exchanges nothing";
+}
+
+// Two points of two seeds: p 1.00 and 1.02 scatter by 0.01, errors of the boxes 0.002/sqrt 2.
+TEST(CalibrateBed, BothWaysTheirErrorsAndTheirDifference) {
+  Plan plan;
+  plan.axes = {{0.3, 0.5}, {0}, {0.9}, {0.3}, {0}};
+  std::vector<BoxResult> boxes(4);
+  for (std::size_t n = 0; n < 4; ++n) {
+    boxes[n].bed_phi = n < 2 ? 0.28 : 0.46;
+    boxes[n].bed_pressure = {(n < 2 ? 1.0 : 3.0) + (n % 2 == 0 ? 0 : 0.02), 0.002};
+    boxes[n].bed_balance = {1.03 * boxes[n].bed_pressure.mean, 0.002};
+    boxes[n].theta = {2e-6, 0};
+    boxes[n].velocity = n < 2 ? 0.02 : 0.01;
+  }
+  const BedTable t = bed_table(plan, boxes, 4e-6);
+  ASSERT_EQ(t.phi.size(), 2u);
+  EXPECT_NEAR(t.pressure[0], 1.01, 1e-14);
+  EXPECT_NEAR(t.error[0], 0.01, 1e-14);
+  EXPECT_NEAR(t.difference(0), 0.03, 1e-14);
+  EXPECT_NEAR(t.temperature[1], 0.5, 1e-14);
+  EXPECT_EQ(t.velocity[1], 0.01);
+  EXPECT_NO_THROW(require_usable(t));
+  BedTable off = t;
+  off.balance[1] *= 1.1;
+  EXPECT_THROW(require_usable(off), core::NumericsError);
+  BedTable falling = t;
+  falling.pressure[1] = falling.balance[1] = 0.9;
+  EXPECT_THROW(require_usable(falling), core::NumericsError);
+}
+
 TEST(CalibrateBox, ItsFileIsReadBackAndNoOther) {
   const test::Scratch scratch;
   BoxResult b;
-  b.point = {"wet", 0.4, 3, 0.9, 0.3, 0, false, 5};
+  b.point = {"wet", 0.4, 3, 0.9, 0.3, 0, false, false, 5};
   b.hash = "0123";
   b.pressure = {1.0 / 3, 0.01};
   b.balance = 0.999;

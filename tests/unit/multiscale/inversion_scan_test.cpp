@@ -90,9 +90,26 @@ TEST(InversionScan, SaysThatThereIsNone) {
   EXPECT_EQ(found.runs.size(), 8u);  // two ends, each widened in turn, six times in all
 }
 
+TEST(InversionScan, TheBandOfATableHoldsAllThreeAnswersOrNone) {
+  const auto scan = [](std::optional<double> velocity) {
+    ScanOfModel s;
+    s.model = "tfm";
+    s.result.velocity = velocity;
+    return s;
+  };
+  ScanOfModel whole = scan(0.030);
+  EXPECT_FALSE(stress_band(whole)) << "not asked for";
+  whole.moved = {scan(0.031), scan(0.0305)};
+  ASSERT_TRUE(stress_band(whole));
+  EXPECT_EQ(stress_band(whole)->low, 0.030);
+  EXPECT_EQ(stress_band(whole)->high, 0.031);
+  whole.moved[1].result.velocity.reset();
+  EXPECT_FALSE(stress_band(whole));
+}
+
 TEST(InversionScan, TheModelsAgreeWithinFivePercentOrTheirBrackets) {
   const auto scan = [](const std::string& model, double velocity, double error, double low, double high) {
-    ScanOfModel found{model, {}, {}};
+    ScanOfModel found{model, {}, {}, {}};
     found.result.end = ScanEnd::bracket;
     found.result.velocity = velocity;
     found.result.error = error;
