@@ -36,8 +36,9 @@ using Results = std::map<std::size_t, stability::Result>;
 
 std::string json_text(const StabilityOptions& options, const Results& results) {
   core::Json json;
-  json.begin_object().member("draws", options.draws).member("seed", options.seed);
-  json.member("commit", core::git_commit()).key("results").begin_array();
+  json.begin_object().member("filetype", "polybed fuzz").member("version", 1);
+  json.member("git_commit", core::git_commit()).member("draws", options.draws).member("seed", options.seed);
+  json.key("results").begin_array();
   for (const auto& [n, r] : results) {
     json.begin_object().member("draw", std::uint64_t(n)).member("outcome", name_of(r.outcome));
     json.member("broken", r.broken).member("worst", r.worst.id).member("value", r.worst.value);

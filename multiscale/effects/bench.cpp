@@ -79,33 +79,34 @@ double seconds_of(const core::Timers& timers) {
   return seconds;
 }
 
+/// What `steps` steps of a warm model take, s, and how much of `count` they do.
+template <class Model>
+std::pair<double, double> time_steps(Model& model, const core::Timers& timers, int warm, int steps, const auto& count) {
+  for (int n = 0; n < warm; ++n) model.step(1e300);
+  const double done = count(), begin = seconds_of(timers);
+  for (int n = 0; n < steps; ++n) model.step(1e300);
+  return {seconds_of(timers) - begin, std::max(count() - done, 1.0)};
+}
+
 Timing time_particles(const Benched* effect, const std::string& per) {
   core::Timers timers;
   dem::Model model(scene_with(effect), timers);
-  constexpr int warm = 32, steps = 256;
-  for (int n = 0; n < warm; ++n) model.step(1e300);
-  const std::uint64_t contacts = model.work().contact_steps;
-  const double begin = seconds_of(timers);
-  for (int n = 0; n < steps; ++n) model.step(1e300);
-  const double seconds = seconds_of(timers) - begin;
-  const double units =
-      per == "contact" ? double(model.work().contact_steps - contacts) : double(steps) * double(model.particle_count());
+  const bool contacts = per == "contact";
+  const auto [seconds, units] = time_steps(model, timers, 32, 256, [&] {
+    return double(contacts ? model.work().contact_steps : model.work().particle_steps);
+  });
   const std::size_t numbers =
-      per == "contact" ? std::size_t(model.laws().memory_size()) : model.coupling()->sides().rows().width;
-  return {seconds / std::max(units, 1.0), numbers * sizeof(double), std::max(units, 1.0)};
+      contacts ? std::size_t(model.laws().memory_size()) : model.coupling()->sides().rows().width;
+  return {seconds / units, numbers * sizeof(double), units};
 }
 
 Timing time_cells(const Benched* effect) {
   core::Timers timers;
   tfm::Model model(scene_with(effect), timers);
-  constexpr int warm = 4, steps = 24;
-  for (int n = 0; n < warm; ++n) model.step(1e300);
-  const std::uint64_t sides = model.work().right_hand_sides;
-  const double begin = seconds_of(timers);
-  for (int n = 0; n < steps; ++n) model.step(1e300);
-  const double seconds = seconds_of(timers) - begin;
-  const double units = double(model.work().right_hand_sides - sides) * double(model.constants().grid.cell_count());
-  return {seconds / std::max(units, 1.0), 0};
+  const auto [seconds, units] = time_steps(model, timers, 4, 24, [&] {
+    return double(model.work().right_hand_sides) * double(model.constants().grid.cell_count());
+  });
+  return {seconds / units, 0};
 }
 
 Timing time_of(const Benched* effect, const std::string& model, const std::string& per) {

@@ -163,31 +163,24 @@ EffectRow lubrication(const core::Scene& scene, const Survey& survey) {
 }
 
 EffectRow cohesion(const core::Scene& scene, const Survey& survey) {
-  const Surfaces surfaces = surfaces_of(scene, survey.is_gas || !survey.has_fluid);
+  const Surfaces surfaces = surfaces_of(scene, survey);
   EffectRow row = force_row("cohesion", "van_der_waals", "pull of rough surfaces over weight", scene.chooser.tolerance);
   row.models = "dem";
   Supremum greatest;
   const auto pull = [&](double reference) {
     return closures::van_der_waals_relevance(surfaces.hamaker, surfaces.roughness, reference);
   };
-  for (const Situation& s : survey.situations) greatest.add(s, pull(s.reference()));
-  if (!survey.has_fluid && scene.column.gravity > 0)
-    for (const core::Species& species : scene.species) {
-      Situation dry;
-      dry.species = species.name;
-      dry.zone = "packed";
-      greatest.add(dry, pull(closures::buoyant_weight(species.diameter, species.density, 0, scene.column.gravity)));
-    }
+  for (const Situation& s : survey.touching()) greatest.add(s, pull(s.reference()));
   greatest.fill(row);
   return row;
 }
 
 }  // namespace
 
-Surfaces surfaces_of(const core::Scene& scene, bool gas) {
-  const double known = scene.dem.hamaker_constant;
+Surfaces surfaces_of(const core::Scene& scene, const Survey& survey) {
+  const double known = scene.dem.hamaker_constant, usual = survey.is_gas || !survey.has_fluid ? 1e-19 : 1e-20;
   return {scene.chooser.roughness.value_or(scene.dem.roughness),
-          scene.chooser.hamaker.value_or(known > 0 ? known : (gas ? 1e-19 : 1e-20))};
+          scene.chooser.hamaker.value_or(known > 0 ? known : usual)};
 }
 
 std::vector<EffectRow> weigh_forces(const core::Scene& scene, const Survey& survey) {

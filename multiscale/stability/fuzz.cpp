@@ -38,15 +38,6 @@ void run_scene(Trial& trial, const core::Scene& scene, double cpu) {
   trial.report("ends", run->time() >= scene.run.until ? 1 : 0);
 }
 
-Result unanswered(const std::string& how) {
-  Result result;
-  result.outcome = Outcome::fail;
-  result.worst = {"V16 honest stop", 1, 0};
-  result.broken = result.worst.id;
-  result.cause = how;
-  return result;
-}
-
 /// Bisection of one parameter: the value nearest to its standard at which the draw still fails, to 5 %.
 void shrink_one(Draw& draw, std::size_t n, const std::function<bool(const Draw&)>& fails) {
   Parameter& p = draw.parameters[n];
@@ -114,7 +105,7 @@ std::vector<Result> results_of(const std::vector<std::string>& texts, int jobs, 
       texts.size(), {jobs, 300 * (cpu + 1), 3 * (cpu + 1), most_memory},
       [&](std::size_t n) { return text_of(result_of_case(texts[n], "case", cpu)); },
       [&](std::size_t n, const ChildEnd& end) {
-        results[n] = end.answered ? result_of(end.text) : unanswered(end.text);
+        results[n] = result_of(end);
         if (seen) seen(n, results[n]);
       });
   return results;

@@ -46,15 +46,6 @@ void require_known(const std::vector<HardCase>& cases, const Choice& choice) {
   require("--naive", choice.naive, naive);
 }
 
-Result without_answer(const std::string& how) {
-  Result result;
-  result.outcome = Outcome::fail;
-  result.worst = {"V16 honest stop", 1, 0};
-  result.broken = result.worst.id;
-  result.cause = how;
-  return result;
-}
-
 /// Costs of the cells of one case.
 void compare_costs(std::vector<Cell>& cells, std::size_t begin, std::size_t count) {
   double least = std::numeric_limits<double>::infinity();
@@ -112,7 +103,7 @@ void run_cells(std::vector<Cell>& cells, int jobs, const std::function<void(std:
     return text_of(trial.judge(cells[n].one.work));
   };
   const auto take = [&](std::size_t n, const ChildEnd& end) {
-    cells[n].result = end.answered ? result_of(end.text) : without_answer(end.text);
+    cells[n].result = result_of(end);
     ended[n] = 1;
     std::size_t begin = n, count = 1;
     while (begin > 0 && cells[begin - 1].one.id == cells[n].one.id) --begin;

@@ -75,7 +75,11 @@ void write_cell(core::Json& json, const Cell& cell) {
 
 std::string json_text(std::span<const Cell> cells, const std::string& suite) {
   core::Json json;
-  json.begin_object().member("suite", suite).member("date", today()).member("commit", core::git_commit());
+  json.begin_object()
+      .member("filetype", "polybed stability")
+      .member("version", 1)
+      .member("git_commit", core::git_commit());
+  json.member("suite", suite).member("date", today());
   json.key("cells").begin_array();
   for (const Cell& cell : cells) write_cell(json, cell);
   json.end_array().end_object();

@@ -34,4 +34,14 @@ Result result_of(const std::string& text) {
   return result;
 }
 
+Result result_of(const ChildEnd& end) {
+  if (end.answered) return result_of(end.text);
+  Result result;
+  result.outcome = Outcome::fail;
+  result.worst = {"V16 honest stop", 1, 0};
+  result.broken = result.worst.id;
+  result.cause = end.text;
+  return result;
+}
+
 }  // namespace polybed::stability

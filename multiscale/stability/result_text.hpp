@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "multiscale/stability/child.hpp"
 #include "multiscale/stability/hard_case.hpp"
 
 namespace polybed::stability {
@@ -10,5 +11,7 @@ namespace polybed::stability {
 [[nodiscard]] std::string text_of(const Result& result);
 /// Throws core::FileError for any other text.
 [[nodiscard]] Result result_of(const std::string& text);
+/// What a child said; one that gave no answer has failed in V16.
+[[nodiscard]] Result result_of(const ChildEnd& end);
 
 }  // namespace polybed::stability

@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, TWO_SIZES, WRONG_CASE, Scratch
+from program import DONE, TWO_IN_WATER, WRONG_CASE, Scratch
 
 # Boxes of 100 spheres that are sheared by 2: what they measure is rough, and each takes a part of a second.
 SHORT = """[calibrate]
@@ -48,11 +48,7 @@ WET = """[column]
 size = ["20 mm", "30 mm"]  # narrower and the shear would be faster than drag
 cells = [4, 12]
 sides = "periodic"
-[fluid]
-name = "water"
-density = 999
-viscosity = "1.14e-3 Pa s"
-""" + TWO_SIZES + """[bed]
+""" + TWO_IN_WATER + """[bed]
 particles = [600, 28]
 solids_fraction = 0.6
 start = "mixed"

@@ -12,18 +12,14 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, WRONG_CASE, TWO_SIZES, Scratch, history, strict_json
+from program import DONE, FILE, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
 BED = """[column]
 size = ["5 mm", "30 mm"]
 cells = [2, 12]
 sides = "periodic"
-[fluid]
-name = "water"
-density = 999
-viscosity = "1.14e-3 Pa s"
-""" + TWO_SIZES + """[bed]
+""" + TWO_IN_WATER + """[bed]
 particles = [150, 7]
 solids_fraction = 0.6
 start = "mixed"

@@ -7,18 +7,14 @@ import tempfile
 import time
 
 import program
-from program import DONE, NUMBERS, WRONG_CASE, TWO_SIZES, Scratch, strict_json
+from program import DONE, NUMBERS, WRONG_CASE, TWO_IN_WATER, Scratch, strict_json
 
 # A bed of 4 x 24 cells, a tenth of a second of computing.
 BED = """[column]
 size = ["10 mm", "40 mm"]
 cells = [4, 24]
 sides = "periodic"
-[fluid]
-name = "water"
-density = 999
-viscosity = "1.14e-3 Pa s"
-""" + TWO_SIZES + """[bed]
+""" + TWO_IN_WATER + """[bed]
 volume_share = [0.8, 0.2]
 static_height = "12 mm"
 solids_fraction = 0.6

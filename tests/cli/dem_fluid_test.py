@@ -4,18 +4,14 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, ROOT, WRONG_CASE, TWO_SIZES, Scratch, history, same_bits, strict_json
+from program import DONE, ROOT, WRONG_CASE, TWO_IN_WATER, Scratch, history, same_bits, strict_json
 
 # 630 spheres of two sizes in rising water; a step takes about 100 microseconds.
 BED = """[column]
 size = ["10 mm", "60 mm"]
 cells = [3, 18]
 sides = "periodic"
-[fluid]
-name = "water"
-density = 999
-viscosity = "1.14e-3 Pa s"
-""" + TWO_SIZES + """[bed]
+""" + TWO_IN_WATER + """[bed]
 particles = [600, 30]
 solids_fraction = 0.6
 start = "mixed"

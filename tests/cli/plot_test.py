@@ -93,13 +93,17 @@ class Plot(Scratch):
 
     def test_a_missing_package_is_told_with_the_line_that_installs_it(self):
         """A module of that name in front of the search path stands for a machine without it."""
-        (self.folder / "matplotlib.py").write_text("raise ModuleNotFoundError(\"No module named 'matplotlib'\", name='matplotlib')")
         environment = program.environment(str(self.folder))
-        done = subprocess.run([program.PROGRAM, "plot", self.directory], cwd=self.folder, env=environment, capture_output=True, text=True)
-        self.assertEqual(done.returncode, FILE, done.stderr)
-        self.assertIn("matplotlib is missing", done.stderr)
-        self.assertIn("python3-matplotlib", done.stderr)
-        self.assertNotIn("Traceback", done.stderr)
+        for package in ("matplotlib", "h5py", "numpy"):
+            stand_in = self.folder / f"{package}.py"
+            stand_in.write_text(f"raise ModuleNotFoundError('No module named {package}', name='{package}')")
+            done = subprocess.run([program.PROGRAM, "plot", self.directory], cwd=self.folder, env=environment, capture_output=True,
+                                  text=True)
+            stand_in.unlink()
+            self.assertEqual(done.returncode, FILE, done.stderr)
+            self.assertIn(f"{package} is missing", done.stderr)
+            self.assertIn(f"python3-{package}", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
 
     def test_no_python_at_all(self):
         """One that does not start stands for it: there is nothing to plot with, but a run is complete without its picture."""

@@ -35,6 +35,11 @@ name = "coarse"
 diameter = "2 mm"
 density = 1170
 """
+TWO_IN_WATER = """[fluid]
+name = "water"
+density = 999
+viscosity = "1.14e-3 Pa s"
+""" + TWO_SIZES
 
 
 def environment(scratch):

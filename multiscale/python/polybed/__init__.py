@@ -1,7 +1,12 @@
 """Runs polybed, reads what its runs hold, and draws it. It computes no physics."""
 
-from polybed.program import ProgramError, compare, inversion, run, sweep
-from polybed.quantities import Quantity
-from polybed.read import FormatError, Particles, Run, read
+import sys
+
+from polybed.packages import needed
+
+with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it still looks for
+    from polybed.program import ProgramError, compare, inversion, run, sweep
+    from polybed.quantities import Quantity
+    from polybed.read import FormatError, Particles, Run, read
 
 __all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "Run", "compare", "inversion", "read", "run", "sweep"]

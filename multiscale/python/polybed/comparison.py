@@ -9,29 +9,21 @@ import argparse
 import base64
 import html
 import io
-import json
 import os
 import shlex
 import sys
 from pathlib import Path
 
-try:
+from polybed.packages import NO_FILE, needed
+
+with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
 
     from polybed.drawing import comparison as drawing
     from polybed.drawing.profiles import shown_top
     from polybed.drawing.style import STYLE
-    from polybed.read import FormatError, check_kind, read
-except ImportError as missing:
-    if (missing.name or "").startswith("polybed"):
-        raise
-    if __name__ == "__main__":
-        print(f"Python's package {missing.name} is missing, which the page needs: "
-              "apt-get install python3-numpy python3-h5py python3-matplotlib", file=sys.stderr)
-        sys.exit(4)
-    raise
+    from polybed.read import FormatError, read, read_json
 
-NO_FILE = 4
 NAMES = drawing.NAMES
 LOOKS = """body{font:15px/1.45 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
 table{border-collapse:collapse;margin:.6rem 0}th,td{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #ddd}
@@ -144,8 +136,7 @@ def pictures(found, runs):
 def page(directory):
     """The page as text."""
     path = Path(directory) / "comparison.json"
-    found = json.loads(path.read_text())
-    check_kind(found, "polybed comparison", path)
+    found = read_json(path, "polybed comparison")
     runs = {model: read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
     records = {model: run.record for model, run in runs.items()}
     warnings = "".join(f'<p class="warning">{html.escape(text)}</p>' for text in found["warnings"])

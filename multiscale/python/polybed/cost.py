@@ -6,49 +6,27 @@ Reads DIR/cost.json, writes cost.png and cost.svg and prints their paths. Exit c
 """
 
 import argparse
-import json
-import os
 import sys
 from pathlib import Path
 
-try:
+from polybed.packages import NO_FILE, needed
+
+with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
 
     from polybed.drawing import cost
     from polybed.drawing.style import STYLE
-except ImportError as missing:
-    if (missing.name or "").startswith("polybed"):
-        raise
-    if __name__ == "__main__":
-        print(f"Python's package {missing.name} is missing, which pictures need: "
-              "apt-get install python3-numpy python3-h5py python3-matplotlib", file=sys.stderr)
-        sys.exit(4)
-    raise
-
-NO_FILE = 4
-
-
-def read(directory):
-    """The sweep in a folder; refuses another file or version."""
-    sweep = json.loads((Path(directory) / "cost.json").read_text())
-    if sweep.get("filetype") != "polybed cost" or sweep.get("version") != 1:
-        raise ValueError(f"{directory}/cost.json: no \"polybed cost\" of version 1")
-    return sweep
+    from polybed.plot import save
+    from polybed.read import FormatError, read_json
 
 
 def pictures(directory, out=None):
     """Draws the sweep in a folder as PNG and SVG and returns their paths."""
     folder = Path(out or directory)
     folder.mkdir(parents=True, exist_ok=True)
-    paths = [folder / "cost.png", folder / "cost.svg"]
+    sweep = read_json(Path(directory) / "cost.json", "polybed cost")
     with plt.rc_context(STYLE):
-        figure = cost.draw(read(directory))
-        for path in paths:
-            temporary = path.with_name(path.name + ".temporary")
-            figure.savefig(temporary, format=path.suffix[1:])
-            os.replace(temporary, path)
-        plt.close(figure)
-    return paths
+        return [save(cost.draw(sweep), folder / f"cost.{ending}") for ending in ("png", "svg")]
 
 
 def main(arguments=None):
@@ -58,7 +36,7 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     try:
         print("\n".join(map(str, pictures(options.directory, options.out))))
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, FormatError, KeyError, ValueError) as error:
         print(error, file=sys.stderr)
         return NO_FILE
     return 0

@@ -11,24 +11,18 @@ import os
 import sys
 from pathlib import Path
 
-try:
+from polybed.packages import NO_FILE, needed
+
+with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
     import numpy as np
 
     from polybed.drawing import animation, fields, history, overview, particles, profiles
     from polybed.drawing.style import STYLE
     from polybed.read import FormatError, read
-except ImportError as missing:
-    if (missing.name or "").startswith("polybed"):
-        raise
-    if __name__ == "__main__":
-        print(f"Python's package {missing.name} is missing, which pictures need: "
-              "apt-get install python3-numpy python3-h5py python3-matplotlib", file=sys.stderr)
-        sys.exit(4)
-    raise
 
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
-WRONG_COMMAND, NO_FILE, STOPPED = 2, 4, 130
+WRONG_COMMAND, STOPPED = 2, 130
 
 
 class CommandError(Exception):

@@ -16,7 +16,7 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from polybed.read import check_kind, read
+from polybed.read import read, read_json
 
 OWN = Path(__file__).resolve()
 # What Open MPI needs in a container and as root; one rank needs neither network nor daemon.
@@ -125,7 +125,7 @@ def compare(case, tfm=None, dem=None, overrides=None, output=None, until=None, p
         made = run(case, model, overrides, output / model, until) if given is None else given
         words += [f"--{model}", getattr(made, "directory", made)]
     call("compare", case, *settings(overrides, until), *words, "-o", output, "--quiet", *([] if page else ["--no-picture"]))
-    return found_in(output / "comparison.json", "polybed comparison")
+    return read_json(output / "comparison.json", "polybed comparison")
 
 
 def inversion(case, scan=None, overrides=None, output=None, until=None, begin=None, end=None, method=None):
@@ -141,10 +141,4 @@ def inversion(case, scan=None, overrides=None, output=None, until=None, begin=No
     for option, velocity in (("--from", begin), ("--to", end)):
         words += [] if velocity is None else [option, velocity]
     call(*words, "--scan", scan, "-o", output, "--quiet", "--no-picture")
-    return found_in(output / "inversion.json", "polybed inversion")
-
-
-def found_in(path, filetype):
-    found = json.loads(path.read_text())
-    check_kind(found, filetype, path)
-    return found
+    return read_json(output / "inversion.json", "polybed inversion")

@@ -29,6 +29,8 @@ VERSIONS = {
     "polybed run": 1,
     "polybed comparison": 1,
     "polybed inversion": 1,
+    "polybed cost": 1,
+    "polybed stability": 1,
 }
 
 
@@ -43,6 +45,13 @@ def check_kind(attributes, filetype, path):
         raise FormatError(
             f"{path} is '{found[0]}' version {found[1]}; this package reads '{filetype}' version {VERSIONS[filetype]}"
         )
+
+
+def read_json(path, filetype):
+    """What a JSON file holds, if it is what it should be."""
+    found = json.loads(path.read_text())
+    check_kind(found, filetype, path)
+    return found
 
 
 def open_hdf5(path):
@@ -200,9 +209,7 @@ class Run:
         path = self.directory / "run.json"
         if not path.exists():
             return {}
-        record = json.loads(path.read_text())
-        check_kind(record, "polybed run", path)
-        return record
+        return read_json(path, "polybed run")
 
     @property
     def species(self):

@@ -6,36 +6,25 @@ Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a p
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
-try:
+from polybed.packages import NO_FILE, needed
+
+with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
     import numpy as np
 
     from polybed.drawing.style import COLOURS, GREY, PALE, STYLE
     from polybed.plot import save
-    from polybed.read import FormatError, check_kind
-except ImportError as missing:
-    if (missing.name or "").startswith("polybed"):
-        raise
-    if __name__ == "__main__":
-        print(f"Python's package {missing.name} is missing, which the picture needs: "
-              "apt-get install python3-numpy python3-h5py python3-matplotlib", file=sys.stderr)
-        sys.exit(4)
-    raise
+    from polybed.read import FormatError, read_json
 
-NO_FILE = 4
 NAMES = {"tfm": "two-fluid", "dem": "particles"}
 
 
 def read_scan(directory):
     """inversion.json of a folder, as a dictionary."""
-    path = Path(directory) / "inversion.json"
-    found = json.loads(path.read_text())
-    check_kind(found, "polybed inversion", path)
-    return found
+    return read_json(Path(directory) / "inversion.json", "polybed inversion")
 
 
 def columns(scan):

@@ -7,20 +7,15 @@ done, 4 a file or a package is missing.
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
-try:
+from polybed.packages import NO_FILE, needed
+
+with needed(__name__ == "__main__"):
     from polybed.drawing import hard_cases
     from polybed.plot import save
-except ImportError as missing:
-    if (missing.name or "").startswith("polybed"):
-        raise
-    print(f"Python's package {missing.name} is missing, which pictures need", file=sys.stderr)
-    sys.exit(4)
-
-NO_FILE = 4
+    from polybed.read import FormatError, read_json
 
 
 def main(arguments=None):
@@ -28,10 +23,10 @@ def main(arguments=None):
     parser.add_argument("directory", type=Path)
     directory = parser.parse_args(arguments).directory
     try:
-        matrix = json.loads((directory / "stability.json").read_text())
+        matrix = read_json(directory / "stability.json", "polybed stability")
         for ending in ("png", "svg"):
             print(save(hard_cases.draw(matrix), directory / f"stability.{ending}"))
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, FormatError, KeyError, ValueError) as error:
         print(error, file=sys.stderr)
         return NO_FILE
     return 0

@@ -65,7 +65,7 @@ def draw(matrix):
         axes.set_yticks([n + 0.5 for n in range(len(names))], names, fontsize=7)
         axes.tick_params(length=0)
         axes.spines[:].set_visible(False)
-        axes.set_title(f"hard cases, suite {matrix['suite']}, {matrix['date']}, {matrix['commit'][:10]}\n"
+        axes.set_title(f"hard cases, suite {matrix['suite']}, {matrix['date']}, {matrix['git_commit'][:10]}\n"
                        "hatched: refused with a reason; cross: failed; frame: not as expected")
         figure.colorbar(plt.cm.ScalarMappable(norm, colours), ax=axes, shrink=0.5, label="log10 of the worst value over its limit")
     return figure
