@@ -7,11 +7,12 @@
 
 namespace polybed::dem {
 
-/// A random force on each particle, drawn anew for every step and held over it: of mean 0 and variance
-/// 2 k_B T k/dt along each axis, k the drag over the slip. Under the exact drag a sphere then diffuses with
-/// D = k_B T/k whatever the step, and moves with the variance of speed (k_B T/M) tanh(x)/x, x = k dt/(2 M): that of
-/// equipartition where slip relaxes within several steps. What a particle is given is taken from the fluid, whose own
-/// fluctuations are left out. Draws belong to a particle and its count of steps: the same on any number of ranks.
+/// A random force on each particle, drawn anew in the middle of every step and held until that of the next: of mean 0
+/// and variance 2 k_B T k/dt along each axis, k the drag over the slip. Under the exact drag a sphere then diffuses
+/// with D = k_B T/k whatever the step. At the ends of steps, in the middle of a hold, its speed has the variance (k_B
+/// T/M)(2/x)(a (1 - a)/(1 + a) + (1 - sqrt(a))^2), x = k dt/M, a = exp(-x): that of equipartition less a share of x/2.
+/// What a particle is given is taken from the fluid, whose own fluctuations are left out. Draws belong to a particle
+/// and its count of steps: the same on any number of ranks.
 class Brownian final : public SideForce {
  public:
   /// \param temperature  K  \param dt  of the particles, s  \param place  of the count of draws in a row

@@ -131,8 +131,8 @@ TEST(Neglected, EvaluatesTheClosureOfTheChoice) {
   EXPECT_EQ(neglected.observed()[0].outside, 1U);
 }
 
-// The coarse species of system B falls at Re_p near 200 in the freeboard, where the law of the lift is a band. At
-// Re_p 99 it is within the law, under the shear of that zone: 10 u_t/L with u_t about 0.1 m/s and L 60 mm.
+// The coarse species of system B falls at Re_p above 100 in the freeboard, where the law of the lift is a band. At
+// Re_p 99 it is within the law, under the shear of that zone: 10 u_t/L > 9.4 1/s, as u_t > 0.0568 m/s and L = 60 mm.
 TEST(Neglected, BoundsSlowEncountersOfWhatIsFastElsewhere) {
   const std::string b = R"(
 column = { size = [0.06, 0.6], cells = [6, 60] }
@@ -164,7 +164,7 @@ density = 1170
   Encounter met;
   met.species = 1;
   met.slip = {0, 99 * 1.14e-3 / (999.19 * 2.01e-3), 0};
-  met.vorticity = {0, 0, 16};
+  met.vorticity = {0, 0, 9.4};
   neglected.see(met);
   EXPECT_EQ(lift.outside, 0U);
   EXPECT_LE(lift.greatest, lift.bound);
