@@ -148,9 +148,9 @@ constexpr double dilute_viscosity = 5 * 1.7724538509055160273 / 96;
   return std::numbers::pi * std::sqrt(3 * std::max(theta, 0.0)) * specularity * density * phi * g0 / (6 * max_packing);
 }
 
-/// Friction of a wall on solids pressed against it, Pa s/m: p_f tan(delta_w)/|U_t|, |U_t| rounded at 0 by 1 mm/s.
-[[nodiscard]] inline double wall_friction(double pressure, double tangent, double speed) {
-  constexpr double rounding = 1e-3;
+/// Friction of a wall on solids pressed against it, Pa s/m: p_f tan(delta_w)/|U_t|.
+/// \param rounding  that of |U_t| at 0, m/s, above 0
+[[nodiscard]] inline double wall_friction(double pressure, double tangent, double speed, double rounding) {
   return pressure * tangent / std::sqrt(speed * speed + rounding * rounding);
 }
 

@@ -30,7 +30,7 @@ std::vector<Key> make_keys() {
   k.push_back({"column", "sides", at<std::string>([](S& s, N) -> auto& { return s.column.sides; }), "walls: no slip for the fluid, free slip for solids unless said; or joined", {}, -infinity, infinity, false, "wall", {"wall", "periodic"}});
   k.push_back({"column", "ends", at<std::string>([](S& s, N) -> auto& { return s.column.ends; }), "bottom and top; joined for the DEM only, without a fluid", {}, -infinity, infinity, false, "wall", {"wall", "periodic"}});
   k.push_back({"column", "gravity", at<double>([](S& s, N) -> auto& { return s.column.gravity; }), "acceleration of gravity", dimension::acceleration, 0, 1e3, false, "9.81 m/s2"});
-  k.push_back({"column", "gravity_direction", at<std::vector<double>>([](S& s, N) -> auto& { return s.column.gravity_direction; }), "of gravity, of any length, in the order of size: along width and height, or width, depth and height; default: down; another one for the DEM only", {}, -1e6, 1e6});
+  k.push_back({"column", "gravity_direction", at<std::vector<double>>([](S& s, N) -> auto& { return s.column.gravity_direction; }), "of gravity, of any length, in the order of size: along width and height, or width, depth and height; default: down; for the TFM another one needs column.closed = true and walls", {}, -1e6, 1e6});
   k.push_back({"column", "outlet", at<std::string>([](S& s, N) -> auto& { return s.column.outlet; }), "top of the column: a screen that holds solids, or open to them: they leave and are counted", {}, -infinity, infinity, false, "screen", {"screen", "open"}});
   k.push_back({"column", "closed", at<bool>([](S& s, N) -> auto& { return s.column.closed; }), "walls all round: no inlet and no outlet", {}, -infinity, infinity, false, "false"});
 

@@ -14,9 +14,10 @@ namespace polybed::dem {
 
 namespace {
 
-/// What each owned particle costs: itself and its contacts.
-std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pairs, const Contacts& walls) {
-  std::vector<std::int32_t> work(particles.owned, 1);
+/// What each owned particle costs: itself and its contacts. \param own  Model::own_work()
+std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pairs, const Contacts& walls,
+                                  std::int32_t own) {
+  std::vector<std::int32_t> work(particles.owned, own);
   for (const std::int32_t p : pairs.touching)
     for (const std::int32_t i : {pairs.pairs[std::size_t(p)].first, pairs.pairs[std::size_t(p)].second})
       if (std::size_t(i) < particles.owned) ++work[std::size_t(i)];
@@ -201,7 +202,7 @@ void Model::restart() {
 void Model::rebuild() {
   std::vector<KeptContact> kept = kept_contacts();
   wrap();
-  exchange_.balance(particles_, work_of(particles_, pairs_, walls_));
+  exchange_.balance(particles_, work_of(particles_, pairs_, walls_, own_work()));
   list_pairs(kept);
 }
 

@@ -63,11 +63,12 @@ std::vector<KeptContact> read_contacts(const std::vector<double>& numbers, std::
   return kept;
 }
 
-/// What each particle costs: itself and its contacts.
-std::vector<std::int32_t> work_of(const std::vector<Particle>& particles, const std::vector<KeptContact>& contacts) {
+/// What each particle costs: itself and its contacts. \param own  Model::own_work()
+std::vector<std::int32_t> work_of(const std::vector<Particle>& particles, const std::vector<KeptContact>& contacts,
+                                  std::int32_t own) {
   std::unordered_map<std::int64_t, std::size_t> where;
   for (std::size_t n = 0; n < particles.size(); ++n) where[particles[n].id] = n;
-  std::vector<std::int32_t> work(particles.size(), 1);
+  std::vector<std::int32_t> work(particles.size(), own);
   for (const KeptContact& c : contacts) {
     ++work.at(where.at(c.low));
     if (c.high >= 0) ++work.at(where.at(c.high));
@@ -158,7 +159,7 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   for (std::size_t n = 0; n < particles.size(); n += particle_width)
     all.push_back(read_particle(particles.data() + n, materials_));
   std::vector<KeptContact> kept = read_contacts(contacts, std::size_t(pairs_.memory_size));
-  place(all, work_of(all, kept));
+  place(all, work_of(all, kept, own_work()));
   if (coupling_) take_up_fluid(checkpoint, all);
   if (coupling_ && same_step && coupling_->sides().present()) take_up_sides(checkpoint, all.size());
   list_pairs(kept);

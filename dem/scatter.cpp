@@ -92,13 +92,25 @@ void Scatter::add(const Place& place, const std::array<double, 6>& same, const V
                 [&](std::size_t at, double w) { sums_[at * width_ + cell] += std::int64_t(w * units[Sum::volume]); });
 }
 
+/// Sums over all ranks. A column is mostly empty above its bed: only what lies between entries that any rank has filled
+/// is sent.
+void Scatter::add_up(const core::Ranks* ranks) {
+  if (ranks == nullptr) return;
+  const auto filled = [](std::int64_t sum) { return sum != 0; };
+  const auto first = std::find_if(sums_.begin(), sums_.end(), filled);
+  const auto last = std::find_if(sums_.rbegin(), sums_.rend(), filled).base();
+  const auto begin = std::size_t(-core::greatest_of_ranks(ranks, -double(first - sums_.begin())));
+  const auto end = std::size_t(core::greatest_of_ranks(ranks, double(last - sums_.begin())));
+  if (begin < end) core::add_over_ranks(ranks, std::span(sums_).subspan(begin, end - begin));
+}
+
 void Scatter::give(const core::Ranks* ranks, const GridExchange* exchange, bool open_top, fluid::ParticlePhase& phase,
                    std::vector<Field>& fraction) {
   if (exchange != nullptr) {
     shared_.resize(block_.padded_size() * width_);
     exchange->add(width_, sums_, shared_);
   } else {
-    core::add_over_ranks(ranks, sums_);
+    add_up(ranks);
   }
   const std::span<const std::int64_t> sums = exchange != nullptr ? shared_ : sums_;
   const double per_cell = 1 / grid_.cell_volume(), unit = unit_[volume].unit * per_cell;

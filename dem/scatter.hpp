@@ -37,6 +37,7 @@ class Scatter {
   void fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt);
   void add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
            std::size_t species);
+  void add_up(const core::Ranks* ranks);
   void give_faces(std::span<const std::int64_t> sums, bool open_top, fluid::ParticlePhase& phase) const;
 
   core::Grid grid_, block_;

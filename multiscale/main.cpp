@@ -110,7 +110,7 @@ void add_cost(CLI::App& app, multiscale::CostOptions& options) {
   command.add_option("--axes", options.axes, "axes by commas");
   command.add_option("--target", options.target, "error, e.g. 1%");
   command.add_option("--budget", options.budget, "wall time, e.g. 20min");
-  command.add_option("--repeat", options.repeat, "runs for a CPU time")->check(CLI::Range(1, 100));
+  command.add_option("--repeat", options.repeat, "runs for a CPU time")->check(CLI::Range(3, 100));
   command.add_option("--clock", options.clock, "work | cpu | wall")->check(CLI::IsMember({"work", "cpu", "wall"}));
   command.add_option("--reference", options.reference, "auto | exact | DIR of a run");
   command.add_option("--seed", options.seed, "of the order of repetitions");

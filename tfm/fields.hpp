@@ -1,6 +1,7 @@
 // Everything that one evaluation of the right-hand side computes: the working fields of the continuum model.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace polybed::tfm {
 /// What does not change during a run, in the order of the species.
 struct Constants {
   core::Grid grid;
-  double gravity = 9.81;  ///< m/s2, downward
+  double gravity = 9.81;                 ///< m/s2, along `down`
+  std::array<double, 3> down{0, -1, 0};  ///< unit vector on the axes; aslant in a column that leans
   fluid::FluidConstants fluid;
   std::vector<double> diameter;   ///< D_j, m
   std::vector<double> density;    ///< rho_j, kg/m3

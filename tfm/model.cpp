@@ -26,6 +26,7 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   Constants constants;
   constants.grid = core::grid_of(scene.column, ranks);
   constants.gravity = scene.column.gravity;
+  constants.down = scene.column.down;
   constants.fluid = fluid::fluid_constants(scene.fluid);
   constants.bed_share = scene.bed.volume_share;
   for (const core::Species& species : scene.species) {
@@ -78,6 +79,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
   velocity_scale_ = std::max(
       {0.1 * greatest_terminal_velocity(constants), inlet().greatest(), constants.openings.greatest(), least_scale});
+  pressure_scale_ = scene.fluid.outlet_pressure * (100.0 / 101325);
   Fields& fields = equations_.fields();
   fill_bed(scene.bed, constants, effects().solids_stress.get(), fields.solids);
   constants.openings.set_velocities(fields.solids);
@@ -130,7 +132,7 @@ std::vector<double> Model::absolute_tolerances() const {
   for (const StateLayout::Entry& entry : layout_.entries()) {
     const double value = entry.kind == Kind::fraction      ? fraction_tolerance(options_.rtol)
                          : entry.kind == Kind::passed      ? not_tested
-                         : entry.kind == Kind::pressure    ? 100.0 * options_.rtol
+                         : entry.kind == Kind::pressure    ? pressure_scale_ * options_.rtol
                          : entry.kind == Kind::temperature ? options_.rtol * velocity_scale_ * velocity_scale_
                                                            : options_.rtol * velocity_scale_;
     std::fill_n(atol.begin() + std::ptrdiff_t(entry.begin), entry.size, value);

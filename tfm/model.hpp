@@ -85,6 +85,8 @@ class Model : public core::Simulation {
   }
   /// Velocity that errors and divergences are measured against, m/s.
   [[nodiscard]] double velocity_scale() const { return velocity_scale_; }
+  /// Pressure, Pa, that rtol is of in Newton's iterations: 1/1013.25 of the outlet's, 100 Pa under an atmosphere.
+  [[nodiscard]] double pressure_scale() const { return pressure_scale_; }
 
  private:
   void choose_integrator(const core::Scene& scene);
@@ -119,7 +121,7 @@ class Model : public core::Simulation {
   std::unique_ptr<CompressibleProblem> acoustic_;  ///< explicit steps of a compressible fluid
   fluid::FluidLedger ledger_;                      ///< of a compressible fluid
   std::unique_ptr<core::Integrator> integrator_;
-  double time_ = 0, step_ = 0, velocity_scale_ = 1;
+  double time_ = 0, step_ = 0, velocity_scale_ = 1, pressure_scale_ = 100;
   std::vector<double> y_, dydt_;
   std::size_t column_size_ = 0;  ///< entries of the whole column's state
   StepLine last_step_;

@@ -140,7 +140,8 @@ void Observers::write_history(double time) {
                       constants.grid.column_cells(2);
   double weight = 0;
   for (std::size_t j = 0; j < constants.species(); ++j)
-    weight += mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity / area;
+    weight +=
+        mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity * -constants.down[1] / area;
   const double drop = fluid::pressure_drop(profile);
   force_balance_ = weight != 0 ? drop / weight : 0;
   const Fields& fields = model_.fields();

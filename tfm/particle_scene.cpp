@@ -15,7 +15,12 @@ std::vector<std::string> only_for_particles(const core::Scene& scene) {
   const std::string& start = scene.bed.start;
   add(scene.fluid.name == "none", "fluid.name = \"none\"");
   add(column.ends == "periodic", "column.ends = \"periodic\"");
-  add(column.down[0] != 0 || column.down[2] != 0 || !(column.down[1] < 0), "column.gravity_direction other than down");
+  const bool leans = column.down[0] != 0 || column.down[2] != 0 || !(column.down[1] < 0);
+  const std::string aslant = "column.gravity_direction other than down ";
+  add(leans && !column.closed, aslant + "without column.closed = true");
+  add(leans && column.sides == "periodic", aslant + "with column.sides = \"periodic\"");
+  add(leans && start == "settled", aslant + "with bed.start = \"settled\"");
+  add(leans && scene.fluid.equation_of_state != "incompressible", aslant + "with a compressible fluid");
   add(scene.dem.shear_rate != 0, "dem.shear_rate other than 0");
   add(start == "random" || start.starts_with("list:"), "bed.start = \"" + start + "\"");
   return found;

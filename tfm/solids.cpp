@@ -91,11 +91,16 @@ void convection(const Constants& constants, const fluid::Boundaries& boundaries,
 
 void add_gravity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
-    const double weight = -(1 - constants.fluid.density / constants.density[j]) * constants.gravity;
-    double* a = fields.solids.acceleration[j][1].data();
-    core::for_each_row(constants.grid, boundaries.moving_faces(1, false), [&](Index begin, Index end) {
-      for (Index c = begin; c < end; ++c) a[c] += weight;
-    });
+    const double weight = (1 - constants.fluid.density / constants.density[j]) * constants.gravity;
+    for (int axis = 0; axis < constants.grid.dimensions; ++axis) {
+      const auto d = std::size_t(axis);
+      if (constants.down[d] == 0) continue;
+      const double along = weight * constants.down[d];
+      double* a = fields.solids.acceleration[j][d].data();
+      core::for_each_row(constants.grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c) a[c] += along;
+      });
+    }
   }
 }
 

@@ -32,7 +32,7 @@ void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fi
 /// Sets the accelerations of all phases to their convection, -(U.grad)U; the rest is added to them.
 void convection(const Constants&, const fluid::Boundaries&, Scheme, Fields&);
 
-/// Adds weight less buoyancy, (1 - rho_f/rho_j) g.
+/// Adds weight less buoyancy, (1 - rho_f/rho_j) g, along every axis that gravity has a component on.
 void add_gravity(const Constants&, const fluid::Boundaries&, Fields&);
 
 /// Adds the drag of the fluid, (b_j/rho_j)(U_f - U_j).

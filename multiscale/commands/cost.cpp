@@ -81,9 +81,7 @@ core::ExitCode run_sweep_of(const CostOptions& options) {
   core::make_directories(directory / "runs");
   std::vector<std::string> overrides = scene.overrides;
   for (const std::string& override : common_overrides(scene)) overrides.push_back(override);
-  const auto& cells = scene.column.cells;
-  Runner runner(options.case_path, overrides, directory / "runs", options.resume,
-                double(cells[0]) * cells[1] * cells[2]);
+  Runner runner(scene, options.case_path, overrides, directory / "runs", options.resume);
   const Sweep sweep = run_sweep(scene, sweep_options(options, scene), runner);
   const SweepOf of{fs::absolute(options.case_path).lexically_normal().string(), core::resolved_case(scene), overrides};
   const std::string no_picture = write_sweep(sweep, of, directory, options.picture);

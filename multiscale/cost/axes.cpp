@@ -90,6 +90,12 @@ Axis stiffness_axis(const core::Scene& scene) {
   Axis axis{"stiffness", AxisKind::model, {}, 1, {}};
   for (const double factor : {32.0, 1.0})
     axis.levels.push_back(number_level("dem.youngs_modulus", scene.dem.youngs_modulus / factor));
+  const auto soften = [&](const std::string& name, const std::optional<double>& given) {
+    if (given) axis.levels[0].overrides.push_back(key(name, fmt::format("{:.17g}", *given / 32)));
+  };
+  for (const core::Species& s : scene.species) soften("species." + s.name + ".youngs_modulus", s.youngs_modulus);
+  for (std::size_t n = 0; n < scene.contact_pairs.size(); ++n)
+    soften(fmt::format("contact_pair.{}.youngs_modulus", n), scene.contact_pairs[n].youngs_modulus);
   axis.levels[1].overrides.clear();
   return axis;
 }

@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "multiscale/cost/quantities.hpp"
 #include "multiscale/cost/runner.hpp"
+#include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {
@@ -73,6 +74,18 @@ double rate_by(const std::string& clock, const RunOutcome& outcome) {
   return clock == "wall" ? outcome.wall / outcome.simulated : outcome.cpu_rate();
 }
 
+/// The case of a sweep as it stands now, with the settings of all its runs. Refuses one that was changed since.
+core::Scene scene_of(const core::JsonValue& sweep) {
+  const std::vector<std::string> overrides = texts_of(sweep.of("overrides"));
+  const std::string path = sweep.of("case_path").text();
+  const core::Scene then = core::parse_case(sweep.of("case").text(), "cost.json", overrides, all_roles(), size_classes);
+  core::Scene now = read_chosen_case(path, overrides);
+  if (core::resolved_case(now) != core::resolved_case(then))
+    throw core::CaseError(
+        fmt::format("{} was changed since it was swept: `polybed cost {} --force` first", path, path));
+  return now;
+}
+
 std::string told(const char* what, const Checked& c, const char* unit) {
   return fmt::format("{}: claimed {:.4g}, found {:.4g} {}, allowed {:.2g} either way: {}", what, c.claimed, c.found,
                      unit, c.allowed, c.holds() ? "holds" : "does not hold");
@@ -110,10 +123,8 @@ bool check_recommendation(const fs::path& directory) {
   const std::string id = advised.of("qoi").text(), clock = sweep.of("clock").text();
   const core::JsonValue& wall = sweep.of("runs").array().at(std::size_t(advised.of("run").number())).of("wall_s");
   const MeasureOn on = measured_on(sweep);
-  const core::Scene scene = core::parse_case(sweep.of("case").text(), "cost.json", {}, all_roles(), size_classes);
-  const auto& cells = scene.column.cells;
-  Runner runner(sweep.of("case_path").text(), texts_of(sweep.of("overrides")), directory / "check", false,
-                double(cells[0]) * cells[1] * cells[2]);
+  Runner runner(scene_of(sweep), sweep.of("case_path").text(), texts_of(sweep.of("overrides")), directory / "check",
+                false);
   const RunOrder order{advised.of("model").text(), int(advised.of("ranks").number()),
                        texts_of(advised.of("overrides"))};
   const RunOutcome outcome = runner.run(order, 60 + 20 * wall.array().front().number());

@@ -44,6 +44,8 @@ void recommend(Sweep& sweep) {
   for (std::size_t n = 0; n < sweep.rows.size(); ++n) {
     const RowQuantity* q = ranked(sweep, sweep.rows[n]);
     if (q == nullptr || q->error + q->error_interval.value_or(0) > sweep.options.target) continue;
+    // Below a floor that lies above the target nothing is known of the error.
+    if (is_hollow(sweep, *q) && entry(sweep.reference.floor, sweep.ranking()) > sweep.options.target) continue;
     if (!best || sweep.rows[n].rate < sweep.rows[*best].rate) best = n;
   }
   if (best) sweep.recommendation = Recommendation{sweep.options.target, *best, false};

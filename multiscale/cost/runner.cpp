@@ -53,12 +53,14 @@ bool ended(const fs::path& directory) {
 
 }  // namespace
 
-Runner::Runner(fs::path case_path, std::vector<std::string> overrides, fs::path folder, bool resume, double cells)
+Runner::Runner(const core::Scene& scene, fs::path case_path, std::vector<std::string> overrides, fs::path folder,
+               bool resume)
     : case_path_(std::move(case_path)),
       folder_(std::move(folder)),
+      case_text_(core::resolved_case(scene)),
       overrides_(std::move(overrides)),
       resume_(resume),
-      cells_(cells) {}
+      cells_(double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2]) {}
 
 std::vector<std::string> Runner::words_of(const RunOrder& order, const fs::path& directory) const {
   std::vector<std::string> words;
@@ -108,8 +110,8 @@ RunOutcome Runner::read(const fs::path& directory) const {
 }
 
 RunOutcome Runner::run(const RunOrder& order, double seconds, int again) {
-  std::string name =
-      core::text_hash(fmt::format("{} {} {}", order.model, order.ranks, fmt::join(order.overrides, " ")));
+  std::string name = core::text_hash(fmt::format("{} {} {} {} {}", case_text_, fmt::join(overrides_, " "), order.model,
+                                                 order.ranks, fmt::join(order.overrides, " ")));
   if (again > 0) name += fmt::format("-{}", again);
   const fs::path directory = folder_ / name;
   const bool seen = std::find(seen_.begin(), seen_.end(), name) != seen_.end();

@@ -37,10 +37,10 @@ struct RunOutcome {
 
 class Runner {
  public:
+  /// \param scene  the case at `case_path` as given: runs of another are not taken up
   /// \param folder  of the runs; what lies there is taken up if `resume`, else it is done again
-  /// \param cells  of the case as given
-  Runner(std::filesystem::path case_path, std::vector<std::string> overrides, std::filesystem::path folder, bool resume,
-         double cells);
+  Runner(const core::Scene& scene, std::filesystem::path case_path, std::vector<std::string> overrides,
+         std::filesystem::path folder, bool resume);
 
   /// Does it, unless it was done. \param seconds  wall time that it may take
   /// \param again  beyond what is kept: a repetition for its time, 1, 2, ...; 0 for the run itself
@@ -55,6 +55,7 @@ class Runner {
   void start(const RunOrder& order, const std::filesystem::path& directory, double seconds) const;
 
   std::filesystem::path case_path_, folder_;
+  std::string case_text_;
   std::vector<std::string> overrides_;
   bool resume_;
   double cells_;

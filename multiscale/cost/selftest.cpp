@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "closures/sphere.hpp"
 #include "core/output_particles.hpp"
 #include "core/random.hpp"
 #include "fluid/measures.hpp"
@@ -147,7 +148,7 @@ Oracle k14() {
   std::vector<std::int32_t> species;
   std::vector<std::array<double, 3>> places, velocities;
   const auto fill = [&](double from, double to, double phi, std::int32_t kind) {
-    const double volume = side * side * (to - from) * phi, each = 4.0 / 3 * 3.14159265358979 * std::pow(radius, 3);
+    const double volume = side * side * (to - from) * phi, each = closures::sphere_volume(radius);
     const auto count = std::size_t(std::lround(volume / each));
     for (std::size_t n = 0; n < count; ++n) {
       ids.push_back(std::int64_t(ids.size()));

@@ -55,6 +55,12 @@ Sweeper::Sweeper(const core::Scene& scene, SweepOptions options, Runner& runner)
     options.quantities = {"bed_height"};
     if (scene.species.size() > 1) options.quantities.emplace_back("centre_difference");
   }
+  for (const char* distance : {"profile", "composition"})
+    if (options.quantities.front() == distance)
+      throw core::CaseError(
+          fmt::format("--qoi {}: a distance from the reference has no uncertainty to rank by; name "
+                      "another quantity first",
+                      distance));
   sweep_.options = std::move(options);
   for (const Axis& a : sweep_.axes) centre_[a.name] = a.name == "grid" ? 0 : a.given;
 }
@@ -198,7 +204,10 @@ bool Sweeper::find_regime() {
   twin.order.overrides.push_back(fmt::format("column.gravity={:.17g}", scene_.column.gravity * (1 + 1e-10)));
   const RunOutcome second = runner_.run(twin.order, left());
   run(std::move(twin));
-  if (!second.done()) return true;
+  if (!second.done()) {
+    sweep_.warnings.push_back("taken to be steady: the run that would tell, with gravity (1 + 1e-10), was not done");
+    return true;
+  }
   std::vector<std::string> columns{"bed_height_m"};
   for (const std::string& name : species_of(first.measured->history)) columns.push_back(centre_column(name));
   for (const std::string& column : columns)

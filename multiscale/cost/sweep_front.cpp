@@ -16,7 +16,8 @@ namespace polybed::multiscale {
 
 namespace {
 
-constexpr std::size_t most_front = 6;  ///< runs of the predicted front
+constexpr std::size_t most_front = 6;   ///< runs of the predicted front
+constexpr std::size_t least_times = 3;  ///< of which quartiles say how far they scatter
 
 /// All settings of the numerical axes, the others as in the centre.
 std::vector<Settings> factorial(const std::vector<Axis>& axes, const Settings& centre) {
@@ -151,7 +152,11 @@ void Sweeper::repeat_for_time() {
     if (outcome.done()) row.cpu.push_back(outcome.cpu);
   }
   for (Row& row : sweep_.rows) {
-    if (row.kind != RowKind::candidate || row.cpu.empty()) continue;
+    if (row.kind != RowKind::candidate || !row.done()) continue;
+    if (row.cpu.size() < least_times && sweep_.outcome == "done")
+      refuse(fmt::format("timings cannot be judged: {} of {} repetitions were done within the budget", row.cpu.size(),
+                         sweep_.options.repeat));
+    if (row.cpu.empty()) continue;
     const Timing timing = timing_of(row.cpu);
     row.rate = timing.median / row.outcome.simulated;
     const auto noisy = too_noisy(timing, load, double(std::thread::hardware_concurrency()));

@@ -83,7 +83,8 @@ std::vector<std::string> Sweeper::other_family(const Row& row) const {
 
 /// The longest and finest of what was run, and if it can be had a run three windows long on the finest grid.
 void Sweeper::statistical_reference() {
-  Row row{.kind = RowKind::reference, .settings = centre_, .note = "reference: finest, three windows", .order = {}};
+  Row row{
+      .kind = RowKind::reference, .settings = centre_, .note = "reference: finest and three windows long", .order = {}};
   if (const Axis* grid = axis("grid"); grid != nullptr) row.settings["grid"] = grid->levels.size() - 1;
   row.order = order_of(row.settings);
   row.order.overrides.push_back(fmt::format("run.until={:.17g}", 1.5 * scene_.run.until));
@@ -139,27 +140,28 @@ void Sweeper::additive_reference() {
 
 /// Moves the reference from the grid it was run on to the limit of the line of grids.
 void Sweeper::add_space(const Axis& grid) {
-  std::vector<const Row*> line;
-  for (std::size_t level = 0; level < grid.levels.size(); ++level)
-    if (const auto n = find(order_of(centre_with("grid", level)), RowKind::candidate); n && sweep_.rows[*n].done()) {
-      line.push_back(&sweep_.rows[*n]);
-      if (!sweep_.rows[*n].outcome.invariants_held)
-        sweep_.warnings.push_back(
-            fmt::format("grid {}: an invariant exceeded its limit, and it is one of the grids of the "
-                        "reference",
-                        grid.levels[level].label));
-    }
+  std::vector<const Row*> line;  // from the coarsest, which the reference was run on, without a gap
+  for (const Level& level : grid.levels) {
+    const auto n = find(order_of(centre_with("grid", line.size())), RowKind::candidate);
+    if (!n || !sweep_.rows[*n].done()) break;
+    line.push_back(&sweep_.rows[*n]);
+    if (!sweep_.rows[*n].outcome.invariants_held)
+      sweep_.warnings.push_back(fmt::format(
+          "grid {}: an invariant exceeded its limit, and it is one of the grids of the reference", level.label));
+  }
   if (line.size() < 3)
     return refuse(
         "no trustworthy reference: fewer than three grids were run within the budget; a larger --budget, or "
         "--axes without grid for errors on one grid alone");
   Reference& reference = sweep_.reference;
   reference.kind = "extrapolated";
+  const std::size_t finest = line.size() - 1;  // cells are whole: of 99 come 50, not 49.5
+  const double ratio = std::sqrt(grid.levels[finest - 2].value / grid.levels[finest].value);
   for (auto& [id, value] : reference.value) {
     const auto at = [&](std::size_t n) { return line[line.size() - n]->measured.values.at(id).mean; };
     const auto has = [&](const Row* row) { return row->measured.values.contains(id); };
     if (!std::all_of(line.end() - 3, line.end(), has)) continue;
-    const Refined refined = refine({at(3), at(2), at(1), 2, formal_order});
+    const Refined refined = refine({at(3), at(2), at(1), ratio, formal_order});
     value += refined.limit - line.front()->measured.values.at(id).mean;
     reference.band[id] = refined.band;
     if (id == sweep_.ranking() && !refined.note.empty()) sweep_.warnings.push_back("grids: " + refined.note);

@@ -29,7 +29,6 @@ class Supremum {
     if (uncertain_ && (!certain_ || uncertain_->first > certain_->first)) row.band = band_;
     row.zones = zones_;
   }
-  [[nodiscard]] double certain() const { return certain_ ? certain_->first : 0; }
 
  private:
   using Placed = std::optional<std::pair<double, std::string>>;

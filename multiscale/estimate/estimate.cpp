@@ -143,7 +143,8 @@ Estimate estimate_tfm(const core::Scene& scene, const Machine& machine, double p
     const double begin = core::cpu_seconds();
     tfm::Model model(scene, timers);
     const auto [rate, covered] = probed(model, scene.run.until, probe);
-    e.time = probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until);
+    e.time = beyond(probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until),
+                    overhead(scene, machine, 0));
     e.basis = fmt::format("a probe of {:.3g} s that reached {:.3g} s", probe, covered);
   }
   e.wall = wall_of(e.time.expected, ranks);
@@ -168,7 +169,8 @@ Estimate estimate_dem(const core::Scene& scene, const Machine& machine, double p
     core::Timers timers;
     dem::Model model(scene, timers);
     const auto [rate, covered] = probed(model, scene.run.until, probe);
-    e.time = probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until);
+    e.time = beyond(probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until),
+                    overhead(scene, machine, 0));
     e.basis = fmt::format("a probe of {:.3g} s that reached {:.3g} s", probe, covered);
   }
   e.wall = wall_of(e.time.expected, ranks);

@@ -13,6 +13,8 @@ namespace polybed::stability {
 [[nodiscard]] std::vector<HardCase> transport_cases();   // T10 T19 T25
 [[nodiscard]] std::vector<HardCase> column_cases();      // T13 T15 T26, on demand
 [[nodiscard]] std::vector<HardCase> demanding_cases();   // T11 T12 T18 T20 T21 T24, on demand
+[[nodiscard]] std::vector<HardCase> leaning_cases();     // T14, on demand
+[[nodiscard]] std::vector<HardCase> unit_cases();        // V12
 [[nodiscard]] std::vector<HardCase> particle_cases();    // D1 to D15
 [[nodiscard]] std::vector<HardCase> suspension_cases();  // C1, C4 to C10
 [[nodiscard]] std::vector<HardCase> one_sphere_cases();  // C2 C3

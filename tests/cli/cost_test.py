@@ -1,5 +1,7 @@
 #!/usr/bin/python3
 """polybed estimate and polybed cost as their user meets them. Usage: cost_test.py PROGRAM"""
+import csv
+import json
 import pathlib
 import re
 import signal
@@ -101,14 +103,28 @@ class Cost(Scratch):
                     self.assertGreaterEqual(run["s_per_sim_s"], chosen["s_per_sim_s"])
         text = (self.sweep_folder / "cost.md").read_text()
         self.assertIn("For 1 % of bed_height take", text)
-        rows = (self.sweep_folder / "cost.csv").read_text().splitlines()
+        with open(self.sweep_folder / "cost.csv") as file:
+            rows = list(csv.reader(file))
         self.assertEqual(len(rows), 1 + len(sweep["runs"]))
+        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
 
     def test_the_recommendation_is_confirmed(self):
         self.sweep()
         told = self.ends(DONE, "cost", "check", self.sweep_folder).stdout
         self.assertEqual(told.count(": holds"), 2, told)
         self.assertTrue(strict_json((self.sweep_folder / "cost.json").read_text())["recommend"][0]["confirmed"])
+        for number, claim in (("error", 1.0), ("s_per_sim_s", 1e3)):  # what is claimed wrongly is told
+            wrong = self.folder / number
+            wrong.mkdir()
+            sweep = strict_json((self.sweep_folder / "cost.json").read_text())
+            sweep["recommend"][0][number] = claim
+            (wrong / "cost.json").write_text(json.dumps(sweep))
+            self.assertEqual(self.ends(NUMBERS, "cost", "check", wrong).stdout.count(": does not hold"), 1)
+        changed = self.folder / "changed"
+        changed.mkdir()
+        sweep["case_path"] = str(self.write("changed.toml", BED.replace("20 mm/s", "21 mm/s")))
+        (changed / "cost.json").write_text(json.dumps(sweep))
+        self.assertIn("was changed since it was swept", self.ends(WRONG_CASE, "cost", "check", changed).stderr)
         self.assertIn("nothing is dearer", self.ends(DONE, "cost", "diff", *2 * [self.sweep_folder / "cost.json"]).stdout)
 
     def test_a_killed_sweep_goes_on_to_the_same(self):
@@ -141,6 +157,7 @@ class Cost(Scratch):
         self.assertIn("no exact value", sweep["reason"])
         self.assertIn("rtol", self.ends(WRONG_CASE, "cost", self.case, "--axes", "nonsense").stderr)
         self.assertIn("nonsense", self.ends(WRONG_CASE, "cost", self.case, "--qoi", "nonsense", "-o", self.folder / "q").stderr)
+        self.assertIn("no uncertainty", self.ends(WRONG_CASE, "cost", self.case, "--qoi", "profile", "-o", self.folder / "q").stderr)
         self.assertIn("--resume", self.ends(WRONG_CASE, "cost", self.case, *SWEEP, "-o", self.sweep_folder).stderr)
 
     def test_selftest(self):

@@ -53,6 +53,33 @@ class CoupledCases(Scratch):
         self.assertAlmostEqual(drop / rows["buoyant_weight_Pa"][0], 1, delta=0.01)
         self.assertGreater(rows["bed_height_m"][-1], rows["bed_height_m"][0])  # it expands; settling would be lower
 
+    def carried(self, name, weight, after, within, **values):
+        """Mean pressure drop after a time over the buoyant weight, Pa, which is checked, of two columns of cells without side walls."""
+        rows = history(self.dem(name, column__sides="periodic", **values)[1])
+        self.assertAlmostEqual(rows["buoyant_weight_Pa"][0] / weight, 1, delta=1e-5)
+        drop = np.mean([p for t, p in zip(rows["time_s"], rows["pressure_drop_Pa"]) if t > after])
+        self.assertAlmostEqual(drop / weight, 1, delta=within)
+        self.assertGreater(rows["bed_height_m"][-1], rows["bed_height_m"][0])
+
+    def test_a_strip_of_system_a_is_carried(self):
+        """155.113 mm3 of 3950 and 150.625 mm3 of 2910 kg/m3 in a liquid of 1070 over 9.2513 mm2: 767.592 Pa. The viscous
+        liquid has next to no inertia: 1e-3 as of beds of that kind in verification; 1.2e-5 was seen."""
+        self.carried("thesis-a", 767.592, 0.01, 1e-3, run__until=0.03, output__history_every=1e-3, bed__particles="[1104,229]",
+                     column__size="[0.004234,0.32]", column__cells="[2,195]")
+
+    def test_a_strip_of_system_c_is_carried(self):
+        """26.8165 mm3 of 2450 and 24.2230 mm3 of 1500 kg/m3 in water of 996.59 over 3.84 mm2: 130.723 Pa. Inertia of the
+        water as in the strip of B: 1 %; 0.12 % was seen."""
+        self.carried("thesis-c", 130.723, 5e-3, 0.01, run__until=0.01, output__history_every=5e-4, bed__particles="[5226,99]",
+                     column__size="[0.0024,0.1359]", column__cells="[2,113]")
+
+    def test_drafting_kissing_tumbling(self):
+        """In this order, and before the lower sphere is a diameter over the floor. Nothing is said of times."""
+        _, directory = self.dem("drafting-kissing-tumbling", run__until=0.93, output__every=5e-3)
+        done = program.subprocess.run([sys.executable, ROOT / "cases/drafting-kissing-tumbling/events.py", directory],
+                                      capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
 
 if __name__ == "__main__":
     program.main()

@@ -22,8 +22,8 @@ Same in both: grid, start, Ergun's drag on each species with the whole voidage, 
   the species, no virtual mass. The program of OpenFOAM has no solids stress for several solids; `own models` of polybed
   are cello's drag, frictional pressure, species exchange, and no viscous stress.
 Different: OpenFOAM solves momentum in conservative form with limited second-order convection, unknowns at cell centres,
-  first-order steps in time (Euler) of fixed length; polybed velocities on faces, not conservative, first-order upwind
-  convection, third-order steps with error control. Both: second-order limited fluxes of the solids."""
+  first-order steps in time (Euler) of fixed length; polybed velocities on faces, momentum in conservative form too,
+  convected with first order, third-order steps with error control. Both: second-order limited fluxes of the solids."""
 
 GAS_DIFFERENCES = """\
 Same in both: grid, start, gas of constant density unless said, Ergun below and Wen-Yu above a voidage of 0.8, no slip

@@ -142,4 +142,19 @@ Terms unbalanced_gravity(const tfm::Model&) {
   };
 }
 
+Terms hidden_unit(const tfm::Model&) {
+  return [](const tfm::RightHandSide& equations, tfm::Fields& fields) {
+    constexpr double small = 1e-3;
+    for (std::size_t j = 0; j < fields.solids.species(); ++j)
+      for (std::size_t axis = 0; axis < std::size_t(equations.constants().grid.dimensions); ++axis)
+        core::for_each_row(equations.constants().grid, equations.boundaries().moving_faces(int(axis), false),
+                           [&](Index begin, Index end) {
+                             for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+                               fields.solids.acceleration[j][axis][c] +=
+                                   small * (fields.fluid.velocity[axis][c] - fields.solids.velocity[j][axis][c]) /
+                                   equations.constants().density[j];
+                           });
+  };
+}
+
 }  // namespace polybed::naive

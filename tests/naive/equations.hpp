@@ -47,4 +47,7 @@ class Equations : public core::OdeProblem {
 /// Weight of the cell above each face in place of the face's own.
 [[nodiscard]] Terms unbalanced_gravity(const tfm::Model& model);
 
+/// A number without a unit added to the exchange coefficients, so that nothing is ever divided by 0.
+[[nodiscard]] Terms hidden_unit(const tfm::Model& model);
+
 }  // namespace polybed::naive

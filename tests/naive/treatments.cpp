@@ -14,13 +14,13 @@ namespace {
 using Kind = tfm::StateLayout::Entry::Kind;
 using Start = std::function<void(tfm::Model&)>;
 
-std::vector<double> tolerances(const tfm::StateLayout& layout, double rtol, double velocity_scale) {
+std::vector<double> tolerances(const tfm::StateLayout& layout, double rtol, const tfm::Model& model) {
   std::vector<double> atol(layout.size());
   for (const auto& entry : layout.entries())
     std::fill_n(atol.begin() + std::ptrdiff_t(entry.begin), entry.size,
                 entry.kind == Kind::fraction   ? 0.1 * rtol
-                : entry.kind == Kind::pressure ? 100 * rtol
-                                               : rtol * velocity_scale);
+                : entry.kind == Kind::pressure ? model.pressure_scale() * rtol
+                                               : rtol * model.velocity_scale());
   return atol;
 }
 
@@ -77,7 +77,7 @@ class ExplicitRun : public NaiveRun {
       : NaiveRun(scene, timers, start) {
     for (const std::string& role : without) scene_.effects.erase(role);
     equations_ = std::make_unique<Equations>(scene_, model_, layout_, terms ? terms(model_) : Terms(), timers_);
-    core::ExplicitOptions options{scene.tfm.rtol, tolerances(layout_, scene.tfm.rtol, model_.velocity_scale()),
+    core::ExplicitOptions options{scene.tfm.rtol, tolerances(layout_, scene.tfm.rtol, model_),
                                   scene.tfm.fixed_step.value_or(0)};
     integrator_ = core::make_explicit(*equations_, std::move(options));
     integrator_->restart(0, model_.checkpoint().arrays.at("state"), {}, 0);
@@ -119,7 +119,7 @@ class ImplicitRun : public NaiveRun {
     core::DaeProblem& problem = wrapper_ ? *wrapper_ : *problem_;
     core::ImplicitOptions options;
     options.rtol = scene.tfm.rtol;
-    options.atol = tolerances(layout_, scene.tfm.rtol, model_.velocity_scale());
+    options.atol = tolerances(layout_, scene.tfm.rtol, model_);
     options.id.assign(layout_.size(), 1.0);
     for (const auto& entry : layout_.entries())
       if (entry.kind == Kind::pressure) std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
@@ -191,6 +191,7 @@ std::unique_ptr<stability::Run> make_run(const std::string& name, core::Scene sc
   if (name == "hard_packing") return explicit_run({"solids_stress"}, hard_packing);
   if (name == "central_flux") return explicit_run({}, central_flux);
   if (name == "unbalanced_gravity") return explicit_run({}, unbalanced_gravity);
+  if (name == "hidden_unit") return explicit_run({}, hidden_unit);
   if (name == "drag_explicit") {
     scene.tfm.fixed_step = courant_step(scene);
     return explicit_run({}, {});

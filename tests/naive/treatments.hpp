@@ -20,6 +20,7 @@ namespace polybed::naive {
 ///   raw_drag                   drag laws and mixtures without their guards (unguarded_alpha: the same)
 ///   central_flux               plain means of phi_j on faces
 ///   unbalanced_gravity         weight from the cell above a face, solids pressure from both
+///   hidden_unit                1e-3, whatever the units, added to the exchange coefficients
 ///   jacobi_preconditioner      continuity rows divided by their diagonal, 1/dt and what flows out; implicit
 ///   cold_restart               null: the case itself goes on without the restart that a checkpoint asks for
 ///   nothing explicit, nothing implicit   no change at all: what the runs themselves do

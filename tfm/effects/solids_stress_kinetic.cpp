@@ -23,8 +23,9 @@ namespace {
 /// alike, or thin solids that fly apart would be driven by what they do not lose.
 constexpr double collision_fraction_floor = 0.01;
 
-/// theta, m2/s2, that rounds off 1/sqrt(theta) of the slip production at 0: (0.1 mm/s)^2.
-constexpr double least_temperature = 1e-8;
+/// sqrt(theta) that rounds off the slip production at 0, over that of neighbours in the least shear: 0.1 mm/s for 1 mm
+/// at 1 1/s.
+constexpr double least_agitation = 0.1;
 
 /// 1 down to the least solids fraction of above, then falling to 0 with phi.
 double collision_share(double phi) { return std::clamp(phi / collision_fraction_floor, 0.0, 1.0); }
@@ -40,7 +41,8 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
       transported_(transported),
       specularity_(scene.tfm.specularity),
       wall_restitution_(scene.tfm.wall_restitution),
-      max_packing_(max_packing) {
+      max_packing_(max_packing),
+      least_shear_rate_(scene.tfm.least_shear_rate) {
   for (const core::Species& species : scene.species) {
     restitution_.push_back(species.restitution.value_or(scene.dem.restitution));
     if (!transported && restitution_.back() >= 1)
@@ -197,7 +199,9 @@ void KineticStress::find_rate(Fields& fields, std::size_t cell, double phi, std:
                               const Local& local) const {
   const double theta = fields.solids.temperature[species][cell], s = std::sqrt(std::max(theta, 0.0));
   const double rho = constants_.density[species], per_energy = 2 / (3 * rho);
-  const double slip = local.slip / std::sqrt(std::max(theta, 0.0) + least_temperature);
+  const double least = least_agitation * least_shear_rate_ * constants_.diameter[species];
+  const double rounded = std::max(theta, 0.0) + least * least;
+  const double slip = local.slip / std::sqrt(rounded);
   fields.solids.temperature_rate[species][cell] =
       per_energy * (local.shear * s - (local.compression + local.drag + local.loss * s) * theta + slip);
   const double conductivity = collision_share(fields.solids_fraction[cell]) *
@@ -205,8 +209,7 @@ void KineticStress::find_rate(Fields& fields, std::size_t cell, double phi, std:
                               constants_.diameter[species] * s / phi;
   fields.granular.conductivity[species][cell] = conductivity;
   fields.granular.decay[species][cell] =
-      per_energy * (local.drag + 1.5 * local.loss * s + 0.5 * slip / (std::max(theta, 0.0) + least_temperature) +
-                    conduction_diagonal_ * conductivity);
+      per_energy * (local.drag + 1.5 * local.loss * s + 0.5 * slip / rounded + conduction_diagonal_ * conductivity);
 }
 
 /// Johnson and Jackson's exchange of fluctuation energy with walls, in the cells that touch them.

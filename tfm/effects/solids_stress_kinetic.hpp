@@ -59,7 +59,7 @@ class KineticStress : public CollisionalStress {
   std::vector<double> restitution_;
   std::optional<closures::StressRatios> ratios_;  ///< absent: kinetic theory alone
   std::optional<ClosureUse> use_;
-  double specularity_, wall_restitution_, max_packing_, conduction_diagonal_ = 0;
+  double specularity_, wall_restitution_, max_packing_, least_shear_rate_, conduction_diagonal_ = 0;
 };
 
 }  // namespace polybed::tfm

@@ -15,7 +15,10 @@ using core::Index;
 
 JohnsonJacksonWall::JohnsonJacksonWall(const core::Scene& scene, const Constants& constants,
                                        const fluid::Boundaries& boundaries, Fields& fields)
-    : constants_(constants), boundaries_(boundaries), tangent_(scene.tfm.wall_friction) {
+    : constants_(constants),
+      boundaries_(boundaries),
+      tangent_(scene.tfm.wall_friction),
+      least_shear_rate_(scene.tfm.least_shear_rate) {
   if (!fields.stress.viscous())
     throw core::CaseError(
         "tfm.solids_wall = \"johnson_jackson\" acts through a viscosity of the solids: effects.solids_viscosity, or "
@@ -52,7 +55,8 @@ void JohnsonJacksonWall::fill(Fields& fields, std::size_t species, int along, in
       const Index t = grid.stride(third);
       const double across = third == along ? 0.0 : 0.25 * ((v[c] + v[c - s]) + (v[c + t] + v[c - s + t]));
       double friction = closures::wall_friction(std::max(face_mean(contact, c, s), 0.0), tangent_,
-                                                std::sqrt(u[c] * u[c] + across * across)) /
+                                                std::sqrt(u[c] * u[c] + across * across),
+                                                least_shear_rate_ * constants_.diameter[species]) /
                         std::max(face_mean(phi, c, s), stress_fraction_floor);
       if (collisions != nullptr) friction += face_mean(collisions, c, s);
       const double inner = face_mean(viscosity, c, s) / h;  // (mu/h)(u_ghost - u) = -B (u_ghost + u)/2

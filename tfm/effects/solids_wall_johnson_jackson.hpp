@@ -19,7 +19,7 @@ class JohnsonJacksonWall : public SolidsWall {
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
-  double tangent_;
+  double tangent_, least_shear_rate_;
 };
 
 }  // namespace polybed::tfm

@@ -156,8 +156,8 @@ TEST(Walls, JohnsonAndJacksonByHand) {
   EXPECT_NEAR(wall_collisions(.01, .1, 2500, .5, 6, .64), 106.277306498, 1e-8);
   EXPECT_NEAR(wall_energy(.01, .1, .9, .2, 2500, .5, 6, .64), 1.22218902471, 1e-10);
   EXPECT_EQ(wall_collisions(-1e-9, .1, 2500, .5, 6, .64), 0);  // an undershoot of the temperature
-  EXPECT_NEAR(wall_friction(100, .2, .5), 40, 1e-4);           // 100 0.2/0.5; the rounding is 2e-6 of it
-  EXPECT_NEAR(wall_friction(100, .2, 0), 2e4, 1e-8);           // 100 0.2/1 mm/s
+  EXPECT_NEAR(wall_friction(100, .2, .5, 1e-3), 40, 1e-4);           // 100 0.2/0.5; the rounding is 2e-6 of it
+  EXPECT_NEAR(wall_friction(100, .2, 0, 1e-3), 2e4, 1e-8);           // 100 0.2/1 mm/s
 }
 
 TEST(FrictionalViscosity, SchaefferAndItsCap) {

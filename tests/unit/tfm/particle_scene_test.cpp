@@ -37,6 +37,21 @@ TEST(ParticleScene, IsRefusedByTheTwoFluidModel) {
   EXPECT_THAT(refusal([](core::Scene& s) { s.bed.start = "list:a.csv"; }), HasSubstr("bed.start = \"list:a.csv\""));
 }
 
+// A column that leans needs walls to lean on and a start that does not ask where down is.
+TEST(ParticleScene, MayLeanWhereItIsClosed) {
+  const auto leans = [](core::Scene& s) {
+    s.column.down = {0.6, -0.8, 0};
+    s.column.sides = "wall";
+    s.column.closed = true;
+  };
+  EXPECT_EQ(refusal(leans), "");
+  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.column.closed = false; }), HasSubstr("without column.closed"));
+  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.column.sides = "periodic"; }), HasSubstr("column.sides"));
+  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.bed.start = "settled"; }), HasSubstr("bed.start"));
+  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.fluid.equation_of_state = "tait"; }),
+              HasSubstr("compressible"));
+}
+
 TEST(ParticleScene, IsToldWithAllItsKeysAtOnce) {
   const std::string message = refusal([](core::Scene& s) {
     s.fluid.name = "none";

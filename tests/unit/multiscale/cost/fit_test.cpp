@@ -29,27 +29,6 @@ TEST(ParetoFront, HoldsWhatNothingBeats) {
   EXPECT_THAT(pareto_front(points), ElementsAre(5, 0, 1, 4));
 }
 
-/// K3 of the specification: a solver with error 0.8 h^2 and cost 5 h^-3, measured at three h and fitted.
-TEST(Cheapest, SpacingOfASyntheticSolver) {
-  std::vector<double> h{0.4, 0.2, 0.1}, error, cost;
-  for (const double x : h) {
-    error.push_back(0.8 * x * x);
-    cost.push_back(5 * std::pow(x, -3));
-  }
-  const auto price = fit_power_law(h, cost);
-  ErrorModel model;
-  model.space = *fit_power_law(h, error);
-  model.spin_up = 1;
-  model.rate = price->factor;
-  model.space_exponent = -price->exponent;
-  const double wanted = std::sqrt(0.01 / 0.8);  // 0.1118
-  const Optimum found = cheapest(model, 0.01);
-  EXPECT_NEAR(found.spacing, wanted, 0.05 * wanted);
-  EXPECT_EQ(found.tolerance, 0);
-  EXPECT_EQ(found.window, 0);
-  EXPECT_NEAR(found.cost, 5 * std::pow(wanted, -3), 0.1 * 5 * std::pow(wanted, -3));
-}
-
 /// Error h^2 and 1/sqrt(T), cost T h^-3, by hand: with the share s for space, T = 1/((1 - s) E^2) and h = s^(1/4)
 /// sqrt(E), so the cost goes with s^(-3/4)/(1 - s), least at s = 3/7: "same grid, longer" instead of a finer one.
 TEST(Cheapest, SharesTheErrorBetweenGridAndWindow) {

@@ -11,19 +11,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// K1 of the specification, worked out there to the digits given here.
-TEST(Refinement, TheWorkedExample) {
-  const Refined r = refine({0.961780, 0.968540, 0.970500, 2, 2});
-  ASSERT_TRUE(r.order && r.fine_index && r.coarse_index && r.asymptotic);
-  EXPECT_NEAR(*r.order, 1.786170, 5e-7);
-  EXPECT_NEAR(r.limit, 0.9713003, 5e-8);
-  EXPECT_NEAR(100 * *r.fine_index, 0.103083, 5e-7);
-  EXPECT_NEAR(100 * *r.coarse_index, 0.356249, 5e-7);
-  EXPECT_NEAR(*r.asymptotic, 0.997980, 5e-7);
-  EXPECT_EQ(r.safety, 1.25);
-  EXPECT_EQ(r.note, "");
-}
-
 // Exact powers: f = 1 + h^p at h = 1, 1/3, 1/9 has the limit 1 whatever the safety.
 TEST(Refinement, FindsOrderAndLimitOfAPower) {
   for (const double p : {1.0, 2.0}) {
