@@ -65,7 +65,7 @@ Neglected::Neglected(const core::Scene& scene, const std::string& model)
     }
     Observed one;
     one.effect = row.effect;
-    one.bound = std::max(row.value.value_or(0), row.band ? row.band->most : 0);
+    one.bound = row.in_range > 0 ? row.in_range : row.value.value_or(0);  // encounters beyond it are counted apart
     observed_.push_back(one);
   }
   Observed sum;

@@ -161,14 +161,14 @@ class Promise(Scratch):
         self.assertGreater(promise["observed"][-1]["encounters"], 0)
         self.ends(DONE, "effects", "audit", run)
 
-    def ramp(self, name, monitor):
+    def ramp(self, name, monitor, *more):
         """The bed is weighed packed, where nothing shears; the inlet then lifts it."""
         words = ["--set", 'chooser.zones=["packed"]', "--set", f"chooser.monitor={monitor}", "--set",
                  "chooser.monitor_every=20", "--set", "chooser.monitor_sample=4", "--set", "chooser.tolerance=0.01",
                  "--set", 'inlet.superficial_velocity=[["0 s", "1 mm/s"], ["0.05 s", "80 mm/s"]]']
         case, run = self.write("ramp.toml", BY_HAND), self.folder / name
         code = NUMBERS if monitor == "stop" else DONE
-        return self.ends(code, "dem", case, "-o", run, "--no-picture", *words), strict_json((run / "run.json").read_text()), run
+        return self.ends(code, "dem", case, "-o", run, "--no-picture", *words, *more), strict_json((run / "run.json").read_text()), run
 
     def test_the_monitor_warns_stops_and_is_absent_when_off(self):
         warned, record, run = self.ramp("warn", "warn")
@@ -185,6 +185,32 @@ class Promise(Scratch):
         self.assertNotIn("monitor", off_record["timers"])
         self.assertIn("monitor", record["timers"])
         self.assertEqual(same_bits(run / "particles.h5", off / "particles.h5"), [])
+
+    def test_the_monitor_switches_on_what_it_finds(self):
+        # Each checkpoint lets the fluid's solver forget what it had: their times are those of all runs here.
+        more = ["--set", 'output.every="0.01 s"', "--set", 'output.checkpoint_every="0.01 s"']
+        told, record, run = self.ramp("enable", "enable", *more)
+        self.assertIn("will be on from", told.stderr)
+        switched = record["switched_on"]
+        self.assertTrue({one["effect"] for one in switched} <= {"lift", "magnus"} and switched, switched)
+        first = min(one["from_s"] for one in switched)
+        self.assertAlmostEqual(first / 0.01, round(first / 0.01), places=9)  # an output time
+        self.assertLess(first, 0.05)
+        for one in switched:
+            if one["from_s"] < record["time_s"]:
+                self.assertIn(f'{one["effect"]} = ', record["case"].split("[effects]")[1])
+        self.assertEqual(record["state"], "done")
+        # Until the switch as a run that only warns, afterwards not.
+        _, _, warned = self.ramp("warned", "warn", *more)
+        one, other = datasets(run / "particles.h5"), datasets(warned / "particles.h5")
+        differ = {name for name in one if one[name].tobytes() != other[name].tobytes()}
+        self.assertTrue(differ)
+        steps = sorted(name for name in one if name.endswith("/velocity"))
+        self.assertTrue(all(steps.index(name) * 0.01 > first - 1e-9 for name in differ if name in steps), (first, differ))
+        # Ended an output time after the switch and taken up, the run knows what is on: the same bits.
+        _, _, parts = self.ramp("parts", "enable", "--until", f"{first + 0.01:.2f} s", *more)
+        _, _, parts = self.ramp("parts", "enable", "--resume", *more)
+        self.assertEqual(same_bits(run / "particles.h5", parts / "particles.h5"), [])
 
     def test_an_effect_without_strength_is_as_one_that_is_off(self):
         case = self.write("hand.toml", BY_HAND)
