@@ -14,11 +14,6 @@ namespace {
 
 using core::Json;
 
-void member(Json& json, const std::string& name, const std::optional<double>& value) {
-  json.key(name);
-  value ? json.value(*value) : json.null();
-}
-
 void write_run(Json& json, const ScanRun& run, const RunOfScan& of_run) {
   json.begin_object().member("velocity_m_s", run.velocity).key("from");
   run.from ? json.value(std::int64_t(*run.from)) : json.null();
@@ -33,10 +28,10 @@ void write_run(Json& json, const ScanRun& run, const RunOfScan& of_run) {
 void write_scan(Json& json, const ScanOfModel& scan) {
   const ScanResult& found = scan.result;
   json.key(scan.model).begin_object().member("outcome", name_of(found.end));
-  member(json, "velocity_m_s", found.velocity);
-  member(json, "error_m_s", found.error);
+  json.member("velocity_m_s", found.velocity);
+  json.member("error_m_s", found.error);
   json.member("low_m_s", found.low).member("high_m_s", found.high);
-  member(json, "slope_s_m", found.slope);
+  json.member("slope_s_m", found.slope);
   double cpu = 0;
   for (const RunOfScan& run : scan.runs) cpu += run.cpu_seconds;
   json.member("cpu_s", cpu).key("runs").begin_array();
