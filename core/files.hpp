@@ -41,6 +41,9 @@ void read_pieces(const std::filesystem::path& path, std::size_t begin, std::size
 /// All bytes of a file; throws FileError if it cannot be read.
 [[nodiscard]] Bytes read_whole_file(const std::filesystem::path& path);
 
+/// The same as text.
+[[nodiscard]] std::string read_text(const std::filesystem::path& path);
+
 /// Makes a directory and those above it; throws FileError.
 void make_directories(const std::filesystem::path& path);
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -26,6 +27,7 @@ class Json {
   Json& value(std::int64_t number);
   Json& value(std::uint64_t number);
   Json& value(int number) { return value(std::int64_t(number)); }
+  Json& value(const std::optional<double>& number) { return number ? value(*number) : null(); }
   Json& null();
   template <class T>
   Json& member(std::string_view name, const T& v) {

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace polybed::core {
 
@@ -155,5 +156,23 @@ const JsonValue& JsonValue::of(const std::string& member) const {
 }
 
 JsonValue parse_json(std::string_view text) { return Parser(text).all(); }
+
+JsonValue read_json(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  try {
+    return parse_json(text);
+  } catch (const FileError& error) {
+    throw FileError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+JsonValue read_json(const std::filesystem::path& path, const std::string& filetype) {
+  JsonValue value = read_json(path);
+  try {
+    if (value.of("filetype").text() == filetype && value.of("version").number() == 1) return value;
+  } catch (const FileError&) {  // it does not even say
+  }
+  throw FileError(fmt::format("{}: no \"{}\" of version 1", path.string(), filetype));
+}
 
 }  // namespace polybed::core

@@ -1,6 +1,7 @@
 // Reads JSON as this program writes it: the records of its runs.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -54,5 +55,11 @@ class JsonValue {
 /// the escapes \uXXXX those below 0x80. Throws FileError with the place, counted in bytes, of what is no JSON, as of a
 /// text that ends early.
 [[nodiscard]] JsonValue parse_json(std::string_view text);
+
+/// The same of a file; the error names it.
+[[nodiscard]] JsonValue read_json(const std::filesystem::path& path);
+
+/// The same of a file that has to say of itself that it is of this type, and of version 1.
+[[nodiscard]] JsonValue read_json(const std::filesystem::path& path, const std::string& filetype);
 
 }  // namespace polybed::core

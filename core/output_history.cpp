@@ -50,14 +50,9 @@ double number(std::string_view entry, const fs::path& path) {
   return value;
 }
 
-std::string text_of(const fs::path& path) {
-  const Bytes bytes = read_whole_file(path);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 /// The file's text up to a time; throws FileError if its columns are others.
 std::string text_until(const fs::path& path, const std::string& header, double time) {
-  const std::string text = text_of(path);
+  const std::string text = read_text(path);
   const auto lines = whole_lines(text);
   if (lines.empty()) return header;
   if (std::string(lines.front()) + "\n" != header)
@@ -108,7 +103,7 @@ const std::vector<double>& History::of(const std::string& column) const {
 
 History read_history(const fs::path& run_directory) {
   const fs::path path = run_directory / "history.csv";
-  const std::string text = text_of(path);
+  const std::string text = read_text(path);
   const auto lines = whole_lines(text);
   if (lines.empty()) throw FileError(path.string() + " has no header");
   History history;

@@ -18,7 +18,8 @@ namespace polybed::dem {
 /// motion under it is known: it is integrated exactly, so that no step is too long for it. A box without it holds none.
 class AffineDrag {
  public:
-  /// \param composition  volume share of each species  \param voidage  of the box  \param energy  unit of the work
+  /// \param share  of each species in the volume of all  \param voidage  of the box  \param force, energy  units of
+  /// the forces and of the work
   AffineDrag(const core::Scene& scene, const Materials& materials, std::vector<double> share, double voidage,
              FixedPoint force, FixedPoint energy);
 

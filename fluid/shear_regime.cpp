@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "closures/bed_expansion.hpp"
 #include "closures/drag.hpp"
 #include "closures/lubrication.hpp"
 #include "closures/relevance.hpp"
@@ -33,17 +34,13 @@ double pure_drag(const closures::DragLaw& law, const core::Species& species, con
   return f;
 }
 
-/// Voidage at which drag carries the buoyant weight: 18 mu f u/d^2 = eps |rho_p - rho_f| g, T(1.50); in [0.4, 0.99].
+/// Voidage at which drag carries the buoyant weight of one species alone, in [0.4, 0.99].
 double floating_voidage(const core::Scene& scene, const closures::DragLaw& law, const core::Species& species,
                         const FluidConstants& fluid, double velocity) {
-  const double weight = std::abs(species.density - fluid.density) * scene.column.gravity;
-  double low = 0.4, high = 0.99;
-  for (int n = 0; n < 60; ++n) {
-    const double eps = 0.5 * (low + high), d = species.diameter;
-    const double drag = 18 * fluid.viscosity * pure_drag(law, species, fluid, velocity, eps) * velocity / (d * d);
-    (drag > eps * weight ? low : high) = eps;
-  }
-  return 0.5 * (low + high);
+  const closures::CarriedBed bed{species.diameter, std::abs(species.density - fluid.density), fluid.density,
+                                 fluid.viscosity, scene.column.gravity};
+  const auto f = [&](double eps, double) { return pure_drag(law, species, fluid, velocity, eps); };
+  return std::min(closures::carried_voidage(f, bed, velocity, 0.4), 0.99);
 }
 
 double greatest_velocity(const core::Scene& scene) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <span>
 
@@ -82,12 +83,35 @@ closures::StressRatios ratios_at(const SolidsTable& table, const TablePlace& pla
   return closures::StressRatios(std::move(curves));
 }
 
-bool outside(const SolidsTable& table, const TablePlace& place) {
-  const auto off = [](const std::vector<double>& axis, double value) {
-    return value < axis.front() || value > axis.back();
+TablePlace place_of(const core::Scene& scene) {
+  const std::vector<double>& share = scene.bed.volume_share;
+  TablePlace place;
+  for (std::size_t j = 0; j < scene.species.size(); ++j) {
+    place.restitution += share[j] * scene.species[j].restitution.value_or(scene.dem.restitution);
+    place.friction += share[j] * scene.species[j].friction.value_or(scene.dem.friction);
+  }
+  if (scene.species.size() != 2) return place;
+  place.share = share[1];
+  place.size_ratio = scene.species[1].diameter / scene.species[0].diameter;
+  return place;
+}
+
+std::vector<std::string> beyond(const SolidsTable& table, const TablePlace& place) {
+  constexpr double rounding = 1e-9;
+  std::vector<std::string> lines;
+  const auto hold = [&](const char* name, const std::vector<double>& axis, double value) {
+    if (value >= axis.front() - rounding && value <= axis.back() + rounding) return;
+    lines.push_back(fmt::format("{} {:.4g} lies outside the table's {:.4g} to {:.4g}: its edge is held", name, value,
+                                axis.front(), axis.back()));
   };
-  return (table.regime == "dry" && off(table.restitution, place.restitution)) || off(table.friction, place.friction) ||
-         (table.share.size() > 1 && off(table.share, place.share));
+  if (table.regime == "dry") hold("restitution", table.restitution, place.restitution);
+  hold("friction", table.friction, place.friction);
+  if (!table.of_two_species()) return lines;
+  hold("share of the second species", table.share, place.share);
+  if (std::abs(place.size_ratio - table.size_ratio) > rounding * table.size_ratio)
+    lines.push_back(fmt::format("the sizes of the species are as 1 to {:.4g}, those of the table as 1 to {:.4g}",
+                                place.size_ratio, table.size_ratio));
+  return lines;
 }
 
 std::string regime_of_table(const std::filesystem::path& path) {

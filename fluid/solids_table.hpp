@@ -7,6 +7,7 @@
 
 #include "closures/stress_ratios.hpp"
 #include "closures/stress_reference.hpp"
+#include "core/scene.hpp"
 
 namespace polybed::fluid {
 
@@ -40,6 +41,8 @@ struct SolidsTable {
   [[nodiscard]] std::size_t size() const {
     return phi.size() * stokes.size() * restitution.size() * friction.size() * share.size();
   }
+  /// Whether its boxes held both species of a bed, not one that stands for all.
+  [[nodiscard]] bool of_two_species() const { return size_ratio != 1 || share.size() > 1 || share.front() > 0; }
   [[nodiscard]] std::size_t index(std::size_t p, std::size_t s, std::size_t e, std::size_t m, std::size_t x) const {
     return (((p * stokes.size() + s) * restitution.size() + e) * friction.size() + m) * share.size() + x;
   }
@@ -48,14 +51,21 @@ struct SolidsTable {
 /// Where in a table a scene lies, other than phi and the Stokes number, and by how many standard errors it is moved.
 struct TablePlace {
   double restitution = 0, friction = 0, share = 0, sigma = 0;
+  double size_ratio = 1;  ///< D_2/D_1 of two species
 };
+
+/// Of a scene: restitution and friction are the means of its species by volume over the bed, as is the density of the
+/// one sphere that stands for all of them. So a species cut in two changes nothing, nor does one of which there is
+/// hardly any, as they would by a plain mean over the species; and boxes whose only knot is this mean are hit.
+[[nodiscard]] TablePlace place_of(const core::Scene& scene);
 
 /// The ratios at a place: linear in restitution, friction and share, the edges held. Throws std::invalid_argument for
 /// axes that do not rise.
 [[nodiscard]] closures::StressRatios ratios_at(const SolidsTable& table, const TablePlace& place);
 
-/// Whether a place lies outside the axes of a table.
-[[nodiscard]] bool outside(const SolidsTable& table, const TablePlace& place);
+/// Where a place lies outside the axes of a table, whose edge is then held, or is of other sizes; a line each, empty
+/// if nowhere. Equal is what differs by less than 1e-9, the rounding of a mean.
+[[nodiscard]] std::vector<std::string> beyond(const SolidsTable& table, const TablePlace& place);
 
 /// Regime of a file of type "polybed solids table": dry, wet or bed. Throws core::FileError.
 [[nodiscard]] std::string regime_of_table(const std::filesystem::path& path);

@@ -16,8 +16,6 @@ constexpr double enough = 30;                            // autocorrelation time
 constexpr double composition_goal_near_inversion = 0.1;  // calibration.md, section 8
 constexpr double window_parts = 4;                       // windows in a run, likewise
 
-using Series = std::vector<double>;
-
 double half_width(double variance, std::size_t degrees) {
   return fluid::student_quantile(degrees) * std::sqrt(variance);
 }

@@ -14,11 +14,6 @@ namespace {
 using core::Json;
 using Number = std::optional<double>;
 
-void member(Json& json, const std::string& name, const Number& value) {
-  json.key(name);
-  value ? json.value(*value) : json.null();
-}
-
 Number mean_of(const std::optional<fluid::TimeMean>& mean) { return mean ? Number(mean->mean) : std::nullopt; }
 Number error_of(const std::optional<fluid::TimeMean>& mean) { return mean ? mean->error : std::nullopt; }
 
@@ -26,12 +21,12 @@ void write_measures(Json& json, const Comparison& comparison) {
   json.key("measures").begin_object();
   for (const ComparedMeasure& m : comparison.measures) {
     json.key(m.name).begin_object();
-    member(json, "tfm", mean_of(m.tfm));
-    member(json, "tfm_error", error_of(m.tfm));
-    member(json, "dem", mean_of(m.dem));
-    member(json, "dem_error", error_of(m.dem));
-    member(json, "difference", m.difference());
-    member(json, "difference_error", m.difference_error());
+    json.member("tfm", mean_of(m.tfm));
+    json.member("tfm_error", error_of(m.tfm));
+    json.member("dem", mean_of(m.dem));
+    json.member("dem_error", error_of(m.dem));
+    json.member("difference", m.difference());
+    json.member("difference_error", m.difference_error());
     json.end_object();
   }
   json.end_object();
@@ -49,9 +44,9 @@ void write_scores(Json& json, const Comparison& comparison) {
   json.key("scores").begin_object();
   for (const Score& score : comparison.scores) {
     json.key(score.name).begin_object();
-    member(json, "value", score.value);
-    member(json, "error", score.error);
-    member(json, "goal", score.goal);
+    json.member("value", score.value);
+    json.member("error", score.error);
+    json.member("goal", score.goal);
     json.key("reached");
     score.reached() ? json.value(*score.reached()) : json.null();
     json.end_object();
@@ -84,7 +79,7 @@ void write_run(Json& json, const std::string& model, const ComparedRun& run, std
   json.key(model).begin_object();
   write_work(json, record);
   json.member("cpu_s", record.of("cpu_s").number());
-  member(json, "wall_s", wall_of(record));
+  json.member("wall_s", wall_of(record));
   json.member("time_s", record.of("time_s").number());
   json.member("ranks", record.of("ranks").number()).member("state", record.of("state").text());
   json.member("directory", run.directory.string()).member("case_hash", record.of("case_hash").text());

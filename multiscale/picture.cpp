@@ -1,5 +1,9 @@
 #include "multiscale/picture.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+
 #include "multiscale/python_module.hpp"
 
 namespace polybed::multiscale {
@@ -14,10 +18,26 @@ std::string last_line(std::string text) {
 
 }  // namespace
 
-bool draw_picture(const std::filesystem::path& run_directory, std::string& message) {
-  const PythonEnd end = run_python("polybed.plot", {"--picture", "--", run_directory.string()}, PythonOutput::keep);
+bool draw(const std::string& module, const std::filesystem::path& directory, std::string& message,
+          std::vector<std::string> options) {
+  options.insert(options.end(), {"--", directory.string()});
+  const PythonEnd end = run_python(module, options, PythonOutput::keep);
   message = end.not_started.empty() ? last_line(end.output) : end.not_started;
   return end.not_started.empty() && end.code == 0;
+}
+
+bool draw_picture(const std::filesystem::path& run_directory, std::string& message) {
+  return draw("polybed.plot", run_directory, message, {"--picture"});
+}
+
+void draw_and_tell(const std::string& module, const std::filesystem::path& directory, const char* what, bool quiet) {
+  std::string message;
+  const bool drawn = draw(module, directory, message);
+  if (quiet) return;
+  if (drawn)
+    fmt::print("{}\n", message);
+  else
+    fmt::print(stderr, "no {}: {}\n", what, message);
 }
 
 }  // namespace polybed::multiscale

@@ -1,15 +1,24 @@
-// The picture of a run, drawn by the Python package.
+// Pictures and pages that the Python package makes of what a command has written.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace polybed::multiscale {
 
-/// Draws picture.png into a run directory, finished or running. Nothing is printed and nothing thrown: a run
-/// is complete without its picture.
-/// \param message  where the picture is; or, if false is returned, why there is none (Python or a package of
-///                 it missing, nothing stored yet)
+/// Hands a folder over to a module of the Python package, `python3 -m module OPTIONS -- directory`. Nothing is printed
+/// and nothing thrown: what lies in the folder is complete without its picture.
+/// \param message  the last line it says, where the picture is; or, if false is returned, why there is none (Python or a
+///                 package of it missing, nothing stored yet)
+[[nodiscard]] bool draw(const std::string& module, const std::filesystem::path& directory, std::string& message,
+                        std::vector<std::string> options = {});
+
+/// Draws picture.png into a run directory, finished or running, likewise.
 [[nodiscard]] bool draw_picture(const std::filesystem::path& run_directory, std::string& message);
+
+/// The same as draw(); says on standard output where the picture is, or on standard error why there is no `what`.
+/// \param quiet  says nothing
+void draw_and_tell(const std::string& module, const std::filesystem::path& directory, const char* what, bool quiet);
 
 }  // namespace polybed::multiscale

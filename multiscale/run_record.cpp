@@ -122,15 +122,7 @@ core::JsonValue read_run_record(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "run.json";
   if (!std::filesystem::exists(path))
     throw core::FileError(fmt::format("{}: no run (it has no run.json)", directory.string()));
-  const core::Bytes bytes = core::read_whole_file(path);
-  try {
-    core::JsonValue record = core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    if (record.of("filetype").text() != "polybed run" || record.of("version").number() != 1)
-      throw core::FileError("no \"polybed run\" of version 1");
-    return record;
-  } catch (const core::FileError& error) {
-    throw core::FileError(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  return core::read_json(path, "polybed run");
 }
 
 RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds) {
@@ -224,6 +216,7 @@ std::string run_record_text(const RunRecord& record) {
   for (const fluid::WorstInvariant& w : record.observers.invariants().worst())
     if (w.value > w.limit) json.value(w.name + " exceeded its limit");
   for (const std::string& line : drift_lines(record.observers.drifts())) json.value(line);
+  for (const std::string& line : model.effects().warnings) json.value(line);
   for (const std::string& line : record.warnings) json.value(line);
   json.end_array().end_object();
   return json.text();

@@ -84,17 +84,6 @@ void require_regime(const core::Scene& scene, const std::string& file, const std
                         " (calibrate.regime says otherwise)");
 }
 
-/// Where a scene lies in a table.
-fluid::TablePlace place_of(const core::Scene& scene, const Constants& constants) {
-  fluid::TablePlace place;
-  for (std::size_t j = 0; j < scene.species.size(); ++j) {
-    place.restitution += constants.bed_share[j] * scene.species[j].restitution.value_or(scene.dem.restitution);
-    place.friction += constants.bed_share[j] * scene.species[j].friction.value_or(scene.dem.friction);
-  }
-  place.share = constants.species() == 2 ? constants.bed_share[1] : 0;
-  return place;
-}
-
 /// The stress of a table: friction, a fluidised bed's pressure if the file has it, and that of sheared particles.
 void make_table_stress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                        const std::string& file, Fields& fields, Effects& effects) {
@@ -111,7 +100,9 @@ void make_table_stress(const core::Scene& scene, const Constants& constants, con
   else
     effects.solids_stress = std::make_unique<TableStress>(
         scene, constants, boundaries, bed_curve(table.bed_phi, table.bed_pressure, file), file, fields);
-  const fluid::TablePlace place = place_of(scene, constants);
+  const fluid::TablePlace place = fluid::place_of(scene);
+  for (const std::string& line : fluid::beyond(table, place))
+    effects.warnings.push_back("solids stress " + file + ": " + line);
   closures::StressRatios ratios = fluid::ratios_at(table, place);
   if (regime == "wet") {
     effects.collisions =

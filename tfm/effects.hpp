@@ -101,6 +101,7 @@ struct Effects {
   std::unique_ptr<CollisionalStress> collisions;
   std::unique_ptr<SolidsWall> solids_wall;
   std::unique_ptr<fluid::Compressible> compressible;  ///< of an incompressible fluid: null
+  std::vector<std::string> warnings;                  ///< where the scene is not what an effect was measured for
 };
 
 /// Makes the effects that a scene names and the fields they own; throws core::CaseError for a law that the

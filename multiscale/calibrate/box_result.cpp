@@ -117,10 +117,7 @@ void write_box(const std::filesystem::path& path, const BoxResult& result) {
 std::optional<BoxResult> read_box(const std::filesystem::path& path, const std::string& hash) {
   if (!std::filesystem::exists(path)) return {};
   try {
-    const core::JsonValue json = [&] {
-      const core::Bytes bytes = core::read_whole_file(path);
-      return core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    }();
+    const core::JsonValue json = core::read_json(path);
     if (json.of("hash").text() != hash) return {};
     BoxResult r;
     r.hash = hash;

@@ -11,7 +11,7 @@
 #include "multiscale/case_differences.hpp"
 #include "multiscale/commands/run_directory.hpp"
 #include "multiscale/comparison_text.hpp"
-#include "multiscale/python_module.hpp"
+#include "multiscale/picture.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "tfm/particle_scene.hpp"
@@ -70,16 +70,6 @@ void warn_if_unfinished(Comparison& comparison, const std::string& model, const 
     comparison.warnings.push_back(fmt::format("{}: the run is not done ({})", model, state));
 }
 
-/// comparison.html; a comparison without Python is complete but for it.
-void make_page(const CompareOptions& options, const fs::path& directory) {
-  const PythonEnd end = run_python("polybed.comparison", {"--", directory.string()}, PythonOutput::keep);
-  if (options.json || options.quiet) return;
-  if (end.not_started.empty() && end.code == 0)
-    fmt::print("{}", end.output);
-  else
-    fmt::print(stderr, "no page: {}\n", end.not_started.empty() ? end.output : end.not_started);
-}
-
 /// Adds the score of the inversion velocity where a scan of the case by both models has found it, and near to it leaves
 /// the layers more room.
 void add_inversion(const CompareOptions& options, const core::Scene& scene, Comparison& comparison) {
@@ -114,7 +104,7 @@ void compare_runs(const CompareOptions& options, const core::Scene& scene, const
     fmt::print("{}\n", text);
   else
     fmt::print("{}{}\n", comparison_table(comparison, tfm, dem), path.string());
-  if (options.picture) make_page(options, directory);
+  if (options.picture) draw_and_tell("polybed.comparison", directory, "page", options.json || options.quiet);
 }
 
 }  // namespace

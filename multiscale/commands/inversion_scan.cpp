@@ -4,7 +4,6 @@
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/json_value.hpp"
 #include "core/ranks.hpp"
 #include "core/units.hpp"
 #include "dem/continuum_scene.hpp"
@@ -13,7 +12,8 @@
 #include "multiscale/commands/stress_uncertainty.hpp"
 #include "multiscale/compare_window.hpp"
 #include "multiscale/inversion/scan_file.hpp"
-#include "multiscale/python_module.hpp"
+#include "multiscale/picture.hpp"
+#include "multiscale/run_record.hpp"
 #include "tfm/particle_scene.hpp"
 
 namespace polybed::multiscale {
@@ -25,11 +25,6 @@ namespace fs = std::filesystem;
 /// Part of a run in which the velocity goes from that of the run before to its own; far from the window, the last
 /// quarter.
 constexpr double ramp_share = 0.02;
-
-core::JsonValue read_record(const fs::path& directory) {
-  const core::Bytes bytes = core::read_whole_file(directory / "run.json");
-  return core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
 
 fluid::TimeMean mean_of(const fs::path& directory, const core::History& history, const Window& window,
                         const Series& values) {
@@ -105,7 +100,7 @@ class RunsOfModel {
   [[nodiscard]] bool finished(const fs::path& directory) const {
     std::array<double, 1> done{};
     core::on_first(ranks_.get(), [&] {
-      done[0] = fs::exists(directory / "run.json") && read_record(directory).of("state").text() == "done" ? 1 : 0;
+      done[0] = fs::exists(directory / "run.json") && read_run_record(directory).of("state").text() == "done" ? 1 : 0;
     });
     core::take_from_first(ranks_.get(), done);
     return done[0] != 0;
@@ -125,7 +120,7 @@ class RunsOfModel {
       run.begin = window.begin;
       run.end = window.end;
       run.drifts = drifts_in(history, species, window);
-      const core::JsonValue record = read_record(run.directory);
+      const core::JsonValue record = read_run_record(run.directory);
       run.cpu_seconds = record.of("cpu_s").number();
       run.integrator = record.of("integrator").text();
     });
@@ -185,15 +180,6 @@ ScanOfModel scan_of(const InversionOptions& options, const core::Scene& scene, c
   return scan;
 }
 
-void draw(const InversionOptions& options, const fs::path& directory) {
-  const PythonEnd end = run_python("polybed.scan", {"--", directory.string()}, PythonOutput::keep);
-  if (options.json || options.quiet) return;
-  if (end.not_started.empty() && end.code == 0)
-    fmt::print("{}", end.output);
-  else
-    fmt::print(stderr, "no picture: {}\n", end.not_started.empty() ? end.output : end.not_started);
-}
-
 }  // namespace
 
 void run_inversion_scan(const InversionOptions& options) {
@@ -223,7 +209,7 @@ void run_inversion_scan(const InversionOptions& options) {
       fmt::print("{}\n", text);
     else
       fmt::print("{}{}\n", scan_findings(scans, request), (request.directory / "inversion.json").string());
-    if (options.picture) draw(options, request.directory);
+    if (options.picture) draw_and_tell("polybed.scan", request.directory, "picture", options.json || options.quiet);
   });
 }
 

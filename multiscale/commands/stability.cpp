@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "multiscale/commands/options.hpp"
-#include "multiscale/python_module.hpp"
+#include "multiscale/picture.hpp"
 #include "multiscale/stability/fuzz.hpp"
 #include "multiscale/stability/report.hpp"
 #include "multiscale/stability/textbook.hpp"
@@ -25,13 +25,6 @@ std::vector<std::string> words(const std::string& list) {
     begin = end + 1;
   }
   return found;
-}
-
-/// The heat map; the tables are complete without it.
-void draw_map(const fs::path& directory, bool quiet) {
-  const PythonEnd end = run_python("polybed.stability", {"--", directory.string()}, PythonOutput::keep);
-  if (end.not_started.empty() && end.code == 0) return;
-  if (!quiet) fmt::print(stderr, "no heat map: {}{}\n", end.not_started, end.output);
 }
 
 }  // namespace
@@ -61,14 +54,14 @@ core::ExitCode run_stability(const StabilityOptions& options) {
   };
   stability::run_cells(cells, options.jobs, show);
   stability::write_files(cells, options.suite, directory);
-  draw_map(directory, options.json);
+  std::string message;
+  const bool drawn = draw("polybed.stability", directory, message);
+  if (!drawn && !options.json) fmt::print(stderr, "no heat map: {}\n", message);
   const std::vector<std::string> differ = stability::differences(cells);
-  if (options.json) {
-    const core::Bytes text = core::read_whole_file(directory / "stability.json");
-    fmt::print("{}", std::string(reinterpret_cast<const char*>(text.data()), text.size()));
-  } else {
+  if (options.json)
+    fmt::print("{}", core::read_text(directory / "stability.json"));
+  else
     fmt::print("\n{}\nFiles in {}\n", stability::summary(cells), directory.string());
-  }
   for (const std::string& line : differ) fmt::print(stderr, "{}\n", line);
   return differ.empty() ? core::ExitCode::done : core::ExitCode::numerics;
 }

@@ -26,12 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view word = "table:";
 
-/// A mean over the last quarter of a run.
+/// A mean over the window in which runs are compared.
 std::optional<double> late_mean(const core::History& history, const Series& values) {
   if (values.empty()) return {};
-  const Series& time = history.of("time_s");
-  const Series late = within(time, values, {0.75 * time.back(), time.back(), false});
-  const auto mean = fluid::time_mean(late);
+  const auto mean = fluid::time_mean(within(history.of("time_s"), values, window_of(history)));
   return mean ? std::optional(mean->mean) : std::nullopt;
 }
 
@@ -97,7 +95,9 @@ void run_stress_uncertainty(const RunOptions& options) {
     const std::array<Seen, 3> all{seen(directory / "minus"), seen(directory), seen(directory / "plus")};
     core::Json json;
     json.begin_object().member("filetype", "polybed stress uncertainty").member("version", 1);
-    json.member("table", table.string()).member("standard_errors", 1).member("window", "last quarter of the run");
+    json.member("table", table.string())
+        .member("standard_errors", 1)
+        .member("window", "last quarter, from where it is stationary");
     write_band(json, "bed_height_m", " m", {all[0].height, all[1].height, all[2].height});
     write_band(json, "centre_difference", "", {all[0].difference, all[1].difference, all[2].difference});
     core::write_atomically(directory / "stress_uncertainty.json", json.end_object().text() + "\n");

@@ -20,6 +20,8 @@ class TfmRun final : public CaseRun {
  public:
   TfmRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
       : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks)), model_(scene_, timers_, ranks_) {
+    if (first_ && !options_.quiet)
+      for (const std::string& line : model_.effects().warnings) fmt::print(stderr, "{}\n", line);
     model_.show(model_.time());
     initial_mass_ = tfm::masses(model_);
     prepare(

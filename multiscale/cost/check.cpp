@@ -20,18 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double time_allowed = 0.25, dearer_allowed = 0.1;
-
-std::string text_of(const fs::path& path) {
-  const core::Bytes bytes = core::read_whole_file(path);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-core::JsonValue read_sweep(const fs::path& path) {
-  core::JsonValue json = core::parse_json(text_of(path));
-  if (json.of("filetype").text() != "polybed cost" || json.of("version").number() != 1)
-    throw core::FileError(path.string() + ": no \"polybed cost\" of version 1");
-  return json;
-}
+constexpr const char* filetype = "polybed cost";
 
 double number_or(const core::JsonValue& value, double other) { return value.is_number() ? value.number() : other; }
 
@@ -55,7 +44,7 @@ double scale_in(const core::JsonValue& sweep, const std::string& id) {
 
 /// The sweep's own file says that what it recommends was run again and held.
 void confirm(const fs::path& path) {
-  std::string text = text_of(path);
+  std::string text = core::read_text(path);
   const std::string before = "\"confirmed\": false", after = "\"confirmed\": true";
   const std::size_t place = text.find(before);
   if (place == std::string::npos) return;
@@ -116,7 +105,7 @@ std::vector<Point> points_of(const core::JsonValue& sweep, bool front) {
 bool Checked::holds() const { return std::abs(found - claimed) <= allowed; }
 
 bool check_recommendation(const fs::path& directory) {
-  const core::JsonValue sweep = read_sweep(directory / "cost.json");
+  const core::JsonValue sweep = core::read_json(directory / "cost.json", filetype);
   if (sweep.of("recommend").array().empty())
     throw core::CaseError(fmt::format("{}: nothing is recommended", (directory / "cost.json").string()));
   const core::JsonValue& advised = sweep.of("recommend").array().front();
@@ -165,7 +154,7 @@ std::vector<Dearer> dearer(const core::JsonValue& before, const core::JsonValue&
 }
 
 bool print_difference(const fs::path& before, const fs::path& now) {
-  const std::vector<Dearer> found = dearer(read_sweep(before), read_sweep(now));
+  const std::vector<Dearer> found = dearer(core::read_json(before, filetype), core::read_json(now, filetype));
   for (const Dearer& d : found)
     if (d.now > 0)
       fmt::print("error {:.3g}: {:.3g} s for a simulated second, was {:.3g}: {:.2g} times as dear\n", d.error, d.now,

@@ -13,7 +13,7 @@
 #include "core/version.hpp"
 #include "multiscale/cost/judge.hpp"
 #include "multiscale/cost/timing.hpp"
-#include "multiscale/python_module.hpp"
+#include "multiscale/picture.hpp"
 #include "multiscale/run_record.hpp"
 
 namespace polybed::multiscale {
@@ -234,9 +234,8 @@ std::string write_sweep(const Sweep& sweep, const SweepOf& of, const std::filesy
   core::write_atomically(directory / "cost.json", sweep_json(sweep, of) + "\n");
   core::write_atomically(directory / "cost.csv", sweep_csv(sweep));
   core::write_atomically(directory / "cost.md", sweep_markdown(sweep, of));
-  if (!picture) return "";
-  const PythonEnd end = run_python("polybed.cost", {"--", directory.string()}, PythonOutput::keep);
-  return end.not_started.empty() && end.code == 0 ? "" : end.not_started + end.output;
+  std::string message;
+  return !picture || draw("polybed.cost", directory, message) ? "" : message;
 }
 
 }  // namespace polybed::multiscale

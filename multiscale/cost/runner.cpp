@@ -18,15 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-core::JsonValue read_json(const fs::path& path) {
-  const core::Bytes bytes = core::read_whole_file(path);
-  return core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
-
 std::string last_lines(const fs::path& path) {
   constexpr std::size_t most = 300;
-  const core::Bytes bytes = core::read_whole_file(path);
-  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::string text = core::read_text(path);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text.size() > most ? "..." + text.substr(text.size() - most) : text;
 }
@@ -48,7 +42,7 @@ void remove_bulk(const fs::path& directory) {
 
 /// Whether a run lies there that came to its own end, not to that of an earlier budget.
 bool ended(const fs::path& directory) {
-  return fs::exists(directory / "end.json") && !read_json(directory / "end.json").of("timed_out").truth();
+  return fs::exists(directory / "end.json") && !core::read_json(directory / "end.json").of("timed_out").truth();
 }
 
 }  // namespace
@@ -83,7 +77,7 @@ void Runner::start(const RunOrder& order, const fs::path& directory, double seco
 }
 
 RunOutcome Runner::read(const fs::path& directory) const {
-  const core::JsonValue end = read_json(directory / "end.json");
+  const core::JsonValue end = core::read_json(directory / "end.json");
   RunOutcome outcome;
   outcome.wall = end.of("wall_s").number();
   const int code = int(end.of("code").number());
@@ -97,7 +91,7 @@ RunOutcome Runner::read(const fs::path& directory) const {
     outcome.reason = fmt::format("code {}: {}", code, last_lines(directory / "output.txt"));
     return outcome;
   }
-  const core::JsonValue record = read_json(directory / "run.json");
+  const core::JsonValue record = core::read_json(directory / "run.json");
   const core::JsonValue& timers = record.of("timers");
   const auto output = timers.object().find("output");
   outcome.state = "done";

@@ -70,8 +70,7 @@ std::vector<core::CaseProblem> role_conflicts(const core::Scene& scene, const st
 }
 
 void refuse_role_conflicts(const core::Scene& scene, const std::filesystem::path& path) {
-  const core::Bytes bytes = core::read_whole_file(path);
-  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string text = core::read_text(path);
   const std::vector<core::CaseProblem> problems = role_conflicts(scene, text, path.string());
   if (!problems.empty()) throw core::CaseError(problems);
 }

@@ -101,8 +101,7 @@ Machine known_machine() {
   const std::filesystem::path path = machine_file();
   if (path.empty() || !std::filesystem::exists(path)) return {};
   try {
-    const core::Bytes bytes = core::read_whole_file(path);
-    const Machine machine = machine_of_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const Machine machine = machine_of_text(core::read_text(path));
     return machine.processor == processor() ? machine : Machine{};
   } catch (const core::FileError&) {
     return {};

@@ -38,11 +38,12 @@ struct InversionMethod {
 
 /// All inversion points with 0.2 < voidage < 1, by rising voidage; empty if there is none.
 /// Throws core::CaseError for an unknown method.
-///   force_balance    T(5.4), (5.7), (5.12): F_d,j = (rho_j - rho_b) g V_j for both species; with di_felice
-///   T(5.13) bulk_density     T(5.8), Epstein and LeClair 1985: the pure beds at equal velocity have equal
-///   bulk density expansion        T(5.9), Masliyah 1979, with the voidages of Patwardhan and Tien and the
-///   exponent q_j - 2 density_maximum  T(5.10), Gibilaro 1986: the composition has the largest bulk density
-///   at that velocity
+///
+/// - force_balance: T(5.4), (5.7), (5.12): F_d,j = (rho_j - rho_b) g V_j for both species; with di_felice T(5.13)
+/// - bulk_density: T(5.8), Epstein and LeClair 1985: the pure beds at equal velocity have equal bulk density
+/// - expansion: T(5.9), Masliyah 1979, with the voidages of Patwardhan and Tien and the exponent q_j - 2
+/// - density_maximum: T(5.10), Gibilaro 1986: the composition has the largest bulk density at that velocity
+///
 [[nodiscard]] std::vector<InversionPoint> inversion_points(const BinaryBed& bed, const closures::DragLaw& law,
                                                            const std::string& method);
 

@@ -6,7 +6,6 @@
 
 #include "core/case_file.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/json_value.hpp"
 
 namespace polybed::multiscale {
@@ -37,11 +36,8 @@ bool FoundInversion::near(double velocity) const {
 std::optional<FoundInversion> read_inversion(const std::filesystem::path& directory, const core::Scene& scene) {
   const std::filesystem::path path = directory / "inversion.json";
   if (!std::filesystem::exists(path)) return std::nullopt;
-  const core::Bytes bytes = core::read_whole_file(path);
+  const core::JsonValue found = core::read_json(path, "polybed inversion");
   try {
-    const core::JsonValue found = core::parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    if (found.of("filetype").text() != "polybed inversion" || found.of("version").number() != 1)
-      throw core::FileError("no \"polybed inversion\" of version 1");
     if (found.of("case_hash").text() != hash_of_scanned(scene))
       throw core::CaseError(path.string() + ": the scan is of another case");
     const auto tfm = velocity_of(found, "tfm"), dem = velocity_of(found, "dem");

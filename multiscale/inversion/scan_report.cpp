@@ -14,11 +14,6 @@ namespace {
 
 using core::Json;
 
-void member(Json& json, const std::string& name, const std::optional<double>& value) {
-  json.key(name);
-  value ? json.value(*value) : json.null();
-}
-
 void write_run(Json& json, const ScanRun& run, const RunOfScan& of_run) {
   json.begin_object().member("velocity_m_s", run.velocity).key("from");
   run.from ? json.value(std::int64_t(*run.from)) : json.null();
@@ -35,10 +30,10 @@ void write_band(Json& json, const ScanOfModel& scan);
 void write_scan(Json& json, const ScanOfModel& scan, const std::string& name) {
   const ScanResult& found = scan.result;
   json.key(name).begin_object().member("outcome", name_of(found.end));
-  member(json, "velocity_m_s", found.velocity);
-  member(json, "error_m_s", found.error);
+  json.member("velocity_m_s", found.velocity);
+  json.member("error_m_s", found.error);
   json.member("low_m_s", found.low).member("high_m_s", found.high);
-  member(json, "slope_s_m", found.slope);
+  json.member("slope_s_m", found.slope);
   double cpu = 0;
   for (const RunOfScan& run : scan.runs) cpu += run.cpu_seconds;
   json.member("cpu_s", cpu).key("runs").begin_array();
@@ -53,8 +48,8 @@ void write_band(Json& json, const ScanOfModel& scan) {
   if (scan.moved.empty()) return;
   json.key("stress_uncertainty").begin_object().member("standard_errors", 1);
   const auto band = stress_band(scan);
-  member(json, "low_m_s", band ? std::optional(band->low) : std::nullopt);
-  member(json, "high_m_s", band ? std::optional(band->high) : std::nullopt);
+  json.member("low_m_s", band ? std::optional(band->low) : std::nullopt);
+  json.member("high_m_s", band ? std::optional(band->high) : std::nullopt);
   write_scan(json, scan.moved[0], "minus");
   write_scan(json, scan.moved[1], "plus");
   json.end_object();

@@ -14,7 +14,7 @@ import numpy as np
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import open_mpi  # noqa: E402
 import program  # noqa: E402
-from program import DONE, TWO_IN_WATER, WRONG_CASE, Scratch
+from program import DONE, TWO_IN_WATER, WRONG_CASE, Scratch, history
 
 # Boxes of 100 spheres that are sheared by 2: what they measure is rough, and each takes a part of a second.
 SHORT = """[calibrate]
@@ -185,11 +185,30 @@ class Calibration(Scratch):
         run = program.run("tfm", self.folder / "case.toml", "-o", self.folder / "run", "--quiet", "--stress-uncertainty", "--set",
                           f'effects.solids_stress="table:{table}"')
         self.assertEqual(run.returncode, DONE, run.stderr)
+        # each run of the band has its own table, every pressure and viscosity off by its standard error and nothing else
         band = json.loads((self.folder / "run/stress_uncertainty.json").read_text())["bed_height_m"]
-        self.assertLessEqual(band["low"], band["table"])
-        self.assertLessEqual(band["table"], band["high"])
+        for name, sign in (("plus", 1), ("minus", -1)):
+            moved = self.folder / f"run/table-{name}.h5"
+            with h5py.File(table) as given, h5py.File(moved) as file:
+                for ratio, moves in (("p_ratio", True), ("mu_ratio", True), ("gamma_ratio", False)):
+                    error = given[f"{ratio}_se"][:]
+                    self.assertGreater(error.min(), 0)
+                    np.testing.assert_array_equal(file[ratio][:], given[ratio][:] + moves * sign * error)
+            record = json.loads((self.folder / "run" / name / "run.json").read_text())
+            self.assertEqual(tomllib.loads(record["case"])["effects"]["solids_stress"], f"table:{moved}")
+            self.assertIn(str(moved), " ".join(c["closure"] for c in record["guards"]))
+            height = history(self.folder / "run" / name)["bed_height_m"]
+            self.assertTrue(min(height) <= band[name] <= max(height), (band, height))
         record = json.loads((self.folder / "run/run.json").read_text())
         self.assertTrue(any(str(table) in c["closure"] for c in record["guards"]), record["guards"])
+        self.assertFalse([line for line in record["warnings"] if "edge" in line], record["warnings"])
+        # A case whose friction the table does not have is run with its edge, which is told.
+        rough = program.run("tfm", self.folder / "case.toml", "-o", self.folder / "rough", "--until", "1 ms", "--set",
+                            f'effects.solids_stress="table:{table}"', "--set", "dem.friction=0.55")
+        self.assertEqual(rough.returncode, DONE, rough.stderr)
+        told = f"solids stress {table}: friction 0.55 lies outside the table's 0.3 to 0.3: its edge is held"
+        self.assertIn(told, rough.stderr)
+        self.assertIn(told, json.loads((self.folder / "rough/run.json").read_text())["warnings"])
         # A liquid bed with a table of dry particles is refused, with the numbers.
         with h5py.File(table, "r+") as changed:
             changed.attrs["regime"] = "dry"

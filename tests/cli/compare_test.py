@@ -6,13 +6,17 @@ import pathlib
 import re
 import shlex
 import shutil
+import sys
 import tempfile
 
 import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
+from program import DONE, FILE, ROOT, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
+
+sys.path.insert(0, str(ROOT / "multiscale/python"))
+from polybed import comparison as page  # noqa: E402
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
 BED = """[column]
@@ -173,8 +177,18 @@ class Comparison(Scratch):
             self.assertIn(html.escape(line), text)
         tfm, dem, last = [shlex.split(html.unescape(line)) for line in re.search("<pre>(.*)</pre>", text, re.S)[1].splitlines()]
         self.assertEqual((tfm[:3], dem[:3]), (["polybed", "tfm", str(self.case)], ["polybed", "dem", str(self.case)]))
+        # all three where they were made: the same runs again, to the bit
+        made = {model: (self.folder / "both" / model / "run.json").stat().st_mtime_ns for model in ("tfm", "dem")}
+        self.ends(DONE, *tfm[1:], "--quiet")
+        self.ends(DONE, *dem[1:], *QUIET)
+        for model, time in made.items():
+            self.assertGreater((self.folder / "both" / model / "run.json").stat().st_mtime_ns, time)
         again = self.ends(DONE, *last[1:], "--json", "--no-picture").stdout
         self.assertEqual(strict_json(again)["measures"], found["measures"])
+        # a run on several ranks is made again on as many
+        record = strict_json((self.folder / "both/tfm/run.json").read_text())
+        lines = page.commands(found, {"tfm": record | {"ranks": 3}, "dem": record}).splitlines()
+        self.assertTrue(lines[0].startswith(f"mpirun -n 3 polybed tfm {self.case} "), lines[0])
 
     def test_a_scan_of_the_case_gives_a_score_and_one_of_another_is_refused(self):
         scan = {"outcome": "bracket", "velocity_m_s": 0.021, "error_m_s": 1e-4, "low_m_s": 0.0207, "high_m_s": 0.0213,

@@ -14,11 +14,17 @@ short = {"until": "20 ms", "overrides": {"output.every": "1 ms", "output.history
 folder = chosen.output / "both"
 found = polybed.compare(chosen.case, output=folder, page=True, **(short if chosen.short else {}))
 
+
+def text(value, digits):
+    return "-" if value is None else f"{value:{digits}}"
+
+
 for name, measure in found["measures"].items():
-    print(f"{name:28} two-fluid {measure['tfm'] or 0:10.4g}   particles {measure['dem'] or 0:10.4g}")
-for name in ("e_H", "e_b", "D1"):
-    score = found["scores"][name]
-    print(f"{name:28} {score['value']:.3f}, goal {score['goal']}: {'reached' if score['reached'] else 'missed'}")
+    print(f"{name:28} two-fluid {text(measure['tfm'], '.4g'):>10}   particles {text(measure['dem'], '.4g'):>10}")
+for name, score in found["scores"].items():
+    if name != "order":  # who is on top is no number
+        verdict = {True: "reached", False: "missed", None: "not judged"}[score["reached"]]
+        print(f"{name:28} {text(score['value'], '.3f')}, goal {text(score['goal'], '.3g')}: {verdict}")
 runs = {model: polybed.read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
 save(draw_history(runs, found["window"]), chosen.output, "tfm-against-dem.png")
 print(folder / "comparison.html")

@@ -21,10 +21,10 @@ with needed(__name__ == "__main__"):
 
     from polybed.drawing import comparison as drawing
     from polybed.drawing.profiles import shown_top
-    from polybed.drawing.style import STYLE
-    from polybed.read import FormatError, read, read_json
+    from polybed.drawing.style import NAMES, STYLE
+    from polybed.plot import stored_times
+    from polybed.read import FormatError, nearest, read, read_json
 
-NAMES = drawing.NAMES
 LOOKS = """body{font:15px/1.45 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
 table{border-collapse:collapse;margin:.6rem 0}th,td{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #ddd}
 th:first-child,td:first-child{text-align:left}img{max-width:100%}code{background:#f3f3f3}pre{background:#f3f3f3;padding:.6rem;
@@ -64,14 +64,16 @@ def picture(figure, told):
 
 
 def commands(found, records):
-    """The lines that make the runs and the comparison again, from the folder in which they were made."""
+    """The lines that make the runs, in place of those that are there, and the comparison again, from the folder in which
+    they were made."""
     case = found["case"]
     lines = []
     for model, record in records.items():
-        words = ["polybed", model, case]
+        words = ["mpirun", "-n", str(record["ranks"])] if record["ranks"] > 1 else []
+        words += ["polybed", model, case]
         for override in record["overrides"]:
             words += ["--set", override]
-        lines.append(words + ["-o", found["models"][model]["directory"]])
+        lines.append(words + ["-o", found["models"][model]["directory"], "--force"])
     words = ["polybed", "compare", case]
     for override in found["overrides"]:
         words += ["--set", override]
@@ -123,8 +125,8 @@ def pictures(found, runs):
     tops = [shown_top(run) for run in runs.values() if run.profiles and len(run.profiles["time_s"])]
     parts = []
     for time in (0.0, window["begin_s"], window["end_s"]) if tops else ():
-        shown = [f"{NAMES[model]} at {times[drawing.nearest(times, time)]:.4g} s" for model, run in runs.items()
-                 if len(times := run.particles.time if len(run.particles) else run.time)]
+        shown = [f"{NAMES[model]} at {times[nearest(times, time)]:.4g} s" for model, run in runs.items()
+                 if len(times := stored_times(run))]
         parts.append(picture(drawing.draw_instant(runs, time, max(tops)),
                              f"stored nearest to {time:.4g} s: {', '.join(shown)}; fields.h5 and particles.h5 of {both[0]} and {both[1]}"))
     parts.append(picture(drawing.draw_profiles(runs, window),
@@ -164,7 +166,7 @@ def main(arguments=None):
     try:
         print(write_page(parser.parse_args(arguments).directory))
     except (OSError, FormatError) as error:
-        print(f"no page: {error}", file=sys.stderr)
+        print(error, file=sys.stderr)
         return NO_FILE
     return 0
 

@@ -15,11 +15,10 @@ from polybed.packages import NO_FILE, needed
 
 with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
-    import numpy as np
 
     from polybed.drawing import animation, fields, history, overview, particles, profiles
     from polybed.drawing.style import STYLE
-    from polybed.read import FormatError, read
+    from polybed.read import FormatError, nearest, read
 
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
 WRONG_COMMAND, STOPPED = 2, 130
@@ -53,7 +52,7 @@ def step_of(run, time):
     first, last = stored[0], stored[-1]
     if not first <= time <= last * (1 + 1e-9):
         raise CommandError(f"--time {time:g} s is not covered: {what} are stored from {first:g} to {last:g} s")
-    return int(np.argmin(np.abs(stored - time)))
+    return nearest(stored, time)
 
 
 def kinds_of(run):

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-# Units by the end of a column's name, longest first.
+# Units by the end of a column's name; none is the end of another.
 ENDINGS = {"_m": "m", "_s": "s", "_Pa": "Pa", "_J": "J", "_kg": "kg", "_N": "N"}
-# Units of fields, profiles and particles by the beginning of their name.
+# Units of fields and profiles by the beginning of their name.
 BEGINNINGS = {"phi_": "1", "voidage": "1", "u_": "m/s", "theta_": "m2/s2", "total_pressure": "Pa", "pressure": "Pa",
-              "density": "kg/m3", "position": "m", "radius": "m", "velocity": "m/s", "spin": "1/s"}
+              "density": "kg/m3"}
 
 
 class Quantity:

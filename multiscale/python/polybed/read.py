@@ -26,6 +26,7 @@ VERSIONS = {
     "polybed particles": 1,
     "polybed particles step": 1,
     "polybed profiles": 1,
+    "polybed solids table": 1,
     "polybed run": 1,
     "polybed comparison": 1,
     "polybed inversion": 1,
@@ -60,6 +61,11 @@ def open_hdf5(path):
         return h5py.File(path, "r")
     except OSError as error:
         raise OSError(f"{path} is damaged or cannot be read: {error}") from None
+
+
+def nearest(times, time):
+    """Number of the stored time nearest to a time; None without any."""
+    return int(np.argmin(np.abs(times - time))) if len(times) else None
 
 
 class Series:
@@ -142,7 +148,7 @@ class Particles:
         """Number of the stored step nearest to a time."""
         if len(self) == 0:
             raise IndexError(f"{self._directory} has no stored particles yet")
-        return int(np.argmin(np.abs(self.time - time)))
+        return nearest(self.time, time)
 
 
 class Run:
@@ -257,7 +263,7 @@ class Run:
         """Number of the stored step nearest to a time."""
         if len(self.time) == 0:
             raise IndexError(f"{self.directory} has no stored fields yet")
-        return int(np.argmin(np.abs(self.time - time)))
+        return nearest(self.time, time)
 
 
 def read(directory):

@@ -15,11 +15,9 @@ with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
     import numpy as np
 
-    from polybed.drawing.style import COLOURS, GREY, PALE, STYLE
+    from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
     from polybed.plot import save
     from polybed.read import FormatError, read_json
-
-NAMES = {"tfm": "two-fluid", "dem": "particles"}
 
 
 def read_scan(directory):
@@ -76,7 +74,7 @@ def main(arguments=None):
     try:
         print(picture(parser.parse_args(arguments).directory))
     except (OSError, FormatError) as error:
-        print(f"no picture: {error}", file=sys.stderr)
+        print(error, file=sys.stderr)
         return NO_FILE
     return 0
 

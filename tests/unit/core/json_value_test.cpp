@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/json.hpp"
+#include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {
 namespace {
@@ -27,6 +29,36 @@ TEST(JsonValue, RefusesWhatIsNoJson) {
                            "\"\\x\"", "\"\\u00\"", "\"\\u0416\""})
     EXPECT_THROW((void)parse_json(text), FileError) << text;
   EXPECT_THROW((void)parse_json(std::string(100000, '[')), FileError);
+}
+
+TEST(JsonValue, WritesANumberThatMayBeMissing) {
+  const std::optional<double> missing;
+  Json json;
+  json.begin_object().member("there", std::optional(0.5)).member("missing", missing).end_object();
+  EXPECT_EQ(json.text(), R"({"there": 0.5, "missing": null})");
+}
+
+TEST(JsonValue, ReadsAFileAndNamesTheOneThatIsWrong) {
+  const test::Scratch scratch;
+  const std::filesystem::path path = scratch.path() / "a.json";
+  const auto refusal = [&](const std::string& text) -> std::string {
+    write_atomically(path, text);
+    try {
+      static_cast<void>(read_json(path, "polybed test"));
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(refusal(R"({"filetype": "polybed test", "version": 1, "a": 2})"), "none");
+  EXPECT_EQ(read_json(path).of("a").number(), 2);
+  EXPECT_EQ(read_text(path), R"({"filetype": "polybed test", "version": 1, "a": 2})");
+  const std::string wrong = path.string() + ": no \"polybed test\" of version 1";
+  EXPECT_EQ(refusal(R"({"filetype": "polybed test", "version": 2})"), wrong);
+  EXPECT_EQ(refusal(R"({"filetype": "polybed run", "version": 1})"), wrong);
+  EXPECT_EQ(refusal("{}"), wrong);
+  EXPECT_TRUE(refusal("{\"filetype\"").starts_with(path.string() + ": no JSON at byte"));
+  EXPECT_THROW((void)read_json(scratch.path() / "none"), FileError);
 }
 
 TEST(JsonValue, RefusesAnotherKindOfValue) {

@@ -44,10 +44,7 @@ void expect_equal(const ParticleStep& a, const ParticleStep& b) {
   EXPECT_EQ(a.spin, b.spin);
 }
 
-std::string xdmf_of(const fs::path& directory) {
-  const Bytes bytes = read_whole_file(directory / "particles.xdmf");
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+std::string xdmf_of(const fs::path& directory) { return read_text(directory / "particles.xdmf"); }
 
 TEST(Particles, ComeBackToTheBitThoughTheirNumberChanges) {
   const test::Scratch scratch;

@@ -44,11 +44,6 @@ void write_sample(FieldWriter& writer, const Grid& grid, double time) {
   writer.write_step(time, values);
 }
 
-std::string text_of(const fs::path& path) {
-  const Bytes bytes = read_whole_file(path);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 TEST(Fields, OwnedCellsComeBackInCOrder) {
   for (int dimensions : {2, 3}) {
     const test::Scratch scratch;
@@ -83,7 +78,7 @@ TEST(Fields, AreCompleteAfterEveryStep) {
     const FieldReader reader(scratch.path());
     ASSERT_EQ(reader.times().size(), std::size_t(n) + 1);
     EXPECT_EQ(reader.field(std::size_t(n), "voidage").values[0], n);
-    EXPECT_THAT(text_of(scratch.path() / "fields.xdmf"), HasSubstr("<Time Value=\"" + std::to_string(n)));
+    EXPECT_THAT(read_text(scratch.path() / "fields.xdmf"), HasSubstr("<Time Value=\"" + std::to_string(n)));
   }
   EXPECT_THAT(FieldReader(scratch.path()).names(2), ElementsAre("u_fluid", "voidage"));
 }
@@ -229,9 +224,9 @@ TEST(History, ReadsBackToTheBitAndResumes) {
     const std::vector<std::optional<double>> bad{0.4, nan};
     EXPECT_THROW(writer.write_row(bad), NumericsError);
   }
-  EXPECT_EQ(text_of(scratch.path() / "history.csv"),
+  EXPECT_EQ(read_text(scratch.path() / "history.csv"),
             "time_s,interface_m\n0.1,\n0.2,0.3333333333333333\n0.30000000000000004,0.3333333333333333\n");
-  std::string cut = text_of(scratch.path() / "history.csv");
+  std::string cut = read_text(scratch.path() / "history.csv");
   cut += "0.35,0.3";
   write_atomically(scratch.path() / "history.csv", cut);
   const History history = read_history(scratch.path());

@@ -64,8 +64,46 @@ TEST(SolidsTable, IsLinearBetweenAndMovesByStandardErrors) {
   EXPECT_NEAR(ratios_at(t, {0.8, 0.3, 0, 0})(0.3, 1).pressure.pressure, 1.45, 1e-12);
   EXPECT_NEAR(ratios_at(t, {0.8, 0.3, 0, 1})(0.3, 1).pressure.pressure, 1.45 * 1.01, 1e-12);
   EXPECT_NEAR(ratios_at(t, {0.2, 0.3, 0, 0})(0.3, 1).pressure.pressure, 1.4, 1e-12);  // held
-  EXPECT_FALSE(outside(t, {0.2, 0.3, 0, 0})) << "restitution is no matter of wet boxes";
-  EXPECT_TRUE(outside(t, {0.8, 0.5, 0, 0}));
+}
+
+TEST(SolidsTable, TellsWhereASceneLiesBeyondIt) {
+  SolidsTable t = sample();
+  EXPECT_TRUE(beyond(t, {0.2, 0.3, 0.4, 0, 2.5}).empty()) << "neither restitution nor sizes matter to wet mean spheres";
+  EXPECT_TRUE(beyond(t, {0.8, 0.6 * 0.3 + 0.4 * 0.3, 0, 0}).empty()) << "the rounding of a mean is nothing";
+  EXPECT_EQ(beyond(t, {0.8, 0.5, 0, 0}),
+            std::vector<std::string>{"friction 0.5 lies outside the table's 0.3 to 0.3: its edge is held"});
+  t.regime = "dry";
+  EXPECT_EQ(beyond(t, {0.2, 0.3, 0, 0}).size(), 1U);
+  t.share = {0.25, 0.75};
+  t.size_ratio = 2;
+  EXPECT_TRUE(beyond(t, {0.8, 0.3, 0.5, 0, 2}).empty());
+  EXPECT_EQ(beyond(t, {0.8, 0.3, 0.8, 0, 2}).size(), 1U);
+  EXPECT_EQ(beyond(t, {0.8, 0.3, 0.5, 0, 2.5}),
+            std::vector<std::string>{"the sizes of the species are as 1 to 2.5, those of the table as 1 to 2"});
+  EXPECT_EQ(beyond(t, {0.2, 0.5, 0.8, 0, 1}).size(), 4U);
+}
+
+// By hand: 3/4 of the bed's volume with friction 0.2 and the case's restitution 0.9, 1/4 with 0.6 and 0.5.
+TEST(SolidsTable, PlaceOfASceneIsTheMeanByVolume) {
+  core::Scene scene;
+  scene.dem.restitution = 0.9;
+  scene.dem.friction = 0.6;
+  scene.species.resize(2);
+  scene.species[0].diameter = 1e-3;
+  scene.species[0].friction = 0.2;
+  scene.species[1].diameter = 3e-3;
+  scene.species[1].restitution = 0.5;
+  scene.bed.volume_share = {0.75, 0.25};
+  const TablePlace place = place_of(scene);
+  EXPECT_NEAR(place.friction, 0.3, 1e-15);
+  EXPECT_NEAR(place.restitution, 0.8, 1e-15);
+  EXPECT_EQ(place.share, 0.25);
+  EXPECT_NEAR(place.size_ratio, 3, 1e-15);
+  // The first species cut in two says the same of both: a mean over species would say 0.333 and 0.767.
+  scene.species.insert(scene.species.begin(), scene.species[0]);
+  scene.bed.volume_share = {0.5, 0.25, 0.25};
+  EXPECT_NEAR(place_of(scene).friction, 0.3, 1e-15);
+  EXPECT_NEAR(place_of(scene).restitution, 0.8, 1e-15);
 }
 
 TEST(SolidsTable, OtherFilesAreRefused) {

@@ -10,21 +10,16 @@ from polybed.drawing import particles
 from polybed.drawing.fields import fractions
 from polybed.drawing.maps import draw_bar, draw_map, frame, map_size
 from polybed.drawing.profiles import shown_top
-from polybed.drawing.style import COLOURS, GREY, PALE, length_unit
+from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, length_unit
+from polybed.read import nearest
 
 LINES = {"tfm": "-", "dem": "--"}
-NAMES = {"tfm": "two-fluid", "dem": "particles"}
 MAP_HEIGHT = 4.0  # inches
 GAP, LEFT, HEAD, BARS = 0.35, 0.75, 0.7, 0.9  # inches
 
 
 def colour(n):
     return COLOURS[n % len(COLOURS)]
-
-
-def nearest(times, time):
-    """Number of the stored time nearest to a time; None without any."""
-    return int(np.argmin(np.abs(times - time))) if len(times) else None
 
 
 def panels_at(runs, time):
@@ -41,7 +36,7 @@ def panels_at(runs, time):
     for group in groups:
         group.limits = (0, most)
     run = runs["dem"]
-    step = nearest(run.particles.time, time) if len(run.particles) else None
+    step = nearest(run.particles.time, time)
     if step is not None:
         found.append(("particles", run, NAMES["dem"], run.particles[step], None))
     return found

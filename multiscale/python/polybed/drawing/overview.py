@@ -7,6 +7,7 @@ from polybed.drawing import particles
 from polybed.drawing.fields import fractions, voidages
 from polybed.drawing.maps import draw_map, frame
 from polybed.drawing.style import GREY, PALE, length_unit, shown_height, species_line, title_of
+from polybed.read import nearest
 
 MAP_HEIGHT = 5.2  # inches
 MAP_WIDTHS = (0.9, 3.4)  # inches, least and most
@@ -19,7 +20,7 @@ def draw_profiles(axes, run, time, legend):
     if not profiles or len(profiles["time_s"]) == 0:
         axes.set_axis_off()
         return
-    row = int(np.argmin(np.abs(profiles["time_s"] - time)))
+    row = nearest(profiles["time_s"], time)
     height = profiles["y_m"] * length_unit(run)[0]
     for n, name in enumerate(run.species):
         if f"phi_{name}" in profiles:

@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import EMPTY, FEW_SOLIDS, GREY, PALE, length_unit, species_line, title_of
+from polybed.read import nearest
 
 
 def value_at(run, column, time):
@@ -11,7 +12,7 @@ def value_at(run, column, time):
     history = run.history
     if column not in history or len(history["time_s"]) == 0:
         return None
-    value = history[column][np.argmin(np.abs(history["time_s"] - time))]
+    value = history[column][nearest(history["time_s"], time)]
     return None if np.isnan(value) else value
 
 
@@ -113,7 +114,7 @@ def draw(run, time):
     if not profiles or len(profiles["time_s"]) == 0:
         raise IndexError(f"{run.directory} has no stored profiles yet")
     factor, unit = length_unit(run)
-    row = int(np.argmin(np.abs(profiles["time_s"] - time)))
+    row = nearest(profiles["time_s"], time)
     shown = [name for name in run.species if f"phi_{name}" in profiles]
     figure = plt.figure(figsize=(10, 7.4), constrained_layout=True)
     upper, lower = figure.subfigures(2, 1, height_ratios=[1.15, 1])

@@ -1,15 +1,24 @@
 """The picture of a table of the solids stress: ratios over solids fraction with their standard errors, and of a wet table
-what it makes of the pressure. Usage: python3 -m polybed.drawing.stress_table TABLE [-o PICTURE]
+what it makes of the pressure.
+
+    python3 -m polybed.drawing.stress_table TABLE [-o PICTURE]
+
+Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing.
 """
 
 import argparse
-import pathlib
+import sys
+from pathlib import Path
 
-import h5py
-import matplotlib.pyplot as plt
-import numpy as np
+from polybed.packages import NO_FILE, needed
 
-from .style import COLOURS, STYLE
+with needed(__name__ == "__main__"):
+    import matplotlib.pyplot as plt
+    import numpy as np
+
+    from polybed.drawing.style import COLOURS, PALE, STYLE
+    from polybed.plot import save
+    from polybed.read import FormatError, check_kind, open_hdf5
 
 RATIOS = (("p_ratio", "pressure"), ("mu_ratio", "viscosity"), ("gamma_ratio", "dissipation"))
 
@@ -24,34 +33,37 @@ def lines_of(table, name):
 
 
 def draw(path, picture):
-    """Draws a table of sheared particles."""
-    with plt.rc_context(STYLE), h5py.File(path) as table:
+    """Draws a table of sheared particles and returns the path of the picture."""
+    with plt.rc_context(STYLE), open_hdf5(path) as table:
+        check_kind(table.attrs, "polybed solids table", path)
         if table.attrs["regime"] not in ("dry", "wet"):
-            raise SystemExit(f"{path}: of regime {table.attrs['regime']}, not of sheared particles")
+            raise FormatError(f"{path}: of regime {table.attrs['regime']}, not of sheared particles")
         figure, plots = plt.subplots(1, len(RATIOS), figsize=(9, 3), layout="constrained", sharex=True)
         for plot, (name, title) in zip(plots, RATIOS):
             for n, (label, values, errors) in enumerate(lines_of(table, name)):
                 plot.errorbar(table["phi"][:], values, errors, color=COLOURS[n % len(COLOURS)], marker="o", markersize=3,
                               linewidth=1, capsize=2, label=label or None)
-            plot.axhline(1, color="#bbbbbb", linewidth=0.8, zorder=0)
+            plot.axhline(1, color=PALE, linewidth=0.8, zorder=0)
             plot.set_title(f"{title} over {table.attrs['reference']}")
             plot.set_xlabel("solids fraction")
             plot.set_ylim(bottom=0)
         if plots[0].get_legend_handles_labels()[1]:
             plots[0].legend()
-        figure.savefig(picture)
-        plt.close(figure)
+        return save(figure, picture)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("table", type=pathlib.Path)
-    parser.add_argument("-o", "--out", type=pathlib.Path, help="default: beside the table")
-    words = parser.parse_args()
-    picture = words.out or words.table.with_suffix(".png")
-    draw(words.table, picture)
-    print(picture)
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="polybed.drawing.stress_table", description="Draws a table of the solids stress.")
+    parser.add_argument("table", type=Path)
+    parser.add_argument("-o", "--out", type=Path, help="default: beside the table")
+    words = parser.parse_args(arguments)
+    try:
+        print(draw(words.table, words.out or words.table.with_suffix(".png")))
+    except (OSError, FormatError, KeyError, ValueError) as error:
+        print(error, file=sys.stderr)
+        return NO_FILE
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -10,6 +10,7 @@ matplotlib.use("Agg")
 import numpy as np
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each other
 LINES = ["-", "--", "-."]  # beyond six species the colours come again, in another line
 GREY = "#555555"
 PALE = "#bbbbbb"
