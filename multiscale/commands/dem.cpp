@@ -35,6 +35,8 @@ class DemRun final : public CaseRun {
           if (first_) fluid = dem::read_fluid_totals(checkpoint);
         },
         [&](core::Checkpoint& checkpoint, const fs::path&) { model_.start_from(checkpoint); });
+    if (!model_.limits().warning.empty() && first_ && !options_.quiet)
+      fmt::print(stderr, "warning: {}\n", model_.limits().warning);
     if (scene_.bed.start == "settled" && !options_.resume) {
       if (!options_.quiet) fmt::print(stderr, "the bed settles first\n");
       model_.start_from(dem::settled(scene_, model_.limits().dt, ranks_));
@@ -106,6 +108,7 @@ class DemRun final : public CaseRun {
     if (observers_) write_ledger(json);
     if (promise) write_neglected(json, *promise);
     json.key("warnings").begin_array();
+    if (!model_.limits().warning.empty()) json.value(model_.limits().warning);
     if (monitor_)
       for (const std::string& line : monitor_->warnings()) json.value(line);
     json.end_array().end_object();

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "multiscale/commands/comma_list.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/python_module.hpp"
 #include "multiscale/stability/fuzz.hpp"
@@ -17,16 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> words(const std::string& list) {
-  std::vector<std::string> found;
-  for (std::size_t begin = 0; begin < list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    if (end > begin) found.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return found;
-}
-
 /// The heat map; the tables are complete without it.
 void draw_map(const fs::path& directory, bool quiet) {
   const PythonEnd end = run_python("polybed.stability", {"--", directory.string()}, PythonOutput::keep);
@@ -37,8 +28,8 @@ void draw_map(const fs::path& directory, bool quiet) {
 }  // namespace
 
 core::ExitCode run_stability(const StabilityOptions& options) {
-  const stability::Choice choice{options.suite == "full", words(options.only), words(options.schemes),
-                                 words(options.naive)};
+  const stability::Choice choice{options.suite == "full", comma_list(options.only), comma_list(options.schemes),
+                                 comma_list(options.naive)};
   if (!choice.naive.empty() && stability::textbook() == nullptr)
     throw core::CaseError("--naive: textbook treatments are in test builds alone, e.g. build/tests/polybed_textbook");
   std::vector<stability::HardCase> catalogue = stability::catalogue();
