@@ -27,13 +27,15 @@ stability::Result result_of_draw(const stability::Draw& draw) {
   return stability::results_of({stability::case_text(draw)}, 1, cpu_each).front();
 }
 
-std::string json_text(const StabilityOptions& options, const std::vector<stability::Result>& results) {
+/// What came of each draw that has ended, by its number.
+using Results = std::map<std::size_t, stability::Result>;
+
+std::string json_text(const StabilityOptions& options, const Results& results) {
   core::Json json;
   json.begin_object().member("filetype", "polybed fuzz").member("version", 1);
   json.member("git_commit", core::git_commit()).member("draws", options.draws).member("seed", options.seed);
   json.key("results").begin_array();
-  for (std::size_t n = 0; n < results.size(); ++n) {
-    const stability::Result& r = results[n];
+  for (const auto& [n, r] : results) {
     json.begin_object().member("draw", std::uint64_t(n)).member("outcome", name_of(r.outcome));
     json.member("broken", r.broken).member("worst", r.worst.id).member("value", r.worst.value);
     json.member("limit", r.worst.limit).member("steps", r.work.steps).member("cpu_s", r.cpu);
@@ -54,21 +56,26 @@ core::ExitCode run_fuzz(const StabilityOptions& options) {
     draws.push_back(stability::draw_of(options.seed, n));
     texts.push_back(stability::case_text(draws.back()));
   }
+  Results results;
   const auto seen = [&](std::size_t n, const stability::Result& r) {
+    results[n] = r;
+    // Thousands take hours: what has been found is there whatever ends the command.
+    if (constexpr std::size_t often = 20; results.size() % often == 0)
+      core::write_atomically(directory / "fuzz.json", json_text(options, results));
     if (r.outcome == Outcome::fail) core::write_atomically(directory / fmt::format("draw-{}.toml", n), texts[n]);
     if (options.json || r.outcome == Outcome::pass || r.outcome == Outcome::refused) return;
     fmt::print("draw {}: {} {} ({} = {:.3g}, limit {:.3g}) {}\n", n, name_of(r.outcome), r.broken, r.worst.id,
                r.worst.value, r.worst.limit, r.cause);
     std::fflush(stdout);
   };
-  const std::vector<stability::Result> results = stability::results_of(texts, options.jobs, cpu_each, seen);
+  (void)stability::results_of(texts, options.jobs, cpu_each, seen);
   core::write_atomically(directory / "fuzz.json", json_text(options, results));
   // Of each kind of failure one is shrunk: the others are most likely the same mistake.
   const fs::path hard = "cases/hard", found = (fs::is_directory(hard) ? hard : directory) / "found";
   std::map<std::string, std::string> shown;
-  for (std::size_t n = 0; n < results.size(); ++n) {
-    const std::string kind = stability::kind_of(results[n]);
-    if (results[n].outcome != Outcome::fail || shown.contains(kind)) continue;
+  for (const auto& [n, result] : results) {
+    const std::string kind = stability::kind_of(result);
+    if (result.outcome != Outcome::fail || shown.contains(kind)) continue;
     const stability::Draw least = stability::shrunk(draws[n], [&](const stability::Draw& draw) {
       const stability::Result now = result_of_draw(draw);
       return now.outcome == Outcome::fail && stability::kind_of(now) == kind;
@@ -79,13 +86,13 @@ core::ExitCode run_fuzz(const StabilityOptions& options) {
   if (options.json) fmt::print("{}", json_text(options, results));
   for (const Outcome outcome : outcomes) {
     const auto count =
-        std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.outcome == outcome; });
+        std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.second.outcome == outcome; });
     if (!options.json)
       fmt::print("{:8} {:6} of {}, {:.1f} %\n", name_of(outcome), count, results.size(),
                  100.0 * double(count) / double(results.size()));
   }
   const bool failed =
-      std::any_of(results.begin(), results.end(), [](const auto& r) { return r.outcome == Outcome::fail; });
+      std::any_of(results.begin(), results.end(), [](const auto& r) { return r.second.outcome == Outcome::fail; });
   return failed ? core::ExitCode::numerics : core::ExitCode::done;
 }
 

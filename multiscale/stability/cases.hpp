@@ -15,7 +15,10 @@ namespace polybed::stability {
 [[nodiscard]] std::vector<HardCase> demanding_cases();   // T11 T12 T18 T20 T21 T24, on demand
 [[nodiscard]] std::vector<HardCase> particle_cases();    // D1 to D15
 [[nodiscard]] std::vector<HardCase> suspension_cases();  // C1, C4 to C10
-[[nodiscard]] std::vector<HardCase> rank_cases();        // P1 to P8
+[[nodiscard]] std::vector<HardCase> one_sphere_cases();  // C2 C3
+[[nodiscard]] std::vector<HardCase> sound_cases();       // C11
+[[nodiscard]] std::vector<HardCase> level_cases();       // C12
+[[nodiscard]] std::vector<HardCase> rank_cases();        // P1 to P10
 [[nodiscard]] std::vector<HardCase> input_cases();       // I1 to I10
 
 }  // namespace polybed::stability

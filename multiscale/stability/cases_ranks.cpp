@@ -1,5 +1,6 @@
-// Hard cases of several ranks and of runs taken up again: P1 to P8, each by this program as its user starts it.
+// Hard cases of several ranks and of runs taken up again: P1 to P10, all but P9 by this program as its user starts it.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <csignal>
@@ -9,9 +10,12 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/json_value.hpp"
+#include "core/random.hpp"
 #include "multiscale/stability/cases.hpp"
+#include "multiscale/stability/problems/beads.hpp"
 #include "multiscale/stability/program.hpp"
 #include "multiscale/stability/scratch.hpp"
+#include "multiscale/stability/textbook.hpp"
 
 namespace polybed::stability {
 
@@ -185,6 +189,68 @@ void killed(Trial& trial) {
                 bits_apart(through, end_of(trial, 1, dem(file, output, {"--resume", until[0], until[1]}), output)), 0);
 }
 
+/// P9: spheres pressed together are listed in another order, as those of other ranks would be: the same bits.
+void order_of_sums(Trial& trial) {
+  core::Scene scene = verification::dry_box(0.5e-3, {5e6, 0.25, 2500}, {4e-3, 4e-3, 4e-3});
+  scene.column.sides = scene.column.ends = "periodic";
+  std::vector<verification::Bead> beads;
+  constexpr std::int64_t number = 125;
+  for (std::uint64_t n = 0; n < number; ++n) {
+    verification::Bead bead{"a", {}};
+    const std::array<std::uint64_t, 3> at{n % 5, n / 5 % 5, n / 25};
+    for (std::size_t k = 0; k < 3; ++k) {
+      bead.x[k] = (double(at[k]) + 0.45 + 0.1 * core::uniform(11, k, n)) * 0.8e-3;
+      bead.v[k] = 0.1 * (core::uniform(12, k, n) - 0.5);
+    }
+    beads.push_back(bead);
+  }
+  const auto forces = [&](const std::vector<verification::Bead>& list) {
+    std::vector<dem::Vector> found;
+    if (trial.naive()) {
+      core::Scene stepped = scene;
+      stepped.dem.fixed_step = 1e-6;
+      const auto run = textbook()->spheres(trial.treatment().naive, stepped, list);
+      for (std::int64_t n = 0; n < number; ++n) found.push_back(run->force(n));
+      return found;
+    }
+    scene.dem.max_overlap = 0.5;
+    verification::Beads run(scene, list);
+    for (std::int64_t n = 0; n < number; ++n) found.push_back(run.force(n));
+    return found;
+  };
+  const std::vector<dem::Vector> one = forces(beads);
+  std::reverse(beads.begin(), beads.end());
+  std::vector<dem::Vector> other = forces(beads);
+  std::reverse(other.begin(), other.end());
+  double apart = 0, greatest = 0;
+  for (std::size_t n = 0; n < one.size(); ++n)
+    for (std::size_t k = 0; k < 3; ++k) {
+      apart = std::max(apart, std::abs(one[n][k] - other[n][k]));
+      greatest = std::max(greatest, std::abs(one[n][k]));
+    }
+  trial.measure("V9 greatest difference of a force", apart / greatest, 0);
+}
+
+/// P10: two ranks tell each other of spheres at their common faces in a hundred thousand steps: the bits of one rank,
+/// and no more memory than a tenth of the steps takes.
+void many_messages(Trial& trial) {
+  const Scratch folder;
+  const fs::path file =
+      write_case(folder.path(), {.spheres = lattice(0.6e-3, 11e-3, 0.3), .more = "fixed_step = 2e-7"});
+  const auto memory_after = [&](const std::string& name, const std::string& until) {
+    (void)end_of(trial, 2, dem(file, folder.path() / name, {"--until", until}), folder.path() / name);
+    rusage use{};
+    ::getrusage(RUSAGE_CHILDREN, &use);
+    return double(use.ru_maxrss) * 1024;
+  };
+  const double few = memory_after("few", "0.002 s"), many = memory_after("many", "0.02 s");
+  trial.measure("memory grown, MB", 1e-6 * (many - few), 2);  // what an allocator takes at once; a request leaked by
+                                                              // each message would be ten times that
+  const core::Checkpoint alone = end_of(trial, 1, dem(file, folder.path() / "1"), folder.path() / "1");
+  trial.measure("V9 arrays that differ",
+                bits_apart(alone, core::read_checkpoint(folder.path() / "many" / "checkpoint.h5")), 0);
+}
+
 }  // namespace
 
 std::vector<HardCase> rank_cases() {
@@ -197,6 +263,9 @@ std::vector<HardCase> rank_cases() {
           {"P6", "friction across a slab and a corner", {}, ranks, friction_across_faces},
           {"P7", "taken up on other numbers of ranks", {}, ranks, other_numbers, false},
           {"P8", "a rank killed in mid-run", {}, ranks, killed, false}};
+          {"P8", "killed in mid-run", {}, ranks, killed, false},
+          {"P9", "order of sums", {"float_sums"}, ranks, order_of_sums},
+          {"P10", "a hundred thousand steps of messages", {}, ranks, many_messages, false}};
 }
 
 }  // namespace polybed::stability

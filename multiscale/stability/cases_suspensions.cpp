@@ -1,15 +1,13 @@
-// Hard cases of particles in a fluid: C1, C4 to C10.
+// Hard cases of particles in a fluid: C1, C4 to C10. C2 and C3 are in cases_one_sphere.cpp.
 #include <algorithm>
 #include <cmath>
 
 #include "closures/lubrication.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "dem/coupling.hpp"
 #include "multiscale/stability/cases.hpp"
 #include "multiscale/stability/grains.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
-#include "multiscale/stability/textbook.hpp"
+#include "multiscale/stability/suspension.hpp"
 
 namespace polybed::stability {
 
@@ -20,44 +18,6 @@ using verification::Beads;
 using verification::Liquid;
 
 constexpr double gravity = 9.81;
-
-core::Scene scene_of(double diameter, double density, const Liquid& fluid, double cell, std::array<int, 3> cells,
-                     int every) {
-  core::Scene scene =
-      verification::wet_box(diameter, density, fluid, {cell * cells[0], cell * cells[1], cell * cells[2]}, cells);
-  scene.dem.fluid_every = every;
-  return scene;
-}
-
-/// The product's run as a textbook's is asked.
-class ProductSuspension final : public TextbookSuspension {
- public:
-  ProductSuspension(const core::Scene& scene, const std::vector<Bead>& beads) : run_(scene, beads) {}
-  void step() override { run_.steps(run_.model.coupling()->every()); }
-  [[nodiscard]] const dem::Particles& particles() const override { return run_.model.particles(); }
-  [[nodiscard]] const core::Field& voidage() const override {
-    const std::vector<core::Field>& fraction = run_.model.coupling()->fraction();
-    voidage_.assign(fraction[0].size(), 1.0);
-    for (const core::Field& phi : fraction)
-      for (std::size_t c = 0; c < phi.size(); ++c) voidage_[c] -= phi[c];
-    return voidage_;
-  }
-  [[nodiscard]] const core::FaceField& fluid_velocity() const override {
-    return run_.model.coupling()->flow().state().velocity;
-  }
-
- private:
-  Beads run_;
-  mutable core::Field voidage_;
-};
-
-/// A run of the trial's treatment; both take steps of `dt`, s.
-std::unique_ptr<TextbookSuspension> begin(const Trial& trial, core::Scene scene, const std::vector<Bead>& beads,
-                                          double dt) {
-  scene.dem.fixed_step = dt;
-  if (trial.naive()) return textbook()->suspension(trial.treatment().naive, scene, beads);
-  return std::make_unique<ProductSuspension>(scene, beads);
-}
 
 double fastest(const dem::Particles& particles) {
   double most = 0;
@@ -77,7 +37,7 @@ void larger_than_cells(Trial& trial) {
       core::Field before;
       for (const double step : {-0.5e-6, 0.5e-6}) {
         const Bead bead{"a", {3.5 * cell, (3.5 + n / 10.0) * cell + step * diameter, 3.5 * cell}};
-        const core::Field now = begin(trial, scene, {bead}, 1e-6)->voidage();
+        const core::Field now = begin_suspension(trial, scene, {bead}, 1e-6)->voidage();
         double jump = 0, least = 1;
         for (std::size_t c = 0; c < now.size(); ++c) {
           least = std::min(least, now[c]);
@@ -100,7 +60,7 @@ void light_spheres(Trial& trial) {
     scene.column.gravity = gravity;
     scene.effects = {{"contact", "hertz_mindlin"}, {"added_mass", "half"}};
     scene.dem.greatest_speed = 5;
-    const auto run = begin(trial, scene, {{"a", {47e-3, 52e-3, 51e-3}}}, 2e-5);
+    const auto run = begin_suspension(trial, scene, {{"a", {47e-3, 52e-3, 51e-3}}}, 2e-5);
     for (int n = 0; n < 24; ++n) run->step();
     const double expected = gravity * (1 - ratio) / (ratio + 0.5),
                  found = run->particles().motion[0].v[1] / (24 * 2e-5);
@@ -113,7 +73,7 @@ void stiff_drag(Trial& trial) {
   const double kappa = 18 * 1.8e-5 / (2500 * 60e-6 * 60e-6);
   for (const double steps : {6.0, 1000.0}) {
     const core::Scene scene = scene_of(60e-6, 2500, verification::gas, 1e-3, {4, 4, 4}, 4);
-    const auto run = begin(trial, scene, {{"a", {2.1e-3, 1.8e-3, 1.9e-3}, {1e-7, 0, 0}}}, steps / kappa);
+    const auto run = begin_suspension(trial, scene, {{"a", {2.1e-3, 1.8e-3, 1.9e-3}, {1e-7, 0, 0}}}, steps / kappa);
     for (int n = 0; n < 25; ++n) run->step();
     // What is left is what the gas has taken of the momentum, m/(rho_f psi) = 2e-1 and spreading.
     trial.measure("speed left", fastest(run->particles()) / 1e-7, 0.3);
@@ -128,10 +88,10 @@ void many_steps_to_one(Trial& trial) {
     scene.dem.greatest_speed = 0.01;
     const double phi = verification::pi / 6 / 64, relaxation = 2500 * 0.25e-6 / 18e-3;
     const auto beads = verification::cubic_lattice("a", 2e-3, scene.column.size, {1e-3, 0, 0});
-    const auto run = begin(trial, scene, beads, relaxation / every);
+    const auto run = begin_suspension(trial, scene, beads, relaxation / every);
     run->step();
     const core::Grid grid = core::grid_of(scene.column, nullptr);
-    const double fluid = run->fluid_velocity()[0][std::size_t(grid.index(1, 1, 1))];
+    const double fluid = run->flow().state().velocity[0][std::size_t(grid.index(1, 1, 1))];
     const double kept = ((1 - phi) * 1000 * fluid + phi * 2500 * run->particles().motion[0].v[0]) / (phi * 2500 * 1e-3);
     trial.measure("V4 momentum of both", std::abs(kept - 1), 1e-12);
   }
@@ -163,7 +123,7 @@ void neutral_at_rest(Trial& trial) {
                      {(double(n % 8) + 0.4 + 0.2 * core::uniform(3, 0, n)) * 1.25e-3,
                       (double(n / 8 % 8) + 0.4 + 0.2 * core::uniform(3, 1, n)) * 1.25e-3,
                       (0.4 + 0.2 * core::uniform(3, 2, n)) * 1.25e-3}});
-  const auto run = begin(trial, scene, beads, 1e-4);
+  const auto run = begin_suspension(trial, scene, beads, 1e-4);
   for (int n = 0; n < 20; ++n) run->step();
   trial.measure("speed of what should rest, m/s", fastest(run->particles()), 1e-12);
 }

@@ -16,7 +16,7 @@ std::vector<HardCase> catalogue() {
   std::vector<HardCase> long_ones = joined({column_cases(), demanding_cases()});
   for (HardCase& one : long_ones) one.ci = false;
   return joined({settling_cases(), closure_cases(), fluidised_cases(), transport_cases(), long_ones, particle_cases(),
-                 suspension_cases(), rank_cases(), input_cases()});
+                 suspension_cases(), one_sphere_cases(), sound_cases(), level_cases(), rank_cases(), input_cases()});
 }
 
 }  // namespace polybed::stability

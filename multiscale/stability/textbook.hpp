@@ -9,6 +9,7 @@
 
 #include "core/scene.hpp"
 #include "dem/particles.hpp"
+#include "fluid/flow.hpp"
 #include "multiscale/stability/hard_case.hpp"
 #include "multiscale/stability/problems/beads.hpp"
 
@@ -32,7 +33,7 @@ class TextbookSuspension {
   virtual void step() = 0;
   [[nodiscard]] virtual const dem::Particles& particles() const = 0;
   [[nodiscard]] virtual const core::Field& voidage() const = 0;
-  [[nodiscard]] virtual const core::FaceField& fluid_velocity() const = 0;
+  [[nodiscard]] virtual const fluid::Flow& flow() const = 0;
 };
 
 /// Textbook treatments by name; unknown names throw std::invalid_argument.
@@ -48,6 +49,11 @@ class Textbook {
       const std::string& name, const core::Scene& scene, const std::vector<verification::Bead>& beads) const = 0;
   [[nodiscard]] virtual std::unique_ptr<TextbookSuspension> suspension(
       const std::string& name, const core::Scene& scene, const std::vector<verification::Bead>& beads) const = 0;
+  /// Net pressure at the bottom of a pipe of fluid alone after each of so many steps, Pa: `scene` as it is, at rest,
+  /// driven
+  /// by its inlet, open at the top. \param step  s
+  [[nodiscard]] virtual std::vector<double> sound(const std::string& name, const core::Scene& scene, double step,
+                                                  int steps) const = 0;
 };
 
 /// Those of this program, or null.

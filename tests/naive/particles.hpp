@@ -32,10 +32,9 @@ class ParticleRun final : public stability::TextbookSuspension {
   void step() override;
 
   [[nodiscard]] const dem::Particles& particles() const override { return particles_; }
-  [[nodiscard]] const fluid::Flow& flow() const { return flow_; }
+  [[nodiscard]] const fluid::Flow& flow() const override { return flow_; }
   [[nodiscard]] const fluid::ParticlePhase& phase() const { return phase_; }
   [[nodiscard]] const core::Field& voidage() const override { return phase_.voidage; }
-  [[nodiscard]] const core::FaceField& fluid_velocity() const override { return flow_.state().velocity; }
   /// Sums the particles up for the fluid where they are now.
   void collect();
 

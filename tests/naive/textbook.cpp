@@ -2,6 +2,7 @@
 #include "multiscale/stability/textbook.hpp"
 
 #include "naive/particles.hpp"
+#include "naive/sound.hpp"
 #include "naive/spheres.hpp"
 #include "naive/treatments.hpp"
 
@@ -24,6 +25,10 @@ class Treatments final : public stability::Textbook {
       const std::string& name, const core::Scene& scene, const std::vector<verification::Bead>& beads) const override {
     return std::make_unique<naive::ParticleRun>(name, scene, naive::particles_of(scene, beads),
                                                 scene.dem.fixed_step.value());
+  }
+  [[nodiscard]] std::vector<double> sound(const std::string& name, const core::Scene& scene, double step,
+                                          int steps) const override {
+    return naive::bottom_pressures(name, scene, step, steps);
   }
 };
 

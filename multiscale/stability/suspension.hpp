@@ -1,0 +1,22 @@
+// A run of particles in a fluid as a trial treats it: the product's, asked as a textbook's is.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "multiscale/stability/problems/wet_beads.hpp"
+#include "multiscale/stability/textbook.hpp"
+
+namespace polybed::stability {
+
+/// A closed box of equal cells, m. \param every  steps of the particles to one of the fluid
+[[nodiscard]] core::Scene scene_of(double diameter, double density, const verification::Liquid& fluid, double cell,
+                                   std::array<int, 3> cells, int every);
+
+/// A run of the trial's treatment; both take steps of `dt`, s.
+[[nodiscard]] std::unique_ptr<TextbookSuspension> begin_suspension(const Trial& trial, core::Scene scene,
+                                                                   const std::vector<verification::Bead>& beads,
+                                                                   double dt);
+
+}  // namespace polybed::stability
