@@ -262,8 +262,7 @@ std::vector<HardCase> rank_cases() {
           {"P5", "slabs thinner than a sphere", {}, ranks, thin_slabs},
           {"P6", "friction across a slab and a corner", {}, ranks, friction_across_faces},
           {"P7", "taken up on other numbers of ranks", {}, ranks, other_numbers, false},
-          {"P8", "a rank killed in mid-run", {}, ranks, killed, false}};
-          {"P8", "killed in mid-run", {}, ranks, killed, false},
+          {"P8", "a rank killed in mid-run", {}, ranks, killed, false},
           {"P9", "order of sums", {"float_sums"}, ranks, order_of_sums},
           {"P10", "a hundred thousand steps of messages", {}, ranks, many_messages, false}};
 }
