@@ -100,7 +100,7 @@ void no_fluid(const Scene& scene, Messages& wrong) {
   idle(!scene.inlet.superficial_velocity.empty(), "inlet.superficial_velocity");
   idle(!scene.jets.empty(), "[[jet]]");
   for (const char* role : {"drag", "fluid_stress", "added_mass", "lift", "magnus", "history", "lubrication"})
-    idle(scene.effects.contains(role), (std::string("effects.") + role).c_str());
+    idle(scene.effects.contains(role) && scene.effects.at(role) != automatic, (std::string("effects.") + role).c_str());
   idle(scene.fluid.temperature.has_value(), "fluid.temperature");
   idle(scene.fluid.density.has_value(), "fluid.density");
   idle(scene.fluid.viscosity.has_value(), "fluid.viscosity");

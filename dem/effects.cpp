@@ -19,7 +19,7 @@ namespace {
 
 /// What acts through the fluid needs one, and what turns with it has to be able to turn.
 void require_fluid(const core::Scene& scene) {
-  for (const char* role : {"lift", "magnus", "history", "lubrication"})
+  for (const char* role : {"lift", "magnus", "history", "brownian", "gas_slip", "lubrication"})
     if (const std::string law = core::law_of(scene, role); law != "none" && scene.fluid.name == "none")
       throw core::CaseError(fmt::format(
           "effects.{} = \"{}\" is what a fluid does, and there is none: name it under [fluid], or leave it out", role,
@@ -31,6 +31,12 @@ void require_fluid(const core::Scene& scene) {
   if (const std::string law = core::law_of(scene, "history"); law != "none" && scene.dem.held)
     throw core::CaseError("effects.history = \"" + law +
                           "\" is a force on particles that accelerate, and dem.held holds them: leave one out");
+  const std::string heat = core::law_of(scene, "brownian");
+  if (heat != "none" && !scene.fluid.temperature)
+    throw core::CaseError("fluid.temperature: effects.brownian = \"" + heat + "\" needs it, as in \"20 degC\"");
+  if (heat != "none" && (scene.dem.held || core::law_of(scene, "drag") == "none"))
+    throw core::CaseError("effects.brownian = \"" + heat +
+                          "\" moves particles against their drag: name a law of effects.drag, and leave out dem.held");
 }
 
 std::unique_ptr<NormalLaw> make_dry(const core::Scene& scene, const Materials& materials, const std::string& contact,
@@ -153,6 +159,12 @@ std::vector<core::Role> roles() {
            "vorticity that past accelerations of a particle have left in the fluid",
            "not in this version",
            {{"basset", "Basset 1888, creeping flow, summed by exponentials; adds an inertia"}}},
+          {"brownian",
+           "dem",
+           "Force",
+           "heat motion of small particles, with fluid.temperature",
+           "not in this version",
+           {{"langevin", "random force of variance 2 k_B T k/dt, k the drag over the slip; Langevin 1908"}}},
           {"contact",
            "dem",
            "Pair",

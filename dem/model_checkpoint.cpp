@@ -182,9 +182,12 @@ void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<
   coupling_->motion().set_work(core::is_first(ranks_.get()) ? checkpoint.integers.at("fluid_work") : 0);
 }
 
-/// What side forces had kept of the particles.
+/// What side forces had kept of the particles; of a run that had none those without a memory begin with nothing.
 void Model::take_up_sides(const core::Checkpoint& checkpoint, std::size_t count) {
   SideRows& rows = coupling_->sides().rows();
+  const bool any =
+      core::on_any_rank(ranks_.get(), core::is_first(ranks_.get()) && checkpoint.arrays.contains("fluid_sides"));
+  if (!any && rows.width == SideRows::force_size) return;
   KeptRows kept{rows.width + 1, std::vector<double>(count * (rows.width + 1))};
   core::on_first(ranks_.get(), [&] {
     const auto found = checkpoint.arrays.find("fluid_sides");

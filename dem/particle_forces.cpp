@@ -6,6 +6,7 @@
 
 #include "closures/added_mass.hpp"
 #include "closures/sphere.hpp"
+#include "fluid/gas_slip.hpp"
 
 namespace polybed::dem {
 
@@ -20,6 +21,8 @@ ParticleForces::ParticleForces(const core::Scene& scene, const Materials& materi
                                double viscosity)
     : largest_(materials.greatest_diameter()), fluid_density_(fluid_density), viscosity_(viscosity) {
   for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
+  for (const double divisor : fluid::slip_divisors(scene, diameter_))
+    creeping_.push_back(3 * std::numbers::pi * viscosity * diameter_[creeping_.size()] / divisor);
   if (const std::string law = core::law_of(scene, "drag"); law != "none")
     law_ = closures::drag_law(law, closures::Guard::on);
   if (const std::string law = core::law_of(scene, "added_mass"); law != "none")
@@ -76,6 +79,7 @@ void ParticleForces::see(const Particles& particles, const Gather& gather, Solid
     average_[n] = alone ? d : solids.average * per_fraction;
     share_[n] = alone ? 1 : solids.own * per_fraction;
     size_[n] = d;
+    stokes_[n] = creeping_[j];
     slip_[n] = eps * std::sqrt(square);
     if (added_ != Added::none)
       load.added = closures::added_mass_inertia(
@@ -88,8 +92,7 @@ void ParticleForces::drag(std::size_t begin, std::size_t count, std::vector<Flui
   const auto first = [count](auto& row) { return std::span(row).first(count); };
   closures::drag_of_particles(*law_, first(voidage_), first(per_mean_), first(average_), largest_, first(share_),
                               first(size_), first(slip_), fluid_density_, viscosity_, first(f_), count_);
-  const double scale = 3 * std::numbers::pi * viscosity_;
-  for (std::size_t n = 0; n < count; ++n) loads[begin + n].drag = scale * size_[n] * voidage_[n] * f_[n];
+  for (std::size_t n = 0; n < count; ++n) loads[begin + n].drag = stokes_[n] * voidage_[n] * f_[n];
 }
 
 LawUse ParticleForces::use() const { return {count_.evaluations, count_.guarded, clamped_}; }

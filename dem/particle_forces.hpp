@@ -46,10 +46,11 @@ class ParticleForces {
   std::optional<closures::DragLaw> law_;  ///< absent: no drag
   Added added_ = Added::none;
   std::vector<double> diameter_;  ///< of each species, m
+  std::vector<double> creeping_;  ///< 3 pi mu D of each species, over the divisor of a gas that slips, kg/s
   double largest_, fluid_density_, viscosity_;
   closures::GuardCount count_;
   std::uint64_t clamped_ = 0;
-  Row voidage_, per_mean_, average_, share_, size_, slip_, f_;
+  Row voidage_, per_mean_, average_, share_, size_, slip_, stokes_, f_;
 };
 
 }  // namespace polybed::dem

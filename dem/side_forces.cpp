@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dem/effects/brownian.hpp"
 #include "dem/effects/history.hpp"
 #include "dem/effects/lift.hpp"
 #include "dem/effects/magnus.hpp"
@@ -19,16 +20,22 @@ SideForces::SideForces(const core::Scene& scene, const Materials& materials, dou
     : dt_(dt) {
   if (calls_for(scene, "lift")) effects_.push_back(std::make_unique<Lift>(materials, density, viscosity));
   if (calls_for(scene, "magnus")) effects_.push_back(std::make_unique<Magnus>(materials, density, viscosity, dt));
-  // The only one with a memory: its place is behind the force.
+  // Those with a memory have their places in it one behind the other.
   if (calls_for(scene, "history"))
-    effects_.push_back(std::make_unique<History>(materials, density, viscosity, interval, SideRows::force_size,
+    effects_.push_back(std::make_unique<History>(materials, density, viscosity, interval, memory_end(),
                                                  calls_for(scene, "added_mass")));
+  if (calls_for(scene, "brownian"))
+    effects_.push_back(std::make_unique<Brownian>(scene.fluid.temperature.value(), scene.bed.seed, dt, memory_end()));
   if (effects_.empty()) return;
-  rows_.width = SideRows::force_size;
-  for (const auto& effect : effects_) {
-    rows_.width += effect->memory_size();
-    needs_vorticity_ |= effect->needs_vorticity();
-  }
+  rows_.width = memory_end();
+  for (const auto& effect : effects_) needs_vorticity_ |= effect->needs_vorticity();
+}
+
+/// Behind the force and what the effects so far keep.
+std::size_t SideForces::memory_end() const {
+  std::size_t end = SideRows::force_size;
+  for (const auto& effect : effects_) end += effect->memory_size();
+  return end;
 }
 
 bool SideForces::has_inertia() const {

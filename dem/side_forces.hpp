@@ -1,5 +1,5 @@
-// Forces of the fluid beside drag, buoyancy and added mass: lift, spin, history. Each is an effect of its own, asked
-// once per step with its loop inside; of those that a scene leaves out there is nothing.
+// Forces of the fluid beside drag, buoyancy and added mass: lift, spin, history, heat motion. Each is an effect of its
+// own, asked once per step with its loop inside; of those that a scene leaves out there is nothing.
 //
 // What they give a particle is taken from the fluid: a force that acts for half a step before it is found anew, and for
 // half a step afterwards, goes with both halves into the impulse that the fluid's next step has to answer for.
@@ -72,6 +72,7 @@ class SideForces {
 
  private:
   void replace(const SideView& view);
+  [[nodiscard]] std::size_t memory_end() const;
   [[nodiscard]] SideView look(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads);
   void add_impulse(std::span<FluidLoad> loads, double time) const;
 

@@ -5,6 +5,7 @@
 #include "closures/drag.hpp"
 #include "closures/stress_reference.hpp"
 #include "core/error.hpp"
+#include "fluid/gas_slip.hpp"
 #include "fluid/shear_regime.hpp"
 #include "fluid/solids_table.hpp"
 #include "tfm/effects/drag.hpp"
@@ -30,6 +31,12 @@ std::vector<core::Role> roles() {
            "viscous stress of the averaged fluid",
            "",
            {{"newtonian", "mu (grad U + grad U^T - 2/3 div U I); T(1.16)"}}},
+          {"gas_slip",
+           "tfm, dem",
+           "Exchange",
+           "slip of a rarefied gas on small spheres, which lowers their drag",
+           "",
+           {{"cunningham", "drag over 1 + Kn (1.257 + 0.4 exp(-1.1/Kn)), at the outlet's pressure; Davies 1945"}}},
           {"solids_stress",
            "tfm",
            "Stress",
@@ -154,7 +161,7 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
                      Fields& fields) {
   Effects effects;
   if (const std::string name = core::law_of(scene, "drag"); name != "none")
-    effects.drag = std::make_unique<Drag>(constants, boundaries, name);
+    effects.drag = std::make_unique<Drag>(constants, boundaries, name, fluid::slip_divisors(scene, constants.diameter));
   if (const std::string name = core::law_of(scene, "fluid_stress"); name == "newtonian")
     effects.fluid_stress = std::make_unique<NewtonianStress>(constants, boundaries);
   else if (name != "none")

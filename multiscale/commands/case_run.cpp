@@ -15,6 +15,7 @@ CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::
                  std::shared_ptr<const core::Ranks> ranks)
     : options_(options),
       scene_(std::move(scene)),
+      case_(scene_),
       directory_(std::move(directory)),
       ranks_(std::move(ranks)),
       first_(core::is_first(ranks_.get())) {
@@ -26,7 +27,7 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
   core::Checkpoint checkpoint;
   const std::string word = "checkpoint:";
   if (options_.resume) {
-    core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, scene_); });
+    core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, case_); });
     resume(checkpoint, checkpoint_path(directory_));
   } else if (scene_.bed.start.starts_with(word)) {
     const std::filesystem::path path = scene_.bed.start.substr(word.size());
@@ -53,18 +54,20 @@ void CaseRun::print_prediction(double actual) const {
              prediction_.least, prediction_.most, actual);
 }
 
-void CaseRun::run() {
+bool CaseRun::run() {
   predict();
   record("running");
   try {
     go();
   } catch (const core::Stopped&) {
+    if (switches()) return false;
     finish("stopped by the user");
     throw;
   } catch (const core::NumericsError& error) {
     fail(error);
   }
   finish("done");
+  return true;
 }
 
 void CaseRun::go() {
@@ -106,7 +109,8 @@ void CaseRun::print_promise() const {
 void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
-  add_case(state, scene_);
+  add_case(state, case_);
+  add_switches(state);
   core::write_checkpoint(checkpoint_path(directory_), state, ranks_.get());
   record("running");
 }

@@ -23,7 +23,9 @@ namespace polybed::multiscale {
 class CaseRun {
  public:
   virtual ~CaseRun() = default;
-  void run();
+  /// Returns false if it has ended to go on as a model with other effects: then it has a checkpoint and no record of
+  /// its end yet.
+  bool run();
 
  protected:
   CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
@@ -49,6 +51,10 @@ class CaseRun {
   virtual void keep_last_state() {}
   /// After each step: false if the user wants to stop.
   [[nodiscard]] virtual bool after_step();
+  /// Whether after_step() was false since an effect has to be switched on.
+  [[nodiscard]] virtual bool switches() const { return false; }
+  /// Says in a checkpoint what has been switched on, or will be.
+  virtual void add_switches(core::Checkpoint&) const {}
   [[nodiscard]] virtual std::vector<double> kinks() { return {}; }
   /// What the whole run will take, told before it.
   [[nodiscard]] virtual TimeBand predicted() = 0;
@@ -75,7 +81,8 @@ class CaseRun {
 
   core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
   RunOptions options_;
-  core::Scene scene_;
+  core::Scene scene_;  ///< as the model has it
+  core::Scene case_;   ///< as it is written: without what has been switched on meanwhile
   std::filesystem::path directory_;
   std::shared_ptr<const core::Ranks> ranks_;
   bool first_;  ///< this process is the one that reads, writes and speaks

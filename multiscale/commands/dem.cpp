@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "core/json.hpp"
 #include "dem/continuum_scene.hpp"
 #include "dem/observers.hpp"
 #include "dem/settling.hpp"
 #include "multiscale/commands/case_run.hpp"
+#include "multiscale/effects/switching.hpp"
 #include "multiscale/fluid_report.hpp"
 #include "multiscale/run_record.hpp"
 
@@ -17,13 +20,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What runs of one command hand on where an effect is switched on between them.
+struct Course {
+  core::Scene scene;  ///< the case
+  std::vector<Switch> switches;
+};
+
 /// How well the energy ledger must close, as a share of the greatest energy met (V5).
 constexpr double ledger_limit = 1e-3;
 
 class DemRun final : public CaseRun {
  public:
-  DemRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
-      : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks)), model_(scene_, timers_, ranks_) {
+  /// \param begin  of this part of the course, s
+  DemRun(const RunOptions& options, const Course& course, double begin, fs::path directory,
+         std::shared_ptr<const core::Ranks> ranks)
+      : CaseRun(options, at_time(course.scene, course.switches, begin), std::move(directory), std::move(ranks)),
+        model_(scene_, timers_, ranks_),
+        course_(course),
+        next_switch_(multiscale::next_switch(course.switches, begin)) {
+    case_ = course_.scene;
     std::optional<double> initial_energy;
     dem::FluidTotals fluid;
     prepare(
@@ -45,6 +60,9 @@ class DemRun final : public CaseRun {
     observers_.emplace(model_, scene_, directory_, initial_energy, fluid, resume_time);
   }
 
+  /// For the part that follows.
+  [[nodiscard]] const Course& course() const { return course_; }
+
  private:
   core::Simulation& simulation() override { return model_; }
 
@@ -60,7 +78,27 @@ class DemRun final : public CaseRun {
   bool after_step() override {
     observers_->see_step();
     watch(monitor_.get(), model_);
-    return model_.steps() % 64 != 0 || CaseRun::after_step();
+    if (monitor_) plan_switches();
+    return !switches() && (model_.steps() % 64 != 0 || CaseRun::after_step());
+  }
+
+  [[nodiscard]] bool switches() const override { return model_.time() >= next_switch_; }
+
+  /// What the monitor wants is on from the next output time on.
+  void plan_switches() {
+    for (; planned_ < monitor_->wanted().size(); ++planned_) {
+      const std::string& effect = monitor_->wanted()[planned_];
+      const double every = *scene_.output.every, time = every * (std::floor(model_.time() / every * (1 + 1e-12)) + 1);
+      if (!(every > 0 && time < scene_.run.until)) continue;
+      course_.switches.push_back({effect, time});
+      if (!options_.quiet)
+        fmt::print(stderr, "{} will be on from t = {:.4g} s (chooser.monitor = \"enable\")\n", effect, time);
+      next_switch_ = std::min(next_switch_, time);
+    }
+  }
+
+  void add_switches(core::Checkpoint& checkpoint) const override {
+    if (!course_.switches.empty()) checkpoint.texts["switch_on"] = text_of(course_.switches);
   }
 
   core::ProgressLine line() override {
@@ -107,12 +145,20 @@ class DemRun final : public CaseRun {
     if (fluid_) write_fluid(json, *fluid_);
     if (observers_) write_ledger(json);
     if (promise) write_neglected(json, *promise);
+    if (!course_.switches.empty()) write_switches(json);
     json.key("warnings").begin_array();
     if (!model_.limits().warning.empty()) json.value(model_.limits().warning);
     if (monitor_)
       for (const std::string& line : monitor_->warnings()) json.value(line);
     json.end_array().end_object();
     return json.text();
+  }
+
+  void write_switches(core::Json& json) const {
+    json.key("switched_on").begin_array();
+    for (const Switch& one : course_.switches)
+      json.begin_object().member("effect", one.effect).member("from_s", one.time).end_object();
+    json.end_array();
   }
 
   /// Collective.
@@ -179,7 +225,27 @@ class DemRun final : public CaseRun {
   dem::Work work_;
   std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
   double cpu_ = 0;
+  Course course_;
+  double next_switch_;       ///< s
+  std::size_t planned_ = 0;  ///< of what the monitor wants
 };
+
+/// Of a run that goes on: its time, s, and what its monitor has switched on or is about to.
+double take_up_course(const fs::path& directory, Course& course, const core::Ranks* ranks) {
+  std::string text;
+  std::array<double, 2> head{};
+  core::on_first(ranks, [&] {
+    const core::Checkpoint checkpoint = read_checkpoint_of(directory, course.scene);
+    if (const auto found = checkpoint.texts.find("switch_on"); found != checkpoint.texts.end()) text = found->second;
+    head = {checkpoint.numbers.at("time"), double(text.size())};
+  });
+  core::take_from_first(ranks, head);
+  std::vector<double> letters(text.begin(), text.end());
+  letters.resize(std::size_t(head[1]));
+  core::take_from_first(ranks, letters);
+  course.switches = switches_of(std::string(letters.begin(), letters.end()));
+  return head[0];
+}
 
 }  // namespace
 
@@ -189,8 +255,14 @@ void run_dem(const RunOptions& options) {
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::on_first(ranks.get(), [&] { check_directory(directory, options); });
-  DemRun run(options, std::move(scene), directory, ranks);
-  run.run();
+  Course course{std::move(scene), {}};
+  RunOptions now = options;
+  for (bool ended = false; !ended; now.resume = true) {
+    const double begin = now.resume ? take_up_course(directory, course, ranks.get()) : 0;
+    DemRun run(now, course, begin, directory, ranks);
+    ended = run.run();
+    course = run.course();
+  }
 }
 
 }  // namespace polybed::multiscale

@@ -42,10 +42,13 @@ core::ExitCode run_effects_audit(const std::filesystem::path& run, bool as_json)
     json.end_object();
     fmt::print("{}\n", json.text());
   } else {
+    const char* said = !neglected.kept()   ? "not to be told: all that was met is beyond the laws' range"
+                       : *neglected.kept() ? "kept"
+                                           : "broken";
     fmt::print("{}the promise, {:.2g} of the weight for 99 of 100 particles, is {}\n", neglected_table(neglected),
-               neglected.tolerance(), neglected.kept() ? "kept" : "broken");
+               neglected.tolerance(), said);
   }
-  return neglected.kept() ? core::ExitCode::done : core::ExitCode::numerics;
+  return neglected.kept().value_or(false) ? core::ExitCode::done : core::ExitCode::numerics;
 }
 
 }  // namespace polybed::multiscale

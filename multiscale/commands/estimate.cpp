@@ -1,12 +1,12 @@
 // polybed estimate: what a run will take, before it.
 #include <fmt/format.h>
 
-#include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "dem/continuum_scene.hpp"
 #include "multiscale/commands/options.hpp"
+#include "multiscale/effects/choice.hpp"
 #include "multiscale/estimate/estimate.hpp"
 #include "multiscale/roles.hpp"
 #include "tfm/particle_scene.hpp"
@@ -53,7 +53,7 @@ void run_estimate(const EstimateOptions& options) {
       throw core::CaseError("CASE is missing: polybed estimate CASE, or polybed estimate --machine");
     return;
   }
-  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
+  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
   const double probe = options.probe.empty() ? 0 : seconds_of(options.probe);
   const Machine machine = known_machine();
   const Estimate estimate = model_of(options, scene) == "dem" ? estimate_dem(scene, machine, probe, options.ranks)

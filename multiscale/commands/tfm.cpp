@@ -150,7 +150,7 @@ void run_tfm(const RunOptions& options) {
     check_directory(directory, options);
   });
   if (options.stress_uncertainty) require_table(scene);
-  TfmRun(options, std::move(scene), directory, ranks).run();
+  (void)TfmRun(options, std::move(scene), directory, ranks).run();
   if (options.stress_uncertainty) run_stress_uncertainty(options);
 }
 

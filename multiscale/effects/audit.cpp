@@ -93,7 +93,8 @@ Neglected audit_run(const fs::path& directory) {
     particles ? audit_particles(reader, *particles, scene, step, neglected)
               : audit_continuum(reader, scene, step, neglected);
   }
-  if (neglected.sum().count == 0) throw core::FileError(directory.string() + ": no stored step to audit");
+  if (neglected.sum().count + neglected.sum().outside == 0)
+    throw core::FileError(directory.string() + ": no stored step to audit");
   return neglected;
 }
 

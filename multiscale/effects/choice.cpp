@@ -37,8 +37,7 @@ void apply_logic(const core::Scene& scene, std::vector<EffectRow>& rows) {
   }
 }
 
-std::vector<EffectRow> weigh(const core::Scene& scene) {
-  const Survey of_scene = survey(scene);
+std::vector<EffectRow> weigh(const core::Scene& scene, const Survey& of_scene) {
   std::vector<EffectRow> rows = weigh_phases(scene, of_scene);
   for (auto* part : {&weigh_forces, &weigh_conditions})
     for (EffectRow& row : part(scene, of_scene)) rows.push_back(std::move(row));
@@ -67,7 +66,9 @@ bool has_auto(const core::Scene& scene) {
 Choice choose(const core::Scene& scene) {
   Choice choice;
   choice.tolerance = scene.chooser.tolerance;
-  choice.rows = weigh(scene);
+  const Survey of_scene = survey(scene);
+  choice.surfaces = surfaces_of(scene, of_scene);
+  choice.rows = weigh(scene, of_scene);
   std::vector<EffectRow> of_case = choice.rows;
   decide(choice.rows, rule_of(scene, !has_auto(scene)));
   choice.neglected_sum = neglected_sum(choice.rows);
@@ -93,10 +94,9 @@ core::Scene with_choice(core::Scene scene) {
                                   [&](const EffectRow& r) { return r.effect == entry->first; });
     const bool on = row != choice.rows.end() && row->state == State::on && row->not_built.empty();
     if (on && row->model == "van_der_waals") {
-      const Surfaces surfaces = surfaces_of(scene, survey(scene).is_gas);
-      scene.dem.hamaker_constant = surfaces.hamaker;
+      scene.dem.hamaker_constant = choice.surfaces.hamaker;
       scene.dem.cohesion_gap = closures::relevance_contact_gap;
-      scene.dem.asperity_radius = 0.5 * surfaces.roughness;
+      scene.dem.asperity_radius = 0.5 * choice.surfaces.roughness;
     }
     if (on) entry->second = row->model;
     entry = on ? std::next(entry) : scene.effects.erase(entry);

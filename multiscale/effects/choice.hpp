@@ -8,6 +8,7 @@
 
 #include "core/scene.hpp"
 #include "multiscale/effects/effect_row.hpp"
+#include "multiscale/effects/weigh.hpp"
 
 namespace polybed::multiscale {
 
@@ -31,6 +32,7 @@ struct Choice {
   double tolerance = 0;
   double neglected_sum = 0;  ///< of the choice, as a share of the buoyant weight
   double case_sum = 0;       ///< of the roles that the case has, or is given
+  Surfaces surfaces{};       ///< that cohesion was weighed with
 };
 
 /// The choice for a scene: free where the case decides every role itself (what it should have decided), else of what it

@@ -78,6 +78,7 @@ void write_effects(core::Json& json, const core::Scene& scene, const Choice& cho
     optional("neglected_bound", row.neglected);
     json.member("reason", reason_text(row)).member("models", row.models).member("below", row.below);
     json.member("kind", row.kind == Kind::role ? "role" : row.kind == Kind::condition ? "condition" : "unmodelled");
+    if (row.in_range > 0) json.member("bound_in_range", row.in_range);
     json.member("built", row.not_built.empty() && row.kind != Kind::unmodelled)
         .member("in_case", case_text(scene, row));
     if (row.band) json.key("band").begin_array().value(row.band->least).value(row.band->most).end_array();

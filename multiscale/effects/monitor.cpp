@@ -8,6 +8,7 @@
 #include "core/output_fields.hpp"
 #include "fluid/vorticity.hpp"
 #include "multiscale/effects/fluid_map.hpp"
+#include "multiscale/effects/switching.hpp"
 
 namespace polybed::multiscale {
 
@@ -55,7 +56,8 @@ Monitor::Monitor(const core::Scene& scene, const std::string& model)
       latest_(seen_),
       empty_(seen_),
       samples_above_(seen_.observed().size(), 0),
-      since_(seen_.observed().size(), 0.0) {}
+      since_(seen_.observed().size(), 0.0),
+      enables_(scene.chooser.monitor == "enable" && model == "dem") {}
 
 std::vector<std::string> Monitor::look(const dem::Model& model) {
   latest_ = empty_;
@@ -126,11 +128,23 @@ std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
                     "t = {:.4g} s",
                     o.effect == "sum" ? "the sum of all forces" : o.effect, 100 * o.bound, 100 * o.greatest,
                     100.0 * double(o.above) / double(o.count), o.place[0], o.place[1], since_[n]));
+    if (enables_) want(o.effect);
   }
   warnings_.insert(warnings_.end(), lines.begin(), lines.end());
   if (!lines.empty() && scene_.chooser.monitor == "stop")
     throw core::NumericsError(lines.front() + "; chooser.monitor = \"stop\"");
   return lines;
+}
+
+/// Of the sum that which has most of it.
+void Monitor::want(const std::string& effect) {
+  const Observed* most = nullptr;
+  for (const Observed& o : latest_.observed())
+    if (can_be_switched(o.effect) && (effect == "sum" || effect == o.effect) &&
+        (most == nullptr || o.greatest > most->greatest))
+      most = &o;
+  if (most != nullptr && std::find(wanted_.begin(), wanted_.end(), most->effect) == wanted_.end())
+    wanted_.push_back(most->effect);
 }
 
 Neglected Monitor::result(const core::Ranks* ranks) const {

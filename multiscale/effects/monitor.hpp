@@ -35,16 +35,20 @@ class Monitor {
   /// Of all ranks. Collective.
   [[nodiscard]] Neglected result(const core::Ranks* ranks) const;
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  /// With monitor = "enable": what is to be switched on, of the particle model alone.
+  [[nodiscard]] const std::vector<std::string>& wanted() const { return wanted_; }
 
  private:
   [[nodiscard]] std::vector<std::string> judge(const core::Ranks* ranks, double time);
+  void want(const std::string& effect);
 
   core::Scene scene_;
   Neglected seen_, latest_;  ///< of the whole run, and of the sample at hand
   Neglected empty_;
   std::vector<int> samples_above_;
   std::vector<double> since_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, wanted_;
+  bool enables_;
   std::int64_t steps_ = 0;
 };
 

@@ -52,7 +52,9 @@ Neglected::Neglected(const core::Scene& scene, const std::string& model)
   const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
   fluid_density_ = fluid.density;
   viscosity_ = fluid.viscosity;
-  for (const EffectRow& row : choose(scene).rows) {
+  const Choice choice = choose(scene);
+  surfaces_ = choice.surfaces;
+  for (const EffectRow& row : choice.rows) {
     if (!row.summed) continue;
     const bool has_law = row.models.find(model) != std::string::npos && row.not_built.empty();
     if (has_law && core::law_of(scene, row.effect) != "none") continue;
@@ -63,7 +65,7 @@ Neglected::Neglected(const core::Scene& scene, const std::string& model)
     }
     Observed one;
     one.effect = row.effect;
-    one.bound = std::max(row.value.value_or(0), row.band ? row.band->most : 0);
+    one.bound = row.in_range > 0 ? row.in_range : row.value.value_or(0);  // encounters beyond it are counted apart
     observed_.push_back(one);
   }
   Observed sum;
@@ -76,10 +78,7 @@ std::optional<double> Neglected::share_of(const std::string& effect, const Encou
   const core::Species& s = scene_.species[met.species];
   const double weight = closures::buoyant_weight(s.diameter, s.density, fluid_density_, scene_.column.gravity);
   if (!(weight > 0)) return std::nullopt;
-  if (effect == "cohesion") {
-    const Surfaces surfaces = surfaces_of(scene_, fluid_density_ < 100);
-    return closures::van_der_waals_relevance(surfaces.hamaker, surfaces.roughness, weight);
-  }
+  if (effect == "cohesion") return closures::van_der_waals_relevance(surfaces_.hamaker, surfaces_.roughness, weight);
   const double speed = std::sqrt(closures::dot(met.slip, met.slip));
   if (fluid_density_ * speed * s.diameter / viscosity_ > greatest_reynolds) return std::nullopt;
   closures::Vec3 force{};
@@ -95,15 +94,17 @@ std::optional<double> Neglected::share_of(const std::string& effect, const Encou
 
 void Neglected::see(const Encounter& met) {
   double sum = 0;
+  bool whole = true;
   for (std::size_t n = 0; n + 1 < observed_.size(); ++n) {
     if (const auto share = share_of(observed_[n].effect, met)) {
       observed_[n].add(*share, met, tolerance_);
       sum += *share;
     } else {
       ++observed_[n].outside;
+      whole = false;
     }
   }
-  observed_.back().add(sum, met, tolerance_);
+  whole ? observed_.back().add(sum, met, tolerance_) : void(++observed_.back().outside);
 }
 
 void Neglected::gather(const core::Ranks* ranks) {
@@ -142,7 +143,8 @@ std::string neglected_table(const Neglected& neglected) {
 }
 
 void write_neglected(core::Json& json, const Neglected& neglected) {
-  json.key("promise").begin_object().member("tolerance", neglected.tolerance()).member("kept", neglected.kept());
+  json.key("promise").begin_object().member("tolerance", neglected.tolerance());
+  neglected.kept() ? json.member("kept", *neglected.kept()) : json.key("kept").null();
   json.key("observed").begin_array();
   for (const Observed& o : neglected.observed()) {
     json.begin_object().member("effect", o.effect).member("bound", o.bound).member("greatest", o.greatest);

@@ -56,14 +56,19 @@ class Neglected {
   /// What cannot: history and added mass need accelerations.
   [[nodiscard]] const std::vector<std::string>& not_evaluated() const { return not_evaluated_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
-  /// Whether 99 of 100 encounters keep the promise; greater extremes are told, not held against it.
-  [[nodiscard]] bool kept() const { return sum().percentile() <= tolerance_; }
+  /// Whether 99 of 100 encounters keep the promise; greater extremes are told, not held against it. Nothing where all
+  /// that was met lies beyond the closures' range.
+  [[nodiscard]] std::optional<bool> kept() const {
+    if (sum().count == 0) return std::nullopt;
+    return 100 * sum().above <= sum().count;
+  }
 
  private:
   [[nodiscard]] std::optional<double> share_of(const std::string& effect, const Encounter& met) const;
 
   core::Scene scene_;
   double fluid_density_ = 0, viscosity_ = 0, tolerance_;
+  Surfaces surfaces_{};
   std::vector<Observed> observed_;
   std::vector<std::string> not_evaluated_;
 };

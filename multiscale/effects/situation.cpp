@@ -187,6 +187,21 @@ class BedInFluid {
   closures::CarriedBed bed_{};
 };
 
+/// Species at rest on each other, with nothing around them.
+std::vector<Situation> dry_bed(const core::Scene& scene) {
+  std::vector<Situation> bed;
+  for (const core::Species& species : scene.species) {
+    Situation s;
+    s.zone = "packed";
+    s.species = species.name;
+    s.diameter = species.diameter;
+    s.density = species.density;
+    s.gravity = scene.column.gravity;
+    bed.push_back(s);
+  }
+  return bed;
+}
+
 }  // namespace
 
 double Situation::relaxation_time() const {
@@ -226,7 +241,10 @@ Survey survey(const core::Scene& scene) {
   measure_bed(scene, s);
   find_velocities(scene, s);
   s.has_fluid = scene.fluid.name != "none";
-  if (!s.has_fluid) return s;
+  if (!s.has_fluid) {
+    if (scene.column.gravity > 0) s.dry = dry_bed(scene);
+    return s;
+  }
   const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
   constexpr double lightest_liquid = 100;  // kg/m3: lighter than any liquid, denser than gases at some 50 bar
   s.fluid_density = fluid.density;

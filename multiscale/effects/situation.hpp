@@ -46,6 +46,7 @@ struct Situation {
 /// What a scene spans.
 struct Survey {
   std::vector<Situation> situations;
+  std::vector<Situation> dry;                                ///< without a fluid: each species at rest on itself
   double least_velocity = 0, greatest_velocity = 0;          ///< superficial, m/s
   double solids_fraction = 0;                                ///< of the bed at its start
   double mean_fraction = 0;                                  ///< of the solids over the whole column
@@ -56,6 +57,9 @@ struct Survey {
   double mixture_part = 0;                                         ///< greatest |f_j/f_mean - 1| of the bulk
   double greatest_slip_difference = 0, voidage_of_difference = 1;  ///< of two species, |U_j - U_k|, m/s
   std::string drag_law;                                            ///< the one the forces are balanced with
+
+  /// What forces between particles are weighed in.
+  [[nodiscard]] const std::vector<Situation>& touching() const { return has_fluid ? situations : dry; }
 };
 
 /// Throws core::CaseError if the fluid is not known at a temperature asked for.

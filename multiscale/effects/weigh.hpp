@@ -13,7 +13,8 @@ namespace polybed::multiscale {
 struct Surfaces {
   double roughness, hamaker;  ///< m, J
 };
-[[nodiscard]] Surfaces surfaces_of(const core::Scene& scene, bool gas);
+/// What the case says of them, else what is usual: across a gas, or nothing, ten times the pull across a liquid.
+[[nodiscard]] Surfaces surfaces_of(const core::Scene& scene, const Survey& survey);
 
 /// Forces on particles: added mass, history, lift, magnus, brownian, gas_slip, lubrication, cohesion.
 [[nodiscard]] std::vector<EffectRow> weigh_forces(const core::Scene& scene, const Survey& survey);

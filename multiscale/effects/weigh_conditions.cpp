@@ -44,9 +44,10 @@ double greatest_slip(const Survey& survey) {
 constexpr double sound_in_liquids = 1480;
 
 EffectRow equation_of_state(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = row_of("equation_of_state", survey.is_gas ? "ideal_gas" : "tait",
-                         survey.is_gas ? "greatest of Ma^2/2, dp/p0, rho g H/p0" : "greatest of Ma^2/2, dp/(rho c^2)",
-                         Kind::condition);
+  EffectRow row =
+      row_of("equation_of_state", survey.is_gas ? "ideal_gas" : "tait",
+             survey.is_gas ? "greatest of Ma^2/2, dp/p0, rho g H/p0" : "greatest of Ma^2/2, dp/(rho c^2), g H/c^2",
+             Kind::condition);
   row.threshold = scene.chooser.tolerance;
   const double rho = survey.fluid_density, p0 = scene.fluid.outlet_pressure, g = scene.column.gravity;
   double solids = 0;
@@ -55,7 +56,6 @@ EffectRow equation_of_state(const core::Scene& scene, const Survey& survey) {
   const double sound2 = survey.is_gas ? p0 / rho : sound_in_liquids * sound_in_liquids;
   const double mach2 = greatest_slip(survey) * greatest_slip(survey) / sound2;
   row.value = std::max({0.5 * mach2, drop / (rho * sound2), rho * g * survey.column_height / (rho * sound2)});
-  if (survey.is_gas) row.value = std::max({*row.value, drop / p0, rho * g * survey.column_height / p0});
   const bool calls = *row.value > *row.threshold, set = scene.fluid.equation_of_state != "incompressible";
   row.state = set ? State::on : State::off;
   if (!set) row.neglected = *row.value;
@@ -161,7 +161,7 @@ EffectRow charge(const core::Scene& scene, const Survey& survey) {
   constexpr double permittivity = 8.8541878128e-12;  // F/m
   const double q = *scene.chooser.charge;
   Supremum greatest;
-  for (const Situation& s : survey.situations)
+  for (const Situation& s : survey.touching())
     greatest.add(s, q * q / (4 * std::numbers::pi * permittivity * s.diameter * s.diameter) / s.reference());
   greatest.fill(row);
   row.is_force = true;
@@ -183,7 +183,7 @@ EffectRow capillary(const core::Scene& scene, const Survey& survey) {
     return row;
   }
   Supremum greatest;
-  for (const Situation& s : survey.situations)
+  for (const Situation& s : survey.touching())
     greatest.add(s, closures::capillary_relevance(*scene.chooser.free_liquid, s.diameter, s.reference()));
   greatest.fill(row);
   row.is_force = true;

@@ -6,6 +6,7 @@
 #include "closures/gas_slip.hpp"
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "fluid/gas_slip.hpp"
 #include "multiscale/effects/supremum.hpp"
 #include "multiscale/effects/weigh.hpp"
 
@@ -17,8 +18,6 @@ using State = EffectRow::State;
 
 /// Beyond it lift and spin forces are no more than known by their order, also in sign.
 constexpr double greatest_certain_reynolds = 100;
-/// Specific gas constant of air, J/(kg K); that of other gases differs by their molar mass.
-constexpr double air_constant = 287.05;
 constexpr double room_temperature = 293.15;  ///< K, where the case names none
 
 EffectRow force_row(const char* effect, const char* model, const char* number, double tolerance) {
@@ -38,7 +37,12 @@ EffectRow weigh_sheared(EffectRow row, const Survey& survey, Relevance&& of_slip
   for (const Situation& s : survey.situations) {
     // The share of the lift falls with the slip: its greatest lies within the range, from a fifth of it.
     double value = 0;
-    for (int n = 0; n < 33; ++n) value = std::max(value, of_slip(s, s.slip * (0.2 + 0.8 * n / 32)));
+    for (int n = 0; n < 33; ++n) {
+      const double share = 0.2 + 0.8 * n / 32, found = of_slip(s, s.slip * share);
+      value = std::max(value, found);
+      // Where the fastest are beyond the law's range, slower ones of the same zone are within it, under its shear.
+      if (share * s.particle_reynolds() <= greatest_certain_reynolds) row.in_range = std::max(row.in_range, found);
+    }
     if (s.particle_reynolds() > greatest_certain_reynolds)
       greatest.add_uncertain(s, {0, value});
     else
@@ -103,7 +107,8 @@ EffectRow magnus(const core::Scene& scene, const Survey& survey) {
 EffectRow brownian(const core::Scene& scene, const Survey& survey) {
   EffectRow row = force_row("brownian", "langevin", "1/Pe", scene.chooser.tolerance);
   row.models = "dem";
-  row.not_built = "no law of it in this version";
+  if (!scene.fluid.temperature) row.not_built = "needs fluid.temperature; weighed at 20 degC";
+  if (scene.dem.held) row.not_built = "dem.held holds the particles";
   Supremum greatest;
   const auto drag = [](double, double re) { return closures::DragSchillerNaumann{}(1, re).f; };
   for (const Situation& s : survey.situations) {
@@ -120,7 +125,6 @@ EffectRow brownian(const core::Scene& scene, const Survey& survey) {
 EffectRow gas_slip(const core::Scene& scene, const Survey& survey) {
   EffectRow row = force_row("gas_slip", "cunningham", "1.257 Kn", scene.chooser.tolerance);
   row.summed = false;  // it changes the drag, whose error is told apart
-  row.not_built = "no law of it in this version";
   if (!survey.is_gas) {
     row.neglected = 0;
     row.reason = "a liquid does not slip";
@@ -128,10 +132,9 @@ EffectRow gas_slip(const core::Scene& scene, const Survey& survey) {
   }
   Supremum greatest;
   for (const Situation& s : survey.situations)
-    greatest.add(s, closures::gas_slip_relevance(
-                        closures::mean_free_path(s.fluid_density, s.viscosity,
-                                                 s.temperature > 0 ? s.temperature : room_temperature, air_constant),
-                        s.diameter));
+    greatest.add(s,
+                 closures::gas_slip_relevance(
+                     fluid::mean_free_path_at(scene.fluid.outlet_pressure, s.fluid_density, s.viscosity), s.diameter));
   greatest.fill(row);
   return row;
 }
@@ -160,31 +163,24 @@ EffectRow lubrication(const core::Scene& scene, const Survey& survey) {
 }
 
 EffectRow cohesion(const core::Scene& scene, const Survey& survey) {
-  const Surfaces surfaces = surfaces_of(scene, survey.is_gas || !survey.has_fluid);
+  const Surfaces surfaces = surfaces_of(scene, survey);
   EffectRow row = force_row("cohesion", "van_der_waals", "pull of rough surfaces over weight", scene.chooser.tolerance);
   row.models = "dem";
   Supremum greatest;
   const auto pull = [&](double reference) {
     return closures::van_der_waals_relevance(surfaces.hamaker, surfaces.roughness, reference);
   };
-  for (const Situation& s : survey.situations) greatest.add(s, pull(s.reference()));
-  if (!survey.has_fluid && scene.column.gravity > 0)
-    for (const core::Species& species : scene.species) {
-      Situation dry;
-      dry.species = species.name;
-      dry.zone = "packed";
-      greatest.add(dry, pull(closures::buoyant_weight(species.diameter, species.density, 0, scene.column.gravity)));
-    }
+  for (const Situation& s : survey.touching()) greatest.add(s, pull(s.reference()));
   greatest.fill(row);
   return row;
 }
 
 }  // namespace
 
-Surfaces surfaces_of(const core::Scene& scene, bool gas) {
-  const double known = scene.dem.hamaker_constant;
+Surfaces surfaces_of(const core::Scene& scene, const Survey& survey) {
+  const double known = scene.dem.hamaker_constant, usual = survey.is_gas || !survey.has_fluid ? 1e-19 : 1e-20;
   return {scene.chooser.roughness.value_or(scene.dem.roughness),
-          scene.chooser.hamaker.value_or(known > 0 ? known : (gas ? 1e-19 : 1e-20))};
+          scene.chooser.hamaker.value_or(known > 0 ? known : usual)};
 }
 
 std::vector<EffectRow> weigh_forces(const core::Scene& scene, const Survey& survey) {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Writes the registries of the particle model without lift and cohesion: bare_sources.py ROOT OUTPUT_FOLDER."""
+"""Writes the registries without lift and cohesion of particles and without the exchange of species and the viscosity of packed solids of
+the continuum: bare_sources.py ROOT OUTPUT_FOLDER."""
 import pathlib
 import re
 import sys
@@ -23,8 +24,15 @@ def bare_effects(text):
     return without(text, r"^  laws\.cohesion = .*?;\n", 1)
 
 
+def bare_tfm_effects(text):
+    text = without(text, r'^#include "tfm/effects/(species_exchange_syamlal|solids_viscosity_frictional)\.hpp"\n', 2)
+    text = without(text, r"^    if \(constants\.species\(\) > 1\)\n      effects\.species_exchange = .*?;\n", 1)
+    return without(text, r"^    effects\.solids_viscosity = .*?;\n", 1)
+
+
 if __name__ == "__main__":
     root, output = map(pathlib.Path, sys.argv[1:3])
     output.mkdir(parents=True, exist_ok=True)
-    for name, bare in (("side_forces", bare_side_forces), ("effects", bare_effects)):
-        (output / f"bare_{name}.cpp").write_text(bare((root / "dem" / f"{name}.cpp").read_text()))
+    for source, name, bare in (("dem/side_forces", "side_forces", bare_side_forces), ("dem/effects", "effects", bare_effects),
+                               ("tfm/effects", "tfm_effects", bare_tfm_effects)):
+        (output / f"bare_{name}.cpp").write_text(bare((root / f"{source}.cpp").read_text()))

@@ -1,12 +1,14 @@
-// A small scene without lift and cohesion, to be counted instruction by instruction: built once with the whole particle
-// model, and once bare, without the files of those effects and their lines in the registries. What it prints is what an
-// absent effect must not change.
+// Small scenes of both models, to be counted instruction by instruction: of particles without lift and cohesion, of a
+// continuum without the exchange of species and the viscosity of packed solids. Built once with the whole models, and
+// once bare, without the files of those effects and their lines in the registries. What it prints is what an absent
+// effect must not change.
 #include <fmt/format.h>
 
 #include "absent/control.hpp"
 #include "core/case_file.hpp"
 #include "core/timers.hpp"
 #include "dem/model.hpp"
+#include "tfm/model.hpp"
 
 namespace {
 
@@ -27,6 +29,25 @@ diameter = "1 mm"
 density = 2500
 )";
 
+const char* const continuum = R"(
+title = "absent"
+column = { size = ["6 mm", "12 mm"], cells = [3, 6] }
+fluid = { name = "water", temperature = "20 degC" }
+bed = { volume_share = [0.5, 0.5], static_height = "5 mm", solids_fraction = 0.55 }
+inlet = { superficial_velocity = "20 mm/s" }
+effects = { drag = "cello", solids_stress = "frictional", fluid_stress = "newtonian" }
+run = { until = "1 s" }
+tfm = { integrator = "explicit", fixed_step = "0.5 ms" }
+[[species]]
+name = "fine"
+diameter = "0.5 mm"
+density = 2500
+[[species]]
+name = "coarse"
+diameter = "1 mm"
+density = 2000
+)";
+
 std::size_t bytes_of(const core::Checkpoint& checkpoint) {
   std::size_t bytes = 0;
   for (const auto& [name, array] : checkpoint.arrays) bytes += name.size() + array.size() * sizeof(double);
@@ -34,9 +55,7 @@ std::size_t bytes_of(const core::Checkpoint& checkpoint) {
   return bytes;
 }
 
-}  // namespace
-
-int main() {
+void particles() {
   core::Scene scene = core::parse_case(text, "absent", {}, dem::roles());
   scene.effects["drag"] = "cello";
   core::Timers timers;
@@ -48,5 +67,21 @@ int main() {
   for (const dem::StepLimit& limit : model.limits().all) fmt::print("limit {} {}\n", limit.name, limit.dt);
   fmt::print("contact steps {}\n", model.work().contact_steps);
   fmt::print("checkpoint {}\n", bytes_of(model.checkpoint()));
+}
+
+void run_continuum() {
+  const core::Scene scene = core::parse_case(continuum, "absent", {}, tfm::roles());
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  for (int n = 0; n < 10; ++n) model.step(1e300);
+  fmt::print("unknowns {}\ncontinuum steps {}\ncheckpoint {}\n", model.checkpoint().arrays.at("state").size(),
+             model.work().steps, bytes_of(model.checkpoint()));
+}
+
+}  // namespace
+
+int main() {
+  particles();
+  run_continuum();
   fmt::print("control {}\n", absent::control_kernel(1000));
 }

@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 OURS = re.compile(r"\bpolybed::")
 # What makes effects, once: here the registries themselves differ.
-REGISTRIES = re.compile(r"SideForces::SideForces|make_pair_laws|make_cohesion|calls_for|PairLaws::|dem::roles")
+REGISTRIES = re.compile(r"SideForces::SideForces|make_pair_laws|make_cohesion|calls_for|PairLaws::|roles\(\)|make_effects|make_solids_stress|tfm::\(anonymous namespace\)::refuse")
 CONTROL = "polybed::absent::control_kernel(int)"
 LEAST = 1000  # instructions: below it a function is no kernel
 
@@ -60,6 +60,8 @@ def main():
             (sys.argv[1], folder, "whole"), (sys.argv[2], folder, "bare")])
     assert text == bare_text, f"the lists differ:\n{text}\nwithout the effects:\n{bare_text}"
     assert int(re.search(r"contact steps (\d+)", text)[1]) > 0, "no particles met: the kernel of contacts did nothing"
+    assert int(re.search(r"continuum steps (\d+)", text)[1]) > 0, "the continuum did nothing"
+    assert any("tfm::" in f for f in whole), "no kernel of the continuum was counted"
     found = differences(whole, bare)
     assert found.pop(CONTROL, None), "the control, a kernel with a flag, was not told apart: the test sees nothing"
     kernels = {f: n for f, n in whole.items() if n >= LEAST and not REGISTRIES.search(f) and f != CONTROL}

@@ -1,5 +1,7 @@
 #!/usr/bin/python3
 """Which effects a scene calls for, as a user asks and gets told; and a case that leaves them to the program."""
+import re
+
 import program
 from program import CASE, DONE, NUMBERS, WRONG_CASE, Scratch, datasets, same_bits, strict_json
 
@@ -59,8 +61,10 @@ class Table(Scratch):
         case = self.write("beads.toml", BEADS)
         narrow, wide = self.table(case)[1], self.table(case, "--set", 'chooser.velocity_range=["0 mm/s", "2 m/s"]')[1]
         self.assertGreater(wide["lift"]["zones"]["freeboard"], narrow["lift"]["zones"]["freeboard"])
-        strict, strict_rows = self.table(case, "--set", "chooser.tolerance=1e-4")
-        self.assertTrue(strict_rows["lift"]["on"] or "band" in strict_rows["lift"])
+        # At the walls Re_p stays below 100, where lift is a number and no band.
+        at_walls = ["--set", 'chooser.zones=["wall"]']
+        self.assertFalse(self.table(case, *at_walls, "--set", "chooser.tolerance=0.2")[1]["lift"]["on"])
+        self.assertTrue(self.table(case, *at_walls, "--set", "chooser.tolerance=1e-4")[1]["lift"]["on"])
         transient = self.table(case, "--set", "chooser.purpose=transient")[1]
         self.assertTrue(transient["added_mass"]["on"])
         self.assertFalse(self.table(case)[1]["added_mass"]["on"])
@@ -104,6 +108,26 @@ class Auto(Scratch):
         self.assertIn('drag = "ergun"', shown)
         self.assertIn('chosen = ["lubrication"]', shown)
 
+    def test_the_time_of_an_auto_run_is_told(self):
+        told = strict_json(self.ends(DONE, "estimate", self.write("auto.toml", 'effects = "auto"\n' + BEADS), "--json").stdout)
+        self.assertEqual(told["model"], "tfm")
+
+    def test_without_a_fluid_what_needs_one_is_off_and_surfaces_adhere_as_weighed(self):
+        """By hand: rough surfaces pull with A R/(12 z^2) of their asperities, across nothing with A = 1e-19 J."""
+        dry = re.sub(r"(?s)\[fluid\].*?\[\[", '[fluid]\nname = "none"\n[[', BEADS).replace(
+            '[inlet]\nsuperficial_velocity = "30 mm/s"\n', "").replace('"1 mm"', '"20 um"').replace(
+            'volume_share = [1]\nstatic_height = "12 mm"', 'particles = [100]').replace("[6, 30]", '[6, 30]\ndepth = "60 um"')
+        case = self.write("dry.toml", 'effects = "auto"\n' + dry)
+        resolved = strict_json(self.ends(DONE, "check", case, "--json").stdout)["case"]
+        self.assertIn('cohesion = "van_der_waals"', resolved)
+        self.assertIn("hamaker_constant = 1e-19", resolved)
+        self.assertNotIn("drag", resolved.split("[effects]")[1].split("[")[0])
+        rows = {row["effect"]: row for row in strict_json(self.ends(
+            DONE, "effects", case, "--json", "--set", "chooser.charge=1e-15", "--set", "chooser.free_liquid=0.07").stdout)["effects"]}
+        for effect in ("charge", "capillary_bridges"):
+            self.assertIsNotNone(rows[effect]["value"], effect)
+            self.assertTrue(rows[effect]["reason"], effect)
+
 
 # What the bed of beads has by hand; the spin of particles and the lift are left out.
 BY_HAND = BEADS + """[effects]
@@ -132,17 +156,19 @@ class Promise(Scratch):
     def test_an_auto_run_of_particles_keeps_its_promise(self):
         case, run = self.write("auto.toml", 'effects = "auto"\n' + BEADS), self.folder / "run"
         self.ends(DONE, "dem", case, "-o", run, "--quiet", "--no-picture")
-        self.assertTrue(strict_json((run / "run.json").read_text())["promise"]["kept"])
+        promise = strict_json((run / "run.json").read_text())["promise"]
+        self.assertTrue(promise["kept"])
+        self.assertGreater(promise["observed"][-1]["encounters"], 0)
         self.ends(DONE, "effects", "audit", run)
 
-    def ramp(self, name, monitor):
+    def ramp(self, name, monitor, *more):
         """The bed is weighed packed, where nothing shears; the inlet then lifts it."""
         words = ["--set", 'chooser.zones=["packed"]', "--set", f"chooser.monitor={monitor}", "--set",
                  "chooser.monitor_every=20", "--set", "chooser.monitor_sample=4", "--set", "chooser.tolerance=0.01",
                  "--set", 'inlet.superficial_velocity=[["0 s", "1 mm/s"], ["0.05 s", "80 mm/s"]]']
         case, run = self.write("ramp.toml", BY_HAND), self.folder / name
         code = NUMBERS if monitor == "stop" else DONE
-        return self.ends(code, "dem", case, "-o", run, "--no-picture", *words), strict_json((run / "run.json").read_text()), run
+        return self.ends(code, "dem", case, "-o", run, "--no-picture", *words, *more), strict_json((run / "run.json").read_text()), run
 
     def test_the_monitor_warns_stops_and_is_absent_when_off(self):
         warned, record, run = self.ramp("warn", "warn")
@@ -159,6 +185,31 @@ class Promise(Scratch):
         self.assertNotIn("monitor", off_record["timers"])
         self.assertIn("monitor", record["timers"])
         self.assertEqual(same_bits(run / "particles.h5", off / "particles.h5"), [])
+
+    def test_the_monitor_switches_on_what_it_finds(self):
+        more = ["--set", 'output.every="0.01 s"']
+        told, record, run = self.ramp("enable", "enable", *more)
+        self.assertIn("will be on from", told.stderr)
+        switched = record["switched_on"]
+        self.assertTrue({one["effect"] for one in switched} <= {"lift", "magnus"} and switched, switched)
+        first = min(one["from_s"] for one in switched)
+        self.assertAlmostEqual(first / 0.01, round(first / 0.01), places=9)  # an output time
+        self.assertLess(first, 0.05)
+        for one in switched:
+            if one["from_s"] < record["time_s"]:
+                self.assertIn(f'{one["effect"]} = ', record["case"].split("[effects]")[1])
+        self.assertEqual(record["state"], "done")
+        # Until the switch as a run that only warns, afterwards not.
+        _, _, warned = self.ramp("warned", "warn", *more)
+        one, other = datasets(run / "particles.h5"), datasets(warned / "particles.h5")
+        differ = {name for name in one if one[name].tobytes() != other[name].tobytes()}
+        self.assertTrue(differ)
+        steps = sorted(name for name in one if name.endswith("/velocity"))
+        self.assertTrue(all(steps.index(name) * 0.01 > first - 1e-9 for name in differ if name in steps), (first, differ))
+        # Stopped after the switch and taken up, the run knows what is on: the same bits.
+        _, _, parts = self.ramp("parts", "enable", "--until", f"{first + 0.005} s", *more)
+        _, _, parts = self.ramp("parts", "enable", "--resume", *more)
+        self.assertEqual(same_bits(run / "particles.h5", parts / "particles.h5"), [])
 
     def test_an_effect_without_strength_is_as_one_that_is_off(self):
         case = self.write("hand.toml", BY_HAND)

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
-"""Lift, spin, history and lubrication of particles in a fluid on 1, 2 and 3 ranks: the same bits of all that is kept of them, with and
+"""Lift, spin, history, heat motion and lubrication of particles in a fluid on 1, 2 and 3 ranks: the same bits of all that is kept of them, with and
 without a restart on another number of ranks."""
+import json
+
 import h5py
 
 import dem_ranks_test
@@ -14,6 +16,7 @@ depth = "2.4 mm"
 cells = [6, 12]
 [fluid]
 name = "test liquid"
+temperature = "20 degC"
 density = 1000
 viscosity = "1e-3 Pa s"
 [inlet]
@@ -31,6 +34,7 @@ contact = "hertz_mindlin"
 lift = "saffman_mei"
 magnus = "rubinow_keller"
 history = "basset"
+brownian = "langevin"
 added_mass = "zuber"
 lubrication = "LUBRICATION"
 [dem]
@@ -74,7 +78,7 @@ class SideRanks(Scratch):
         for ranks in (1, 2, 3):
             self.on(ranks, case, "-o", self.folder / str(ranks))
             runs[ranks] = self.arrays(self.folder / str(ranks))
-        self.assertEqual(len(runs[1]["fluid_sides"]), 8 * 52 * 72)
+        self.assertEqual(len(runs[1]["fluid_sides"]), 8 * 53 * 72)
         self.assertGreater(len(runs[1]["contacts"]), 0)
         for ranks in (2, 3):
             for name, numbers in runs[1].items():
@@ -84,6 +88,21 @@ class SideRanks(Scratch):
         self.assertNotEqual(self.arrays(cut)["fluid_sides"], runs[1]["fluid_sides"])
         self.on(3, case, "--resume", "-o", cut)
         self.assertEqual(self.arrays(cut), runs[1])
+
+    def test_the_chooser_and_its_monitor_say_the_same_on_any_number_of_ranks(self):
+        self.write("particles.csv", "\n".join(["species,x,y,z,vx,vy,vz,wx,wy,wz", *crowd()]) + "\n")
+        effects = CASE.index("[effects]"), CASE.index("[dem]")
+        case = self.write("auto.toml", 'effects = "auto"\n[chooser]\nmonitor_every = 20\nmonitor_sample = 3\n' +
+                          CASE[:effects[0]] + CASE[effects[1]:])
+        records = {}
+        for ranks in (1, 3):
+            self.on(ranks, case, "--until", "4 ms", "-o", self.folder / f"auto-{ranks}")
+            records[ranks] = json.loads((self.folder / f"auto-{ranks}/run.json").read_text())
+        self.assertIn("drag = ", records[1]["case"])
+        self.assertEqual(records[1]["case"], records[3]["case"])
+        self.assertGreater(records[1]["promise"]["observed"][-1]["encounters"], 100)
+        self.assertEqual(records[1]["promise"], records[3]["promise"])
+
 
 if __name__ == "__main__":
     main()

@@ -4,8 +4,13 @@ namespace polybed::tfm {
 
 using core::Index;
 
-Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law)
-    : constants_(constants), boundaries_(boundaries), name_(law), law_(closures::drag_law(law, closures::Guard::on)) {
+Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law,
+           std::vector<double> divisors)
+    : constants_(constants),
+      boundaries_(boundaries),
+      name_(law),
+      law_(closures::drag_law(law, closures::Guard::on)),
+      divisors_(std::move(divisors)) {
   share_.resize(constants.species());
   slip_.resize(constants.species());
   result_.resize(constants.species());
@@ -24,7 +29,7 @@ void Drag::evaluate(Fields& fields) {
     closures::drag_of_cells(law_, eps, share_, slip_, constants_.diameter, constants_.fluid.density,
                             constants_.fluid.viscosity, result_, count_);
     for (std::size_t j = 0; j < constants_.species(); ++j) {
-      const double factor = scale / (constants_.diameter[j] * constants_.diameter[j]);
+      const double factor = scale / (constants_.diameter[j] * constants_.diameter[j] * divisors_[j]);
       for (std::size_t c = 0; c < cells; ++c) result_[j][c] *= factor * eps[c];
     }
   });

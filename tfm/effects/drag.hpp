@@ -10,7 +10,9 @@ namespace polybed::tfm {
 /// composition and the superficial slip of species j.
 class Drag : public FluidExchange {
  public:
-  Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law);
+  /// \param divisors  of the drag on each species by the slip of a gas; 1 without it
+  Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law,
+       std::vector<double> divisors);
   void evaluate(Fields& fields) override;
   [[nodiscard]] ClosureUse use() const override;
 
@@ -20,6 +22,7 @@ class Drag : public FluidExchange {
   std::string name_;
   closures::DragLaw law_;
   closures::GuardCount count_;
+  std::vector<double> divisors_;
   std::vector<const double*> share_, slip_;
   std::vector<double*> result_;
 };

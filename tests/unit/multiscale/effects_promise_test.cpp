@@ -10,6 +10,7 @@
 #include "multiscale/effects/fluid_map.hpp"
 #include "multiscale/effects/monitor.hpp"
 #include "multiscale/effects/neglected.hpp"
+#include "multiscale/effects/switching.hpp"
 #include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {
@@ -128,6 +129,59 @@ TEST(Neglected, EvaluatesTheClosureOfTheChoice) {
   met.slip = {0, 1, 0};
   neglected.see(met);
   EXPECT_EQ(neglected.observed()[0].outside, 1U);
+}
+
+// The coarse species of system B falls at Re_p near 200 in the freeboard, where the law of the lift is a band. At
+// Re_p 99 it is within the law, under the shear of that zone: 10 u_t/L with u_t about 0.1 m/s and L 60 mm.
+TEST(Neglected, BoundsSlowEncountersOfWhatIsFastElsewhere) {
+  const std::string b = R"(
+column = { size = [0.06, 0.6], cells = [6, 60] }
+fluid = { name = "liquid", density = 999.19, viscosity = 1.14e-3 }
+bed = { volume_share = [0.569, 0.431], static_height = "90 mm", solids_fraction = 0.62 }
+inlet = { superficial_velocity = "30 mm/s" }
+effects = { drag = "cello", solids_stress = "frictional" }
+run = { until = "1 s" }
+[[species]]
+name = "fine"
+diameter = "0.807 mm"
+density = 1395
+[[species]]
+name = "coarse"
+diameter = "2.01 mm"
+density = 1170
+)";
+  const core::Scene scene = core::parse_case(b, "case.toml", {}, all_roles(), size_classes);
+  Neglected neglected(scene, "tfm");
+  const Observed& lift = neglected.observed()[0];
+  ASSERT_EQ(lift.effect, "lift");
+  const Choice choice = choose(scene);
+  for (const EffectRow& row : choice.rows)
+    if (row.effect == "lift") {
+      EXPECT_EQ(lift.bound, row.in_range);
+      EXPECT_LT(row.in_range, row.band->most);  // that of the fastest
+      EXPECT_GT(row.in_range, *row.value);      // that of situations that are all within
+    }
+  Encounter met;
+  met.species = 1;
+  met.slip = {0, 99 * 1.14e-3 / (999.19 * 2.01e-3), 0};
+  met.vorticity = {0, 0, 16};
+  neglected.see(met);
+  EXPECT_EQ(lift.outside, 0U);
+  EXPECT_LE(lift.greatest, lift.bound);
+  EXPECT_GT(lift.greatest, 0.02);  // beyond the bound that had been said
+}
+
+TEST(Switching, PutsEffectsOnFromTheirTimeOn) {
+  const core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
+  const std::vector<Switch> switches = switches_of(text_of({{"lift", 0.1}, {"magnus", 1.0 / 3}}));
+  ASSERT_EQ(switches.size(), 2U);
+  EXPECT_EQ(switches[1].time, 1.0 / 3);  // to the bit
+  EXPECT_EQ(next_switch(switches, 0), 0.1);
+  EXPECT_EQ(next_switch(switches, 0.1), 1.0 / 3);
+  EXPECT_TRUE(std::isinf(next_switch(switches, 1)));
+  EXPECT_EQ(core::law_of(at_time(scene, switches, 0.09), "lift"), "none");
+  EXPECT_EQ(core::law_of(at_time(scene, switches, 0.1), "lift"), "saffman_mei");
+  EXPECT_FALSE(can_be_switched("history"));  // it would need what has been
 }
 
 TEST(Conflicts, AreToldWithBothLines) {

@@ -1,0 +1,36 @@
+#include "fluid/gas_slip.hpp"
+
+#include <fmt/format.h>
+
+#include "closures/gas_slip.hpp"
+#include "core/error.hpp"
+#include "fluid/properties.hpp"
+
+namespace polybed::fluid {
+
+namespace {
+
+constexpr double lightest_liquid = 100;  ///< kg/m3: lighter than any liquid, denser than gases at some 50 bar
+
+}  // namespace
+
+double mean_free_path_at(double pressure, double density, double viscosity) {
+  constexpr double kelvin = 1;  // only the product R T is asked for
+  return closures::mean_free_path(density, viscosity, kelvin, pressure / density);
+}
+
+std::vector<double> slip_divisors(const core::Scene& scene, std::span<const double> diameters) {
+  std::vector<double> divisors(diameters.size(), 1.0);
+  if (core::law_of(scene, "gas_slip") == "none") return divisors;
+  const FluidConstants fluid = fluid_constants(scene.fluid);
+  if (fluid.density > lightest_liquid)
+    throw core::CaseError(
+        fmt::format("effects.gas_slip: a fluid of {:.4g} kg/m3 is a liquid, which does not slip: "
+                    "leave it out",
+                    fluid.density));
+  const double path = mean_free_path_at(scene.fluid.outlet_pressure, fluid.density, fluid.viscosity);
+  for (std::size_t j = 0; j < divisors.size(); ++j) divisors[j] = closures::cunningham_divisor(2 * path / diameters[j]);
+  return divisors;
+}
+
+}  // namespace polybed::fluid

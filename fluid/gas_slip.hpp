@@ -1,0 +1,18 @@
+// The slip of a gas on the spheres of a scene.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/scene.hpp"
+
+namespace polybed::fluid {
+
+/// Mean free path of an ideal gas at a pressure, m: closures/gas_slip.hpp with R T = P/rho.
+[[nodiscard]] double mean_free_path_at(double pressure, double density, double viscosity);
+
+/// Divisors of the drag on spheres of these diameters, m: Cunningham's at the outlet's pressure where the scene has
+/// effects.gas_slip, else 1. Throws core::CaseError for a liquid, which does not slip.
+[[nodiscard]] std::vector<double> slip_divisors(const core::Scene& scene, std::span<const double> diameters);
+
+}  // namespace polybed::fluid
