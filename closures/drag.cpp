@@ -176,6 +176,13 @@ void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::sp
       law);
 }
 
+double pure_drag_at(const DragLaw& law, double voidage, double reynolds) {
+  double f = 0, slope = 0;
+  GuardCount count;
+  drag_of_points(law, {&voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
+  return f;
+}
+
 void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double> share,
                      std::span<const double> diameter, std::span<const double> slip, double fluid_density,
                      double viscosity, std::span<double> f, std::span<double> re_dfdre) {

@@ -41,6 +41,9 @@ struct DragLawInfo {
 void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::span<const double> reynolds,
                     std::span<double> f, std::span<double> re_dfdre, GuardCount& count);
 
+/// The base law at one point: pure drag over Stokes of one size.
+[[nodiscard]] double pure_drag_at(const DragLaw& law, double voidage, double reynolds);
+
 /// One cell with a mixture: f_j and Re df_j/dRe of every species.
 /// \param slip  superficial slip speed eps |U_f - U_j|, m/s, [species]
 void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double> share,

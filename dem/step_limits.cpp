@@ -17,6 +17,9 @@ namespace {
 /// dense contacts, whose limits add up, a fifth.
 constexpr double of_rayleigh = 0.2, of_stability = 0.2, of_diameter = 0.01;
 
+/// Of the limit of stability, beyond which a step that the case gives is warned of.
+constexpr double most_of_stability = 0.5;
+
 /// Limit of a spring of rotation, N m. Of two unequal bodies the inertia is taken too small.
 void add_rolling(const PairMaterial& pair, double stiffness, const std::string& name, std::vector<StepLimit>& all) {
   if (!(stiffness > 0)) return;
@@ -26,16 +29,18 @@ void add_rolling(const PairMaterial& pair, double stiffness, const std::string& 
 
 /// Limits of one pair of materials.
 void add_pair(const core::Scene& scene, const Materials& materials, const PairLaws& laws, int kind,
-              const std::string& name, double speed, bool synchronised, std::vector<StepLimit>& all) {
+              const std::string& name, double speed, bool synchronised, StepLimits& limits) {
   const double least_mass = materials.kinds()[std::size_t(kind)].mass;
   const NormalLaw& law = *laws.normal;
   const double overlap = law.overlap_of_impact(kind, speed), stiffness = law.stiffness_at(kind, overlap);
+  std::vector<StepLimit>& all = limits.all;
   all.push_back({fmt::format("contact time of {}", name), law.contact_time(kind, speed) / scene.dem.steps_per_contact});
   all.push_back({fmt::format("oscillation of {}", name), closures::dense_spring_step(least_mass, stiffness)});
   const double omega = std::sqrt(stiffness / least_mass), damping = law.damping_ratio(kind);
-  all.push_back({fmt::format("damping of {}", name),
-                 of_stability * (synchronised ? closures::step_limit_synchronised(omega, damping)
-                                              : closures::step_limit_thesis(omega, damping))});
+  const double stable =
+      synchronised ? closures::step_limit_synchronised(omega, damping) : closures::step_limit_thesis(omega, damping);
+  all.push_back({fmt::format("damping of {}", name), of_stability * stable});
+  if (limits.stability.name.empty() || stable < limits.stability.dt) limits.stability = {name, stable};
   if (laws.rolling)
     add_rolling(materials.kinds()[std::size_t(kind)],
                 laws.rolling->stiffness(kind, law.force_at(kind, overlap) / overlap), name, all);
@@ -62,7 +67,7 @@ StepLimits step_limits(const core::Scene& scene, const Materials& materials, con
       const bool wall = b == species.size();
       const int kind = wall ? materials.wall_kind(int(a)) : materials.kind(int(a), int(b));
       add_pair(scene, materials, laws, kind, fmt::format("{} and {}", species[a].name, wall ? "wall" : species[b].name),
-               speed, limits.synchronised, limits.all);
+               speed, limits.synchronised, limits);
     }
     const core::ContactProperties own = core::contact_properties(scene, species[a].name, species[a].name);
     const closures::Elastic material{own.first.youngs_modulus, own.first.poisson_ratio};
@@ -79,6 +84,11 @@ StepLimits step_limits(const core::Scene& scene, const Materials& materials, con
   if (scene.dem.fixed_step) {
     limits.dt = *scene.dem.fixed_step;
     limits.limited_by = "dem.fixed_step";
+    if (limits.dt > most_of_stability * limits.stability.dt)
+      limits.warning = fmt::format(
+          "dem.fixed_step = {:.3g} s is {:.2g} of {:.3g} s, beyond which a contact of {} grows without bound; several "
+          "contacts at once lower that limit: at most {:.2g} of it is sound",
+          limits.dt, limits.dt / limits.stability.dt, limits.stability.dt, limits.stability.name, most_of_stability);
   }
   return limits;
 }

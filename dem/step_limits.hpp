@@ -22,6 +22,8 @@ struct StepLimits {
   bool synchronised = false;  ///< the integrator, and why
   std::string integrator_reason;
   std::vector<StepLimit> all;  ///< the smallest first
+  StepLimit stability;         ///< whole, of the linear analysis: beyond it the numbers of this pair grow
+  std::string warning;         ///< of a step that the case gives, beyond half of that; empty: it is not
 };
 
 /// The step of a scene: the smallest of contact time over steps_per_contact, a share of the Rayleigh time, of the

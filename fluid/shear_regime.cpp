@@ -24,22 +24,12 @@ closures::DragLaw law_of_scene(const core::Scene& scene) {
   return closures::drag_law(name, closures::Guard::on);
 }
 
-/// f of one species alone.
-double pure_drag(const closures::DragLaw& law, const core::Species& species, const FluidConstants& fluid,
-                 double velocity, double voidage) {
-  const double share = 1, diameter = species.diameter, slip = velocity;
-  double f = 0, slope = 0;
-  closures::drag_of_mixture(law, voidage, {&share, 1}, {&diameter, 1}, {&slip, 1}, fluid.density, fluid.viscosity,
-                            {&f, 1}, {&slope, 1});
-  return f;
-}
-
 /// Voidage at which drag carries the buoyant weight of one species alone, in [0.4, 0.99].
 double floating_voidage(const core::Scene& scene, const closures::DragLaw& law, const core::Species& species,
                         const FluidConstants& fluid, double velocity) {
   const closures::CarriedBed bed{species.diameter, std::abs(species.density - fluid.density), fluid.density,
                                  fluid.viscosity, scene.column.gravity};
-  const auto f = [&](double eps, double) { return pure_drag(law, species, fluid, velocity, eps); };
+  const auto f = [&](double eps, double reynolds) { return closures::pure_drag_at(law, eps, reynolds); };
   return std::min(closures::carried_voidage(f, bed, velocity, 0.4), 0.99);
 }
 
@@ -64,9 +54,10 @@ RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, doub
   n.stokes_least = closures::stokes_of_impact(s.density, fluid.density, s.diameter, 0.2 * slip, fluid.viscosity);
   n.stokes_most = 5 * n.stokes_least;
   n.stokes_of_shear = closures::stokes_of_shear(s.density, s.diameter, n.shear_rate, fluid.viscosity);
+  const double reynolds = fluid.density * velocity * s.diameter / fluid.viscosity;
   n.shear_times_relaxation =
       n.shear_rate * closures::slip_relaxation_time(s.diameter, s.density, fluid.viscosity, n.voidage,
-                                                    pure_drag(law, s, fluid, velocity, n.voidage));
+                                                    closures::pure_drag_at(law, n.voidage, reynolds));
   return n;
 }
 

@@ -6,11 +6,13 @@
 
 #include <array>
 #include <cerrno>
-#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "multiscale/child_program.hpp"
+#include "multiscale/installed.hpp"
 
 namespace polybed::multiscale {
 
@@ -19,19 +21,10 @@ namespace {
 /// Debian's own Python: another one may come first on the path and lack the packages.
 constexpr const char* python = "/usr/bin/python3";
 
-/// The package installed beside this program, or that of the sources it was built from.
-std::string package() {
-  std::error_code unknown;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  const std::filesystem::path installed = self.parent_path() / POLYBED_PYTHON_INSTALLED;
-  return !unknown && std::filesystem::exists(installed, unknown) ? installed.lexically_normal().string()
-                                                                 : POLYBED_PYTHON_SOURCE;
-}
-
 /// This process's environment with the package in front of Python's search path.
 std::vector<std::string> environment() {
   constexpr std::string_view name = "PYTHONPATH=";
-  std::string path = std::string(name) + package();
+  std::string path = std::string(name) + beside_program(POLYBED_PYTHON_INSTALLED, POLYBED_PYTHON_SOURCE).string();
   std::vector<std::string> all;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
@@ -44,13 +37,6 @@ std::vector<std::string> environment() {
   return all;
 }
 
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-  std::vector<char*> list;
-  for (std::string& text : texts) list.push_back(text.data());
-  list.push_back(nullptr);
-  return list;
-}
-
 /// Starts a program whose output goes into a pipe, or where ours goes if there is none; 0 or why it did not start.
 int start(std::vector<std::string> arguments, const std::optional<std::array<int, 2>>& pipe, pid_t& child) {
   std::vector<std::string> settings = environment();
@@ -61,8 +47,8 @@ int start(std::vector<std::string> arguments, const std::optional<std::array<int
     posix_spawn_file_actions_adddup2(&actions, (*pipe)[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, (*pipe)[1], STDERR_FILENO);
   }
-  const int reason = posix_spawn(&child, arguments.front().c_str(), &actions, nullptr, pointers(arguments).data(),
-                                 pointers(settings).data());
+  const int reason = posix_spawn(&child, arguments.front().c_str(), &actions, nullptr, pointers_to(arguments).data(),
+                                 pointers_to(settings).data());
   posix_spawn_file_actions_destroy(&actions);
   return reason;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "closures/bed_expansion.hpp"
 #include "closures/drag.hpp"
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
@@ -31,22 +32,16 @@ constexpr double low_part = 0.3, high_part = 0.7;
 constexpr double most_at_start = 0.4;
 constexpr int heights = 9, blocks_of_a_run = 20;
 
-/// Superficial velocity at which drag carries the buoyant weight at a voidage: 18 mu f u/d^2 = eps |rho_p - rho_f| g.
+/// Superficial velocity at which drag carries the buoyant weight at a voidage.
 double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, double voidage) {
   const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
   const std::string name = core::law_of(scene, "drag");
   if (name == "none") throw core::CaseError("calibrate.regime = \"bed\" needs a drag law: [effects] drag = ...");
   const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
-  const double weight = voidage * std::abs(mean.density - fluid.density) * scene.column.gravity, d = mean.diameter;
-  double low = 0, high = 10;
-  for (int n = 0; n < 80; ++n) {
-    const double u = 0.5 * (low + high), share = 1;
-    double f = 0, slope = 0;
-    closures::drag_of_mixture(law, voidage, {&share, 1}, {&d, 1}, {&u, 1}, fluid.density, fluid.viscosity, {&f, 1},
-                              {&slope, 1});
-    (18 * fluid.viscosity * f * u / (d * d) < weight ? low : high) = u;
-  }
-  return 0.5 * (low + high);
+  return closures::carrying_velocity(
+      [&](double eps, double reynolds) { return closures::pure_drag_at(law, eps, reynolds); },
+      {mean.diameter, std::abs(mean.density - fluid.density), fluid.density, fluid.viscosity, scene.column.gravity},
+      voidage);
 }
 
 /// What a bed is told by, at one of the heights or summed over them.

@@ -8,6 +8,7 @@
 #include "closures/stress_reference.hpp"
 #include "core/case_file.hpp"
 #include "core/error.hpp"
+#include "fluid/solids_table.hpp"
 
 namespace polybed::multiscale {
 
@@ -20,29 +21,18 @@ std::vector<double> axis(const std::vector<double>& given, std::vector<double> u
   return values;
 }
 
-double restitution_of(const core::Scene& scene) {
-  double sum = 0;
-  for (const core::Species& s : scene.species) sum += s.restitution.value_or(scene.dem.restitution);
-  return sum / double(scene.species.size());
-}
-
-double friction_of(const core::Scene& scene) {
-  double sum = 0;
-  for (const core::Species& s : scene.species) sum += s.friction.value_or(scene.dem.friction);
-  return sum / double(scene.species.size());
-}
-
 TableAxes axes_of(const core::Scene& scene, const std::string& regime) {
   const core::Calibrate& c = scene.calibrate;
   const bool sheared = regime != "bed";
+  const fluid::TablePlace of_case = fluid::place_of(scene);
   TableAxes a;
   a.phi = axis(c.solids_fraction,
                sheared ? std::vector{0.1, 0.2, 0.3, 0.4, 0.45, 0.5} : std::vector{0.2, 0.3, 0.4, 0.45, 0.5},
                "solids_fraction");
   a.stokes = regime == "wet" ? axis(c.stokes, {1, 3, 10}, "stokes") : std::vector{0.0};
-  a.restitution = regime == "dry" ? axis(c.restitution, {restitution_of(scene)}, "restitution")
-                                  : std::vector{restitution_of(scene)};
-  a.friction = sheared ? axis(c.friction, {friction_of(scene)}, "friction") : std::vector{friction_of(scene)};
+  a.restitution =
+      regime == "dry" ? axis(c.restitution, {of_case.restitution}, "restitution") : std::vector{of_case.restitution};
+  a.friction = sheared ? axis(c.friction, {of_case.friction}, "friction") : std::vector{of_case.friction};
   a.share = sheared ? axis(c.share, {0}, "share") : std::vector{0.0};
   if (a.phi.size() < 2) throw core::CaseError("calibrate.solids_fraction: a table needs two of them or more");
   if (!c.share.empty() && scene.species.size() != 2)
@@ -79,6 +69,9 @@ fluid::Regime regime_of(const core::Scene& scene) {
 }  // namespace
 
 Plan plan_of(const core::Scene& scene) {
+  if (scene.bed.volume_share.size() != scene.species.size())
+    throw core::CaseError(
+        fmt::format("calibrate needs bed.volume_share; bed.start = \"{}\" has none", scene.bed.start));
   Plan plan{regime_of(scene), {}, !scene.calibrate.share.empty(), {}};
   plan.axes = axes_of(scene, plan.regime.name);
   const TableAxes& a = plan.axes;
@@ -89,10 +82,10 @@ Plan plan_of(const core::Scene& scene) {
           for (const double share : a.share)
             for (int seed = 1; seed <= scene.calibrate.seeds; ++seed)
               plan.boxes.push_back({plan.regime.name, phi, stokes, e, mu, share, plan.binary, false, seed});
-  if (!plan.pushed()) return plan;
-  // One species alone has no other to exchange with: such boxes are left to the reader of the table to see.
   for (const double x : a.share)
-    if (!(x > 0 && x < 1)) throw core::CaseError("calibrate.share: of dry boxes of two species above 0 and below 1");
+    if (plan.binary && !(x > 0 && x < 1))
+      throw core::CaseError("calibrate.share: both species have to be there, above 0 and below 1");
+  if (!plan.pushed()) return plan;
   for (std::size_t n = 0, count = plan.boxes.size(); n < count; ++n) {
     plan.boxes.push_back(plan.boxes[n]);
     plan.boxes.back().pushed = true;

@@ -1,48 +1,30 @@
 #include "multiscale/calibrate/pool.hpp"
 
-#include <fmt/format.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <thread>
 
 #include "core/error.hpp"
-
-extern char** environ;
+#include "multiscale/child_program.hpp"
 
 namespace polybed::multiscale {
 
 namespace {
 
-/// Starts this program with arguments; returns the process.
-pid_t start(const std::vector<std::string>& arguments) {
-  std::vector<std::string> all{"polybed"};
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& a : all) pointers.push_back(a.data());
-  pointers.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  pid_t child = 0;
-  const int reason = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (reason != 0) throw core::FileError(fmt::format("polybed cannot be started again ({})", std::strerror(reason)));
-  return child;
+using Running = std::map<std::size_t, std::unique_ptr<ChildProgram>>;  // by its job
+
+/// Ends and awaits all that still run; all are asked before the first is waited for.
+void stop(Running& running) {
+  for (const auto& [job, child] : running) child->ask_to_end();
+  running.clear();
 }
 
-/// Ends and awaits all that still run.
-void stop(const std::map<pid_t, std::size_t>& running) {
-  for (const auto& [child, job] : running) kill(child, SIGTERM);
-  for (const auto& [child, job] : running) waitpid(child, nullptr, 0);
+/// One that has ended.
+Running::iterator ended(Running& running) {
+  return std::find_if(running.begin(), running.end(), [](auto& entry) { return entry.second->has_ended(); });
 }
 
 }  // namespace
@@ -53,20 +35,18 @@ std::vector<std::size_t> run_jobs(const std::vector<Job>& jobs, int at_once,
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return jobs[a].expected > jobs[b].expected; });
-  std::map<pid_t, std::size_t> running;
+  Running running;
   std::size_t next = 0;
   while (next < order.size() || !running.empty()) {
     while (next < order.size() && running.size() < std::size_t(at_once)) {
       const std::size_t job = order[next++];
-      running[start(jobs[job].arguments)] = job;
+      running[job] = std::make_unique<ChildProgram>(ChildOrder{jobs[job].arguments});
     }
-    int status = 0;
-    const pid_t child = waitpid(-1, &status, WNOHANG);
-    if (const auto found = running.find(child); child > 0 && found != running.end()) {
-      if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
-        finished(found->second);
+    if (const auto found = ended(running); found != running.end()) {
+      if (found->second->code() == 0)
+        finished(found->first);
       else
-        failed.push_back(found->second);
+        failed.push_back(found->first);
       running.erase(found);
       continue;
     }

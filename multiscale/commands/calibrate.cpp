@@ -16,6 +16,7 @@
 #include "multiscale/commands/calibrate_boxes.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/commands/run_directory.hpp"
+#include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {
@@ -135,7 +136,7 @@ void finish_sheared(const CalibrateOptions& options, const fs::path& directory, 
 }  // namespace
 
 void run_calibrate(const CalibrateOptions& options) {
-  const core::Scene scene = core::read_case(options.case_path, options.overrides, all_roles(), size_classes);
+  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
   const fs::path directory =
       options.output.empty() ? default_run_directory(options.case_path, "calibrate") : options.output;
   if (!options.bed.empty() && fluid::regime_of_table(options.bed) != "bed")

@@ -183,13 +183,15 @@ void print_size_classes(const core::Scene& scene) {
 void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons, bool as_json) {
   const std::string text = core::resolved_case(scene);
   const ParticleRequirements need = particle_requirements_of(scene);
+  std::vector<std::string> notes = reasons;
+  if (!need.limits.warning.empty()) notes.push_back(need.limits.warning);
   if (as_json) {
     core::Json json;
     json.begin_object().member("case", text).member("hash", core::text_hash(text));
     write_particle_requirements(json, scene, need);
     write_size_classes(json, scene);
     json.key("notes").begin_array();
-    for (const std::string& reason : reasons) json.value(reason);
+    for (const std::string& note : notes) json.value(note);
     json.end_array().end_object();
     fmt::print("{}\n", json.text());
     return;
@@ -197,7 +199,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   fmt::print("{}\n", text);
   print_size_classes(scene);
   print_particle_requirements(scene, need);
-  for (const std::string& reason : reasons) fmt::print("# {}\n", reason);
+  for (const std::string& note : notes) fmt::print("# {}\n", note);
 }
 
 /// What a case that both models run will need as particles: of one that says how they touch. What keeps it from there
@@ -228,6 +230,7 @@ void run_check(const CaseOptions& options) {
   const Requirements need = requirements_of(scene, timers, part);
   refuse_beyond_memory(scene, need.memory, core::available_memory());
   Derived derived = derive(scene, *part);
+  if (particles && !particles->limits.warning.empty()) derived.notes.push_back(particles->limits.warning);
   derived.notes.insert(derived.notes.end(), hindrances.begin(), hindrances.end());
   const std::string text = core::resolved_case(scene);
   if (options.json) {

@@ -6,6 +6,7 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "dem/continuum_scene.hpp"
+#include "multiscale/commands/comma_list.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/commands/run_directory.hpp"
 #include "multiscale/cost/check.hpp"
@@ -39,16 +40,6 @@ double budget_of(const std::string& text) {
   return value->value;
 }
 
-std::vector<std::string> list_of(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    if (end > begin) words.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
-}
-
 SweepOptions sweep_options(const CostOptions& options, const core::Scene& scene) {
   SweepOptions sweep;
   const bool particles = options.model == "dem" || (options.model.empty() && !tfm::only_for_particles(scene).empty());
@@ -57,8 +48,8 @@ SweepOptions sweep_options(const CostOptions& options, const core::Scene& scene)
   else
     tfm::refuse_particle_scene(scene);
   sweep.model = particles ? "dem" : "tfm";
-  sweep.quantities = list_of(options.quantities);
-  sweep.axes = list_of(options.axes);
+  sweep.quantities = comma_list(options.quantities);
+  sweep.axes = comma_list(options.axes);
   sweep.target = target_of(options.target);
   sweep.budget = budget_of(options.budget);
   sweep.repeat = options.repeat;

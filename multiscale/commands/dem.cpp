@@ -50,6 +50,8 @@ class DemRun final : public CaseRun {
           if (first_) fluid = dem::read_fluid_totals(checkpoint);
         },
         [&](core::Checkpoint& checkpoint, const fs::path&) { model_.start_from(checkpoint); });
+    if (!model_.limits().warning.empty() && first_ && !options_.quiet)
+      fmt::print(stderr, "warning: {}\n", model_.limits().warning);
     if (scene_.bed.start == "settled" && !options_.resume) {
       if (!options_.quiet) fmt::print(stderr, "the bed settles first\n");
       model_.start_from(dem::settled(scene_, model_.limits().dt, ranks_));
@@ -145,6 +147,7 @@ class DemRun final : public CaseRun {
     if (promise) write_neglected(json, *promise);
     if (!course_.switches.empty()) write_switches(json);
     json.key("warnings").begin_array();
+    if (!model_.limits().warning.empty()) json.value(model_.limits().warning);
     if (monitor_)
       for (const std::string& line : monitor_->warnings()) json.value(line);
     json.end_array().end_object();

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "multiscale/commands/comma_list.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/picture.hpp"
 #include "multiscale/stability/fuzz.hpp"
@@ -17,21 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> words(const std::string& list) {
-  std::vector<std::string> found;
-  for (std::size_t begin = 0; begin < list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    if (end > begin) found.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return found;
-}
-
 }  // namespace
 
 core::ExitCode run_stability(const StabilityOptions& options) {
-  const stability::Choice choice{options.suite == "full", words(options.only), words(options.schemes),
-                                 words(options.naive)};
+  const stability::Choice choice{options.suite == "full", comma_list(options.only), comma_list(options.schemes),
+                                 comma_list(options.naive)};
   if (!choice.naive.empty() && stability::textbook() == nullptr)
     throw core::CaseError("--naive: textbook treatments are in test builds alone, e.g. build/tests/polybed_textbook");
   std::vector<stability::HardCase> catalogue = stability::catalogue();

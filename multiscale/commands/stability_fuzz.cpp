@@ -22,13 +22,9 @@ using stability::Outcome;
 constexpr double cpu_each = 2;  // s
 constexpr std::array<Outcome, 4> outcomes{Outcome::pass, Outcome::degraded, Outcome::refused, Outcome::fail};
 
-/// Invariant of a failure, and the first line of its cause: what two failures have in common, if it is one mistake.
-std::string kind_of(const stability::Result& result) { return result.broken; }
-
-/// Fails in the same invariants.
-bool fails_alike(const stability::Draw& draw, const std::string& kind) {
-  const stability::Result now = stability::results_of({stability::case_text(draw)}, 1, 0.5 * cpu_each).front();
-  return now.outcome == Outcome::fail && kind_of(now) == kind;
+/// What comes of a draw alone.
+stability::Result result_of_draw(const stability::Draw& draw) {
+  return stability::results_of({stability::case_text(draw)}, 1, cpu_each).front();
 }
 
 /// What came of each draw that has ended, by its number.
@@ -78,11 +74,13 @@ core::ExitCode run_fuzz(const StabilityOptions& options) {
   const fs::path hard = "cases/hard", found = (fs::is_directory(hard) ? hard : directory) / "found";
   std::map<std::string, std::string> shown;
   for (const auto& [n, result] : results) {
-    const std::string kind = kind_of(result);
+    const std::string kind = stability::kind_of(result);
     if (result.outcome != Outcome::fail || shown.contains(kind)) continue;
-    const stability::Draw least =
-        stability::shrunk(draws[n], [&](const stability::Draw& draw) { return fails_alike(draw, kind); });
-    shown[kind] = stability::keep({n, least, result}, options.seed, found).string();
+    const stability::Draw least = stability::shrunk(draws[n], [&](const stability::Draw& draw) {
+      const stability::Result now = result_of_draw(draw);
+      return now.outcome == Outcome::fail && stability::kind_of(now) == kind;
+    });
+    shown[kind] = stability::keep({n, least, result_of_draw(least)}, options.seed, found).string();
     if (!options.json) fmt::print("{} (draw {}), as a least case: {}\n", kind, n, shown[kind]);
   }
   if (options.json) fmt::print("{}", json_text(options, results));

@@ -10,7 +10,7 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/json_value.hpp"
-#include "multiscale/cost/child.hpp"
+#include "multiscale/child_program.hpp"
 
 namespace polybed::multiscale {
 
@@ -57,10 +57,8 @@ Runner::Runner(const core::Scene& scene, fs::path case_path, std::vector<std::st
       cells_(double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2]) {}
 
 std::vector<std::string> Runner::words_of(const RunOrder& order, const fs::path& directory) const {
-  std::vector<std::string> words;
-  if (order.ranks > 1) words = {"mpiexec", "-q", "-n", std::to_string(order.ranks)};
-  words.insert(words.end(), {this_program().string(), order.model, case_path_.string(), "--quiet", "--no-picture"});
-  words.insert(words.end(), {"--force", "-o", directory.string()});
+  std::vector<std::string> words{order.model, case_path_.string(), "--quiet", "--no-picture", "--force",
+                                 "-o",        directory.string()};
   for (const auto* list : {&overrides_, &order.overrides})
     for (const std::string& override : *list) words.insert(words.end(), {"--set", override});
   return words;
@@ -69,7 +67,7 @@ std::vector<std::string> Runner::words_of(const RunOrder& order, const fs::path&
 void Runner::start(const RunOrder& order, const fs::path& directory, double seconds) const {
   fs::remove_all(directory);
   core::make_directories(directory);
-  const ChildEnd end = run_child(words_of(order, directory), directory / "output.txt", seconds);
+  const ChildExit end = run_child({words_of(order, directory), order.ranks, directory / "output.txt"}, seconds);
   remove_bulk(directory);
   core::Json json;
   json.begin_object().member("code", end.code).member("timed_out", end.timed_out).member("wall_s", end.wall);

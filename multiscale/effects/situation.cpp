@@ -92,7 +92,7 @@ class BedInFluid {
 
   void add_velocity(double velocity) {
     const double packed = 1 - std::max(survey_.solids_fraction, scene_.bed.solids_fraction);
-    const auto f = [&](double eps, double re) { return base_drag(law_, eps, re); };
+    const auto f = [&](double eps, double re) { return closures::pure_drag_at(law_, eps, re); };
     // A packed bed takes no more than what carries it: beyond, it expands.
     const double lifts = bed_.excess * bed_.gravity > 0 ? closures::carrying_velocity(f, bed_, packed) : velocity;
     if (velocity > 0) add("packed", std::min(velocity, lifts), packed);
@@ -109,7 +109,7 @@ class BedInFluid {
   void add_settling() {
     const double eps = 1 - survey_.solids_fraction;
     if (!(eps > 1 - scene_.bed.solids_fraction) && scene_.bed.solids_fraction > 0) return;
-    const auto f = [&](double e, double re) { return base_drag(law_, e, re); };
+    const auto f = [&](double e, double re) { return closures::pure_drag_at(law_, e, re); };
     add_bulk(closures::carrying_velocity(f, bed_, eps), eps);
   }
 
@@ -161,7 +161,7 @@ class BedInFluid {
     const double sauter = closures::sauter_diameter(survey_.share, diameter_);
     const double mean = closures::drag_of_mean(law_, voidage, fluid_.density * velocity * sauter / fluid_.viscosity,
                                                survey_.share, diameter_, f);
-    const auto base = [&](double eps, double re) { return base_drag(law_, eps, re); };
+    const auto base = [&](double eps, double re) { return closures::pure_drag_at(law_, eps, re); };
     double least = 1e300, most = 0;
     for (std::size_t j = 0; j < diameter_.size(); ++j) {
       survey_.mixture_part = std::max(survey_.mixture_part, std::abs(f[j] / mean - 1));
@@ -217,20 +217,13 @@ double Situation::time() const { return closures::time_of_scene(width, slip, rel
 
 double Situation::exchange() const { return 18 * viscosity * voidage * (1 - voidage) * f / (diameter * diameter); }
 
-double base_drag(const closures::DragLaw& law, double voidage, double reynolds) {
-  double f = 0, slope = 0;
-  closures::GuardCount count;
-  closures::drag_of_points(law, {&voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
-  return f;
-}
-
 Situation in_zone(Situation s, const std::string& zone, double velocity, double voidage, const closures::DragLaw& law) {
   const bool alone = zone == "freeboard", at_wall = alone || zone == "wall";
   s.zone = zone;
   s.velocity = velocity;
   s.voidage = voidage;
   s.slip = velocity / voidage;
-  s.f = alone ? free_drag(1, s.reynolds()) : base_drag(law, voidage, s.reynolds());
+  s.f = alone ? free_drag(1, s.reynolds()) : closures::pure_drag_at(law, voidage, s.reynolds());
   s.shear = at_wall ? closures::shear_rate_at_wall(s.slip, s.width, s.diameter)
                     : closures::shear_rate_inside(s.slip, s.diameter);
   return s;

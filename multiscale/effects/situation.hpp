@@ -36,9 +36,6 @@ struct Situation {
   [[nodiscard]] double exchange() const;
 };
 
-/// The base of a drag law at a point: pure drag over Stokes.
-[[nodiscard]] double base_drag(const closures::DragLaw& law, double voidage, double reynolds);
-
 /// A species in a zone; what follows from zone, velocity and voidage is filled in: slip U/eps, drag, shear.
 [[nodiscard]] Situation in_zone(Situation particle, const std::string& zone, double velocity, double voidage,
                                 const closures::DragLaw& law);

@@ -53,12 +53,12 @@ void write_all(int output, const std::string& text) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a parent that is killed leaves nothing behind
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  const auto limit = [](auto what, double most) {
-    const rlimit value{rlim_t(std::ceil(most)), rlim_t(std::ceil(most))};
+  const auto limit = [](auto what, double most, rlim_t beyond) {
+    const rlimit value{rlim_t(std::ceil(most)), rlim_t(std::ceil(most)) + beyond};
     if (most > 0) ::setrlimit(what, &value);
   };
-  limit(RLIMIT_CPU, limits.cpu);
-  limit(RLIMIT_AS, limits.bytes);
+  limit(RLIMIT_CPU, limits.cpu, 5);  // first SIGXCPU, so that SIGKILL is somebody else's: of a system without memory
+  limit(RLIMIT_AS, limits.bytes, 0);
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
   try {
@@ -97,25 +97,43 @@ bool read_some(Child& child) {
 ChildEnd end_of(Child& child, bool late, const ChildLimits& limits) {
   ::kill(-child.process, SIGKILL);  // it, if it is late, and what it has left behind
   int status = 0;
-  while (::waitpid(child.process, &status, 0) < 0 && errno == EINTR) {
-  }
+  pid_t found = 0;
+  do found = ::waitpid(child.process, &status, 0);
+  while (found < 0 && errno == EINTR);
   ::close(child.answers);
+  if (found < 0) return {false, fmt::format("lost: {}", std::strerror(errno))};
   if (late) return {false, fmt::format("no end after {:.0f} s", limits.seconds)};
   if (!child.text.empty() && child.text.back() == whole) {
     child.text.pop_back();
     return {true, child.text};
   }
-  if (WIFSIGNALED(status) && limits.cpu > 0 && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
     return {false, fmt::format("no end after {:.0f} s of computing", limits.cpu)};
   if (WIFSIGNALED(status)) return {false, fmt::format("crashed: {}", strsignal(WTERMSIG(status)))};
   return {false, fmt::format("ended with code {} and no answer", WEXITSTATUS(status))};
 }
 
+/// Those that run; what still does when it goes, by an exception for one, ends with it.
+class Children {
+ public:
+  explicit Children(const ChildLimits& limits) : limits_(limits) {}
+  ~Children() {
+    for (Child& child : all) (void)end_of(child, true, limits_);
+  }
+  Children(const Children&) = delete;
+  Children& operator=(const Children&) = delete;
+  std::vector<Child> all;
+
+ private:
+  const ChildLimits& limits_;
+};
+
 }  // namespace
 
 void in_children(std::size_t count, const ChildLimits& limits, const std::function<std::string(std::size_t)>& work,
                  const std::function<void(std::size_t, const ChildEnd&)>& done) {
-  std::vector<Child> running;
+  Children children(limits);
+  std::vector<Child>& running = children.all;
   std::size_t next = 0;
   const core::Interrupt interrupt;
   while (next < count || !running.empty()) {
@@ -124,10 +142,7 @@ void in_children(std::size_t count, const ChildLimits& limits, const std::functi
     for (const Child& child : running) inputs.push_back({child.answers, POLLIN, 0});
     constexpr int look_every = 100;  // ms, at the deadlines
     ::poll(inputs.data(), inputs.size(), look_every);
-    if (interrupt.wanted()) {
-      for (Child& child : running) (void)end_of(child, true, limits);
-      throw core::Stopped("stopped by the user");
-    }
+    if (interrupt.wanted()) throw core::Stopped("stopped by the user");
     for (std::size_t n = running.size(); n-- > 0;) {
       const bool over = inputs[n].revents != 0 && !read_some(running[n]), late = Clock::now() > running[n].deadline;
       if (!over && !late) continue;

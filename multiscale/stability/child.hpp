@@ -22,7 +22,7 @@ struct ChildLimits {
 };
 
 /// Calls work(n) for n = 0 ... count - 1, each in a process of its own, and `done` here as they end. What a piece
-/// prints is lost; processes that it started end with it.
+/// prints is lost; processes that it started end with it, and all pieces if `done` throws.
 void in_children(std::size_t count, const ChildLimits& limits, const std::function<std::string(std::size_t)>& work,
                  const std::function<void(std::size_t, const ChildEnd&)>& done);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "closures/minimum_fluidisation.hpp"
@@ -35,20 +37,26 @@ std::string numbered(const char* name, int j) { return fmt::format("{} {}", name
 
 /// What a draw says of its fluid and of the mean of its solids.
 struct Means {
-  double diameter = 0, density = 0, largest = 0, least = 1e300;
+  double diameter = 0, density = 0, largest = 0;
 };
 
+/// Of the volume of the solids, each species.
+std::vector<double> shares_of(const Draw& draw) {
+  std::vector<double> shares;
+  for (int j = 0; j < int(draw.of("species")); ++j) shares.push_back(draw.of(numbered("share", j)));
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= all;
+  return shares;
+}
+
 Means means_of(const Draw& draw) {
-  const int species = int(draw.of("species"));
-  double all = 0;
   Means means;
-  for (int j = 0; j < species; ++j) all += draw.of(numbered("share", j));
-  for (int j = 0; j < species; ++j) {
-    const double share = draw.of(numbered("share", j)) / all, d = draw.of(numbered("diameter", j));
+  const std::vector<double> shares = shares_of(draw);
+  for (int j = 0; j < int(shares.size()); ++j) {
+    const double share = shares[std::size_t(j)], d = draw.of(numbered("diameter", j));
     means.diameter += share / d;  // of Sauter
     means.density += share * draw.of(numbered("density", j));
     means.largest = std::max(means.largest, d);
-    means.least = std::min(means.least, d);
   }
   means.diameter = 1 / means.diameter;
   return means;
@@ -72,14 +80,12 @@ std::string species_text(const Draw& draw) {
 }
 
 std::string shares_text(const Draw& draw) {
-  const int species = int(draw.of("species"));
-  double all = 0, before = 0;
+  const std::vector<double> shares = shares_of(draw);
+  double before = 0;
   std::string text;
-  for (int j = 0; j < species; ++j) all += draw.of(numbered("share", j));
-  for (int j = 0; j < species; ++j) {
-    const double share = draw.of(numbered("share", j)) / all;
-    text += fmt::format("{}{:.17g}", j > 0 ? ", " : "", j + 1 < species ? share : 1 - before);
-    before += share;
+  for (std::size_t j = 0; j < shares.size(); ++j) {
+    text += fmt::format("{}{:.17g}", j > 0 ? ", " : "", j + 1 < shares.size() ? shares[j] : 1 - before);
+    before += shares[j];
   }
   return text;
 }
@@ -112,7 +118,7 @@ std::string particle_text(const Draw& draw, const Means& means) {
   double solids = 0;
   std::string numbers;
   for (int j = 0; j < species; ++j) {
-    solids += each * 0.5236 * std::pow(draw.of(numbered("diameter", j)), 3);
+    solids += each * std::numbers::pi / 6 * std::pow(draw.of(numbered("diameter", j)), 3);
     numbers += fmt::format("{}{}", j > 0 ? ", " : "", each);
   }
   // A box of square ground, three times as high as wide, that the bed fills to two thirds at its start at most.

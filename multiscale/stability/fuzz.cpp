@@ -72,8 +72,9 @@ void round_all(Draw& draw, const std::function<bool(const Draw&)>& fails) {
 
 std::string cause_page(const Found& found, std::uint64_t seed) {
   std::string text = fmt::format(
-      "# Found by `polybed stability --fuzz`, seed {}, draw {}\n\nOutcome then: {}; {}\n\n{}\n\nWhat differs from the "
-      "standard:\n\n",
+      "# Found by `polybed stability --fuzz`, seed {}, draw {}\n\nOutcome of this case then: {}; {}\n\n{}\n\nWhat "
+      "differs "
+      "from the standard:\n\n",
       seed, found.number, name_of(found.result.outcome), found.result.broken, found.result.cause);
   for (const Parameter& p : found.draw.parameters)
     if (p.value != p.standard) text += fmt::format("- {}: {:.4g}, standard {:.4g}\n", p.name, p.value, p.standard);
@@ -122,13 +123,27 @@ Draw shrunk(Draw draw, const std::function<bool(const Draw&)>& fails) {
   return draw;
 }
 
+std::string kind_of(const Result& result) {
+  std::string kind = result.broken;
+  const std::string line = result.cause.substr(0, result.cause.find('\n'));
+  if (!line.empty()) kind += ": ";
+  bool in_number = false;
+  for (const char c : line) {
+    const bool digit = c >= '0' && c <= '9';
+    if (digit && !in_number) kind += '#';
+    in_number = digit || (in_number && (c == '.' || c == 'e' || c == '-' || c == '+'));
+    if (!in_number) kind += c;
+  }
+  return kind;
+}
+
 fs::path keep(const Found& found, std::uint64_t seed, const fs::path& directory) {
   fs::path folder;
   for (int n = 1; folder.empty() || fs::exists(folder); ++n) folder = directory / fmt::format("{:03}", n);
   core::make_directories(folder);
   core::write_atomically(folder / "case.toml", case_text(found.draw));
   core::write_atomically(folder / "expected.toml",
-                         "outcome = \"PASS\"  # once it is mended; a refusal with its reason does as well\n");
+                         "outcome = \"PASS\"  # once it is mended; or REFUSED, if refusing it is right\n");
   core::write_atomically(folder / "README.md", cause_page(found, seed));
   return folder;
 }

@@ -24,7 +24,11 @@ namespace polybed::stability {
 /// \param fails  whether a draw fails
 [[nodiscard]] Draw shrunk(Draw draw, const std::function<bool(const Draw&)>& fails);
 
-/// A failure and its minimal case.
+/// What two failures have in common if they are one mistake: the invariants, and the first line of the cause without
+/// its numbers, times and sizes for most.
+[[nodiscard]] std::string kind_of(const Result& result);
+
+/// A minimal case and what came of it.
 struct Found {
   std::uint64_t number = 0;  ///< of the draw
   Draw draw;

@@ -31,14 +31,14 @@ Grains::Grains(Trial& trial, dem::Model& model, GrainWatch watch)
 }
 
 void Grains::see() {
-  totals_ = dem::totals_of(model_);
+  const dem::Totals totals = dem::totals_of(model_);
   trial_.measure("V1 particles missing", double(missing(model_.particles(), count_)), 0);
   trial_.measure("V3 finite", all_finite(model_.particles()) ? 0 : 1, 0);
-  if (!initial_energy_) initial_energy_ = totals_.sum();
-  greatest_energy_ = std::max({greatest_energy_, totals_.kinetic + totals_.rotational, totals_.dissipated,
-                               totals_.elastic, std::abs(totals_.work)});
-  if (watch_.energy && greatest_energy_ > 0)
-    trial_.measure("V5 energy", dem::ledger_miss(totals_, *initial_energy_, greatest_energy_), 1e-3);
+  if (!initial_energy_) initial_energy_ = totals.sum();
+  greatest_energy_ = std::max(
+      {greatest_energy_, totals.kinetic + totals.rotational, totals.dissipated, totals.elastic, std::abs(totals.work)});
+  if (greatest_energy_ > 0)
+    trial_.measure("V5 energy", dem::ledger_miss(totals, *initial_energy_, greatest_energy_), 1e-3);
 }
 
 bool Grains::steps(std::int64_t number, std::int64_t every) {

@@ -10,9 +10,9 @@
 
 namespace polybed::stability {
 
-/// What is watched beside the number of particles, V1, and finiteness, V3.
+/// Beside the number of particles, V1, finiteness, V3, and the ledger, V5: closed within 1e-3 of the greatest energy
+/// met.
 struct GrainWatch {
-  bool energy = true;  ///< V5: the ledger closes within 1e-3 of the greatest energy met
   double cpu = 1e300;  ///< s of computing, after which a run ends where it is; below it also where it fails
 };
 
@@ -28,18 +28,13 @@ class Grains {
   /// A look at the present state.
   void see();
 
-  [[nodiscard]] const dem::Totals& totals() const { return totals_; }
-  /// Greatest energy met, J.
-  [[nodiscard]] double greatest_energy() const { return greatest_energy_; }
-
  private:
   Trial& trial_;
   dem::Model& model_;
   GrainWatch watch_;
-  dem::Totals totals_;
   std::int64_t count_ = 0;
   std::optional<double> initial_energy_;
-  double greatest_energy_ = 0;
+  double greatest_energy_ = 0;  ///< J
 };
 
 }  // namespace polybed::stability

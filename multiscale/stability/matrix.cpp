@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "multiscale/installed.hpp"
 #include "multiscale/stability/child.hpp"
 #include "multiscale/stability/result_text.hpp"
 
@@ -69,6 +70,8 @@ std::vector<Cell> cells_of(const std::vector<HardCase>& cases, const Choice& cho
       if (holds(choice.naive, "all") || holds(choice.naive, name) || holds(choice.naive, first_word(name)))
         cells.push_back({one, {"explicit", "limited", name}});
   }
+  if (cells.empty())
+    throw core::CaseError("--only, --schemes and --naive leave no cell: the cases chosen have none of these schemes");
   return cells;
 }
 
@@ -91,8 +94,7 @@ Expected read_expected(const std::filesystem::path& path) {
 }
 
 std::filesystem::path expected_path() {
-  const std::filesystem::path installed = POLYBED_CASES_INSTALLED "/hard/expected.csv";
-  return std::filesystem::exists(installed) ? installed : POLYBED_CASES_SOURCE "/hard/expected.csv";
+  return multiscale::beside_program(POLYBED_CASES_INSTALLED, POLYBED_CASES_SOURCE) / "hard" / "expected.csv";
 }
 
 void run_cells(std::vector<Cell>& cells, int jobs, const std::function<void(std::size_t, std::size_t)>& shown) {

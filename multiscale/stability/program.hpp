@@ -1,24 +1,23 @@
-// This program itself as another process, on one rank or several.
+// This program as a trial starts it: on one rank or several, and what it said.
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "core/checkpoint.hpp"
+#include "multiscale/child_program.hpp"
 
 namespace polybed::stability {
 
-/// How it ended, and what it said on standard error.
+/// How it ended, and what it said.
 struct ProgramEnd {
-  int code = 0;  ///< 128 and the number of the signal that ended it
-  std::string said;
-  double seconds = 0;
+  int code = 0;               ///< 128 and the number of the signal that ended it
+  std::string printed, said;  ///< on standard output, and on standard error
 };
 
-/// Runs `polybed words...` on a number of ranks in a directory; above one by mpirun. Throws core::MpiError without it.
-/// \param until_exists  the program is killed as soon as this file is there; empty: never
+/// Runs `polybed words...` on a number of ranks; throws as multiscale::ChildProgram does.
+/// \param look  called with it while it runs
 [[nodiscard]] ProgramEnd run_program(int ranks, const std::vector<std::string>& words,
-                                     const std::filesystem::path& until_exists = {});
+                                     const std::function<void(const multiscale::ChildProgram&)>& look = {});
 
 }  // namespace polybed::stability

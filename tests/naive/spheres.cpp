@@ -25,8 +25,8 @@ Vector sum(const Vector& a, const Vector& b, double factor) {
 
 Spheres::Spheres(const std::string& name, const core::Scene& scene, const std::vector<verification::Bead>& beads)
     : name_(name), scene_(scene), dt_(scene.dem.fixed_step.value()), force_(beads.size()), torque_(beads.size()) {
-  static const std::set<std::string> known{"fixed_dt",  "no_unload_rescale", "lost_history", "one_wall",
-                                           "one_image", "float_sums",        "nothing"};
+  static const std::set<std::string> known{"fixed_dt",  "lost_history", "one_wall",
+                                           "one_image", "float_sums",   "nothing"};
   if (!known.contains(name)) throw std::invalid_argument("no textbook treatment of spheres called " + name);
   for (const verification::Bead& b : beads) {
     const auto species = std::find_if(scene.species.begin(), scene.species.end(),
@@ -139,8 +139,7 @@ void Spheres::act(const Touch& touch, int key) {
   const double shear = 4 * modulus * (1 - nu) / (2 - nu) * root;
   Memory& m = memory_[{int(i), wall ? -1 : int(j), key}];
   m.seen = true;
-  const bool rescaled = name_ != "no_unload_rescale" && m.stiffness > shear;
-  const double kept = rescaled ? shear / m.stiffness : 1;
+  const double kept = m.stiffness > shear ? shear / m.stiffness : 1;  // on unloading it is rescaled
   m.force = sum(m.force, touch.normal, -dot(m.force, touch.normal));
   for (double& f : m.force) f *= kept;
   m.force = sum(m.force, slip, -shear * dt_);

@@ -11,13 +11,12 @@ namespace polybed::naive {
 
 /// Hertz with Tsuji's dashpot, incremental tangential force with Coulomb's cap, velocity Verlet, with the treatment of
 /// a name:
-///   fixed_dt           the step that the case gives, whatever stiffness and speed ask for
-///   no_unload_rescale  the tangential force stays as it is when the contact unloads
-///   lost_history       tangential forces are forgotten every fifty steps, as if the list of pairs were made anew
-///   one_wall           only the wall that is pressed deepest acts
-///   one_image          in periodic directions only the nearest image of a pair acts
-///   float_sums         forces on a particle are added in single precision
-///   nothing            no change
+///   fixed_dt      the step that the case gives, whatever stiffness and speed ask for
+///   lost_history  tangential forces are forgotten every fifty steps, as if the list of pairs were made anew
+///   one_wall      only the wall that is pressed deepest acts
+///   one_image     in periodic directions only the nearest image of a pair acts
+///   float_sums    forces on a particle are added in single precision
+///   nothing       no change
 /// Throws std::invalid_argument for any other name.
 class Spheres final : public stability::TextbookSpheres {
  public:

@@ -1,6 +1,9 @@
 // The textbook treatments of particles are what they say: beside what each replaces they do as the product does.
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "multiscale/stability/hard_case.hpp"
 #include "multiscale/stability/problems/wet_beads.hpp"
 #include "naive/particles.hpp"
 #include "naive/spheres.hpp"
@@ -42,6 +45,20 @@ TEST(Naive, SpheresWithoutATreatmentReboundAsTheyShould) {
   EXPECT_NEAR(run.motion(0).v[1], 0.5, 1e-3);
   EXPECT_NEAR(run.motion(0).v[0] - 0.4 * 0.5e-3 * run.motion(0).w[2], 0.2, 1e-9);
   EXPECT_LT(run.motion(0).v[0], 0.2);
+}
+
+// The engine is one of its own: what makes a treatment fail a case is the treatment, since without one it passes.
+TEST(Naive, SpheresWithoutATreatmentPassWhatTreatmentsFail) {
+  const std::set<std::string> asked{"D6", "D8", "D9", "D11"};
+  std::size_t seen = 0;
+  for (const HardCase& one : catalogue()) {
+    if (!asked.contains(one.id)) continue;
+    Trial trial({"explicit", "limited", "nothing"});
+    const Result result = trial.judge(one.work);
+    EXPECT_EQ(name_of(result.outcome), "PASS") << one.id << " " << result.broken << " " << result.cause;
+    ++seen;
+  }
+  EXPECT_EQ(seen, asked.size());
 }
 
 }  // namespace

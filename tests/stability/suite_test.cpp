@@ -2,12 +2,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
+#include <set>
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/timers.hpp"
 #include "multiscale/stability/child.hpp"
 #include "multiscale/stability/fuzz.hpp"
@@ -16,6 +23,7 @@
 #include "multiscale/stability/problems/beads.hpp"
 #include "multiscale/stability/result_text.hpp"
 #include "multiscale/stability/scenes.hpp"
+#include "multiscale/stability/scratch.hpp"
 
 namespace polybed::stability {
 namespace {
@@ -44,8 +52,9 @@ class PlantedRun final : public Run {
 };
 
 /// What a sound run of a short bed comes to with something planted in it.
-Result with(const Plant& plant) {
+Result with(const Plant& plant, const std::vector<double>& volume_share = {0.569, 0.431}) {
   core::Scene scene = two_species(20, 0.06, false);
+  scene.bed.volume_share = volume_share;
   scene.bed.static_height = 0.03;
   scene.bed.start_solids_fraction = 0.5;
   scene.inlet.superficial_velocity = {{0.0, 0.02}};
@@ -67,6 +76,26 @@ TEST(Suite, FindsANumberThatIsNone) {
   });
   EXPECT_EQ(result.outcome, Outcome::fail);
   EXPECT_THAT(result.broken, testing::HasSubstr("V3 finite"));
+}
+
+// std::max, by which limits are asked, lets such numbers pass.
+TEST(Suite, FindsANumberThatIsNoneInDragAndSideways) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Plant> plants{[](tfm::Fields& fields) { fields.solids.exchange[1].back() = none; },
+                                  [](tfm::Fields& fields) { fields.fluid.flux[0].back() = none; },
+                                  [](tfm::Fields& fields) { fields.solids.velocity[0][0].front() = none; }};
+  for (const Plant& plant : plants) {
+    const Result result = with(plant);
+    EXPECT_EQ(result.outcome, Outcome::fail);
+    EXPECT_THAT(result.broken, testing::HasSubstr("V3 finite"));
+  }
+}
+
+TEST(Suite, FindsSolidsFromNowhere) {
+  const Result result = with(
+      [](tfm::Fields& fields) { fields.solids.fraction[0].assign(fields.solids_fraction.size(), 1e-20); }, {0.0, 1.0});
+  EXPECT_EQ(result.outcome, Outcome::fail);
+  EXPECT_THAT(result.broken, testing::HasSubstr("V1 solids from nowhere"));
 }
 
 TEST(Suite, FindsALeakOfABillionthOfTheMass) {
@@ -125,6 +154,34 @@ TEST(Suite, TellsWorkWithoutEndByItsComputing) {
   EXPECT_EQ(found.text, "no end after 1 s of computing");
 }
 
+TEST(Suite, TellsOneThatIsKilledFromOneThatComputedTooLong) {
+  ChildEnd found;
+  const auto killed = [](std::size_t) -> std::string {
+    std::raise(SIGKILL);
+    return "";
+  };
+  in_children(1, {.seconds = 60, .cpu = 50}, killed, [&](std::size_t, const ChildEnd& end) { found = end; });
+  EXPECT_EQ(found.text, "crashed: Killed");
+}
+
+// What still runs when the caller throws ends with it: nobody would take its answer.
+TEST(Suite, LeavesNoPieceBehindAnException) {
+  const Scratch folder;
+  const std::filesystem::path there = folder.path() / "there";
+  const auto work = [&](std::size_t n) -> std::string {
+    if (n == 1) core::write_atomically(there, std::to_string(::getpid()));
+    while (n == 1 || !std::filesystem::exists(there)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return "";
+  };
+  const auto take = [](std::size_t, const ChildEnd&) { throw std::runtime_error("no room for the answer"); };
+  EXPECT_THROW(in_children(2, {.jobs = 2, .seconds = 3600}, work, take), std::runtime_error);
+  pid_t other = 0;
+  std::ifstream(there) >> other;
+  ASSERT_GT(other, 0);
+  EXPECT_EQ(::kill(other, 0), -1);
+  EXPECT_EQ(errno, ESRCH);
+}
+
 TEST(Suite, ResultsComeThroughTheirText) {
   Result result;
   result.outcome = Outcome::degraded;
@@ -143,11 +200,16 @@ TEST(Suite, RefusesWhatTheCatalogueHasNot) {
   EXPECT_THROW((void)cells_of(catalogue(), {.only = {"T99"}}), core::CaseError);
   EXPECT_THROW((void)cells_of(catalogue(), {.schemes = {"magic"}}), core::CaseError);
   EXPECT_THROW((void)cells_of(catalogue(), {.naive = {"no_such"}}), core::CaseError);
+  EXPECT_THROW((void)cells_of(catalogue(), {.only = {"D1"}, .schemes = {"explicit/limited"}}), core::CaseError);
   EXPECT_EQ(cells_of(catalogue(), {.only = {"T3"}}).size(), 6U);  // T3 and T3 rest by three schemes
 }
 
+// Numbers once drawn: a draw that is written down must be drawn again on every machine and by every later program.
 TEST(Draws, OfOneSeedAreTheSame) {
-  for (std::uint64_t n : {0, 1, 77}) EXPECT_EQ(draw_of(5, n), draw_of(5, n));
+  const Draw draw = draw_of(5, 0);
+  EXPECT_EQ(draw.of("species"), 1);
+  EXPECT_DOUBLE_EQ(draw.of("diameter 1"), 0.00058161832061407999);
+  EXPECT_DOUBLE_EQ(draw.of("youngs modulus"), 3917374.7823525895);
   EXPECT_NE(draw_of(5, 3), draw_of(6, 3));
   EXPECT_NE(draw_of(5, 3), draw_of(5, 4));
 }
@@ -194,6 +256,58 @@ TEST(Draws, AreShrunkAndStillFail) {
     ++shrunk_ones;
   }
   EXPECT_GT(shrunk_ones, 3);
+}
+
+TEST(Draws, AreOneKindIfOnlyNumbersDiffer) {
+  Result one, other;
+  one.broken = other.broken = "V16 honest stop";
+  one.cause = "t = 0.0025 s: the integrator cannot go on, last step 1.2e-08 s\nmore";
+  other.cause = "t = 1 s: the integrator cannot go on, last step 3e-10 s";
+  EXPECT_EQ(kind_of(one), kind_of(other));
+  EXPECT_EQ(kind_of(one), "V16 honest stop: t = # s: the integrator cannot go on, last step # s");
+  other.cause = "crashed: Segmentation fault";
+  EXPECT_NE(kind_of(one), kind_of(other));
+}
+
+// Kept, read again as a cell and run, a case that is refused is what its folder says of it once that says so.
+TEST(Draws, AreKeptAsCellsOfTheSuite) {
+  const Scratch folder;
+  Found found{7, draw_of(5, 0), {}};
+  found.result.broken = "V5 energy";
+  EXPECT_EQ(keep(found, 5, folder.path()).filename(), "001");
+  EXPECT_EQ(keep(found, 5, folder.path()).filename(), "002");
+  const std::vector<HardCase> cases = kept_cases(folder.path());
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_EQ(cases[1].id, "F002");
+  EXPECT_EQ(kept_outcome(folder.path(), "F002"), "PASS");
+  std::ofstream(folder.path() / "002" / "expected.toml") << "outcome = \"REFUSED\"\n";
+  EXPECT_EQ(kept_outcome(folder.path(), "F002"), "REFUSED");
+  std::ofstream(folder.path() / "002" / "case.toml") << "no = \"case\"\n";
+  Trial trial(cases[1].schemes.at(0));
+  EXPECT_EQ(name_of(trial.judge(cases[1].work).outcome), "REFUSED");
+  EXPECT_TRUE(kept_cases(folder.path() / "nowhere").empty());
+}
+
+TEST(Expected, IsReadWithWhatIsBroken) {
+  const Scratch folder;
+  std::ofstream(folder.path() / "expected.csv") << "case,treatment,outcome,broken\nT1,explicit/limited,PASS,\n"
+                                                   "T4,naive x,FAIL,V1 mass; V6 rest, and more\n";
+  const Expected expected = read_expected(folder.path() / "expected.csv");
+  EXPECT_EQ(expected.size(), 2U);
+  EXPECT_EQ(expected.at({"T1", "explicit/limited"}), "PASS");
+  EXPECT_EQ(expected.at({"T4", "naive x"}), "FAIL, V1 mass; V6 rest, and more");
+  EXPECT_THROW((void)read_expected(folder.path() / "none.csv"), core::FileError);
+}
+
+// A row of a case that is no more would stand there for ever, and a cell without a row is never as expected.
+TEST(Expected, HasARowForEveryCellAndNoOther) {
+  std::set<std::pair<std::string, std::string>> cells, rows;
+  for (const Cell& cell : cells_of(catalogue(), {.all = true, .naive = {"all"}}))
+    cells.insert({cell.one.id, cell.treatment.name()});
+  for (const auto& [key, outcome] : read_expected(POLYBED_SOURCE_DIR "/cases/hard/expected.csv")) rows.insert(key);
+  EXPECT_EQ(cells, rows);
+  EXPECT_EQ(expected_path().filename(), "expected.csv");
+  EXPECT_TRUE(std::filesystem::exists(expected_path()));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "bench.hpp"
 
 namespace polybed::dem::test {
@@ -63,6 +65,23 @@ TEST(Integrator, IsTheOneThatTheCaseSays) {
   scene.species[1].friction = 0.4;
   scene.dem.integrator = "thesis";
   EXPECT_FALSE(limits_of(scene).synchronised);
+}
+
+// Two undamped spheres of mass m on a linear spring k: omega = sqrt(2 k/m), and the limit 2/omega, by hand.
+TEST(FixedStep, IsWarnedOfBeyondHalfTheLimitOfStability) {
+  core::Scene scene = scene_of({});
+  scene.effects["contact"] = "linear";
+  scene.dem.normal_stiffness = 1000;
+  scene.dem.restitution = 1;
+  const core::Species& s = scene.species[0];
+  const double mass = s.density * 3.14159265358979 / 6 * s.diameter * s.diameter * s.diameter;
+  const double limit = 2 / std::sqrt(2 * 1000 / mass);
+  EXPECT_NEAR(limits_of(scene).stability.dt, limit, 1e-6 * limit);
+  EXPECT_EQ(limits_of(scene).warning, "");
+  scene.dem.fixed_step = 0.49 * limit;
+  EXPECT_EQ(limits_of(scene).warning, "");
+  scene.dem.fixed_step = 0.51 * limit;
+  EXPECT_NE(limits_of(scene).warning.find("dem.fixed_step"), std::string::npos);
 }
 
 }  // namespace

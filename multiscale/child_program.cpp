@@ -1,0 +1,204 @@
+#include "multiscale/child_program.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+#include "core/error.hpp"
+#include "multiscale/installed.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds look_every{2};
+constexpr std::chrono::seconds grace{5};  // mpirun gives its ranks one
+
+/// What Open MPI needs in a container and as root, and without binding; a user's own settings stand.
+constexpr std::array<std::string_view, 5> settings{
+    "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "OMPI_MCA_rmaps_base_oversubscribe=1",
+    "OMPI_MCA_hwloc_base_binding_policy=none", "OMPI_MCA_btl_vader_single_copy_mechanism=none"};
+
+std::vector<std::string> environment(int ranks) {
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
+  if (ranks == 1) return all;
+  const std::size_t own = all.size();
+  for (const std::string_view setting : settings) {
+    const std::string_view name = setting.substr(0, setting.find('=') + 1);
+    if (std::none_of(all.begin(), all.begin() + std::ptrdiff_t(own),
+                     [&](const std::string& entry) { return entry.starts_with(name); }))
+      all.emplace_back(setting);
+  }
+  return all;
+}
+
+std::vector<std::string> words_of(const ChildOrder& order) {
+  std::vector<std::string> words;
+  if (order.ranks > 1) words = {"mpirun", "-q", "--oversubscribe", "-n", std::to_string(order.ranks)};
+  words.push_back(this_program().string());
+  words.insert(words.end(), order.words.begin(), order.words.end());
+  return words;
+}
+
+/// A file that is closed at the end of its scope.
+class File {
+ public:
+  explicit File(int number) : number_(number) {}
+  ~File() {
+    if (number_ >= 0) ::close(number_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+int opened(const std::filesystem::path& path) {
+  const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (number < 0) throw core::FileError(fmt::format("{}: {}", path.string(), std::system_category().message(errno)));
+  return number;
+}
+
+/// Made before the fork, behind which nothing may be allocated.
+struct Start {
+  std::vector<char*> words, environment;
+  int output, errors, failure;  ///< files; into the last goes why it did not start
+  pid_t parent;
+  int with_parent;  ///< the signal that it gets when its parent is gone
+};
+
+[[noreturn]] void become(const Start& start) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, start.with_parent);
+  if (::getppid() != start.parent) ::_exit(1);  // it was gone before
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  ::dup2(nothing, STDIN_FILENO);  // a group in the background may not read from the terminal
+  ::dup2(start.output, STDOUT_FILENO);
+  ::dup2(start.errors, STDERR_FILENO);
+  ::execvpe(start.words[0], start.words.data(), start.environment.data());
+  const int reason = errno;
+  if (::write(start.failure, &reason, sizeof(reason)) < 0) ::_exit(1);
+  ::_exit(1);
+}
+
+/// Why a process did not start; 0: it did, and the pipe was closed by that.
+int reason_of(int pipe) {
+  int reason = 0;
+  ssize_t count = 0;
+  do count = ::read(pipe, &reason, sizeof(reason));
+  while (count < 0 && errno == EINTR);
+  return count == ssize_t(sizeof(reason)) ? reason : 0;
+}
+
+[[noreturn]] void not_started(const ChildOrder& order, const std::string& what, int reason) {
+  const std::string text = fmt::format("cannot start {}: {}", what, std::system_category().message(reason));
+  if (order.ranks > 1) throw core::MpiError(text);
+  throw core::FileError(text);
+}
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+}  // namespace
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> list;
+  for (std::string& text : texts) list.push_back(text.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+ChildProgram::ChildProgram(const ChildOrder& order) {
+  std::vector<std::string> words = words_of(order), variables = environment(order.ranks);
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) not_started(order, words.front(), errno);
+  const File reading(pipe[0]);
+  int reason = 0;
+  {
+    const File writing(pipe[1]);
+    const File output(order.output.empty() ? -1 : opened(order.output));
+    const File errors(order.errors.empty() ? -1 : opened(order.errors));
+    const int out = order.output.empty() ? STDERR_FILENO : output.number();
+    const Start start{pointers_to(words),
+                      pointers_to(variables),
+                      out,
+                      order.errors.empty() ? out : errors.number(),
+                      writing.number(),
+                      ::getpid(),
+                      order.ranks > 1 ? SIGTERM : SIGKILL};
+    process_ = ::fork();
+    reason = errno;
+    if (process_ == 0) become(start);
+  }
+  if (process_ < 0) not_started(order, words.front(), reason);
+  ::setpgid(process_, process_);
+  reason = reason_of(reading.number());
+  if (reason == 0) return;
+  while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  not_started(order, words.front(), reason);
+}
+
+ChildProgram::~ChildProgram() {
+  try {
+    end();
+  } catch (const core::FileError&) {  // lost: there is nothing to end
+  }
+}
+
+bool ChildProgram::has_ended() {
+  if (ended_) return true;
+  int status = 0;
+  const pid_t found = ::waitpid(process_, &status, WNOHANG);
+  if (found == 0 || (found < 0 && errno == EINTR)) return false;
+  ended_ = true;
+  if (found < 0)
+    throw core::FileError(fmt::format("lost process {}: {}", process_, std::system_category().message(errno)));
+  code_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  return true;
+}
+
+void ChildProgram::ask_to_end() const {
+  if (!ended_) ::kill(process_, SIGTERM);
+}
+
+void ChildProgram::end() {
+  if (has_ended()) return;
+  ask_to_end();
+  for (const Clock::time_point last = Clock::now() + grace; !has_ended(); std::this_thread::sleep_for(look_every))
+    if (Clock::now() > last) ::kill(-process_, SIGKILL);
+}
+
+ChildExit run_child(const ChildOrder& order, double seconds, const std::function<void(const ChildProgram&)>& look) {
+  const Clock::time_point begin = Clock::now();
+  ChildProgram child(order);
+  ChildExit end;
+  while (!child.has_ended()) {
+    if (look) look(child);
+    if (seconds_since(begin) > seconds) {
+      end.timed_out = true;
+      child.end();
+      break;
+    }
+    std::this_thread::sleep_for(look_every);
+  }
+  end.wall = seconds_since(begin);
+  end.code = child.code();
+  return end;
+}
+
+}  // namespace polybed::multiscale

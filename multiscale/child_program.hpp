@@ -1,0 +1,64 @@
+// This program as another process, on one rank or several, so that one that fails or hangs ends nothing but itself.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace polybed::multiscale {
+
+/// What is started.
+struct ChildOrder {
+  std::vector<std::string> words;  ///< behind the name of this program
+  int ranks = 1;                   ///< above one by mpirun, which may be root, as with the launcher
+  /// Files of what it prints; no output: this process's standard error; no errors: where its output goes.
+  std::filesystem::path output = {}, errors = {};
+};
+
+/// How it ended.
+struct ChildExit {
+  int code = 0;            ///< its exit code; 128 and the number of the signal if one ended it
+  bool timed_out = false;  ///< it was ended because its time was over
+  double wall = 0;         ///< s
+};
+
+/// A process of a group of its own, which ends with this object and with this process, however these end.
+class ChildProgram {
+ public:
+  /// Throws core::FileError, or core::MpiError above one rank, if it cannot be started.
+  explicit ChildProgram(const ChildOrder& order);
+  ~ChildProgram();
+  ChildProgram(const ChildProgram&) = delete;
+  ChildProgram& operator=(const ChildProgram&) = delete;
+
+  [[nodiscard]] pid_t process() const { return process_; }
+  /// Throws core::FileError if the process has got lost.
+  [[nodiscard]] bool has_ended();
+  /// Asks it to end; mpirun ends its ranks then, which outlive an mpirun that is killed.
+  void ask_to_end() const;
+  /// Asks it to end, and ends its group if it does not within some seconds.
+  void end();
+  /// Of one that has ended.
+  [[nodiscard]] int code() const { return code_; }
+
+ private:
+  pid_t process_ = 0;
+  bool ended_ = false;
+  int code_ = 0;
+};
+
+/// Starts a program and waits for its end. Throws as ChildProgram does.
+/// \param seconds  after which it is ended
+/// \param look  called with it some hundred times a second
+[[nodiscard]] ChildExit run_child(const ChildOrder& order, double seconds = std::numeric_limits<double>::infinity(),
+                                  const std::function<void(const ChildProgram&)>& look = {});
+
+/// Texts as exec wants them: their places, and a null behind.
+[[nodiscard]] std::vector<char*> pointers_to(std::vector<std::string>& texts);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,17 @@
+#include "multiscale/installed.hpp"
+
+#include <system_error>
+
+namespace polybed::multiscale {
+
+namespace fs = std::filesystem;
+
+fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
+
+fs::path beside_program(const fs::path& from_program, const fs::path& in_sources) {
+  std::error_code unknown;
+  const fs::path installed = (this_program().parent_path() / from_program).lexically_normal();
+  return fs::exists(installed, unknown) ? installed : in_sources;
+}
+
+}  // namespace polybed::multiscale
