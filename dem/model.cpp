@@ -200,6 +200,11 @@ std::vector<KeptContact> Model::kept_contacts() const {
   return kept;
 }
 
+void Model::refresh_ghosts() {
+  exchange_.send_ghosts(particles_);
+  exchange_.receive_ghosts(particles_);
+}
+
 void Model::restart() {
   rebuild();
   if (coupling_) coupling_->restart();

@@ -58,6 +58,8 @@ class Model : public core::Simulation {
   /// species
   /// apart in a box. Collective. \param dv  by species, m/s
   void push(const std::vector<Vector>& dv);
+  /// Ghosts as their owners are now: since the forces of the last step they have moved on by half a step. Collective.
+  void refresh_ghosts();
   /// Takes a run up again, on any number of ranks; only the first rank's checkpoint is read.
   void resume(const core::Checkpoint& checkpoint);
   /// Begins at time 0 from the particles of a checkpoint.

@@ -44,7 +44,8 @@ void find_force(const PairLaws& laws, ContactBatch& batch) {
 
 /// Calls `see` for every pair that acts on each other and that this rank counts, with the force on the first.
 template <class See>
-void each_contact(const Model& model, See&& see) {
+void each_contact(Model& model, See&& see) {
+  model.refresh_ghosts();
   const Images images = model.images();
   const Contacts& contacts = model.pairs();
   const Particles& particles = model.particles();
@@ -63,7 +64,7 @@ void each_contact(const Model& model, See&& see) {
 }
 
 /// Adds the contacts that this rank counts. Returns how many touch.
-std::int64_t add_contacts(const Model& model, double per_unit, Sum& sum) {
+std::int64_t add_contacts(Model& model, double per_unit, Sum& sum) {
   std::int64_t touching = 0;
   each_contact(model, [&](const ContactForce& c) {
     sum.add(c.normal, c.force, c.length * per_unit);
@@ -87,13 +88,13 @@ void add_motion(const Model& model, std::vector<Sum>& kinetic, std::vector<std::
 
 }  // namespace
 
-std::vector<ContactForce> contact_forces(const Model& model) {
+std::vector<ContactForce> contact_forces(Model& model) {
   std::vector<ContactForce> forces;
   each_contact(model, [&](const ContactForce& c) { forces.push_back(c); });
   return forces;
 }
 
-Stress stress_of(const Model& model) {
+Stress stress_of(Model& model) {
   const auto& materials = model.materials().species();
   const std::size_t species = materials.size();
   std::vector<Sum> kinetic(species);

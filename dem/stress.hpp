@@ -33,7 +33,7 @@ struct Stress {
 
 /// Of the last step, at the velocities of the full step. Nothing moves on: contacts are looked at once more, and the
 /// laws act on a copy of their memory. Collective: the same on any number of ranks to the bit.
-[[nodiscard]] Stress stress_of(const Model& model);
+[[nodiscard]] Stress stress_of(Model& model);
 
 /// A pair that acts on each other, walls left out.
 struct ContactForce {
@@ -43,7 +43,7 @@ struct ContactForce {
   bool touches;          ///< not only near, as with a film between them
 };
 
-/// Of the last step, those that this rank counts; as stress_of, nothing moves on.
-[[nodiscard]] std::vector<ContactForce> contact_forces(const Model& model);
+/// Of the last step, those that this rank counts; as stress_of, nothing moves on. Collective.
+[[nodiscard]] std::vector<ContactForce> contact_forces(Model& model);
 
 }  // namespace polybed::dem

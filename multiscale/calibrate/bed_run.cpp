@@ -110,7 +110,7 @@ class BedRun {
     return std::exp(-0.5 * z * z) / (std::sqrt(2 * std::numbers::pi) * sigma() * area_);
   }
 
-  void look(Slabs& sum) const {
+  void look(Slabs& sum) {
     const dem::Particles& p = model_.particles();
     const double volume = closures::sphere_volume(0.5 * result_.diameter);
     const dem::FluidMotion& fluid = model_.coupling()->motion();

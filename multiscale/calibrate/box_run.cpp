@@ -144,7 +144,7 @@ class BoxRun {
     result_.slip = slip.mean / std::sqrt(result_.theta.mean);
   }
 
-  void add_look(std::vector<double>& sum) const {
+  void add_look(std::vector<double>& sum) {
     const dem::Stress s = dem::stress_of(model_);
     sum[pressure] += s.pressure();
     sum[shear] -= s.component(0, 1);
@@ -159,7 +159,7 @@ class BoxRun {
   }
 
   /// Of the fluctuations and in the springs, J.
-  [[nodiscard]] double stored_energy() const {
+  [[nodiscard]] double stored_energy() {
     const dem::Stress s = dem::stress_of(model_);
     return 0.5 * volume_ * (s.kinetic[0][0] + s.kinetic[1][1] + s.kinetic[2][2]) + dem::totals_of(model_).elastic +
            dem::totals_of(model_).rotational;

@@ -14,7 +14,10 @@
 #include "dem/exchange.hpp"
 #include "dem/gathered.hpp"
 #include "dem/materials.hpp"
+#include "dem/model.hpp"
 #include "dem/neighbours.hpp"
+#include "dem/stress.hpp"
+#include "dem_gas.hpp"
 
 namespace polybed::dem {
 namespace {
@@ -299,6 +302,26 @@ TEST(Exchange, GhostsAreWhereTheirOwnersAre) {
     EXPECT_EQ(particles.motion[i].w[2], double(id));
     EXPECT_EQ(particles.motion[i].v, particle(box, id, 1, 6).motion.v);
   }
+}
+
+/// The stress of a gas that collides, on all ranks and on one: particles have the same bits, so have its whole units.
+TEST(Stress, IsTheSameOnAnyNumberOfRanks) {
+  const verification::Gas gas{.number = 300, .fraction = 0.3, .restitution = 0.8};
+  const core::Scene scene = verification::scene_of(gas);
+  core::Timers timers, timers_alone;
+  Model model(scene, timers, ranks()), alone(scene, timers_alone);
+  std::int64_t contacts = 0;
+  for (int n = 0; n < 200; ++n) {
+    model.step(1e300);
+    alone.step(1e300);
+    if (n % 20 != 0) continue;
+    const Stress shared = stress_of(model), whole = stress_of(alone);
+    EXPECT_EQ(shared.contact, whole.contact);
+    EXPECT_EQ(shared.kinetic, whole.kinetic);
+    EXPECT_EQ(shared.contacts, whole.contacts);
+    contacts += whole.contacts;
+  }
+  EXPECT_GT(contacts, 50);
 }
 
 }  // namespace
