@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "closures/drag_schiller_naumann.hpp"
+
 namespace polybed::closures {
 
 /// Terminal velocity, m/s >= 0, of one sphere in an unbounded fluid at rest: the root of
@@ -24,6 +26,13 @@ template <class Drag>
     (u * f(1.0, fluid_density * u * diameter / viscosity) < stokes ? low : high) = u;
   }
   return 0.5 * (low + high);
+}
+
+/// The same by the drag of Schiller and Naumann, good to 5 % up to a Reynolds number of 800.
+[[nodiscard]] inline double settling_velocity(double diameter, double excess, double fluid_density, double viscosity,
+                                              double gravity) {
+  return terminal_velocity([](double eps, double re) { return DragSchillerNaumann{}(eps, re).f; }, diameter, excess,
+                           fluid_density, viscosity, gravity);
 }
 
 }  // namespace polybed::closures

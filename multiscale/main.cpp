@@ -260,9 +260,11 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   add_case(*calibrate_command, calibrate);
   calibrate_command->add_option("-o,--output", calibrate.output, "directory; default runs/<case name>-calibrate");
   calibrate_command->add_option("-j,--jobs", calibrate.jobs, "boxes at once; default 1")->check(CLI::Range(1, 1024));
-  calibrate_command->add_flag("--plan", calibrate.plan_only, "which boxes, and how long; nothing is run");
-  calibrate_command->add_option("--check", calibrate.check,
-                                "TABLE: run a few points that it was not fitted to, and compare");
+  CLI::Option* plan =
+      calibrate_command->add_flag("--plan", calibrate.plan_only, "which boxes, and how long; nothing is run");
+  calibrate_command
+      ->add_option("--check", calibrate.check, "TABLE: run a few points that it was not fitted to, and compare")
+      ->excludes(plan);
   calibrate_command->add_option("--bed", calibrate.bed,
                                 "TABLE of fluidised boxes (regime bed): its p_bed is put beside what is sheared");
   calibrate_command->add_option("--box", calibrate.box)->group("");

@@ -48,8 +48,7 @@ double mean_density(const Constants& constants) {
 }
 
 double terminal_velocity(const Constants& constants, std::size_t species) {
-  return closures::terminal_velocity([](double eps, double re) { return closures::DragSchillerNaumann{}(eps, re).f; },
-                                     constants.diameter[species], constants.density[species] - constants.fluid.density,
+  return closures::settling_velocity(constants.diameter[species], constants.density[species] - constants.fluid.density,
                                      constants.fluid.density, constants.fluid.viscosity, constants.gravity);
 }
 

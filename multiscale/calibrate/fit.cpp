@@ -41,7 +41,7 @@ double left_out_of(const fluid::SolidsTable& t) {
   double worst = 0;
   each_line(t, [&](std::size_t s, std::size_t e, std::size_t m, std::size_t x) {
     const std::vector<double> ratio = line_of(t, t.pressure, s, e, m, x);
-    for (std::size_t p = 1; t.phi.size() > 3 && p + 1 < t.phi.size(); ++p) {
+    for (std::size_t p = 1; t.phi.size() >= least_to_leave_one_out && p + 1 < t.phi.size(); ++p) {
       std::vector<double> phi = t.phi, rest = ratio;
       phi.erase(phi.begin() + std::ptrdiff_t(p));
       rest.erase(rest.begin() + std::ptrdiff_t(p));

@@ -11,13 +11,17 @@ namespace polybed::multiscale {
 
 /// Greatest residual of a fit that may be used.
 inline constexpr double greatest_residual = 0.05;
+/// Solids fractions from which on one can be left out and read from the others.
+inline constexpr std::size_t least_to_leave_one_out = 4;
 
 /// The table of sheared boxes in the order of a plan. Residual: greatest |box/fit - 1| of p and mu, less two standard
-/// errors of the box. left_out: the same where a solids fraction is left out and taken from the others.
+/// errors of the box; 0 where each point has one box. left_out: |left out/fit - 1| of p where a solids fraction is
+/// taken from the others; 0 where there are too few.
 [[nodiscard]] fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes);
 
 /// lambda of p = mu_f gamma V (1 + lambda St): slope over intercept of p/(mu_f gamma V) in St, the median over the
-/// points of a wet table with several Stokes numbers; 0 where it would not be positive.
+/// solids fractions of a wet table with several Stokes numbers, at its first friction and share; 0 where it would not
+/// be positive.
 [[nodiscard]] double fitted_inertia(const fluid::SolidsTable& table, const std::vector<double>& pressure);
 
 /// Where the pressure of a table does not rise with phi, on a grid ten times finer than its knots, from 0 to 0.02

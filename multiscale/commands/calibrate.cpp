@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <ctime>
+#include <optional>
 
 #include "core/case_file.hpp"
 #include "core/files.hpp"
@@ -72,11 +73,31 @@ fluid::SolidsTable table_of(const core::Scene& scene, const Plan& plan, const st
   return table;
 }
 
-void print_json(const fs::path& directory, const Plan& plan, double residual, double left_out) {
+/// What a fit was tested by: by nothing where each point has one box, or too few solids fractions to leave one out.
+struct Tested {
+  std::optional<double> residual, left_out;
+};
+
+Tested tested(const fluid::SolidsTable& table, const Plan& plan) {
+  Tested by;
+  if (plan.seeds() > 1) by.residual = table.residual;
+  if (table.phi.size() >= least_to_leave_one_out) by.left_out = table.left_out;
+  return by;
+}
+
+void print_json(const fs::path& directory, const Plan& plan, const Tested& by) {
   core::Json json;
   json.begin_object().member("table", (directory / "table.h5").string()).member("regime", plan.regime.name);
   json.member("reason", plan.regime.reason).member("boxes", std::uint64_t(plan.boxes.size()));
-  json.member("fit_residual", residual).member("left_out_residual", left_out).end_object();
+  json.member("fit_residual", by.residual).member("left_out_residual", by.left_out).end_object();
+  fmt::print("{}\n", json.text());
+}
+
+void print_plan_json(const Plan& plan, const Boxes& boxes) {
+  core::Json json;
+  json.begin_object().member("regime", plan.regime.name).member("reason", plan.regime.reason);
+  json.member("boxes", std::uint64_t(plan.boxes.size())).member("left", std::uint64_t(boxes.left()));
+  json.member("expected_s", boxes.expected_left() / boxes.at_once()).end_object();
   fmt::print("{}\n", json.text());
 }
 
@@ -109,7 +130,7 @@ void finish_bed(const CalibrateOptions& options, const fs::path& directory, cons
   require_usable(table);
   write_bed_table(directory / "table.h5", table, now(), core::text_hash(core::resolved_case(scene)));
   fmt::print(people(options), "table: {}\n", (directory / "table.h5").string());
-  if (options.json) print_json(directory, plan, 0, 0);
+  if (options.json) print_json(directory, plan, {});
 }
 
 /// Sheared boxes: the fitted table, told, and written if it may be used.
@@ -121,8 +142,9 @@ void finish_sheared(const CalibrateOptions& options, const fs::path& directory, 
   std::FILE* out = people(options);
   fmt::print(out, "{}", lines);
   core::write_atomically(directory / "boxes.txt", lines);
-  fmt::print(out, "residual {:.2f} %, with a solids fraction left out {:.2f} %\n", 100 * table.residual,
-             100 * table.left_out);
+  const Tested by = tested(table, plan);
+  const auto percent = [](const std::optional<double>& x) { return x ? fmt::format("{:.2f} %", 100 * *x) : "-"; };
+  fmt::print(out, "residual {}, with a solids fraction left out {}\n", percent(by.residual), percent(by.left_out));
   if (const double up_to = falls_in_shear_up_to(table); up_to > 0)
     fmt::print(out, "at fixed shear rate without a fluid the pressure falls up to phi = {:.3f}, as a dilute gas does\n",
                up_to);
@@ -130,7 +152,7 @@ void finish_sheared(const CalibrateOptions& options, const fs::path& directory, 
   fluid::write_solids_table(directory / "table.h5", table);
   core::write_atomically(directory / "table.toml", table_toml(table, plan, results));
   fmt::print(out, "table: {}\n", (directory / "table.h5").string());
-  if (options.json) print_json(directory, plan, table.residual, table.left_out);
+  if (options.json) print_json(directory, plan, by);
 }
 
 }  // namespace
@@ -148,7 +170,10 @@ void run_calibrate(const CalibrateOptions& options) {
   const Plan plan = plan_of(scene);
   if (!options.check.empty()) return check_table(options, scene, directory, plan, ranks);
   Boxes boxes(options, scene, directory, plan.boxes, ranks);
-  core::on_first(ranks.get(), [&] { print_plan(plan, boxes, options); });
+  core::on_first(ranks.get(), [&] {
+    print_plan(plan, boxes, options);
+    if (options.plan_only && options.json) print_plan_json(plan, boxes);
+  });
   if (options.plan_only) return;
   const std::vector<BoxResult> results = boxes.run();
   core::on_first(ranks.get(), [&] {

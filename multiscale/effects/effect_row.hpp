@@ -40,4 +40,15 @@ struct EffectRow {
   std::string not_built;  ///< why a run cannot have it; empty: it can
 };
 
+/// A row that is not yet weighed.
+inline EffectRow effect_row(const char* effect, const char* model, const char* number,
+                            EffectRow::Kind kind = EffectRow::Kind::role) {
+  EffectRow row;
+  row.effect = effect;
+  row.model = model;
+  row.number = number;
+  row.kind = kind;
+  return row;
+}
+
 }  // namespace polybed::multiscale

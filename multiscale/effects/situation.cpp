@@ -21,8 +21,6 @@ namespace {
 
 constexpr int points = 33;  ///< of a range
 
-double free_drag(double, double reynolds) { return closures::DragSchillerNaumann{}(1, reynolds).f; }
-
 /// Volumes of the species in the scene, m3.
 std::vector<double> solids_volumes(const core::Scene& scene) {
   const core::Bed& bed = scene.bed;
@@ -149,8 +147,8 @@ class BedInFluid {
   void add_freeboard(double velocity) {
     for (std::size_t j = 0; j < diameter_.size(); ++j) {
       const Situation p = particle(j);
-      const double terminal = closures::terminal_velocity(free_drag, p.diameter, std::abs(p.density - p.fluid_density),
-                                                          p.fluid_density, p.viscosity, scene_.column.gravity);
+      const double terminal = closures::settling_velocity(p.diameter, p.density - p.fluid_density, p.fluid_density,
+                                                          p.viscosity, scene_.column.gravity);
       if (const double w = std::max(velocity, terminal); w > 0)
         survey_.situations.push_back(in_zone(p, "freeboard", w, 1, law_));
     }
@@ -223,7 +221,7 @@ Situation in_zone(Situation s, const std::string& zone, double velocity, double 
   s.velocity = velocity;
   s.voidage = voidage;
   s.slip = velocity / voidage;
-  s.f = alone ? free_drag(1, s.reynolds()) : closures::pure_drag_at(law, voidage, s.reynolds());
+  s.f = alone ? closures::DragSchillerNaumann{}(1, s.reynolds()).f : closures::pure_drag_at(law, voidage, s.reynolds());
   s.shear = at_wall ? closures::shear_rate_at_wall(s.slip, s.width, s.diameter)
                     : closures::shear_rate_inside(s.slip, s.diameter);
   return s;

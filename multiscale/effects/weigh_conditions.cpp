@@ -18,17 +18,8 @@ namespace {
 using State = EffectRow::State;
 using Kind = EffectRow::Kind;
 
-EffectRow row_of(const char* effect, const char* model, const char* number, Kind kind) {
-  EffectRow row;
-  row.effect = effect;
-  row.model = model;
-  row.number = number;
-  row.kind = kind;
-  return row;
-}
-
 EffectRow always(const char* effect, const char* reason) {
-  EffectRow row = row_of(effect, "exact", "-", Kind::condition);
+  EffectRow row = effect_row(effect, "exact", "-", Kind::condition);
   row.state = State::on;
   row.reason = reason;
   return row;
@@ -45,9 +36,9 @@ constexpr double sound_in_liquids = 1480;
 
 EffectRow equation_of_state(const core::Scene& scene, const Survey& survey) {
   EffectRow row =
-      row_of("equation_of_state", survey.is_gas ? "ideal_gas" : "tait",
-             survey.is_gas ? "greatest of Ma^2/2, dp/p0, rho g H/p0" : "greatest of Ma^2/2, dp/(rho c^2), g H/c^2",
-             Kind::condition);
+      effect_row("equation_of_state", survey.is_gas ? "ideal_gas" : "tait",
+                 survey.is_gas ? "greatest of Ma^2/2, dp/p0, rho g H/p0" : "greatest of Ma^2/2, dp/(rho c^2), g H/c^2",
+                 Kind::condition);
   row.threshold = scene.chooser.tolerance;
   const double rho = survey.fluid_density, p0 = scene.fluid.outlet_pressure, g = scene.column.gravity;
   double solids = 0;
@@ -66,7 +57,7 @@ EffectRow equation_of_state(const core::Scene& scene, const Survey& survey) {
 }
 
 EffectRow coupling(const Survey& survey) {
-  EffectRow row = row_of("coupling", "four-way", "solids fraction over the column", Kind::condition);
+  EffectRow row = effect_row("coupling", "four-way", "solids fraction over the column", Kind::condition);
   row.state = State::on;
   row.value = survey.mean_fraction;
   row.threshold = 1e-3;
@@ -76,7 +67,7 @@ EffectRow coupling(const Survey& survey) {
 }
 
 EffectRow walls(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = row_of("walls", scene.column.sides.c_str(), "L/d of the coarsest", Kind::condition);
+  EffectRow row = effect_row("walls", scene.column.sides.c_str(), "L/d of the coarsest", Kind::condition);
   double coarsest = 0;
   for (const core::Species& s : scene.species) coarsest = std::max(coarsest, s.diameter);
   row.value = survey.width / coarsest;
@@ -90,7 +81,7 @@ EffectRow walls(const core::Scene& scene, const Survey& survey) {
 }
 
 EffectRow level(const Survey& survey) {
-  EffectRow row = row_of("level", "two momenta", "tau_p over the time of flow H/w", Kind::condition);
+  EffectRow row = effect_row("level", "two momenta", "tau_p over the time of flow H/w", Kind::condition);
   row.state = State::on;
   row.threshold = 0.02;
   Supremum greatest;
@@ -103,7 +94,7 @@ EffectRow level(const Survey& survey) {
 }
 
 EffectRow turbulence(const Survey& survey) {
-  EffectRow row = row_of("turbulence", "none", "Re of the column, freeboard", Kind::unmodelled);
+  EffectRow row = effect_row("turbulence", "none", "Re of the column, freeboard", Kind::unmodelled);
   row.threshold = 2000;
   row.value = survey.fluid_density * survey.greatest_velocity * survey.width / survey.viscosity;
   row.reason = *row.value > 2000 ? "not modelled: the freeboard is turbulent" : "laminar above the bed";
@@ -111,16 +102,15 @@ EffectRow turbulence(const Survey& survey) {
 }
 
 EffectRow clusters(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = row_of("clusters", "none", "g Delta/u_t^2 of the finest, cells > 10 d", Kind::unmodelled);
+  EffectRow row = effect_row("clusters", "none", "g Delta/u_t^2 of the finest, cells > 10 d", Kind::unmodelled);
   row.threshold = 0.5;
   double cell = 0;
   for (int axis = 0; axis < scene.column.dimensions; ++axis)
     cell = std::max(cell, scene.column.size[std::size_t(axis)] / scene.column.cells[std::size_t(axis)]);
   double value = 0;
   for (const core::Species& s : scene.species) {
-    const double terminal = closures::terminal_velocity(
-        [](double, double re) { return closures::DragSchillerNaumann{}(1, re).f; }, s.diameter,
-        std::abs(s.density - survey.fluid_density), survey.fluid_density, survey.viscosity, scene.column.gravity);
+    const double terminal = closures::settling_velocity(s.diameter, s.density - survey.fluid_density,
+                                                        survey.fluid_density, survey.viscosity, scene.column.gravity);
     if (cell > 10 * s.diameter && terminal > 0)
       value = std::max(value, scene.column.gravity * cell / (terminal * terminal));
   }
@@ -131,7 +121,7 @@ EffectRow clusters(const core::Scene& scene, const Survey& survey) {
 }
 
 EffectRow temperature(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = row_of("temperature", "none", "viscosity per kelvin", Kind::unmodelled);
+  EffectRow row = effect_row("temperature", "none", "viscosity per kelvin", Kind::unmodelled);
   if (!(survey.temperature > 0) || (scene.fluid.density && scene.fluid.viscosity)) {
     row.state = State::unknown;
     row.reason = "unknown: the fluid is given by numbers; of water about -2 % per K";
@@ -151,7 +141,7 @@ EffectRow temperature(const core::Scene& scene, const Survey& survey) {
 
 /// Two charges that touch, over the weight: q^2/(4 pi eps0 d^2)/F_ref.
 EffectRow charge(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = row_of("charge", "none", "Coulomb force of neighbours over weight", Kind::unmodelled);
+  EffectRow row = effect_row("charge", "none", "Coulomb force of neighbours over weight", Kind::unmodelled);
   row.threshold = scene.chooser.tolerance;
   if (!scene.chooser.charge) {
     row.state = State::unknown;
@@ -170,7 +160,7 @@ EffectRow charge(const core::Scene& scene, const Survey& survey) {
 }
 
 EffectRow capillary(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = row_of("capillary_bridges", "capillary", "pull of a bridge over weight", Kind::unmodelled);
+  EffectRow row = effect_row("capillary_bridges", "capillary", "pull of a bridge over weight", Kind::unmodelled);
   row.threshold = scene.chooser.tolerance;
   if (survey.has_fluid && !survey.is_gas) {
     row.neglected = 0;
@@ -192,7 +182,7 @@ EffectRow capillary(const core::Scene& scene, const Survey& survey) {
 }
 
 EffectRow sintering() {
-  EffectRow row = row_of("sintering", "none", "-", Kind::unmodelled);
+  EffectRow row = effect_row("sintering", "none", "-", Kind::unmodelled);
   row.state = State::unknown;
   row.reason = "unknown: needs how the material softens; not modelled";
   return row;

@@ -21,10 +21,7 @@ constexpr double greatest_certain_reynolds = 100;
 constexpr double room_temperature = 293.15;  ///< K, where the case names none
 
 EffectRow force_row(const char* effect, const char* model, const char* number, double tolerance) {
-  EffectRow row;
-  row.effect = effect;
-  row.model = model;
-  row.number = number;
+  EffectRow row = effect_row(effect, model, number);
   row.threshold = tolerance;
   row.summed = true;
   return row;
@@ -110,10 +107,9 @@ EffectRow brownian(const core::Scene& scene, const Survey& survey) {
   if (!scene.fluid.temperature) row.not_built = "needs fluid.temperature; weighed at 20 degC";
   if (scene.dem.held) row.not_built = "dem.held holds the particles";
   Supremum greatest;
-  const auto drag = [](double, double re) { return closures::DragSchillerNaumann{}(1, re).f; };
   for (const Situation& s : survey.situations) {
-    const double terminal = closures::terminal_velocity(drag, s.diameter, std::abs(s.density - s.fluid_density),
-                                                        s.fluid_density, s.viscosity, s.gravity);
+    const double terminal =
+        closures::settling_velocity(s.diameter, s.density - s.fluid_density, s.fluid_density, s.viscosity, s.gravity);
     const double falling = terminal > 0 ? terminal : s.slip;
     const double temperature = s.temperature > 0 ? s.temperature : room_temperature;
     greatest.add(s, closures::brownian_relevance(temperature, s.viscosity, s.diameter, falling));

@@ -14,11 +14,8 @@ namespace {
 using State = EffectRow::State;
 
 EffectRow phase_row(const char* effect, const char* model, const char* models, const char* number) {
-  EffectRow row;
-  row.effect = effect;
-  row.model = model;
+  EffectRow row = effect_row(effect, model, number);
   row.models = models;
-  row.number = number;
   return row;
 }
 

@@ -81,6 +81,7 @@ class Calibration(Scratch):
         done = self.calibrate(DRY, "-j", "2")
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertIn("regime dry: there is no fluid", done.stdout)
+        self.assertIn("residual -, with a solids fraction left out -", done.stdout)  # one box a point, and two of them
         with h5py.File(self.folder / "boxes/table.h5") as table:
             self.assertEqual(table.attrs["filetype"], "polybed solids table")
             self.assertEqual(table.attrs["regime"], "dry")
@@ -106,6 +107,18 @@ class Calibration(Scratch):
         self.assertEqual(self.calibrate(DRY, "--set", "calibrate.solids_fraction=[0.3,0.4,0.45]").returncode, DONE)
         self.assertEqual(len(list((self.folder / "boxes/boxes").iterdir())), 3)
         self.assertEqual(json.loads(first.read_text())["pressure_Pa"], whole["pressure_Pa"], "the same bits")
+
+    def test_a_plan_runs_nothing_and_a_case_that_cannot_be_planned_is_told(self):
+        plan = program.strict_json(self.calibrate(WET, "--plan", "--json", "--set", 'effects.drag="auto"').stdout)
+        self.assertEqual((plan["regime"], plan["boxes"], plan["left"]), ("wet", 4, 4))
+        self.assertGreater(plan["expected_s"], 0)
+        self.assertFalse((self.folder / "boxes/boxes").exists())
+        self.assertEqual(self.calibrate(WET, "--plan", "--check", "table.h5").returncode, WRONG_CASE)
+        for case, words, told in ((program.ROOT / "cases/settling-sphere/case.toml", ['calibrate.regime="dry"'], "volume_share"),
+                                  (self.folder / "case.toml", ["calibrate.share=[0.5,1]"], "both species")):
+            done = program.run("calibrate", case, "--plan", "-o", self.folder / "boxes", *[w for s in words for w in ("--set", s)])
+            self.assertEqual(done.returncode, WRONG_CASE, done.stderr)
+            self.assertIn(told, done.stderr)
 
     def numbers(self, folder):
         """Of each box what it has measured: all but the time it took."""

@@ -82,6 +82,7 @@ TEST(TerminalVelocity, StokesLimitAndForceBalance) {
   const auto sn = [](double eps, double re) { return DragSchillerNaumann{}(eps, re).f; };
   const double u = terminal_velocity(sn, 1e-3, 1500, 1000, 1e-3, 9.81);
   EXPECT_NEAR(18e-3 * u * sn(1, u * 1e-3 * 1000 / 1e-3) / 1e-6, 1500 * 9.81, 1e-8 * 1500 * 9.81);
+  EXPECT_EQ(settling_velocity(1e-3, -1500, 1000, 1e-3, 9.81), u) << "what is lighter rises as fast";
 }
 
 }  // namespace

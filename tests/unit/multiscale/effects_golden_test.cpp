@@ -2,6 +2,8 @@
 // species alone. The values stand as printed, two digits: within 5 %.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include <map>
 
 #include "closures/mixture.hpp"
@@ -23,6 +25,8 @@ struct Golden {
   /// 0: the table has none.
   std::array<double, 10> expected;
 };
+
+void PrintTo(const Golden& g, std::ostream* out) { *out << g.scene; }
 
 constexpr double uncertain = -1;  ///< "band"
 
