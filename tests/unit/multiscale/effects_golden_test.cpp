@@ -2,9 +2,8 @@
 // species alone. The values stand as printed, two digits: within 5 %.
 #include <gtest/gtest.h>
 
-#include <ostream>
-
 #include <map>
+#include <ostream>
 
 #include "closures/mixture.hpp"
 #include "closures/relevance.hpp"
