@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "core/descriptor.hpp"
 #include "core/error.hpp"
 
 namespace polybed::core {
@@ -22,27 +23,6 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const std::string& deed, const fs::path& path, int reason) {
   throw FileError(fmt::format("cannot {} {}: {}", deed, path.string(), std::system_category().message(reason)));
 }
-
-/// An open file, closed at the end of the scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int number() const { return number_; }
-  /// Closes now; 0 or the reason of the failure.
-  int close() {
-    const int result = ::close(number_);
-    number_ = -1;
-    return result == 0 ? 0 : errno;
-  }
-
- private:
-  int number_;
-};
 
 /// 0 or the reason why not all bytes reached the disk.
 int write_and_flush(Descriptor& file, std::span<const std::byte> bytes) {

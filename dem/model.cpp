@@ -150,13 +150,13 @@ void Model::move(double dt) {
   if (coupling_) coupling_->turn(particles_);
 }
 
-/// What the next step will need, or that there must be none: all that the ranks have to agree on.
 void Model::push(const std::vector<Vector>& dv) {
   for (std::size_t i = 0; i < particles_.owned; ++i)
     for (std::size_t k = 0; k < 3; ++k) particles_.motion[i].v[k] += dv[std::size_t(particles_.species[i])][k];
   look_ahead();
 }
 
+/// What the next step will need, or that there must be none: all that the ranks have to agree on.
 void Model::look_ahead() {
   const auto scope = timers_.scope("motion", timed_);
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <thread>
 
+#include "core/descriptor.hpp"
 #include "core/error.hpp"
 #include "multiscale/installed.hpp"
 
@@ -52,21 +53,6 @@ std::vector<std::string> words_of(const ChildOrder& order) {
   words.insert(words.end(), order.words.begin(), order.words.end());
   return words;
 }
-
-/// A file that is closed at the end of its scope.
-class File {
- public:
-  explicit File(int number) : number_(number) {}
-  ~File() {
-    if (number_ >= 0) ::close(number_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 int opened(const std::filesystem::path& path) {
   const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -126,12 +112,12 @@ ChildProgram::ChildProgram(const ChildOrder& order) {
   std::vector<std::string> words = words_of(order), variables = environment(order.ranks);
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) not_started(order, words.front(), errno);
-  const File reading(pipe[0]);
+  const core::Descriptor reading(pipe[0]);
   int reason = 0;
   {
-    const File writing(pipe[1]);
-    const File output(order.output.empty() ? -1 : opened(order.output));
-    const File errors(order.errors.empty() ? -1 : opened(order.errors));
+    const core::Descriptor writing(pipe[1]);
+    const core::Descriptor output(order.output.empty() ? -1 : opened(order.output));
+    const core::Descriptor errors(order.errors.empty() ? -1 : opened(order.errors));
     const int out = order.output.empty() ? STDERR_FILENO : output.number();
     const Start start{pointers_to(words),
                       pointers_to(variables),

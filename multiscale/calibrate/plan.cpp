@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "closures/mixture.hpp"
 #include "closures/stress_reference.hpp"
 #include "core/case_file.hpp"
 #include "core/error.hpp"
@@ -94,12 +95,13 @@ Plan plan_of(const core::Scene& scene) {
 }
 
 MeanSphere mean_sphere(const std::vector<core::Species>& species, const std::vector<double>& share) {
-  double per_diameter = 0, density = 0;
+  std::vector<double> diameter;
+  double density = 0;
   for (std::size_t j = 0; j < species.size(); ++j) {
-    per_diameter += share[j] / species[j].diameter;
+    diameter.push_back(species[j].diameter);
     density += share[j] * species[j].density;
   }
-  return {1 / per_diameter, density};
+  return {closures::sauter_diameter(share, diameter), density};
 }
 
 std::string box_hash(const core::Scene& scene, const BoxPoint& point) {

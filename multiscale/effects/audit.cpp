@@ -18,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using closures::Vec3;
 
-constexpr double least_fraction = 1e-3;
-
 /// A stored vector field as vectors; of a plane the third component is 0.
 std::vector<Vec3> vectors(const core::DataSet& data) {
   const std::size_t components = data.shape.back();
@@ -55,7 +53,7 @@ void audit_continuum(const core::FieldReader& reader, const core::Scene& scene, 
       for (int i = 0; i < map.cells[1]; ++i)
         for (int h = 0; h < map.cells[0]; ++h) {
           const std::size_t c = map.index(h, i, k);
-          if (!(fraction[c] > least_fraction)) continue;
+          if (!(fraction[c] > least_fraction_met)) continue;
           Encounter met{j, map.velocity[c] - velocity[c], map.vorticity({h, i, k}), {}, {}, reader.times()[step]};
           met.place = {(h + 0.5) * map.spacing[0], (i + 0.5) * map.spacing[1],
                        map.dimensions > 2 ? (k + 0.5) * map.spacing[2] : 0};

@@ -17,7 +17,6 @@ namespace {
 using closures::Vec3;
 
 constexpr int samples_before_warning = 3;
-constexpr double least_fraction = 1e-3;
 
 FluidMap map_of(const dem::Coupling::Column& column, bool walls) {
   const core::Grid& grid = column.grid;
@@ -97,7 +96,7 @@ std::vector<std::string> Monitor::look(const tfm::Model& model) {
         if (!in_sample(grid.before[0] + i + grid.column_cells(0) * row, scene_.chooser.monitor_sample)) continue;
         const auto c = std::size_t(grid.index(i, j, k));
         for (std::size_t s = 0; s < scene_.species.size(); ++s) {
-          if (!(fields.solids.fraction[s][c] > least_fraction)) continue;
+          if (!(fields.solids.fraction[s][c] > least_fraction_met)) continue;
           std::array<double, 3> slip{};
           for (std::size_t a = 0; a < 3; ++a)
             slip[a] = component(fields.fluid.velocity, a, c) - component(fields.solids.velocity[s], a, c);

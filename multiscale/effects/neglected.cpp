@@ -17,9 +17,6 @@ namespace {
 constexpr int bins = 240, bins_per_decade = 20;
 constexpr double least_share = 1e-10;
 
-/// Up to which the laws are told; beyond it they are a band (docs/effects.md).
-constexpr double greatest_reynolds = 100;
-
 std::size_t bin_of(double share) {
   const double place = std::log10(std::max(share, least_share) / least_share) * bins_per_decade;
   return std::size_t(std::clamp(place, 0.0, double(bins - 1)));
@@ -80,7 +77,7 @@ std::optional<double> Neglected::share_of(const std::string& effect, const Encou
   if (!(weight > 0)) return std::nullopt;
   if (effect == "cohesion") return closures::van_der_waals_relevance(surfaces_.hamaker, surfaces_.roughness, weight);
   const double speed = std::sqrt(closures::dot(met.slip, met.slip));
-  if (fluid_density_ * speed * s.diameter / viscosity_ > greatest_reynolds) return std::nullopt;
+  if (fluid_density_ * speed * s.diameter / viscosity_ > greatest_certain_reynolds) return std::nullopt;
   closures::Vec3 force{};
   if (effect == "lift") {
     force = closures::lift_saffman_mei(met.slip, met.vorticity, s.diameter, fluid_density_, viscosity_);

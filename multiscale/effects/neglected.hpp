@@ -15,6 +15,9 @@
 
 namespace polybed::multiscale {
 
+/// Solids fraction below which a cell holds nothing that an effect could matter to.
+inline constexpr double least_fraction_met = 1e-3;
+
 /// What a particle meets, or the particles of a species in a cell.
 struct Encounter {
   std::size_t species = 0;

@@ -16,8 +16,6 @@ namespace {
 
 using State = EffectRow::State;
 
-/// Beyond it lift and spin forces are no more than known by their order, also in sign.
-constexpr double greatest_certain_reynolds = 100;
 constexpr double room_temperature = 293.15;  ///< K, where the case names none
 
 EffectRow force_row(const char* effect, const char* model, const char* number, double tolerance) {

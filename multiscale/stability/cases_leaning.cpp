@@ -37,23 +37,8 @@ double upright_velocity(const core::Scene& scene) {
   const closures::CarriedBed bed{species.diameter, species.density - fluid.density, fluid.density, fluid.viscosity,
                                  scene.column.gravity};
   const closures::DragLaw law = closures::drag_law(scene.effects.at("drag"), closures::Guard::on);
-  const auto f = [&](double voidage, double reynolds) {
-    std::vector<double> value(1), slope(1);
-    closures::GuardCount count;
-    closures::drag_of_points(law, std::vector{voidage}, std::vector{reynolds}, value, slope, count);
-    return value[0];
-  };
+  const auto f = [&](double voidage, double reynolds) { return closures::pure_drag_at(law, voidage, reynolds); };
   return closures::carrying_velocity(f, bed, 1 - fraction);
-}
-
-/// Greatest difference of a field from its mirror image, left and right exchanged.
-double asymmetry(const core::Grid& grid, const core::Field& left, const core::Field& right) {
-  double most = 0;
-  for (int k = 0; k < grid.cells[1]; ++k)
-    for (int i = 0; i < grid.cells[0]; ++i)
-      most = std::max(most, std::abs(left[std::size_t(grid.index(i, k))] -
-                                     right[std::size_t(grid.index(grid.cells[0] - 1 - i, k))]));
-  return most;
 }
 
 /// Three cells across at 5, 30 and 60 degrees; at 30 to either side, in steps of one length: mirror images (V11).

@@ -119,11 +119,7 @@ double contact_steps(Trial& trial, const Box& box) {
   const Scratch folder;
   const fs::path output = folder.path() / "out";
   (void)end_of(trial, 1, dem(write_case(folder.path(), box), output), output);
-  const core::Bytes record = core::read_whole_file(output / "run.json");
-  return core::parse_json({reinterpret_cast<const char*>(record.data()), record.size()})
-      .of("work")
-      .of("contact_steps")
-      .number();
+  return core::read_json(output / "run.json").of("work").of("contact_steps").number();
 }
 
 /// P6: two spheres roll on each other across the face of a slab, two more across a corner of the box; each pair has a

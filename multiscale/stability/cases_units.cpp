@@ -28,10 +28,7 @@ double apart(const core::Grid& grid, const core::Field& one, const core::Field& 
 
 /// Water, two species, walls, every exchange.
 core::Scene liquid_bed() {
-  core::Scene scene = two_species(20, 0.06, false);
-  scene.column.cells[0] = 6;
-  scene.column.size[0] *= 6;
-  scene.column.sides = "wall";
+  core::Scene scene = between_walls(two_species(20, 0.06, false), 6);
   scene.bed.static_height = 0.03;
   scene.bed.start_solids_fraction = 0.56;
   scene.inlet.superficial_velocity = {{0.0, 0.02}, {0.01, 0.02}, {0.02, 0.03}};
@@ -43,14 +40,11 @@ core::Scene liquid_bed() {
 
 /// Air, two sizes, granular temperatures of their own, walls with partial slip.
 core::Scene gas_bed() {
-  core::Scene scene = uniform_bed(0.5e-3, 2500, 1.2, 1.8e-5, 0.6, 20, 0.06);
+  core::Scene scene = between_walls(uniform_bed(0.5e-3, 2500, 1.2, 1.8e-5, 0.6, 20, 0.06), 6);
   scene.species.push_back(scene.species[0]);
   scene.species[1].name = "coarse";
   scene.species[1].diameter = 0.8e-3;
   scene.bed.volume_share = {0.5, 0.5};
-  scene.column.cells[0] = 6;
-  scene.column.size[0] *= 6;
-  scene.column.sides = "wall";
   scene.effects = {{"drag", "gidaspow"},
                    {"solids_stress", "kinetic"},
                    {"granular_temperature", "transported"},

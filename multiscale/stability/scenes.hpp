@@ -1,6 +1,9 @@
 // Scenes that several hard cases start from.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "fluid/invariants.hpp"
 #include "fluid/measures.hpp"
 #include "multiscale/stability/hard_case.hpp"
@@ -22,6 +25,24 @@ inline core::Scene two_species(int cells, double height, bool closed) {
   scene.column.closed = closed;
   scene.effects = {{"drag", "cello"}, {"solids_stress", "frictional"}, {"species_exchange", "syamlal"}};
   return scene;
+}
+
+/// A scene of one row of cells with so many of them side by side, between walls.
+[[nodiscard]] inline core::Scene between_walls(core::Scene scene, int cells) {
+  scene.column.cells[0] = cells;
+  scene.column.size[0] *= cells;
+  scene.column.sides = "wall";
+  return scene;
+}
+
+/// Greatest difference of a field from the mirror image of another, left and right exchanged.
+[[nodiscard]] inline double asymmetry(const core::Grid& grid, const core::Field& left, const core::Field& right) {
+  double most = 0;
+  for (int k = 0; k < grid.cells[1]; ++k)
+    for (int i = 0; i < grid.cells[0]; ++i)
+      most = std::max(most, std::abs(left[std::size_t(grid.index(i, k))] -
+                                     right[std::size_t(grid.index(grid.cells[0] - 1 - i, k))]));
+  return most;
 }
 
 /// Sets the fractions at the start: change(j, k, phi) of species j in layer k of a column of one row of cells.

@@ -129,28 +129,28 @@ TEST(Neglected, EvaluatesTheClosureOfTheChoice) {
   met.slip = {0, 1, 0};
   neglected.see(met);
   EXPECT_EQ(neglected.observed()[0].outside, 1U);
+  EXPECT_EQ(neglected.sum().outside, 1U);
+}
+
+// Where all that is met lies beyond the laws, nothing is known of their sum: it is not 0.
+TEST(Neglected, IsNotKeptWhereNothingCouldBeEvaluated) {
+  Neglected neglected(core::parse_case(text, "case.toml", {}, all_roles(), size_classes), "tfm");
+  Encounter met;
+  met.slip = {0, 1, 0};
+  met.vorticity = {0, 0, 5};
+  EXPECT_FALSE(neglected.kept().has_value());
+  neglected.see(met);
+  EXPECT_FALSE(neglected.kept().has_value());
+  met.slip = {0, 1e-3, 0};
+  neglected.see(met);
+  EXPECT_TRUE(neglected.kept().has_value());
 }
 
 // The coarse species of system B falls at Re_p above 100 in the freeboard, where the law of the lift is a band. At
 // Re_p 99 it is within the law, under the shear of that zone: 10 u_t/L > 9.4 1/s, as u_t > 0.0568 m/s and L = 60 mm.
 TEST(Neglected, BoundsSlowEncountersOfWhatIsFastElsewhere) {
-  const std::string b = R"(
-column = { size = [0.06, 0.6], cells = [6, 60] }
-fluid = { name = "liquid", density = 999.19, viscosity = 1.14e-3 }
-bed = { volume_share = [0.569, 0.431], static_height = "90 mm", solids_fraction = 0.62 }
-inlet = { superficial_velocity = "30 mm/s" }
-effects = { drag = "cello", solids_stress = "frictional" }
-run = { until = "1 s" }
-[[species]]
-name = "fine"
-diameter = "0.807 mm"
-density = 1395
-[[species]]
-name = "coarse"
-diameter = "2.01 mm"
-density = 1170
-)";
-  const core::Scene scene = core::parse_case(b, "case.toml", {}, all_roles(), size_classes);
+  const core::Scene scene =
+      core::read_case(POLYBED_SOURCE_DIR "/cases/matsuura-akehata/case.toml", {}, all_roles(), size_classes);
   Neglected neglected(scene, "tfm");
   const Observed& lift = neglected.observed()[0];
   ASSERT_EQ(lift.effect, "lift");

@@ -1,0 +1,31 @@
+// An open file of the system.
+#pragma once
+
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace polybed::core {
+
+/// Closed at the end of its scope; a negative number is no file.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int number() const { return number_; }
+  /// Closes now; 0 or the reason of the failure.
+  int close() {
+    const int result = ::close(number_);
+    number_ = -1;
+    return result == 0 ? 0 : errno;
+  }
+
+ private:
+  int number_;
+};
+
+}  // namespace polybed::core
