@@ -57,19 +57,21 @@ int NeighbourSearch::Level::place(double x, std::size_t axis) const {
 }
 
 NeighbourSearch::NeighbourSearch(const Box& box, const Materials& materials, double reach)
-    : box_(box), materials_(materials), reach_(reach), least_(materials.least_diameter()) {
-  const double greatest = materials.greatest_diameter();
-  // Below a ratio of three one level costs less than two.
-  const bool one = greatest < 3 * least_;
-  if (one) least_ = greatest;
-  levels_.resize(one ? 1 : level_of(0.5 * greatest) + 1);
-  for (std::size_t l = 0; l < levels_.size(); ++l) levels_[l].cell = std::ldexp(least_ + reach_, int(l));
+    : box_(box), materials_(materials), reach_(reach) {
+  std::vector<double> diameters;
+  for (const Species& species : materials.species()) diameters.push_back(2 * species.radius);
+  std::sort(diameters.begin(), diameters.end());
+  // From the largest downwards: a level more pays where its cells have less than half the volume.
+  constexpr double worth_a_level = 1.25;
+  for (auto d = diameters.rbegin(); d != diameters.rend(); ++d)
+    if (levels_.empty() || worth_a_level * (*d + reach) < levels_.back().cell) levels_.emplace_back().cell = *d + reach;
+  std::reverse(levels_.begin(), levels_.end());
 }
 
 std::size_t NeighbourSearch::level_of(double radius) const {
-  if (levels_.size() == 1) return 0;
-  const double ratio = (2 * radius + reach_) / (least_ + reach_);
-  return ratio <= 1 ? 0 : std::size_t(std::ceil(std::log2(ratio) - 1e-12));
+  std::size_t level = 0;
+  while (level + 1 < levels_.size() && levels_[level].cell < 2 * radius + reach_) ++level;
+  return level;
 }
 
 void NeighbourSearch::lay_out(const std::array<bool, 3>& whole) {

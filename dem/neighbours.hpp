@@ -32,7 +32,7 @@ class NeighbourSearch {
   [[nodiscard]] std::vector<std::int32_t> order(const Particles& particles) const;
 
  private:
-  /// Cells of one size and the particles of that size in them.
+  /// Cells of one size and in them the particles that are no larger, but too large for a finer level.
   struct Level {
     double cell = 0;  ///< m, at least
     Vector low{}, inverse{};
@@ -59,9 +59,9 @@ class NeighbourSearch {
 
   const Box& box_;
   const Materials& materials_;
-  double reach_, least_;
-  std::vector<Level> levels_;
-  std::vector<Vector> near_;  ///< positions with images taken near the centre
+  double reach_;
+  std::vector<Level> levels_;  ///< from the smallest particles' to the largest's
+  std::vector<Vector> near_;   ///< positions with images taken near the centre
   std::uint64_t candidates_ = 0;
 };
 
