@@ -134,6 +134,8 @@ void add_stability(CLI::App& app, multiscale::StabilityOptions& options) {
   command.add_option("--schemes", options.schemes, "by commas, e.g. implicit/limited");
   command.add_option("--naive", options.naive, "textbook treatments, by commas, or all: test builds alone");
   command.add_option("--fuzz", options.draws, "that many scenes drawn from the envelope, in place of the catalogue");
+  command.add_option("--draw", options.draw, "of these scenes those numbers alone, by commas, e.g. 738,965")
+      ->delimiter(',');
   command.add_option("--seed", options.seed, "of the draws");
   command.add_option("-j,--jobs", options.jobs, "cells at once")->check(CLI::Range(1, 256));
   command.add_option("-o,--output", options.output, "default runs/stability");
@@ -310,7 +312,7 @@ int run(int argc, char** argv, std::optional<Mpi>& mpi) {
   }
   if (app.got_subcommand("plot")) return exit_code(run_plot(plot));
   if (app.got_subcommand("stability")) {
-    const core::ExitCode code = hard.draws > 0 ? run_fuzz(hard) : run_stability(hard);
+    const core::ExitCode code = hard.draws > 0 || !hard.draw.empty() ? run_fuzz(hard) : run_stability(hard);
     flush_standard_output();
     return exit_code(code);
   }

@@ -4,6 +4,7 @@
 
 #include "core/operators.hpp"
 #include "fluid/convection.hpp"
+#include "tfm/fraction_face.hpp"
 
 namespace polybed::tfm {
 
@@ -64,7 +65,7 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
     const Field& phi = fields.solids.fraction[j];
     const core::FaceField& velocity = fields.solids.velocity[j];
     if (scheme == Scheme::limited)
-      solids_flux<core::LimitedFace>(grid, boundaries, phi, velocity, flux);
+      solids_flux<LimitedFractionFace>(grid, boundaries, phi, velocity, flux);
     else
       solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
     if (first_order != nullptr) redo_upwind(grid, *first_order, phi, velocity, flux);

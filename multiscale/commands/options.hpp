@@ -80,6 +80,7 @@ struct StabilityOptions {
   std::filesystem::path output;      ///< empty: runs/stability
   int jobs = 1;
   std::uint64_t draws = 0, seed = 1;  ///< of --fuzz: scenes drawn in the place of the catalogue
+  std::vector<std::uint64_t> draw;    ///< of --draw: these alone, by their numbers
   bool json = false;
 };
 
@@ -114,7 +115,7 @@ void run_explain(const std::string& key, bool json);
 void run_list(bool json);
 /// numerics if a cell differs from what is expected: it has been said which.
 core::ExitCode run_stability(const StabilityOptions& options);
-/// Its --fuzz: numerics if a drawn scene fails.
+/// Its --fuzz and --draw: numerics if a drawn scene fails.
 core::ExitCode run_fuzz(const StabilityOptions& options);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);

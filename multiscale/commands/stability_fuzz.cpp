@@ -1,10 +1,11 @@
-// polybed stability --fuzz: scenes drawn from the declared envelope, and the least case of each that fails.
+// polybed stability --fuzz and --draw: scenes drawn from the declared envelope, and the least case of each that fails.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <map>
+#include <numeric>
 
 #include "core/files.hpp"
 #include "core/json.hpp"
@@ -28,15 +29,25 @@ stability::Result result_of_draw(const stability::Draw& draw) {
 }
 
 /// What came of each draw that has ended, by its number.
-using Results = std::map<std::size_t, stability::Result>;
+using Results = std::map<std::uint64_t, stability::Result>;
+
+/// The numbers of the draws: those of --draw, or the first of the sequence.
+std::vector<std::uint64_t> numbers_of(const StabilityOptions& options) {
+  std::vector<std::uint64_t> numbers(options.draw.empty() ? options.draws : 0);
+  std::iota(numbers.begin(), numbers.end(), std::uint64_t(0));
+  numbers.insert(numbers.end(), options.draw.begin(), options.draw.end());
+  return numbers;
+}
 
 std::string json_text(const StabilityOptions& options, const Results& results) {
   core::Json json;
   json.begin_object().member("filetype", "polybed fuzz").member("version", 1);
-  json.member("git_commit", core::git_commit()).member("draws", options.draws).member("seed", options.seed);
+  json.member("git_commit", core::git_commit())
+      .member("draws", numbers_of(options).size())
+      .member("seed", options.seed);
   json.key("results").begin_array();
   for (const auto& [n, r] : results) {
-    json.begin_object().member("draw", std::uint64_t(n)).member("outcome", name_of(r.outcome));
+    json.begin_object().member("draw", n).member("outcome", name_of(r.outcome));
     json.member("broken", r.broken).member("worst", r.worst.id).member("value", r.worst.value);
     json.member("limit", r.worst.limit).member("steps", r.work.steps).member("cpu_s", r.cpu);
     json.member("cause", r.cause).member("reported", r.reported).end_object();
@@ -50,20 +61,21 @@ std::string json_text(const StabilityOptions& options, const Results& results) {
 core::ExitCode run_fuzz(const StabilityOptions& options) {
   const fs::path directory = options.output.empty() ? fs::path("runs/stability") : options.output;
   core::make_directories(directory);
-  std::vector<stability::Draw> draws;
+  const std::vector<std::uint64_t> numbers = numbers_of(options);
   std::vector<std::string> texts;
-  for (std::uint64_t n = 0; n < options.draws; ++n) {
-    draws.push_back(stability::draw_of(options.seed, n));
-    texts.push_back(stability::case_text(draws.back()));
-  }
+  for (const std::uint64_t n : numbers) texts.push_back(stability::case_text(stability::draw_of(options.seed, n)));
   Results results;
-  const auto seen = [&](std::size_t n, const stability::Result& r) {
+  const bool chosen = !options.draw.empty();
+  const auto seen = [&](std::size_t place, const stability::Result& r) {
+    const std::uint64_t n = numbers[place];
     results[n] = r;
     // Thousands take hours: what has been found is there whatever ends the command.
     if (constexpr std::size_t often = 20; results.size() % often == 0)
       core::write_atomically(directory / "fuzz.json", json_text(options, results));
-    if (r.outcome == Outcome::fail) core::write_atomically(directory / fmt::format("draw-{}.toml", n), texts[n]);
-    if (options.json || r.outcome == Outcome::pass || r.outcome == Outcome::refused) return;
+    if (chosen || r.outcome == Outcome::fail)
+      core::write_atomically(directory / fmt::format("draw-{}.toml", n), texts[place]);
+    const bool well = r.outcome == Outcome::pass || r.outcome == Outcome::refused;
+    if (options.json || (well && !chosen)) return;
     fmt::print("draw {}: {} {} ({} = {:.3g}, limit {:.3g}) {}\n", n, name_of(r.outcome), r.broken, r.worst.id,
                r.worst.value, r.worst.limit, r.cause);
     std::fflush(stdout);
@@ -76,10 +88,11 @@ core::ExitCode run_fuzz(const StabilityOptions& options) {
   for (const auto& [n, result] : results) {
     const std::string kind = stability::kind_of(result);
     if (result.outcome != Outcome::fail || shown.contains(kind)) continue;
-    const stability::Draw least = stability::shrunk(draws[n], [&](const stability::Draw& draw) {
-      const stability::Result now = result_of_draw(draw);
-      return now.outcome == Outcome::fail && stability::kind_of(now) == kind;
-    });
+    const stability::Draw least =
+        stability::shrunk(stability::draw_of(options.seed, n), [&](const stability::Draw& draw) {
+          const stability::Result now = result_of_draw(draw);
+          return now.outcome == Outcome::fail && stability::kind_of(now) == kind;
+        });
     shown[kind] = stability::keep({n, least, result_of_draw(least)}, options.seed, found).string();
     if (!options.json) fmt::print("{} (draw {}), as a least case: {}\n", kind, n, shown[kind]);
   }
