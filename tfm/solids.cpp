@@ -5,7 +5,6 @@
 #include "core/operators.hpp"
 #include "fluid/convection.hpp"
 #include "tfm/fraction_face.hpp"
-#include "tfm/stress_share.hpp"
 
 namespace polybed::tfm {
 
@@ -120,25 +119,14 @@ void add_exchange(const Constants& constants, const fluid::Boundaries& boundarie
 }
 
 void subtract_stress(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
-  const std::size_t n = constants.species();
   const double *p = fields.stress.pressure.data(), *phi = fields.solids_fraction.data();
-  StressShare share(constants, fields);
-  for (int axis = 0; axis < constants.grid.dimensions; ++axis) {
+  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
     const Index s = constants.grid.stride(axis);
-    const double h = constants.grid.spacing[std::size_t(axis)];
-    core::for_each_row(constants.grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
-      for (Index c = begin; c < end; ++c) {
-        const double rise = p[c] - p[c - s];
-        if (rise == 0) continue;  // as everywhere above the packed bed
-        const double solids = std::max(face_mean(phi, c, s), stress_fraction_floor);
-        const auto& factor = share.at(c, s, rise);
-        for (std::size_t j = 0; j < n; ++j) {
-          const double scale = 1 / (h * constants.density[j]);
-          fields.solids.acceleration[j][std::size_t(axis)][std::size_t(c)] -= scale * rise / solids * factor[j];
-        }
-      }
-    });
-  }
+    double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
+    const double scale = 1 / (constants.grid.spacing[std::size_t(axis)] * constants.density[j]);
+    for (Index c = begin; c < end; ++c)
+      a[c] -= scale * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);
+  });
 }
 
 void add_species_exchange(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
