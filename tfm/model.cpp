@@ -52,16 +52,6 @@ double drag_over_crossing_time(const Constants& constants, double velocity) {
 /// Absolute tolerance of the fractions.
 double fraction_tolerance(double rtol) { return 0.1 * rtol; }
 
-/// The least fraction of any species in a state, or 0 if none is below. Collective.
-double least_fraction(const StateLayout& layout, const core::Grid& grid, std::span<const double> y) {
-  double least = 0;
-  for (const StateLayout::Entry& entry : layout.entries())
-    if (entry.kind == Kind::fraction)
-      least = std::min(least, *std::min_element(y.begin() + std::ptrdiff_t(entry.begin),
-                                                y.begin() + std::ptrdiff_t(entry.begin + entry.size)));
-  return -core::greatest_of_ranks(grid, -least);
-}
-
 Discretisation make_discretisation(const core::Tfm& options, const std::string& momentum) {
   const auto scheme = [](const std::string& name) { return name == "limited" ? Scheme::limited : Scheme::upwind; };
   const bool conservative = momentum.rfind("conservative", 0) == 0;
@@ -209,7 +199,7 @@ void Model::begin_integration() {
 
 void Model::step(double stop) {
   if (explicit_) explicit_->begin_step(step_);
-  const core::StepReport report = options_.fixed_step ? integrator_->step(stop) : step_within_bounds(stop);
+  const core::StepReport report = integrator_->step(stop);
   time_ = report.time;
   step_ = report.next_step;
   if (compressible()) count_fluid(integrator_->state());
@@ -219,28 +209,6 @@ void Model::step(double stop) {
     use_fallback();
   }
   last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
-}
-
-/// A step that takes a fraction further below 0 than its tolerance, the error test being a mean over all unknowns, is
-/// taken back: again from its start by a quarter, of order 1 if it is implicit, which keeps what is not below 0 so.
-/// Where that does not help either, the deficit has been carried together and not made: it stays, and decays.
-core::StepReport Model::step_within_bounds(double stop) {
-  constexpr int most_tries = 3;
-  constexpr double new_share = 0.1;  // of the tolerance: less in one step is rounding, Newton's and the solver's
-  const core::Grid& grid = constants().grid;
-  std::copy(integrator_->state().begin(), integrator_->state().end(), y_.begin());
-  std::copy(integrator_->derivative().begin(), integrator_->derivative().end(), dydt_.begin());
-  const double before = least_fraction(layout_, grid, y_), tolerance = fraction_tolerance(options_.rtol);
-  core::StepReport report = integrator_->step(stop);
-  for (int n = 0; n < most_tries; ++n) {
-    const double after = least_fraction(layout_, grid, integrator_->state());
-    if (after >= -tolerance || after >= before - new_share * tolerance) break;
-    integrator_->restart(time_, y_, dydt_, 0.25 * report.step);
-    ++before_.rejected_steps;
-    --before_.steps;  // which the integrator has counted; sums of counts are right whatever the sign of one
-    report = integrator_->step(stop);
-  }
-  return report;
 }
 
 /// In the words of the rank where the limit is.

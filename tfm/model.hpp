@@ -97,7 +97,6 @@ class Model : public core::Simulation {
   void project_jump(const core::Field& before);
   [[nodiscard]] std::vector<double> absolute_tolerances() const;
   [[nodiscard]] StateLayout layout_of_column() const { return layout_on(core::whole_column(constants().grid)); }
-  core::StepReport step_within_bounds(double stop);
   [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void begin_integration();
   void use_fallback();
