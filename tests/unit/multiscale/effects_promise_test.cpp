@@ -161,7 +161,7 @@ TEST(Neglected, BoundsWhatARunMayMeet) {
     for (const double slip : {0.01, 0.02, 0.03, 0.04, 0.05}) {
       met.slip = {0, slip, 0};
       met.vorticity = {0, 0, 23.7};
-      met.spin = closures::Vec3{0, 0, met.species == 0 ? -92 : -25};
+      met.spin = closures::Vec3{0, 0, met.species == 0 ? -92.0 : -25.0};
       neglected.see(met);
     }
   EXPECT_EQ(lift.outside, 0U);

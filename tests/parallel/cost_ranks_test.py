@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""Counters of one and two ranks, and sweeps over ranks, over the window and against a run that is given.
+Usage: cost_ranks_test.py PROGRAM"""
+import pathlib
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import program  # noqa: E402
+from program import DONE, FILE, TWO_IN_WATER, Scratch, strict_json  # noqa: E402
+
+# 4 x 24 cells; of particles a few hundred.
+BED = """[column]
+size = ["10 mm", "40 mm"]
+cells = [4, 24]
+sides = "periodic"
+""" + TWO_IN_WATER + """[bed]
+volume_share = [0.8, 0.2]
+static_height = "12 mm"
+solids_fraction = 0.6
+start_solids_fraction = 0.4
+[inlet]
+superficial_velocity = "20 mm/s"
+[effects]
+drag = "cello"
+solids_stress = "frictional"
+contact = "hertz_mindlin"
+[run]
+until = "0.1 s"
+"""
+QUIET = ["--no-picture", "--quiet", "--budget", "300s", "--json"]
+
+
+class Counters(Scratch):
+    def work(self, model, ranks, name):
+        case, run = self.write("case.toml", BED), self.folder / name
+        words = [program.PROGRAM, model, case, "--until", "0.01 s", "--quiet", "--no-picture", "-o", run]
+        start = ["mpirun", "-q", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+        done = subprocess.run([*start, *map(str, words)], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, DONE, done.stderr[-400:])
+        return strict_json((run / "run.json").read_text())["work"]
+
+    def test_are_those_of_the_run_whatever_the_time_and_the_ranks(self):
+        """K8 of the specification of cost."""
+        for model in ("tfm", "dem"):
+            first = self.work(model, 1, f"{model}-first")
+            self.assertEqual(first, self.work(model, 1, f"{model}-again"))
+            halves = self.work(model, 2, f"{model}-halves")
+            self.assertEqual(first["steps"], halves["steps"])
+            if model == "dem":
+                self.assertGreater(first["particle_steps"], 1000)
+                self.assertEqual(first["particle_steps"], halves["particle_steps"])
+
+
+class Sweeps(Scratch):
+    def sweep(self, name, *words, code=DONE):
+        case = self.write("case.toml", BED)
+        return strict_json(self.ends(code, "cost", case, *words, *QUIET, "-o", self.folder / name, timeout=400).stdout)
+
+    def test_over_ranks_have_the_same_numbers_and_their_own_time(self):
+        sweep = self.sweep("ranks", "--axes", "ranks")
+        runs = [run for run in sweep["runs"] if run["kind"] in ("candidate", "machine")]
+        self.assertEqual([run["ranks"] for run in runs], [1, 2])
+        for run in runs:
+            self.assertGreater(run["wall_s"][0], 0)
+        one, two = (run["qoi"]["bed_height"]["value"] for run in runs)
+        self.assertAlmostEqual(one / two, 1, delta=1e-3)  # of rtol: sums of ranks round otherwise
+        self.assertEqual(sweep["outcome"], "done")
+
+    def test_over_the_window_run_longer_and_cost_more(self):
+        sweep = self.sweep("window", "--axes", "window")
+        runs = [run for run in sweep["runs"] if run["settings"].get("window")]
+        by_window = {run["settings"]["window"]: run for run in runs if run["status"] != "not run"}
+        self.assertEqual(set(by_window), {"x1", "x3", "x10"})
+        steps = [by_window[name]["work"]["steps"] for name in ("x1", "x3", "x10")]
+        self.assertEqual(steps, sorted(set(steps)))  # each longer than the last
+
+    def test_against_a_run_that_is_given(self):
+        """The reference is a row of the sweep itself, run by hand: its error is none, that of the others is."""
+        case, given = self.write("case.toml", BED), self.folder / "given"
+        stored = [word for key, value in (("output.every", 0.1 / 40), ("output.history_every", 0.1 / 800), ("tfm.rtol", 1e-5))
+                  for word in ("--set", f"{key}={value:.17g}")]
+        self.ends(DONE, "tfm", case, "--quiet", "--no-picture", "-o", given, *stored)
+        sweep = self.sweep("sweep", "--axes", "rtol", "--reference", given)
+        self.assertEqual((sweep["reference"]["kind"], sweep["reference"]["note"]), ("directory", str(given)))
+        errors = {run["settings"]["rtol"]: run["qoi"]["bed_height"]["error"] for run in sweep["runs"]
+                  if run["kind"] == "candidate" and "bed_height" in run.get("qoi", {})}
+        self.assertEqual(errors["1e-05"], 0)
+        self.assertGreater(errors["0.001"], 0)
+        done = program.run("cost", case, "--axes", "rtol", "--reference", self.folder / "nowhere", *QUIET, "-o", self.folder / "none")
+        self.assertEqual(done.returncode, FILE)
+        self.assertIn("nowhere", done.stderr)
+
+
+if __name__ == "__main__":
+    program.main()
