@@ -79,7 +79,7 @@ SCENES = {
                         modulus=0.05, speed=0.1, until=0.3)),
     "C": ("liquid", bed((996.59, 0.85e-3), [(0.214, 2450), (0.776, 1500)], [1600, 31], title="system C", velocity=12.5,
                         modulus=0.05, speed=0.06, until=0.1)),
-    "glass in air": ("gas", bed((1.2, 1.8e-5), [(0.5, 2500)], [600], title="glass in air", velocity=300, modulus=0.05,
+    "glass in air": ("gas", bed((1.2, 1.8e-5), [(0.5, 2500)], [600], title="glass in air", velocity=300, modulus=0.5,
                                 speed=1, until=0.2)),
     "catalyst in air": ("gas", bed((1.2, 1.8e-5), [(0.06, 1500)], [600], title="catalyst in air", velocity=10, modulus=0.02,
                                    speed=0.1, until=0.01)),
