@@ -77,8 +77,8 @@ Oracle settling_oracle() {
     tolerances.add(*integrator);
   }
   constexpr double explicit_order = 3, implicit_order = 2, within = 0.2;  // cost.md, K4
-  const bool good = std::abs(steps.slope() - explicit_order) <= within &&
-                    std::abs(tolerances.slope() - implicit_order) <= within;
+  const bool good =
+      std::abs(steps.slope() - explicit_order) <= within && std::abs(tolerances.slope() - implicit_order) <= within;
   return {"K4",
           fmt::format("error falls with steps to the power {:.2f}, explicit, and {:.2f}, implicit by its tolerance",
                       steps.slope(), tolerances.slope()),

@@ -62,8 +62,8 @@ std::string effects_table(const core::Scene& scene, const Choice& choice) {
                                               : "");
   if (choice.sum_up_to > choice.tolerance)
     text += fmt::format(
-        "in a run up to {:.2g}, where the fluid is sheared within a cell or impacts spin particles: a scale, wider than "
-        "the promise and switching nothing; polybed effects audit tells what a run met\n",
+        "in a run up to {:.2g}, where the fluid is sheared within a cell or impacts spin particles: a scale that "
+        "switches nothing; polybed effects audit tells what a run met\n",
         choice.sum_up_to);
   if (!has_auto(scene)) text += fmt::format("left out by the case as it stands: {:.2g}\n", choice.case_sum);
   return text;
@@ -91,7 +91,10 @@ void write_effects(core::Json& json, const core::Scene& scene, const Choice& cho
     for (const auto& [zone, value] : row.zones) optional(zone.c_str(), value);
     json.end_object().end_object();
   }
-  json.end_array().member("neglected_sum", choice.neglected_sum).member("neglected_up_to", choice.sum_up_to).member("neglected_sum_of_case", choice.case_sum);
+  json.end_array()
+      .member("neglected_sum", choice.neglected_sum)
+      .member("neglected_up_to", choice.sum_up_to)
+      .member("neglected_sum_of_case", choice.case_sum);
   json.member("tolerance", choice.tolerance).member("purpose", scene.chooser.purpose);
 }
 
