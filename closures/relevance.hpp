@@ -49,6 +49,23 @@ inline constexpr double relevance_contact_gap = 0.4e-9;
   return std::max(10 * slip / width, shear_rate_inside(slip, diameter));
 }
 
+/// Acceleration of a packed clump amid clear fluid, m/s2: g' = phi abs(rho_p - rho_f) g/rho_mix, with the mean density
+/// rho_mix = phi rho_p + (1 - phi) rho_f. Light particles rise alike.
+[[nodiscard]] inline double clump_acceleration(double phi, double density, double fluid_density, double gravity) {
+  return phi * std::abs(density - fluid_density) * gravity / (phi * density + (1 - phi) * fluid_density);
+}
+
+/// Greatest shear that a run's grid carries, 1/s: over a cell the fluid goes from rest (a wall, a closed packing) to
+/// the slip, and a clump of a cell's size gains the speed of its fall over its own height: w/h + sqrt(2 g'/h). A scale,
+/// from the energy of the fall and no slip; what larger convection brings along a wall is not in it.
+[[nodiscard]] inline double shear_rate_of_cell(double slip, double acceleration, double spacing) {
+  return slip / spacing + std::sqrt(2 * acceleration / spacing);
+}
+
+/// Spin of a sphere that sticks to a far heavier body at its touch with a speed v along the surface, 1/s: 5/7 of v/R by
+/// the balance of spin about the point of contact, 10 v/(7 d). Friction that slides gives less.
+[[nodiscard]] inline double spin_of_impact(double speed, double diameter) { return 10 * speed / (7 * diameter); }
+
 /// Time in which the scene changes what a particle meets, s: max(L/w, tau_p). slip > 0.
 [[nodiscard]] inline double time_of_scene(double width, double slip, double relaxation_time) {
   return std::max(width / slip, relaxation_time);

@@ -178,7 +178,9 @@ Oracle k14() {
 
 }  // namespace
 
-std::vector<Oracle> pure_oracles() { return {k1(), k2(), k3(), k5(), k6(), k7(), k12(), k13(), k14()}; }
+std::vector<Oracle> pure_oracles() {
+  return {k1(), k2(), k3(), settling_oracle(), k5(), k6(), k7(), k12(), k13(), k14()};
+}
 
 bool print_selftest() {
   bool all = true;

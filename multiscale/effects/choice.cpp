@@ -27,6 +27,7 @@ void apply_logic(const core::Scene& scene, std::vector<EffectRow>& rows) {
   const bool free = given == core::automatic || !scene.effects.contains("contact");
   if (magnus != nullptr && (free ? contact->model == "hertz" : given == "hertz")) {
     magnus->value.reset();
+    magnus->up_to.reset();
     magnus->neglected = 0;
     magnus->reason = "without friction nothing rotates";
   }
@@ -72,6 +73,7 @@ Choice choose(const core::Scene& scene) {
   std::vector<EffectRow> of_case = choice.rows;
   decide(choice.rows, rule_of(scene, !has_auto(scene)));
   choice.neglected_sum = neglected_sum(choice.rows);
+  choice.sum_up_to = neglected_up_to(choice.rows);
   if (has_auto(scene)) {
     choice.case_sum = choice.neglected_sum;
   } else {

@@ -27,10 +27,14 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule);
 /// Sum of what is left out of the forces on particles, bands apart; what is called for and not built counts.
 [[nodiscard]] double neglected_sum(const std::vector<EffectRow>& rows);
 
+/// The same on the scales that a run may reach, within the ranges of the laws: no less.
+[[nodiscard]] double neglected_up_to(const std::vector<EffectRow>& rows);
+
 struct Choice {
   std::vector<EffectRow> rows;
   double tolerance = 0;
   double neglected_sum = 0;  ///< of the choice, as a share of the buoyant weight
+  double sum_up_to = 0;      ///< of the choice, on the scales that a run may reach
   double case_sum = 0;       ///< of the roles that the case has, or is given
   Surfaces surfaces{};       ///< that cohesion was weighed with
 };

@@ -28,6 +28,12 @@ void decide_steady(EffectRow& row) {
     row.reason += "; in a transient " + number_text(*row.value);
 }
 
+/// What a run may reach beside the scales of the choice: told, and not switched.
+void tell_greatest(EffectRow& row) {
+  if (row.up_to && row.threshold && row.state == State::off && *row.up_to > *row.threshold)
+    row.reason += fmt::format("; in a run up to {:.2g}, a scale that switches nothing", *row.up_to);
+}
+
 void decide_by_number(EffectRow& row) {
   if (!row.value || !row.threshold) {
     if (row.reason.empty()) row.reason = "no number: nothing moves through a fluid";
@@ -102,12 +108,22 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule) {
     if (row.state == State::on && !row.not_built.empty()) row.neglected = row.value;
   }
   limit_sum(rows, rule);
+  for (EffectRow& row : rows)
+    if (row.kind == Kind::role) tell_greatest(row);
 }
 
 double neglected_sum(const std::vector<EffectRow>& rows) {
   double sum = 0;
   for (const EffectRow& row : rows)
     if (row.summed && (row.state == State::off || !row.not_built.empty())) sum += row.neglected.value_or(0);
+  return sum;
+}
+
+double neglected_up_to(const std::vector<EffectRow>& rows) {
+  double sum = 0;
+  for (const EffectRow& row : rows)
+    if (row.summed && (row.state == State::off || !row.not_built.empty()))
+      sum += std::max(row.neglected.value_or(0), row.up_to.value_or(0));
   return sum;
 }
 

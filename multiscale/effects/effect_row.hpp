@@ -28,7 +28,7 @@ struct EffectRow {
   std::optional<double> threshold;
   bool below = false;                   ///< on where the value is below the threshold
   std::optional<NumberBand> band;       ///< where the number is uncertain: not switched
-  double in_range = 0;                  ///< of sheared particles: greatest at slips where the law is told, wherever met
+  std::optional<double> up_to;          ///< of sheared particles: on the scales of a run's cells and of impacts
   std::string where;                    ///< species and zone of the value
   std::map<std::string, double> zones;  ///< the value of each zone
   State state = State::off;

@@ -60,6 +60,11 @@ std::string effects_table(const core::Scene& scene, const Choice& choice) {
       choice.neglected_sum, choice.tolerance, scene.chooser.purpose,
       choice.neglected_sum > choice.tolerance ? ": more than promised, since what would be needed is not to be had"
                                               : "");
+  if (choice.sum_up_to > choice.tolerance)
+    text += fmt::format(
+        "in a run up to {:.2g}, where the fluid is sheared within a cell or impacts spin particles: a scale that "
+        "switches nothing; polybed effects audit tells what a run met\n",
+        choice.sum_up_to);
   if (!has_auto(scene)) text += fmt::format("left out by the case as it stands: {:.2g}\n", choice.case_sum);
   return text;
 }
@@ -78,7 +83,7 @@ void write_effects(core::Json& json, const core::Scene& scene, const Choice& cho
     optional("neglected_bound", row.neglected);
     json.member("reason", reason_text(row)).member("models", row.models).member("below", row.below);
     json.member("kind", row.kind == Kind::role ? "role" : row.kind == Kind::condition ? "condition" : "unmodelled");
-    if (row.in_range > 0) json.member("bound_in_range", row.in_range);
+    if (row.up_to) json.member("up_to", *row.up_to);
     json.member("built", row.not_built.empty() && row.kind != Kind::unmodelled)
         .member("in_case", case_text(scene, row));
     if (row.band) json.key("band").begin_array().value(row.band->least).value(row.band->most).end_array();
@@ -86,7 +91,10 @@ void write_effects(core::Json& json, const core::Scene& scene, const Choice& cho
     for (const auto& [zone, value] : row.zones) optional(zone.c_str(), value);
     json.end_object().end_object();
   }
-  json.end_array().member("neglected_sum", choice.neglected_sum).member("neglected_sum_of_case", choice.case_sum);
+  json.end_array()
+      .member("neglected_sum", choice.neglected_sum)
+      .member("neglected_up_to", choice.sum_up_to)
+      .member("neglected_sum_of_case", choice.case_sum);
   json.member("tolerance", choice.tolerance).member("purpose", scene.chooser.purpose);
 }
 

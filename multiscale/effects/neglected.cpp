@@ -62,7 +62,7 @@ Neglected::Neglected(const core::Scene& scene, const std::string& model)
     }
     Observed one;
     one.effect = row.effect;
-    one.bound = row.in_range > 0 ? row.in_range : row.value.value_or(0);  // encounters beyond it are counted apart
+    one.bound = row.up_to.value_or(row.value.value_or(0));  // encounters beyond the law's range are counted apart
     observed_.push_back(one);
   }
   Observed sum;

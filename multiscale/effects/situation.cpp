@@ -51,6 +51,21 @@ void measure_bed(const core::Scene& scene, Survey& s) {
   for (const double v : volume) s.share.push_back(all > 0 ? v / all : 1.0 / double(volume.size()));
 }
 
+/// The scales that a run may reach, beside those it is weighed with.
+void find_scales_of_run(const core::Scene& scene, double fluid_density, Survey& s) {
+  for (std::size_t a = 0; a < std::size_t(scene.column.dimensions); ++a) {
+    if (scene.column.cells[a] <= 1) continue;
+    const double spacing = scene.column.size[a] / double(scene.column.cells[a]);
+    s.cell = s.cell > 0 ? std::min(s.cell, spacing) : spacing;
+  }
+  const double packed = std::max(s.solids_fraction, scene.bed.solids_fraction);
+  for (const core::Species& species : scene.species)
+    s.clump_acceleration =
+        std::max(s.clump_acceleration,
+                 closures::clump_acceleration(packed, species.density, fluid_density, scene.column.gravity));
+  s.greatest_packed_slip = s.greatest_velocity / (1 - packed);
+}
+
 void find_velocities(const core::Scene& scene, Survey& s) {
   std::vector<double> all;
   for (const auto& [t, v] : scene.inlet.superficial_velocity) all.push_back(std::abs(v));
@@ -241,6 +256,7 @@ Survey survey(const core::Scene& scene) {
   s.fluid_density = fluid.density;
   s.viscosity = fluid.viscosity;
   s.temperature = scene.fluid.temperature.value_or(0);
+  find_scales_of_run(scene, fluid.density, s);
   s.is_gas =
       scene.fluid.name == "air" || scene.fluid.equation_of_state == "ideal_gas" || fluid.density < lightest_liquid;
   const std::string named = core::law_of(scene, "drag");

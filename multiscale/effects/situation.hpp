@@ -55,6 +55,10 @@ struct Survey {
   double greatest_slip_difference = 0, voidage_of_difference = 1;  ///< of two species, |U_j - U_k|, m/s
   std::string drag_law;                                            ///< the one the forces are balanced with
 
+  double cell = 0;                  ///< least spacing of the run's grid, m; 0: none
+  double clump_acceleration = 0;    ///< greatest of a packed clump of one species, m/s2
+  double greatest_packed_slip = 0;  ///< of all velocities through the packed bed, carried or not, m/s
+
   /// What forces between particles are weighed in.
   [[nodiscard]] const std::vector<Situation>& touching() const { return has_fluid ? situations : dry; }
 };

@@ -25,9 +25,24 @@ EffectRow force_row(const char* effect, const char* model, const char* number, d
   return row;
 }
 
-/// A force as a share of the reference, whose law is trusted up to a Reynolds number of the slip.
+/// The greatest that a run may reach of a sheared particle: every slip up to the greatest, where the law is told, under
+/// the shear of a cell. It is a scale, too wide to choose by.
 template <class Relevance>
-EffectRow weigh_sheared(EffectRow row, const Survey& survey, Relevance&& of_slip) {
+double greatest_of_run(const Situation& s, const Survey& survey, Relevance&& of_slip) {
+  if (!(survey.cell > 0)) return 0;
+  Situation met = s;
+  met.slip = std::max(s.slip, survey.greatest_packed_slip);
+  met.shear = std::max(s.shear, closures::shear_rate_of_cell(met.slip, survey.clump_acceleration, survey.cell));
+  const double told = std::min(1.0, greatest_certain_reynolds / met.particle_reynolds());
+  double value = 0;
+  for (int n = 1; n <= 33; ++n) value = std::max(value, of_slip(met, met.slip * told * n / 33));
+  return value;
+}
+
+/// A force as a share of the reference, whose law is trusted up to a Reynolds number of the slip.
+/// \param of_slip  by the scales of the choice  \param in_run  by those of a run
+template <class Relevance, class InRun>
+EffectRow weigh_sheared(EffectRow row, const Survey& survey, Relevance&& of_slip, InRun&& in_run) {
   Supremum greatest;
   for (const Situation& s : survey.situations) {
     // The share of the lift falls with the slip: its greatest lies within the range, from a fifth of it.
@@ -36,8 +51,10 @@ EffectRow weigh_sheared(EffectRow row, const Survey& survey, Relevance&& of_slip
       const double share = 0.2 + 0.8 * n / 32, found = of_slip(s, s.slip * share);
       value = std::max(value, found);
       // Where the fastest are beyond the law's range, slower ones of the same zone are within it, under its shear.
-      if (share * s.particle_reynolds() <= greatest_certain_reynolds) row.in_range = std::max(row.in_range, found);
+      if (share * s.particle_reynolds() <= greatest_certain_reynolds)
+        row.up_to = std::max(row.up_to.value_or(0), found);
     }
+    row.up_to = std::max(row.up_to.value_or(0), greatest_of_run(s, survey, in_run));
     if (s.particle_reynolds() > greatest_certain_reynolds)
       greatest.add_uncertain(s, {0, value});
     else
@@ -86,17 +103,23 @@ EffectRow history(const core::Scene& scene, const Survey& survey) {
 EffectRow lift(const core::Scene& scene, const Survey& survey) {
   EffectRow row = force_row("lift", "saffman_mei", "lift over weight", scene.chooser.tolerance);
   row.models = "dem";
-  return weigh_sheared(row, survey, [](const Situation& s, double slip) {
+  const auto force = [](const Situation& s, double slip) {
     return closures::lift_relevance(s.diameter, s.fluid_density, s.viscosity, slip, s.shear, s.reference());
-  });
+  };
+  return weigh_sheared(row, survey, force, force);
 }
 
 EffectRow magnus(const core::Scene& scene, const Survey& survey) {
   EffectRow row = force_row("magnus", "rubinow_keller", "Magnus force over weight", scene.chooser.tolerance);
   row.models = "dem";
-  return weigh_sheared(row, survey, [](const Situation& s, double slip) {
-    return closures::magnus_relevance(s.diameter, s.fluid_density, s.viscosity, slip, 0.5 * s.shear, s.reference());
-  });
+  const auto force = [](const Situation& s, double slip, double spin) {
+    return closures::magnus_relevance(s.diameter, s.fluid_density, s.viscosity, slip, spin, s.reference());
+  };
+  return weigh_sheared(
+      row, survey, [&](const Situation& s, double slip) { return force(s, slip, 0.5 * s.shear); },
+      [&](const Situation& s, double slip) {  // touching at speeds up to the slip, which lets particles spin
+        return force(s, slip, 0.5 * s.shear + closures::spin_of_impact(s.slip, s.diameter));
+      });
 }
 
 EffectRow brownian(const core::Scene& scene, const Survey& survey) {

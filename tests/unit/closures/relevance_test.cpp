@@ -27,6 +27,11 @@ TEST(Relevance, ShearsOverATenthOfTheWidthOrTenDiameters) {
   EXPECT_DOUBLE_EQ(shear_rate_inside(0.1, 1e-3), 10);
   EXPECT_DOUBLE_EQ(shear_rate_at_wall(0.1, 0.05, 1e-3), 20);
   EXPECT_DOUBLE_EQ(shear_rate_at_wall(0.1, 0.2, 1e-3), 10);
+  // By hand: 0.1/0.004 + sqrt(2 x 2/0.004) = 25 + 31.6228; half solids of twice the fluid's density fall at g/3.
+  EXPECT_NEAR(shear_rate_of_cell(0.1, 2, 4e-3), 56.622777, 1e-6);  // digits
+  EXPECT_DOUBLE_EQ(clump_acceleration(0.5, 2000, 1000, 9.81), 9.81 / 3);
+  EXPECT_DOUBLE_EQ(clump_acceleration(0.5, 500, 1000, 9), 3);
+  EXPECT_DOUBLE_EQ(spin_of_impact(0.07, 1e-3), 100);  // 5/7 of 0.07 m/s over half a millimetre
   EXPECT_DOUBLE_EQ(time_of_scene(0.05, 0.1, 0.01), 0.5);
   EXPECT_DOUBLE_EQ(time_of_scene(0.05, 0.1, 2), 2);
 }

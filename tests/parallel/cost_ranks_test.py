@@ -1,0 +1,104 @@
+#!/usr/bin/python3
+"""Counters of one and two ranks, and sweeps over ranks, over the window and against a run that is given.
+Usage: cost_ranks_test.py PROGRAM"""
+import os
+import pathlib
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import program  # noqa: E402
+from program import DONE, FILE, TWO_IN_WATER, Scratch, strict_json  # noqa: E402
+
+# 4 x 24 cells; of particles a few hundred.
+BED = """[column]
+size = ["10 mm", "40 mm"]
+cells = [4, 24]
+sides = "periodic"
+""" + TWO_IN_WATER + """[bed]
+volume_share = [0.8, 0.2]
+static_height = "12 mm"
+solids_fraction = 0.6
+start_solids_fraction = 0.4
+[inlet]
+superficial_velocity = "20 mm/s"
+[effects]
+drag = "cello"
+solids_stress = "frictional"
+contact = "hertz_mindlin"
+[run]
+until = "0.02 s"
+"""
+QUIET = ["--no-picture", "--quiet", "--budget", "300s", "--json"]
+
+
+class OnRanks(Scratch):
+    def started(self, *words):
+        """Without the settings for single processes of `program`; ranks that wait leave the core to the others."""
+        settings = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                        OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1",
+                        OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_orte_tmpdir_base=str(self.folder))
+        done = subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=400, env=settings)
+        self.assertEqual(done.returncode, DONE, done.stderr[-400:])
+        return done.stdout
+
+
+class Counters(OnRanks):
+    def work(self, model, ranks, name):
+        case, run = self.write("case.toml", BED), self.folder / name
+        start = ["mpirun", "-q", "--oversubscribe", "-n", ranks] if ranks > 1 else []
+        self.started(*start, program.PROGRAM, model, case, "--until", "2 ms", "--quiet", "--no-picture", "-o", run)
+        return strict_json((run / "run.json").read_text())["work"]
+
+    def test_are_those_of_the_run_whatever_the_time_and_the_ranks(self):
+        """K8 of the specification of cost."""
+        for model in ("tfm", "dem"):
+            first = self.work(model, 1, f"{model}-first")
+            self.assertEqual(first, self.work(model, 1, f"{model}-again"))
+            halves = self.work(model, 2, f"{model}-halves")
+            self.assertEqual(first["steps"], halves["steps"])
+            if model == "dem":
+                self.assertGreater(first["particle_steps"], 1000)
+                self.assertEqual(first["particle_steps"], halves["particle_steps"])
+
+
+class Sweeps(OnRanks):
+    def sweep(self, name, *words):
+        case = self.write("case.toml", BED)
+        return strict_json(self.started(program.PROGRAM, "cost", case, *words, *QUIET, "-o", self.folder / name))
+
+    def test_over_ranks_and_the_window(self):
+        """Ranks have the same numbers and a time of their own; longer windows take more steps."""
+        sweep = self.sweep("ranks", "--axes", "ranks,window")
+        self.assertEqual(sweep["outcome"], "done")
+        level = {(run["settings"]["ranks"], run["settings"]["window"]): run for run in sweep["runs"]
+                 if run["kind"] in ("candidate", "machine") and run["cpu_s"]}
+        self.assertLessEqual({("1", "x1"), ("2", "x1"), ("1", "x3"), ("1", "x10")}, set(level))
+        one, two = level["1", "x1"], level["2", "x1"]
+        self.assertEqual((one["ranks"], two["ranks"]), (1, 2))
+        self.assertGreater(two["wall_s"][0], 0)
+        heights = [run["qoi"]["bed_height"]["value"] for run in (one, two)]
+        self.assertAlmostEqual(heights[0] / heights[1], 1, delta=1e-3)  # rtol: sums over ranks round otherwise
+        steps = [level["1", window]["work"]["steps"] for window in ("x1", "x3", "x10")]
+        self.assertLess(steps[0], steps[1])
+        self.assertLess(steps[1], steps[2])
+
+    def test_against_a_run_that_is_given(self):
+        """The reference is a row of the sweep itself, run by hand: its error is none, that of the others is."""
+        case, given = self.write("case.toml", BED), self.folder / "given"
+        stored = {"output.every": 0.02 / 40, "output.history_every": 0.02 / 800, "output.checkpoint_every": 0.02, "tfm.rtol": 1e-5}
+        words = [word for key, value in stored.items() for word in ("--set", f"{key}={value:.17g}")]
+        self.ends(DONE, "tfm", case, "--quiet", "--no-picture", "-o", given, *words)
+        sweep = self.sweep("sweep", "--axes", "rtol", "--reference", given)
+        self.assertEqual((sweep["reference"]["kind"], sweep["reference"]["note"]), ("directory", str(given)))
+        errors = {run["settings"]["rtol"]: run["qoi"]["bed_height"]["error"] for run in sweep["runs"]
+                  if run["kind"] == "candidate" and "bed_height" in run.get("qoi", {})}
+        self.assertEqual(errors["1e-05"], 0)
+        self.assertGreater(errors["0.001"], 0)
+        done = program.run("cost", case, "--axes", "rtol", "--reference", self.folder / "nowhere", *QUIET, "-o", self.folder / "none")
+        self.assertEqual(done.returncode, FILE)
+        self.assertIn("nowhere", done.stderr)
+
+
+if __name__ == "__main__":
+    program.main()
