@@ -38,7 +38,7 @@ struct BoxResult {
   double contact_share = 0;                    ///< of contacts in the pressure
   double contacts = 0;                         ///< pairs that touch, per particle
   double sink = 0;                             ///< W/m3, by drag on fluctuations
-  double balance = 0;                          ///< -sigma_xy gamma over Gamma + sink + what is stored
+  double balance = 0;                          ///< -sigma_yx gamma over Gamma + sink + what is stored
   double drift = 0;                            ///< momentum of the fluctuations over the sum of its parts
   double shear_rate = 0, diameter = 0, density = 0, strain = 0, drag_rate = 0;  ///< drag_rate: 1/(gamma tau_d)
   double softness = 0, max_overlap = 0;  ///< t_c over the time between collisions; overlap over the diameter

@@ -91,7 +91,7 @@ class Calibration(Scratch):
         self.assertTrue(np.all(np.abs(ratio - 1) < 0.2 + 3 * error), ratio)
         text = tomllib.loads((self.folder / "boxes/table.toml").read_text())
         self.assertEqual(text["axes"]["phi"], [0.3, 0.45])
-        # -sigma_xy gamma against dissipation and what is stored: 1 % is the goal of long boxes; 3 % of two strains.
+        # -sigma_yx gamma against dissipation and what is stored: 1 % is the goal of long boxes; 3 % of two strains.
         self.assertTrue(all(abs(b - 1) < 0.03 for b in text["balance"]), text["balance"])
         self.assertTrue(all(d < 1e-12 for d in text["drift"]), text["drift"])
         boxes = {p: p.stat().st_mtime_ns for p in (self.folder / "boxes/boxes").iterdir()}
