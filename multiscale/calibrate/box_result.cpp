@@ -101,7 +101,8 @@ Estimate mean_of_seeds(const std::vector<Estimate>& seeds) {
   for (const Estimate& s : seeds) scatter += (s.mean - sum / n) * (s.mean - sum / n);
   const double inner = std::sqrt(squares) / n;
   if (seeds.size() < 2) return {sum / n, inner};
-  return {sum / n, std::max(inner, student_one_sigma(seeds.size() - 1) * std::sqrt(scatter / (n * (n - 1))))};
+  const double outer = student_one_sigma(seeds.size() - 1) * std::sqrt(scatter / (n * (n - 1)));
+  return {sum / n, seeds.size() < seeds_that_tell ? std::max(inner, outer) : outer};
 }
 
 bool error_grows(const std::vector<double>& blocks) {

@@ -26,9 +26,13 @@ struct Estimate {
 /// std::invalid_argument at 0.
 [[nodiscard]] double student_one_sigma(std::size_t degrees);
 
+/// Seeds from which on their scatter alone is the error of their mean.
+inline constexpr std::size_t seeds_that_tell = 3;
+
 /// Mean over seeds. The error is t s/sqrt(n), s the standard deviation of the n boxes about their mean and t Student's
-/// factor of one standard error (student_one_sigma), or that of the boxes' own together if it is more: seeds
-/// remember their start for longer than blocks of one of them can tell, and few of them scatter less than they vary.
+/// factor of one standard error (student_one_sigma): seeds are independent, and blocks of one are not. They remember
+/// the start, which makes their error too small, and count as error what all boxes lose on their way, which makes it
+/// too great. Of two seeds, that of the boxes' own errors together if it is more; of one that.
 [[nodiscard]] Estimate mean_of_seeds(const std::vector<Estimate>& seeds);
 
 /// Whether the error from blocks twice as long is more than 1.3 times that of these: they are not independent.

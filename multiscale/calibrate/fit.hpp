@@ -38,7 +38,7 @@ inline constexpr std::size_t least_to_leave_one_out = 4;
 [[nodiscard]] double greatest_error(const fluid::SolidsTable& table);
 
 /// Seeds from which on a plan wants its points known: points that scatter get more of them, so many at most.
-inline constexpr int seeds_of_a_trusted_table = 3, most_seeds = 10;
+inline constexpr int seeds_of_a_trusted_table = int(seeds_that_tell), most_seeds = 10;
 
 /// Of a plan of seeds_of_a_trusted_table or more: a seed more at every point whose standard error is above
 /// greatest_residual and that has fewer than most_seeds. Returns whether there is such a point.

@@ -165,6 +165,17 @@ TEST(CalibrateFit, SeedsAreAddedWhereTheyScatter) {
   EXPECT_FALSE(add_seeds(plan, scattered));
 }
 
+// 1, 1.1, 1.2: s = 0.1, 1.321 x 0.1/sqrt(3) whatever the boxes say; of 1 and 1.1 1.837 x 0.05 = 0.09, or the boxes'
+// 0.2/sqrt(2); of one its own.
+TEST(CalibrateBlocks, ThreeSeedsTellTheirErrorByTheirScatter) {
+  const std::vector<Estimate> seeds{{1, 0.2}, {1.1, 0.2}, {1.2, 0.2}};
+  EXPECT_NEAR(mean_of_seeds(seeds).mean, 1.1, 1e-14);
+  EXPECT_NEAR(mean_of_seeds(seeds).error, 1.321 * 0.1 / std::sqrt(3.0), 1e-14);
+  EXPECT_NEAR(mean_of_seeds({seeds[0], seeds[1]}).error, 0.2 / std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(mean_of_seeds({{1, 0.02}, {1.1, 0.02}}).error, 1.837 * 0.05, 1e-14);
+  EXPECT_EQ(mean_of_seeds({seeds[0]}).error, 0.2);
+}
+
 // Of one degree of freedom, Cauchy's, it is tan(0.6827 pi/2) = 1.837; from tables 1.059 at 9 and 1.053 at 10, 1 at
 // many.
 TEST(CalibrateBlocks, StudentsOneSigma) {
