@@ -128,9 +128,14 @@ void NeighbourSearch::sort_in(const Particles& particles) {
     }
     std::partial_sum(level.start.begin(), level.start.end(), level.start.begin());
     level.member.resize(std::size_t(level.start.back()));
+    level.place_of_member.resize(level.member.size());
     std::vector<std::int32_t> next(level.start.begin(), level.start.end() - 1);
-    for (std::size_t i = 0; i < particles.size(); ++i)
-      if (at[i] >= 0) level.member[std::size_t(next[std::size_t(at[i])]++)] = std::int32_t(i);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (at[i] < 0) continue;
+      const auto m = std::size_t(next[std::size_t(at[i])]++);
+      level.member[m] = std::int32_t(i);
+      level.place_of_member[m] = particles.place[i];
+    }
   }
 }
 
@@ -161,16 +166,16 @@ void NeighbourSearch::search(const Particles& particles, std::size_t i, std::siz
           const auto j = std::size_t(level.member[std::size_t(m)]);
           ++candidates_;
           if (half ? same && j <= i : own && particles.id[j] <= particles.id[i]) continue;
-          add_if_near(particles, i, j, images, pairs);
+          add_if_near(particles, i, j, level.place_of_member[std::size_t(m)], images, pairs);
         }
       }
   }
 }
 
-void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Images& images,
-                                  std::vector<Contacts::Pair>& pairs) const {
+void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Place& there,
+                                  const Images& images, std::vector<Contacts::Pair>& pairs) const {
   if (i >= particles.owned && j >= particles.owned) return;
-  const Place &here = particles.place[i], &there = particles.place[j];
+  const Place& here = particles.place[i];
   const Vector d{here.x[0] - there.x[0], here.x[1] - there.x[1], here.x[2] - there.x[2]};
   const int image = images.nearest(d);
   const Vector seen = images.seen(d, image);

@@ -39,6 +39,7 @@ class NeighbourSearch {
     std::array<int, 3> count{};
     std::array<bool, 3> wraps{};
     std::vector<std::int32_t> start, member;
+    std::vector<Place> place_of_member;  ///< side by side, as cells are read
 
     [[nodiscard]] int place(double x, std::size_t axis) const;
     /// Whether no cell lies on both sides of another.
@@ -54,7 +55,7 @@ class NeighbourSearch {
   void search(const Particles& particles, std::size_t i, std::size_t level, const Images& images,
               std::vector<Contacts::Pair>& pairs);
 
-  void add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Images& images,
+  void add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Place& there, const Images& images,
                    std::vector<Contacts::Pair>& pairs) const;
 
   const Box& box_;

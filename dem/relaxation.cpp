@@ -33,21 +33,22 @@ class Relaxation {
   /// Pushes particles apart whose radii are `size` times theirs. Returns the greatest overlap left, in radii.
   double push(double size, int rounds) {
     double worst = 0;
+    bool fresh = false;
     for (int round = 0; round < rounds; ++round) {
-      if (moved_ > 0.1 * skin_ || round == 0) list();
+      if (round == 0 || worst < left_over || 2 * farthest() > skin_) {
+        list();
+        fresh = true;
+      }
       worst = 0;
-      double most = 0;
       for (const Contacts::Pair& pair : near_.pairs) {
-        const double overlap = part(std::size_t(pair.first), std::size_t(pair.second), size, most);
+        const double overlap = part(std::size_t(pair.first), std::size_t(pair.second), size);
         const double radius = std::min(particles_.place[std::size_t(pair.first)].radius,
                                        particles_.place[std::size_t(pair.second)].radius);
         worst = std::max(worst, overlap / radius);
       }
       for (std::size_t i = 0; i < particles_.size(); ++i) keep_inside(i, size);
-      moved_ += most;
-      if (worst >= left_over) continue;
-      if (moved_ == most) return worst;  // found with a list of this very round
-      list();
+      if (worst < left_over && fresh) break;
+      fresh = false;
     }
     return worst;
   }
@@ -74,12 +75,22 @@ class Relaxation {
   void list() {
     for (std::size_t i = 0; i < particles_.size(); ++i) particles_.place[i].x = wrapped(particles_.place[i].x);
     search_.find_pairs(particles_, 0, {}, {true, true, true}, near_);
-    moved_ = 0;
+    listed_ = particles_.place;
+  }
+
+  /// The greatest distance that a particle has come since the pairs were listed, m.
+  [[nodiscard]] double farthest() const {
+    double most = 0;
+    for (std::size_t i = 0; i < listed_.size(); ++i) {
+      const Vector &x = particles_.place[i].x, &from = listed_[i].x;
+      const double dx = x[0] - from[0], dy = x[1] - from[1], dz = x[2] - from[2];
+      most = std::max(most, dx * dx + dy * dy + dz * dz);
+    }
+    return std::sqrt(most);
   }
 
   /// Moves two particles that overlap apart, a little further than need be, so that the last overlaps end soon.
-  /// \param most  greatest distance moved so far, m
-  double part(std::size_t i, std::size_t j, double size, double& most) {
+  double part(std::size_t i, std::size_t j, double size) {
     Vector &a = particles_.place[i].x, &b = particles_.place[j].x;
     const Vector away{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     const Vector d = images_.seen(away, images_.nearest(away));
@@ -95,7 +106,6 @@ class Relaxation {
       a[k] += share * step * n;
       b[k] -= (1 - share) * step * n;
     }
-    most = std::max(most, step);
     return wanted - r;
   }
 
@@ -111,10 +121,11 @@ class Relaxation {
   const std::vector<Vector>&low_, &high_;
   Box box_;
   Images images_;
-  double skin_, moved_ = 0;
+  double skin_;
   NeighbourSearch search_;
   Particles particles_;
   Contacts near_;
+  std::vector<Place> listed_;
 };
 
 }  // namespace

@@ -19,8 +19,8 @@ LIBRARIES = {
     r"_?HYPRE": r"core/(linear_solver\w*\.cpp|hypre_rows\.[ch]pp)",
     r"hdf5": r"core/output_((file|blocks)\.cpp|hdf5\.hpp)",
     r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
-    r"CLI/": r"multiscale/main\.cpp",
-    r"mpi\.h": r"(core/mpi\.hpp|multiscale/main\.cpp)",
+    r"CLI/": r"multiscale/command_line/commands\.hpp",
+    r"mpi\.h": r"(core/mpi\.hpp|multiscale/command_line/mpi_session\.hpp)",
     r"core/mpi\.hpp": r"core/(ranks|blocks|halo|messages|output_blocks|linear_solver|hypre_rows|integrator_vector)\.cpp",
 }
 CLOSURES_SEE = re.compile(r"^(closures/|Eigen/|[a-z_]+$)")  # ours, Eigen, the standard library

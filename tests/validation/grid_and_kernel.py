@@ -5,8 +5,6 @@ Heights of the cells are the thesis's, 1.55 and 1.80 coarse diameters; kernels b
 of four coarse diameters. A run that is done is not run again and one that was stopped goes on, so that the command may be killed
 and given again.
 """
-import json
-import subprocess
 import sys
 from pathlib import Path
 
@@ -15,11 +13,10 @@ import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from strips import mean, run, table
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "multiscale/python"))
-import polybed  # noqa: E402
-from polybed.drawing.style import STYLE  # noqa: E402
+import polybed
+from polybed.drawing.style import STYLE
 
 COARSE = 0.776  # mm, diameter
 END = 1.3  # s
@@ -42,31 +39,9 @@ def settings(cell, kernel):
     return [*STRIP, *chosen, f"column.cells=[4,{CELLS[cell]}]"]
 
 
-def finished(directory):
-    try:
-        return json.loads((directory / "run.json").read_text())["state"] == "done"
-    except FileNotFoundError:
-        return False
-
-
-def run(program, directory, chosen):
-    if finished(directory):
-        return
-    words = [program, "dem", ROOT / "cases/thesis-c/case.toml", "-o", directory, "--quiet", "--no-picture"]
-    words += [w for s in chosen for w in ("--set", s)]
-    words += ["--resume"] if (directory / "checkpoint.h5").exists() else ["--force"]
-    subprocess.run(words, check=True)
-
-
 def apart(history):
     """Centre of the coarse over that of the fine, mm."""
     return 1e3 * (history["centre_coarse_m"] - history["centre_fine_m"])
-
-
-def mean(values, digits=2):
-    """Mean and standard error from four batches."""
-    batches = [np.mean(part) for part in np.array_split(values, 4)]
-    return f"{np.mean(values):.{digits}f} ± {np.std(batches, ddof=1) / 2:.{digits}f}"
 
 
 def row(name, run):
@@ -95,11 +70,10 @@ def main(program, folder, picture=None):
     runs = {}
     for corner in CORNERS:
         directory = folder / "C-{}-{}".format(*corner).replace(" ", "-")
-        run(program, directory, settings(*corner))
+        run(program, "dem", "thesis-c", directory, settings(*corner))
         runs[corner] = polybed.read(directory)
     head = ["cell / D_2", "kernel", "bed height, mm", "coarse over fine, mm", "over the height", "drop / weight"]
-    for cells in (head, ["---"] * len(head), *(row(corner, each) for corner, each in runs.items())):
-        print("| " + " | ".join(cells) + " |")
+    table(head, (row(corner, each) for corner, each in runs.items()))
     if picture:
         draw(runs, picture)
 
