@@ -29,8 +29,8 @@ struct SolidsTable {
   std::vector<double> bed_phi, bed_pressure, bed_error;           ///< p_bed of a fluidised bed; empty if not in it
   double inertia = 0;                                             ///< lambda of the viscous form
   double size_ratio = 1;                                          ///< of the two species, if share is an axis
-  double residual = 0;                                            ///< of the fit, beyond two standard errors
-  double left_out = 0;  ///< greatest error of p where a solids fraction is left out of the fit
+  double residual = 0;                                            ///< as left_out, beyond two standard errors
+  double left_out = 0;  ///< greatest error of p and mu where a solids fraction is left out of the fit
   std::string case_hash, created, git_commit;
 
   /// Restitution at which the reference of a dry table is taken: that of smooth spheres that lose as much as rough

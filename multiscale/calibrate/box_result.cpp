@@ -1,8 +1,10 @@
 #include "multiscale/calibrate/box_result.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -81,6 +83,14 @@ Estimate estimate_of(const std::vector<double>& blocks) {
   return result;
 }
 
+double student_one_sigma(std::size_t degrees) {
+  constexpr std::array<double, 9> table{1.837, 1.321, 1.197, 1.142, 1.111, 1.091, 1.077, 1.067, 1.059};
+  if (degrees == 0) throw std::invalid_argument("no degrees of freedom");
+  if (degrees <= table.size()) return table[degrees - 1];
+  const double n = double(degrees);
+  return 1 + 1 / (2 * n) + 1 / (4 * n * n);
+}
+
 Estimate mean_of_seeds(const std::vector<Estimate>& seeds) {
   double sum = 0, squares = 0, scatter = 0;
   const double n = double(seeds.size());
@@ -89,8 +99,10 @@ Estimate mean_of_seeds(const std::vector<Estimate>& seeds) {
     squares += s.error * s.error;
   }
   for (const Estimate& s : seeds) scatter += (s.mean - sum / n) * (s.mean - sum / n);
-  const double inner = std::sqrt(squares) / n, outer = n > 1 ? std::sqrt(scatter / (n * (n - 1))) : 0;
-  return {sum / n, std::max(inner, outer)};
+  const double inner = std::sqrt(squares) / n;
+  if (seeds.size() < 2) return {sum / n, inner};
+  const double outer = student_one_sigma(seeds.size() - 1) * std::sqrt(scatter / (n * (n - 1)));
+  return {sum / n, seeds.size() < seeds_that_tell ? std::max(inner, outer) : outer};
 }
 
 bool error_grows(const std::vector<double>& blocks) {

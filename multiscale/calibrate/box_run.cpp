@@ -147,7 +147,7 @@ class BoxRun {
   void add_look(std::vector<double>& sum) {
     const dem::Stress s = dem::stress_of(model_);
     sum[pressure] += s.pressure();
-    sum[shear] -= s.component(0, 1);
+    sum[shear] += s.shear();
     sum[first_normal] += s.component(0, 0) - s.component(1, 1);
     sum[second_normal] += s.component(1, 1) - s.component(2, 2);
     sum[contact] += (s.contact[0][0] + s.contact[1][1] + s.contact[2][2]) / 3;

@@ -30,39 +30,47 @@ void each_line(const fluid::SolidsTable& t,
         for (std::size_t x = 0; x < t.share.size(); ++x) see(s, e, m, x);
 }
 
-std::vector<double> line_of(const fluid::SolidsTable& t, const fluid::TableQuantity& q, std::size_t s, std::size_t e,
+std::vector<double> line_of(const fluid::SolidsTable& t, const std::vector<double>& all, std::size_t s, std::size_t e,
                             std::size_t m, std::size_t x) {
   std::vector<double> values;
-  for (std::size_t p = 0; p < t.phi.size(); ++p) values.push_back(q.value[t.index(p, s, e, m, x)]);
+  for (std::size_t p = 0; p < t.phi.size(); ++p) values.push_back(all[t.index(p, s, e, m, x)]);
   return values;
 }
 
-double left_out_of(const fluid::SolidsTable& t) {
-  double worst = 0;
-  each_line(t, [&](std::size_t s, std::size_t e, std::size_t m, std::size_t x) {
-    const std::vector<double> ratio = line_of(t, t.pressure, s, e, m, x);
-    for (std::size_t p = 1; t.phi.size() >= least_to_leave_one_out && p + 1 < t.phi.size(); ++p) {
-      std::vector<double> phi = t.phi, rest = ratio;
-      phi.erase(phi.begin() + std::ptrdiff_t(p));
-      rest.erase(rest.begin() + std::ptrdiff_t(p));
-      worst = std::max(worst, std::abs(closures::MonotoneCurve(phi, rest)(t.phi[p]).pressure / ratio[p] - 1));
-    }
-  });
-  return worst;
+/// Removes a knot.
+std::vector<double> without(std::vector<double> values, std::size_t p) {
+  values.erase(values.begin() + std::ptrdiff_t(p));
+  return values;
 }
 
-double residual_of(const fluid::SolidsTable& t, const Plan& plan, const std::vector<BoxResult>& boxes) {
-  double worst = 0;
-  const std::size_t seeds = plan.seeds();
-  for (std::size_t n = 0; n < plan.axes.points() * seeds; ++n) {
-    const double inertia = 1 + t.inertia * boxes[n].point.stokes;
-    const auto over = [&](const Estimate& box, double fit) {
-      worst = std::max(worst, (std::abs(box.mean / inertia - fit) - 2 * box.error / inertia) / fit);
-    };
-    over(boxes[n].pressure_ratio, t.pressure.value[n / seeds]);
-    over(boxes[n].viscosity_ratio, t.viscosity.value[n / seeds]);
+/// What a curve through all knots but one misses there, over the value: in all, and beyond two standard errors.
+struct Missed {
+  double in_all, beyond;
+};
+Missed missed_at(const std::vector<double>& phi, const std::vector<double>& value, const std::vector<double>& error,
+                 std::size_t p) {
+  const std::vector<double> knots = without(phi, p), others = without(value, p), errors = without(error, p);
+  const double read = closures::MonotoneCurve(knots, others)(phi[p]).pressure;
+  double variance = error[p] * error[p];
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    std::vector<double> moved = others;
+    moved[k] += errors[k];
+    variance += std::pow(closures::MonotoneCurve(knots, moved)(phi[p]).pressure - read, 2);
   }
-  return worst;
+  const double off = std::abs(read - value[p]);
+  return {off / value[p], (off - 2 * std::sqrt(variance)) / value[p]};
+}
+
+void leave_each_out(fluid::SolidsTable& t) {
+  if (t.phi.size() < least_to_leave_one_out) return;
+  each_line(t, [&](std::size_t s, std::size_t e, std::size_t m, std::size_t x) {
+    for (const fluid::TableQuantity* q : {&t.pressure, &t.viscosity})
+      for (std::size_t p = 1; p + 1 < t.phi.size(); ++p) {
+        const Missed missed = missed_at(t.phi, line_of(t, q->value, s, e, m, x), line_of(t, q->error, s, e, m, x), p);
+        t.left_out = std::max(t.left_out, missed.in_all);
+        t.residual = std::max(t.residual, missed.beyond);
+      }
+  });
 }
 
 /// Shape of the pressure along phi: at fixed temperature, or at fixed shear rate.
@@ -118,39 +126,65 @@ fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes)
   t.restitution = plan.axes.restitution;
   t.friction = plan.axes.friction;
   t.share = plan.axes.share;
-  const std::size_t seeds = plan.seeds();
-  const auto at = [&](std::size_t point, Estimate BoxResult::*what) {
+  std::vector<std::size_t> first{0};  // of the boxes of each point
+  for (const int seeds : plan.seeds) first.push_back(first.back() + std::size_t(seeds));
+  const auto at = [&](std::size_t point, Estimate BoxResult::*what, std::size_t from = 0) {
     std::vector<Estimate> all;
-    for (std::size_t n = 0; n < seeds; ++n) all.push_back(boxes[point * seeds + n].*what);
+    for (std::size_t n = first[point]; n < first[point + 1]; ++n) all.push_back(boxes[from + n].*what);
     return all;
   };
   std::vector<double> plain;
   for (std::size_t n = 0; n < t.size(); ++n) {
+    const double seeds = double(plan.seeds[n]);
     double sum = 0, shear = 0;
-    for (const Estimate& e : at(n, &BoxResult::pressure_ratio)) sum += e.mean / double(seeds);
-    for (std::size_t k = 0; k < seeds; ++k) shear += boxes[n * seeds + k].shear_number() / double(seeds);
+    for (const Estimate& e : at(n, &BoxResult::pressure_ratio)) sum += e.mean / seeds;
+    for (std::size_t k = first[n]; k < first[n + 1]; ++k) shear += boxes[k].shear_number() / seeds;
     plain.push_back(sum);
     t.shear_number.push_back(shear);
   }
   t.inertia = fitted_inertia(t, plain);
   for (std::size_t n = 0; n < t.size(); ++n) {
-    const double per = 1 / (1 + t.inertia * boxes[n * seeds].point.stokes);
+    const double per = 1 / (1 + t.inertia * boxes[first[n]].point.stokes);
     add_mean(t.pressure, at(n, &BoxResult::pressure_ratio), per);
     add_mean(t.viscosity, at(n, &BoxResult::viscosity_ratio), per);
     add_mean(t.dissipation, at(n, &BoxResult::dissipation_ratio), per);
     add_mean(t.temperature, at(n, &BoxResult::temperature_ratio), 1);
+    if (plan.pushed()) add_mean(t.exchange, at(n, &BoxResult::exchange_ratio, first.back()), 1);
   }
-  if (plan.pushed())
-    for (std::size_t n = 0; n < t.size(); ++n) add_mean(t.exchange, at(t.size() + n, &BoxResult::exchange_ratio), 1);
-  t.residual = residual_of(t, plan, boxes);
-  t.left_out = left_out_of(t);
+  leave_each_out(t);
   return t;
+}
+
+std::vector<double> relative_errors(const fluid::SolidsTable& t) {
+  std::vector<double> errors;
+  for (std::size_t n = 0; n < t.size(); ++n)
+    errors.push_back(
+        std::max(t.pressure.error[n] / t.pressure.value[n], t.viscosity.error[n] / std::abs(t.viscosity.value[n])));
+  return errors;
+}
+
+double greatest_error(const fluid::SolidsTable& t) {
+  const std::vector<double> errors = relative_errors(t);
+  return *std::max_element(errors.begin(), errors.end());
+}
+
+bool add_seeds(Plan& plan, const fluid::SolidsTable& table) {
+  if (plan.least_seeds() < seeds_of_a_trusted_table) return false;
+  const std::vector<double> errors = relative_errors(table);
+  bool added = false;
+  for (std::size_t n = 0; n < errors.size(); ++n)
+    if (errors[n] > greatest_residual && plan.seeds[n] < most_seeds) {
+      ++plan.seeds[n];
+      added = true;
+    }
+  if (added) set_boxes(plan);
+  return added;
 }
 
 std::vector<std::string> falls_of(const fluid::SolidsTable& t) {
   std::vector<std::string> falls;
   each_line(t, [&](std::size_t s, std::size_t e, std::size_t m, std::size_t x) {
-    const closures::MonotoneCurve ratio(t.phi, line_of(t, t.pressure, s, e, m, x));
+    const closures::MonotoneCurve ratio(t.phi, line_of(t, t.pressure.value, s, e, m, x));
     double last = -1;
     for (const double phi : fine_grid(t.phi, closures::jamming_fraction(t.friction[m]))) {
       const double here = pressure_shape(t, ratio, t.restitution[e], t.friction[m], phi);
@@ -170,8 +204,8 @@ double falls_in_shear_up_to(const fluid::SolidsTable& t) {
   double up_to = 0;
   constexpr auto gd = closures::KineticModel::garzo_dufty;
   each_line(t, [&](std::size_t s, std::size_t e, std::size_t m, std::size_t x) {
-    const closures::MonotoneCurve p(t.phi, line_of(t, t.pressure, s, e, m, x)),
-        mu(t.phi, line_of(t, t.viscosity, s, e, m, x)), loss(t.phi, line_of(t, t.dissipation, s, e, m, x));
+    const closures::MonotoneCurve p(t.phi, line_of(t, t.pressure.value, s, e, m, x)),
+        mu(t.phi, line_of(t, t.viscosity.value, s, e, m, x)), loss(t.phi, line_of(t, t.dissipation.value, s, e, m, x));
     double last = -1;
     for (double phi = t.phi.front(); phi <= t.phi.back(); phi += 0.005) {
       const double rest = t.reference_restitution(t.restitution[e], t.friction[m]),
@@ -192,9 +226,17 @@ void require_usable(const fluid::SolidsTable& t) {
                               fmt::format("{}", fmt::join(falls, "; ")));
   if (!(t.residual <= greatest_residual))
     throw core::NumericsError(fmt::format(
-        "the fit leaves {:.1f} % beyond two standard errors, at most {:.0f} % are allowed: the seeds disagree; raise "
-        "calibrate.strain, calibrate.particles or calibrate.seeds",
+        "the curve through the other solids fractions misses one by {:.1f} % more than two standard errors of both, "
+        "{:.0f} % are allowed: the grid is too coarse for what it shows; add to calibrate.solids_fraction",
         100 * t.residual, 100 * greatest_residual));
+  const std::vector<double> errors = relative_errors(t);
+  for (std::size_t p = 0, n = 0; p < t.phi.size(); ++p)
+    for (std::size_t s = 0; s < t.size() / t.phi.size(); ++s, ++n)
+      if (t.pressure.seeds[n] > 1 && !(errors[n] <= greatest_residual))
+        throw core::NumericsError(fmt::format(
+            "at phi = {:g} the seeds scatter: p or mu has a standard error of {:.1f} %, {:.0f} % are allowed; raise "
+            "calibrate.seeds or calibrate.particles",
+            t.phi[p], 100 * errors[n], 100 * greatest_residual));
 }
 
 std::vector<double> structure_coefficients(const fluid::SolidsTable& t) {

@@ -9,14 +9,14 @@
 
 namespace polybed::multiscale {
 
-/// Greatest residual of a fit that may be used.
+/// Greatest residual of a fit that may be used, and greatest standard error of its points.
 inline constexpr double greatest_residual = 0.05;
 /// Solids fractions from which on one can be left out and read from the others.
 inline constexpr std::size_t least_to_leave_one_out = 4;
 
-/// The table of sheared boxes in the order of a plan. Residual: greatest |box/fit - 1| of p and mu, less two standard
-/// errors of the box; 0 where each point has one box. left_out: |left out/fit - 1| of p where a solids fraction is
-/// taken from the others; 0 where there are too few.
+/// The table of sheared boxes in the order of a plan. Its curves pass through the means of the seeds, so that they are
+/// tested where a solids fraction is left out of them. left_out: greatest |curve/point - 1| of p and mu there;
+/// residual: the same less two standard errors of both together; 0 where there are too few.
 [[nodiscard]] fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes);
 
 /// lambda of p = mu_f gamma V (1 + lambda St): slope over intercept of p/(mu_f gamma V) in St, the median over the
@@ -32,7 +32,20 @@ inline constexpr std::size_t least_to_leave_one_out = 4;
 /// does; 0 if it rises everywhere. Told, not refused.
 [[nodiscard]] double falls_in_shear_up_to(const fluid::SolidsTable& table);
 
-/// Throws core::NumericsError with what is wrong with a table: where its pressure falls, or its residual.
+/// Standard error over value of p or mu at every point, whichever is more.
+[[nodiscard]] std::vector<double> relative_errors(const fluid::SolidsTable& table);
+
+[[nodiscard]] double greatest_error(const fluid::SolidsTable& table);
+
+/// Seeds from which on a plan wants its points known: points that scatter get more of them, so many at most.
+inline constexpr int seeds_of_a_trusted_table = int(seeds_that_tell), most_seeds = 10;
+
+/// Of a plan of seeds_of_a_trusted_table or more: a seed more at every point whose standard error is above
+/// greatest_residual and that has fewer than most_seeds. Returns whether there is such a point.
+[[nodiscard]] bool add_seeds(Plan& plan, const fluid::SolidsTable& table);
+
+/// Throws core::NumericsError with what is wrong with a table: where its pressure falls, its residual, or, with several
+/// seeds, a point whose standard error is above greatest_residual.
 void require_usable(const fluid::SolidsTable& table);
 
 /// a(phi) of chi_eff = chi_CS (1 + a S) from the pressure of a dry table; one per point.

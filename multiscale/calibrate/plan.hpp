@@ -1,6 +1,7 @@
 // Which boxes a calibration runs: the axes of its table, and every point with its seeds.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -30,14 +31,17 @@ struct Plan {
   fluid::Regime regime;  ///< dry | wet | bed
   TableAxes axes;
   bool binary = false;
-  [[nodiscard]] std::size_t seeds() const { return boxes.size() / axes.points() / (pushed() ? 2 : 1); }
   [[nodiscard]] bool pushed() const { return binary && regime.name == "dry"; }
-  std::vector<BoxPoint>
-      boxes;  ///< [phi][stokes][restitution][friction][share][seed]; then, dry and binary, as many pushed
+  [[nodiscard]] int least_seeds() const { return *std::min_element(seeds.begin(), seeds.end()); }
+  std::vector<int> seeds;       ///< of each point [phi][stokes][restitution][friction][share]
+  std::vector<BoxPoint> boxes;  ///< of every point its seeds; then, dry and binary, as many pushed
 };
 
 /// Throws core::CaseError for axes that do not rise or cannot be run.
 [[nodiscard]] Plan plan_of(const core::Scene& scene);
+
+/// Writes down the boxes of a plan's axes and seeds.
+void set_boxes(Plan& plan);
 
 /// The scene of a box: a cube for `dry` and `wet`, a column for `bed`.
 [[nodiscard]] core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point);

@@ -52,9 +52,10 @@ std::string table_toml(const fluid::SolidsTable& t, const Plan& plan, const std:
   std::string out = fmt::format(
       "filetype = \"polybed solids table\"\nversion = 1\ngit_commit = \"{}\"\ncreated = \"{}\"\ncase_hash = \"{}\"\n"
       "regime = \"{}\"\nregime_reason = \"{}\"\nreference = \"{}\"\nfit_residual = {:.4g}\nleft_out_residual = {:.4g}\n"
+      "greatest_error = {:.4g}\n"
       "lambda = {:.6g}\nsize_ratio = {:.6g}\nboxes = {}\nparticle_steps = {:.4g}\ncpu_s = {:.4g}\n",
       t.git_commit, t.created, t.case_hash, t.regime, plan.regime.reason, t.reference, t.residual, t.left_out,
-      t.inertia, t.size_ratio, boxes.size(), steps, cpu);
+      greatest_error(t), t.inertia, t.size_ratio, boxes.size(), steps, cpu);
   out += fmt::format("balance = {}\nsoftness = {}\nmax_overlap = {}\ndrift = {}\nstrain = {}\ndrag_rate = {}\n",
                      range(boxes, &BoxResult::balance), range(boxes, &BoxResult::softness),
                      range(boxes, &BoxResult::max_overlap), range(boxes, &BoxResult::drift),
@@ -62,11 +63,11 @@ std::string table_toml(const fluid::SolidsTable& t, const Plan& plan, const std:
   out += fmt::format("\n[axes]\nphi = {}\nstokes = {}\ne = {}\nmu_p = {}\nx2 = {}\n", list(t.phi), list(t.stokes),
                      list(t.restitution), list(t.friction), list(t.share));
   out += fmt::format(
-      "\n[ratios]  # [phi][stokes][e][mu_p][x2]\np = {}\np_se = {}\nmu = {}\nmu_se = {}\ngamma = {}\n"
+      "\n[ratios]  # [phi][stokes][e][mu_p][x2]\nseeds = {}\np = {}\np_se = {}\nmu = {}\nmu_se = {}\ngamma = {}\n"
       "gamma_se = {}\nT_12 = {}\nT_12_se = {}\nS = {}\n",
-      list(t.pressure.value), list(t.pressure.error), list(t.viscosity.value), list(t.viscosity.error),
-      list(t.dissipation.value), list(t.dissipation.error), list(t.temperature.value), list(t.temperature.error),
-      list(t.shear_number));
+      list(t.pressure.seeds), list(t.pressure.value), list(t.pressure.error), list(t.viscosity.value),
+      list(t.viscosity.error), list(t.dissipation.value), list(t.dissipation.error), list(t.temperature.value),
+      list(t.temperature.error), list(t.shear_number));
   if (!t.exchange.value.empty())
     out += fmt::format("beta_12 = {}\nbeta_12_se = {}\n", list(t.exchange.value), list(t.exchange.error));
   if (t.regime == "dry")

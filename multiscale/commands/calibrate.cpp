@@ -58,9 +58,13 @@ void print_plan(const Plan& plan, const Boxes& boxes, const CalibrateOptions& op
     fmt::print(out, "  {}: gamma tau_p {:.2g}, St* {:.2g} to {:.2g}, St_gamma {:.2g} (voidage {:.3f}, {:.3g} 1/s)\n",
                n.species, n.shear_times_relaxation, n.stokes_least, n.stokes_most, n.stokes_of_shear, n.voidage,
                n.shear_rate);
+  if (plan.binary && !plan.pushed())
+    fmt::print(out,
+               "no beta_12: it is measured in dry boxes alone. Here a push would meet drag towards the flow and films, "
+               "whose part the drag law of the two-fluid model has already\n");
   fmt::print(out, "{} boxes: phi {}, stokes {}, e {}, mu_p {}, x2 {}, seeds {}; {} left, about {} on {} at once\n",
              plan.boxes.size(), plan.axes.phi.size(), plan.axes.stokes.size(), plan.axes.restitution.size(),
-             plan.axes.friction.size(), plan.axes.share.size(), plan.seeds(), boxes.left(),
+             plan.axes.friction.size(), plan.axes.share.size(), plan.least_seeds(), boxes.left(),
              core::duration_text(boxes.expected_left() / boxes.at_once()), boxes.at_once());
 }
 
@@ -73,15 +77,18 @@ fluid::SolidsTable table_of(const core::Scene& scene, const Plan& plan, const st
   return table;
 }
 
-/// What a fit was tested by: by nothing where each point has one box, or too few solids fractions to leave one out.
+/// What a fit was tested by: by no scatter where a point has one box, and by no curve where there are too few solids
+/// fractions to leave one out.
 struct Tested {
-  std::optional<double> residual, left_out;
+  std::optional<double> error, residual, left_out;
 };
 
 Tested tested(const fluid::SolidsTable& table, const Plan& plan) {
   Tested by;
-  if (plan.seeds() > 1) by.residual = table.residual;
-  if (table.phi.size() >= least_to_leave_one_out) by.left_out = table.left_out;
+  if (plan.least_seeds() > 1) by.error = greatest_error(table);
+  if (table.phi.size() < least_to_leave_one_out) return by;
+  by.residual = table.residual;
+  by.left_out = table.left_out;
   return by;
 }
 
@@ -89,7 +96,8 @@ void print_json(const fs::path& directory, const Plan& plan, const Tested& by) {
   core::Json json;
   json.begin_object().member("table", (directory / "table.h5").string()).member("regime", plan.regime.name);
   json.member("reason", plan.regime.reason).member("boxes", std::uint64_t(plan.boxes.size()));
-  json.member("fit_residual", by.residual).member("left_out_residual", by.left_out).end_object();
+  json.member("greatest_error", by.error).member("fit_residual", by.residual);
+  json.member("left_out_residual", by.left_out).end_object();
   fmt::print("{}\n", json.text());
 }
 
@@ -144,7 +152,8 @@ void finish_sheared(const CalibrateOptions& options, const fs::path& directory, 
   core::write_atomically(directory / "boxes.txt", lines);
   const Tested by = tested(table, plan);
   const auto percent = [](const std::optional<double>& x) { return x ? fmt::format("{:.2f} %", 100 * *x) : "-"; };
-  fmt::print(out, "residual {}, with a solids fraction left out {}\n", percent(by.residual), percent(by.left_out));
+  fmt::print(out, "standard errors up to {}; with a solids fraction left out {} off, {} beyond two standard errors\n",
+             percent(by.error), percent(by.left_out), percent(by.residual));
   if (const double up_to = falls_in_shear_up_to(table); up_to > 0)
     fmt::print(out, "at fixed shear rate without a fluid the pressure falls up to phi = {:.3f}, as a dilute gas does\n",
                up_to);
@@ -167,7 +176,7 @@ void run_calibrate(const CalibrateOptions& options) {
   if (options.launched && options.jobs > 1)
     throw core::CaseError("-j starts processes of its own: under mpirun the ranks run the boxes, leave it out");
   const std::shared_ptr<const core::Ranks> ranks = options.launched ? core::Ranks::of_program() : nullptr;
-  const Plan plan = plan_of(scene);
+  Plan plan = plan_of(scene);
   if (!options.check.empty()) return check_table(options, scene, directory, plan, ranks);
   Boxes boxes(options, scene, directory, plan.boxes, ranks);
   core::on_first(ranks.get(), [&] {
@@ -175,7 +184,9 @@ void run_calibrate(const CalibrateOptions& options) {
     if (options.plan_only && options.json) print_plan_json(plan, boxes);
   });
   if (options.plan_only) return;
-  const std::vector<BoxResult> results = boxes.run();
+  std::vector<BoxResult> results = boxes.run();
+  if (plan.regime.name != "bed")
+    while (add_seeds(plan, fitted(plan, results))) results = Boxes(options, scene, directory, plan.boxes, ranks).run();
   core::on_first(ranks.get(), [&] {
     if (plan.regime.name == "bed")
       finish_bed(options, directory, scene, plan, results);

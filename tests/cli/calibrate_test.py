@@ -81,7 +81,8 @@ class Calibration(Scratch):
         done = self.calibrate(DRY, "-j", "2")
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertIn("regime dry: there is no fluid", done.stdout)
-        self.assertIn("residual -, with a solids fraction left out -", done.stdout)  # one box a point, and two of them
+        # one box a point, and two of them: nothing tests the scatter or the curve
+        self.assertIn("standard errors up to -; with a solids fraction left out - off, - beyond", done.stdout)
         with h5py.File(self.folder / "boxes/table.h5") as table:
             self.assertEqual(table.attrs["filetype"], "polybed solids table")
             self.assertEqual(table.attrs["regime"], "dry")
@@ -91,7 +92,7 @@ class Calibration(Scratch):
         self.assertTrue(np.all(np.abs(ratio - 1) < 0.2 + 3 * error), ratio)
         text = tomllib.loads((self.folder / "boxes/table.toml").read_text())
         self.assertEqual(text["axes"]["phi"], [0.3, 0.45])
-        # -sigma_xy gamma against dissipation and what is stored: 1 % is the goal of long boxes; 3 % of two strains.
+        # -sigma_yx gamma against dissipation and what is stored: 1 % is the goal of long boxes; 3 % of two strains.
         self.assertTrue(all(abs(b - 1) < 0.03 for b in text["balance"]), text["balance"])
         self.assertTrue(all(d < 1e-12 for d in text["drift"]), text["drift"])
         boxes = {p: p.stat().st_mtime_ns for p in (self.folder / "boxes/boxes").iterdir()}
@@ -133,7 +134,7 @@ class Calibration(Scratch):
         self.assertEqual(self.calibrate(DRY).returncode, DONE)
         done = self.on_two_ranks()
         self.assertEqual(done.returncode, DONE, done.stderr)
-        self.assertEqual(done.stdout.count("residual"), 1, "the first rank speaks")
+        self.assertEqual(done.stdout.count("standard errors"), 1, "the first rank speaks")
         self.assertEqual(self.numbers(self.folder / "ranks"), self.numbers(self.folder / "boxes"))
         self.assertEqual(self.on_two_ranks("-j", "2").returncode, WRONG_CASE)
 
@@ -230,6 +231,15 @@ class Calibration(Scratch):
         self.assertEqual(wrong.returncode, WRONG_CASE)
         for word in ("gamma tau_p", "St*", "dry table"):
             self.assertIn(word, wrong.stderr)
+
+    def test_wet_boxes_of_two_species_say_that_they_tell_no_exchange(self):
+        wet = self.calibrate(WET, "--plan", "--set", "calibrate.share=[0.5]")
+        self.assertEqual(wet.returncode, DONE, wet.stderr)
+        self.assertIn("no beta_12: it is measured in dry boxes alone", wet.stdout)
+        self.assertIn("4 boxes", wet.stdout, "none is pushed")
+        dry = self.calibrate(WET, "--plan", "--set", "calibrate.share=[0.5]", "--set", 'calibrate.regime="dry"')
+        self.assertIn("4 boxes", dry.stdout, "two, and two that are pushed")
+        self.assertNotIn("beta_12", dry.stdout)
 
     def test_plan_runs_nothing_and_wrong_plans_are_refused(self):
         done = self.calibrate(WET, "--plan")

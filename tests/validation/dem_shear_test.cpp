@@ -39,7 +39,7 @@ TEST_P(SimpleShear, AgreesWithTheTable) {
     compare(name[q], mean.mean(q) / units[q], row.expected[q], std::max(0.02, 3 * error));
     compare(std::string("standard error of ") + name[q], mean.error(q) / mean.mean(q), 0, 0.02, 1);
   }
-  // -sigma_xy gamma V against what contacts dissipate and the motion stores: 1 %, this project's goal.
+  // -sigma_yx gamma V against what contacts dissipate and the motion stores: 1 %, this project's goal.
   const double heat = dem::stress_of(run.model).temperature[0] - heat_before;
   const double stored = 1.5 * gas.number * gas.mass() * heat + after.elastic - before.elastic;
   compare("balance", 20 * mean.mean(shear_stress) * volume, after.dissipated - before.dissipated + stored, 0.01);

@@ -130,7 +130,7 @@ struct Blocks {
   }
 };
 
-/// Granular temperature, pressure and shear stress -sigma_xy, SI, of a run in blocks of equal time.
+/// Granular temperature, pressure and shear stress -sigma_yx, SI, of a run in blocks of equal time.
 enum Quantity : std::size_t { theta, pressure, shear_stress };
 inline Blocks<3> averages(GasRun& run, double time, int blocks) {
   Blocks<3> averages;
@@ -140,7 +140,7 @@ inline Blocks<3> averages(GasRun& run, double time, int blocks) {
     run.watch_for(time / blocks, [&](const dem::Stress& s) {
       sum[theta] += s.temperature[0];
       sum[pressure] += s.pressure();
-      sum[shear_stress] -= s.component(0, 1);
+      sum[shear_stress] += s.shear();
       ++number;
     });
     averages.add(sum, number);

@@ -101,7 +101,7 @@ TEST(DemShear, PairsAcrossTheFacesAreFound) {
 
 // Momentum to round-off, 2e4 steps; energy to 1e-3 of what contacts have taken, as every run is held to: 6.9e-4 are
 // found at 50 steps per contact, the error of the integration. The stress tells the same work another way:
-// -sigma_xy gamma V, up to what the fluctuating motion stores.
+// -sigma_yx gamma V, up to what the fluctuating motion stores.
 TEST(DemShear, MomentumAndEnergy) {
   const Gas gas{.number = 300, .fraction = 0.4, .restitution = 0.9, .shear_rate = 100, .steps_per_contact = 50};
   GasRun run(gas);
@@ -110,7 +110,7 @@ TEST(DemShear, MomentumAndEnergy) {
   const double start = double(run.model.steps()) * run.model.limits().dt;
   double stress = 0;
   std::int64_t looks = 0;
-  run.watch_for(10 / gas.shear_rate, [&](const dem::Stress& s) { stress -= s.component(0, 1), ++looks; });
+  run.watch_for(10 / gas.shear_rate, [&](const dem::Stress& s) { stress += s.shear(), ++looks; });
   const dem::Totals after = dem::totals_of(run.model);
   const double time = double(run.model.steps()) * run.model.limits().dt - start;
   const double input = stress / double(looks) * gas.shear_rate * volume * time;

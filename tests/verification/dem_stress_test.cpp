@@ -56,6 +56,30 @@ TEST(DemStress, ShearedBox) {
     for (const double component : row) EXPECT_NEAR(component, 0, 1e-15);  // round-off of gamma y
 }
 
+// Spheres that turn the same way rub: n = (0, 1, 0) from the lower to the upper, F_n = 0.01 N, the lower one's top goes
+// against x. After one step friction is at its limit, 0.005 x 0.01 N on the upper one against x, r = 0.99 mm:
+// x-momentum passes on along y, r F_x/V = -0.0495 Pa, and none the other way round: of a torque only sigma_yx is the
+// work of a shear. 3 %: in the step the normal force falls by 1 to 2 %.
+TEST(DemStress, OfATorqueOnlyTheForceAlongTheFlowWorks) {
+  core::Scene scene = cube();
+  scene.dem.friction = 0.005;
+  scene.dem.shear_rate = 10;
+  Beads beads(scene, {{"a", {5e-3, 4e-3, 5e-3}, {}, {0, 0, 100}}, {"a", {5e-3, 4.99e-3, 5e-3}, {}, {0, 0, 100}}});
+  beads.model.step(1e300);
+  const dem::Stress s = dem::stress_of(beads.model);
+  compare("contact yx", s.contact[1][0], -0.0495, 0.03);
+  EXPECT_LT(std::abs(s.contact[0][1]), 1e-3 * 0.0495);
+  EXPECT_EQ(s.shear(), -s.component(1, 0));
+}
+
+// A sheared box begins with the flow, x-velocity gamma y and the spin of its vorticity, -gamma/2 about z.
+TEST(DemStress, ASphereBeginsWithTheSpinOfTheFlow) {
+  const core::Scene scene = scene_of({.number = 100, .fraction = 0.2, .restitution = 0.9, .shear_rate = 50});
+  GasRun run({.shear_rate = 50}, scene);
+  for (std::size_t i = 0; i < run.model.particles().owned; ++i)
+    EXPECT_EQ(run.model.particles().motion[i].w, (dem::Vector{0, 0, -25}));
+}
+
 // Looking at the stress changes nothing.
 TEST(DemStress, NothingMovesOn) {
   core::Scene scene = scene_of({.number = 100, .fraction = 0.4, .restitution = 0.9, .shear_rate = 50});
