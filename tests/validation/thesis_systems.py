@@ -54,8 +54,7 @@ def row(system, velocity, model, read):
     drift = np.polyfit(history["time_s"][late], height[late], 1)[0]
     drop = np.mean(history["pressure_drop_Pa"][late] / history["buoyant_weight_Pa"][late])
     return [system, f"{velocity:g}", MODELS[model], f"{history['time_s'][-1]:.0f}", mean(height[late], 1), f"{drift:+.2f}",
-            *(mean(c[late], 1) for c in centres), mean(apart[late], 1), mean((apart / height)[late], 3), f"{drop:.4f}",
-            f"{read.record['cpu_s']:.0f}"]
+            *(mean(c[late], 1) for c in centres), mean(apart[late], 1), mean((apart / height)[late], 3), f"{drop:.4f}"]
 
 
 def draw(reads, picture):
@@ -103,7 +102,7 @@ def main():
                 if (directory / "history.csv").exists():
                     reads[system, velocity, model] = polybed.read(directory)
     table(["system", "mm/s", "model", "s", "bed height, mm", "its drift, mm/s", "centre of fine, mm", "centre of coarse, mm",
-           "coarse over fine, mm", "over the height", "drop / weight", "CPU s"],
+           "coarse over fine, mm", "over the height", "drop / weight"],
           (row(*key, read) for key, read in reads.items()))
     if given.output:
         draw(reads, given.output)
