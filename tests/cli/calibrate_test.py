@@ -134,7 +134,7 @@ class Calibration(Scratch):
         self.assertEqual(self.calibrate(DRY).returncode, DONE)
         done = self.on_two_ranks()
         self.assertEqual(done.returncode, DONE, done.stderr)
-        self.assertEqual(done.stdout.count("standard errors"), 1, "the first rank speaks")
+        self.assertEqual(done.stdout.count("with a solids fraction left out"), 1, "the first rank speaks")
         self.assertEqual(self.numbers(self.folder / "ranks"), self.numbers(self.folder / "boxes"))
         self.assertEqual(self.on_two_ranks("-j", "2").returncode, WRONG_CASE)
 
