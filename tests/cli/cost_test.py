@@ -9,27 +9,9 @@ import tempfile
 import time
 
 import program
-from program import DONE, NUMBERS, WRONG_CASE, TWO_IN_WATER, Scratch, strict_json
+from program import DONE, NUMBERS, WRONG_CASE, Scratch, strict_json
 
-# A bed of 4 x 24 cells, a tenth of a second of computing.
-BED = """[column]
-size = ["10 mm", "40 mm"]
-cells = [4, 24]
-sides = "periodic"
-""" + TWO_IN_WATER + """[bed]
-volume_share = [0.8, 0.2]
-static_height = "12 mm"
-solids_fraction = 0.6
-start_solids_fraction = 0.4
-[inlet]
-superficial_velocity = "20 mm/s"
-[effects]
-drag = "cello"
-solids_stress = "frictional"
-contact = "hertz_mindlin"
-[run]
-until = "0.1 s"
-"""
+BED = program.small_bed("0.1 s")  # a tenth of a second of computing
 SWEEP = ["--axes", "rtol,scheme", "--no-picture", "--quiet", "--budget", "500s"]
 ROWS = ["time integration", "space", "solver and coupling tolerance", "statistics", "closure spread", "level"]
 

@@ -42,6 +42,28 @@ viscosity = "1.14e-3 Pa s"
 """ + TWO_SIZES
 
 
+def small_bed(until):
+    """A case that both models run: 4 x 24 cells, a few hundred particles. until: its end, with its unit."""
+    return """[column]
+size = ["10 mm", "40 mm"]
+cells = [4, 24]
+sides = "periodic"
+""" + TWO_IN_WATER + f"""[bed]
+volume_share = [0.8, 0.2]
+static_height = "12 mm"
+solids_fraction = 0.6
+start_solids_fraction = 0.4
+[inlet]
+superficial_velocity = "20 mm/s"
+[effects]
+drag = "cello"
+solids_stress = "frictional"
+contact = "hertz_mindlin"
+[run]
+until = "{until}"
+"""
+
+
 def environment(scratch):
     """One rank needs neither network nor daemon: without them MPI starts in a sixth of the time, if each process has a
     folder of its own."""

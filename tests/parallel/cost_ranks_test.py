@@ -6,38 +6,20 @@ import pathlib
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
+import open_mpi  # noqa: E402
 import program  # noqa: E402
-from program import DONE, FILE, TWO_IN_WATER, Scratch, strict_json  # noqa: E402
+from program import DONE, FILE, Scratch, strict_json  # noqa: E402
 
-# 4 x 24 cells; of particles a few hundred.
-BED = """[column]
-size = ["10 mm", "40 mm"]
-cells = [4, 24]
-sides = "periodic"
-""" + TWO_IN_WATER + """[bed]
-volume_share = [0.8, 0.2]
-static_height = "12 mm"
-solids_fraction = 0.6
-start_solids_fraction = 0.4
-[inlet]
-superficial_velocity = "20 mm/s"
-[effects]
-drag = "cello"
-solids_stress = "frictional"
-contact = "hertz_mindlin"
-[run]
-until = "0.02 s"
-"""
+BED = program.small_bed("0.02 s")
 QUIET = ["--no-picture", "--quiet", "--budget", "300s", "--json"]
 
 
 class OnRanks(Scratch):
     def started(self, *words):
         """Without the settings for single processes of `program`; ranks that wait leave the core to the others."""
-        settings = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                        OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1",
-                        OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_orte_tmpdir_base=str(self.folder))
+        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES | {"OMPI_MCA_orte_tmpdir_base": str(self.folder)}
         done = subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=400, env=settings)
         self.assertEqual(done.returncode, DONE, done.stderr[-400:])
         return done.stdout
