@@ -18,7 +18,7 @@ import polybed
 from polybed.drawing.style import COLOURS, STYLE
 
 # Velocity, mm/s: time, s. The thesis ran A for 92, 170 and 31 s, B for 170 to 350 and C for 50.
-TIMES = {"A": {0.3: 40, 1.8: 110, 3.7: 31}, "B": {20: 40, 37: 64}, "C": {8: 25, 17: 20}}
+TIMES = {"A": {0.3: 40, 1.8: 110, 3.7: 31}, "B": {20: 40, 37: 64}, "C": {8: 25, 17: 8}}
 # So many columns of cells as fit, the particles in proportion, contacts as soft as overlaps allow. A is joined at its sides and two
 # ninths of its width; B has walls, five eighteenths; C a third of its height too, two sevenths of the width. A little more depth
 # than the cases have allows thicker skins; without the ledger of energy steps are cheaper.
@@ -28,7 +28,7 @@ STRIPS = {
     "B": ["column.size=[16.667e-3,0.93]", "column.cells=[5,297]", "column.depth=4.422e-3", "dem.skin=2e-4",
           "bed.particles=[6233,306]", "dem.youngs_modulus=1e5", "dem.fixed_step=4.5e-5", "dem.fluid_every=10"],
     "C": ["column.size=[4.8e-3,67.2e-3]", "column.cells=[4,56]", "column.depth=1.7e-3", "dem.skin=6e-5", "bed.particles=[3484,66]",
-          "dem.youngs_modulus=5e4", "dem.fixed_step=2.5e-5", "dem.fluid_every=8"],
+          "dem.youngs_modulus=1e5", "dem.fixed_step=1.75e-5", "dem.fluid_every=11"],
 }
 ALL = ["dem.ledger=false", "dem.max_overlap=0.1", "output.every=1", "output.history_every=0.1", "output.checkpoint_every=1"]
 MODELS = {"dem": "particles", "tfm": "two-fluid"}
