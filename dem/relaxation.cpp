@@ -32,13 +32,10 @@ class Relaxation {
 
   /// Pushes particles apart whose radii are `size` times theirs. Returns the greatest overlap left, in radii.
   double push(double size, int rounds) {
-    double worst = 0;
-    bool fresh = false;
+    double worst = 0;  // so that the first round makes a list
     for (int round = 0; round < rounds; ++round) {
-      if (round == 0 || worst < left_over || 2 * farthest() > skin_) {
-        list();
-        fresh = true;
-      }
+      const bool fresh = worst < left_over || 2 * farthest() > skin_;
+      if (fresh) list();
       worst = 0;
       for (const Contacts::Pair& pair : near_.pairs) {
         const double overlap = part(std::size_t(pair.first), std::size_t(pair.second), size);
@@ -48,7 +45,6 @@ class Relaxation {
       }
       for (std::size_t i = 0; i < particles_.size(); ++i) keep_inside(i, size);
       if (worst < left_over && fresh) break;
-      fresh = false;
     }
     return worst;
   }

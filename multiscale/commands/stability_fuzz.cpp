@@ -56,6 +56,23 @@ std::string json_text(const StabilityOptions& options, const Results& results) {
   return json.text() + "\n";
 }
 
+/// Keeps the least case of each kind of failure: others of a kind are most likely the same mistake.
+void keep_least_cases(const StabilityOptions& options, const Results& results, const fs::path& directory) {
+  const fs::path hard = "cases/hard", found = (fs::is_directory(hard) ? hard : directory) / "found";
+  std::map<std::string, std::string> shown;
+  for (const auto& [n, result] : results) {
+    const std::string kind = stability::kind_of(result);
+    if (result.outcome != Outcome::fail || shown.contains(kind)) continue;
+    const stability::Draw least =
+        stability::shrunk(stability::draw_of(options.seed, n), [&](const stability::Draw& draw) {
+          const stability::Result now = result_of_draw(draw);
+          return now.outcome == Outcome::fail && stability::kind_of(now) == kind;
+        });
+    shown[kind] = stability::keep({n, least, result_of_draw(least)}, options.seed, found).string();
+    if (!options.json) fmt::print("{} (draw {}), as a least case: {}\n", kind, n, shown[kind]);
+  }
+}
+
 }  // namespace
 
 core::ExitCode run_fuzz(const StabilityOptions& options) {
@@ -82,20 +99,7 @@ core::ExitCode run_fuzz(const StabilityOptions& options) {
   };
   (void)stability::results_of(texts, options.jobs, cpu_each, seen);
   core::write_atomically(directory / "fuzz.json", json_text(options, results));
-  // Of each kind of failure one is shrunk: the others are most likely the same mistake.
-  const fs::path hard = "cases/hard", found = (fs::is_directory(hard) ? hard : directory) / "found";
-  std::map<std::string, std::string> shown;
-  for (const auto& [n, result] : results) {
-    const std::string kind = stability::kind_of(result);
-    if (result.outcome != Outcome::fail || shown.contains(kind)) continue;
-    const stability::Draw least =
-        stability::shrunk(stability::draw_of(options.seed, n), [&](const stability::Draw& draw) {
-          const stability::Result now = result_of_draw(draw);
-          return now.outcome == Outcome::fail && stability::kind_of(now) == kind;
-        });
-    shown[kind] = stability::keep({n, least, result_of_draw(least)}, options.seed, found).string();
-    if (!options.json) fmt::print("{} (draw {}), as a least case: {}\n", kind, n, shown[kind]);
-  }
+  keep_least_cases(options, results, directory);
   if (options.json) fmt::print("{}", json_text(options, results));
   for (const Outcome outcome : outcomes) {
     const auto count =
