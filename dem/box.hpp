@@ -65,6 +65,24 @@ struct Images {
     return here + aside + 3 * up + 9 * boxes(d[2], 2);
   }
 
+  /// Calls with those images of j that lie on the other side of i than the nearest one, along one axis or several. Not
+  /// in a sheared box, whose images move along each other. \param d  x_i - x_j  \param nearest  what nearest(d) is
+  template <class Act>
+  void each_other(const Vector& d, int nearest, Act&& act) const {
+    constexpr std::array<int, 3> stride{1, 3, 9};
+    const Vector from = seen(d, nearest);
+    for (int sides = 1; sides < 8; ++sides) {
+      int image = nearest;
+      bool there = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if ((sides >> k & 1) == 0) continue;
+        there = there && period[k] > 0;
+        image += from[k] > 0 ? stride[k] : -stride[k];
+      }
+      if (there) act(image);
+    }
+  }
+
   /// The image of i that is nearest to j, where that of j nearest to i is given.
   [[nodiscard]] static constexpr int opposite(int image) { return 2 * here - image; }
 

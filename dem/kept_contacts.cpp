@@ -37,7 +37,11 @@ void KeptById::recall(Contacts& contacts, const Particles& particles, bool walls
   contacts.touching.clear();
   for (auto* list : {&contacts.touching, &contacts.touched}) list->reserve(contacts.pairs.size());  // until the next
   for (std::int32_t p = 0; p < std::int32_t(contacts.pairs.size()); ++p) {
-    const auto kept = found_.find(ids_of(contacts.pairs[std::size_t(p)], particles, walls));
+    // Of a pair that is listed with several images only the first can touch: no box is so narrow.
+    const Contacts::Pair &pair = contacts.pairs[std::size_t(p)],
+                         &before = contacts.pairs[std::size_t(p > 0 ? p - 1 : 0)];
+    if (p > 0 && pair.first == before.first && pair.second == before.second) continue;
+    const auto kept = found_.find(ids_of(pair, particles, walls));
     if (kept == found_.end()) continue;
     std::copy_n(kept->second->memory.begin(), contacts.memory_size, contacts.memory_of(p));
     contacts.touching.push_back(p);

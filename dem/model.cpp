@@ -44,7 +44,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       search_(box_, materials_, skin_ + laws_.reach()),
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
-  require_room_for_images(box_, materials_.greatest_diameter(), skin_ + laws_.reach());
+  require_room_for_images(box_, materials_.greatest_diameter(), laws_.reach(), skin_);
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
   if (laws_.film) laws_.film->set_step(limits_.dt);
   const std::vector<Particle> all = std::move(start_);

@@ -66,6 +66,8 @@ NeighbourSearch::NeighbourSearch(const Box& box, const Materials& materials, dou
   for (auto d = diameters.rbegin(); d != diameters.rend(); ++d)
     if (levels_.empty() || worth_a_level * (*d + reach) < levels_.back().cell) levels_.emplace_back().cell = *d + reach;
   std::reverse(levels_.begin(), levels_.end());
+  for (std::size_t k = 0; k < 3; ++k)
+    if (box.periodic[k]) narrowest_ = std::min(narrowest_, box.size[k]);
 }
 
 std::size_t NeighbourSearch::level_of(double radius) const {
@@ -177,16 +179,20 @@ void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std
   if (i >= particles.owned && j >= particles.owned) return;
   const Place& here = particles.place[i];
   const Vector d{here.x[0] - there.x[0], here.x[1] - there.x[1], here.x[2] - there.x[2]};
-  const int image = images.nearest(d);
-  const Vector seen = images.seen(d, image);
   const double near = here.radius + there.radius + reach_;
-  if (seen[0] * seen[0] + seen[1] * seen[1] + seen[2] * seen[2] >= near * near) return;
-  const auto a = std::int32_t(i), b = std::int32_t(j);
-  const std::int32_t si = particles.species[i], sj = particles.species[j];
-  if (particles.id[i] < particles.id[j])
-    pairs.push_back({a, b, image, materials_.kind(si, sj)});
-  else
-    pairs.push_back({b, a, Images::opposite(image), materials_.kind(sj, si)});
+  const auto add = [&](int image) {
+    const Vector seen = images.seen(d, image);
+    if (seen[0] * seen[0] + seen[1] * seen[1] + seen[2] * seen[2] >= near * near) return;
+    const auto a = std::int32_t(i), b = std::int32_t(j);
+    const std::int32_t si = particles.species[i], sj = particles.species[j];
+    if (particles.id[i] < particles.id[j])
+      pairs.push_back({a, b, image, materials_.kind(si, sj)});
+    else
+      pairs.push_back({b, a, Images::opposite(image), materials_.kind(sj, si)});
+  };
+  const int nearest = images.nearest(d);
+  add(nearest);
+  if (2 * near > narrowest_) images.each_other(d, nearest, add);
 }
 
 void NeighbourSearch::find_pairs(const Particles& particles, double time, const Vector& centre,

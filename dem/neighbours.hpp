@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "dem/box.hpp"
@@ -18,7 +19,8 @@ class NeighbourSearch {
   NeighbourSearch(const Box& box, const Materials& materials, double reach);
 
   /// Pairs with at least one owned particle whose surfaces are nearer than the reach; the first has the lower id.
-  /// Pairs that need no ghost come first.
+  /// Pairs that need no ghost come first. In a box of less than twice that distance across, a pair may be listed with
+  /// several images of the second, of which the nearest comes first and the others next.
   /// \param centre  of the space of these particles: of directions in which they do not fill the box, images are
   ///                taken near it   \param whole  directions in which they do
   void find_pairs(const Particles& particles, double time, const Vector& centre, const std::array<bool, 3>& whole,
@@ -61,8 +63,9 @@ class NeighbourSearch {
   const Box& box_;
   const Materials& materials_;
   double reach_;
-  std::vector<Level> levels_;  ///< from the smallest particles' to the largest's
-  std::vector<Vector> near_;   ///< positions with images taken near the centre
+  double narrowest_ = std::numeric_limits<double>::infinity();  ///< extent of the box where it is joined, m
+  std::vector<Level> levels_;                                   ///< from the smallest particles' to the largest's
+  std::vector<Vector> near_;                                    ///< positions with images taken near the centre
   std::uint64_t candidates_ = 0;
 };
 

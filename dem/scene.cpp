@@ -116,15 +116,19 @@ FixedPoint torque_unit(const FixedPoint& force, const Materials& materials) {
   return {force.per_unit / arm, force.unit * arm};
 }
 
-void require_room_for_images(const Box& box, double greatest_diameter, double reach) {
-  const double least = 2 * (greatest_diameter + reach);
+void require_room_for_images(const Box& box, double greatest_diameter, double reach, double skin) {
+  const bool sheared = box.shear_rate != 0;
+  const double least = 2 * (greatest_diameter + reach + (sheared ? skin : 0));
   constexpr std::array<const char*, 3> names = {"width", "height", "depth"};
   for (std::size_t k = 0; k < 3; ++k)
     if (box.periodic[k] && box.size[k] < least * (1 - 1e-12))
       throw core::CaseError(
-          fmt::format("column.{}: {:.6g} m is periodic and must be at least {:.6g} m, two of the largest particles and "
-                      "twice the skin (dem.skin), or a particle meets another and its image",
-                      k == 2 ? "depth" : "size", box.size[k], least) +
+          fmt::format(
+              "column.{}: {:.6g} m is periodic and must be at least {:.6g} m, two of the largest particles{}{}, "
+              "or a particle touches another and its image",
+              k == 2 ? "depth" : "size", box.size[k], least,
+              reach > 0 ? " and twice what they reach beyond contact" : "",
+              sheared ? " and, as the box is sheared, twice the skin (dem.skin)" : "") +
           (k == 2 ? "" : fmt::format(" ({})", names[k])));
 }
 

@@ -28,7 +28,9 @@ namespace polybed::dem {
 [[nodiscard]] FixedPoint torque_unit(const FixedPoint& force, const Materials& materials);
 
 /// Throws core::CaseError if a particle could touch another and its image: periodic directions need room for two of
-/// the largest and twice the reach, m. T: so does the thesis, whose depth for system B is too small by a hair.
-void require_room_for_images(const Box& box, double greatest_diameter, double reach);
+/// the largest and twice the reach. T: so does the thesis, whose depth for system B is too small by a hair.
+/// \param greatest_diameter  m  \param reach  of forces beyond contact, m
+/// \param skin  of the list of neighbours, m: a sheared box needs room for it, too, as its list has but one image
+void require_room_for_images(const Box& box, double greatest_diameter, double reach, double skin);
 
 }  // namespace polybed::dem

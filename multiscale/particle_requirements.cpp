@@ -95,7 +95,7 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   const dem::Box box = dem::box_of(scene);
   const dem::Materials materials(scene);
   const dem::PairLaws laws = dem::make_pair_laws(scene, materials);
-  dem::require_room_for_images(box, materials.greatest_diameter(), dem::skin_of(scene, materials) + laws.reach());
+  dem::require_room_for_images(box, materials.greatest_diameter(), laws.reach(), dem::skin_of(scene, materials));
   ParticleRequirements need;
   need.numbers = numbers_of(scene, materials, box);
   const std::vector<dem::Particle> fastest = fastest_at_start(scene, materials, box, need.count());

@@ -4,10 +4,12 @@ measured counts of work, messages and collective calls.
 
     tfm_scaling.py POLYBED MPI_COUNTS_LIBRARY [--json]
 
-Strong: 100 x 500 cells of system B on 1 and 2 ranks. Weak: 100 x 250 cells a rank. Times are the terms of run.json less
-output, the median of three runs. Counts repeat exactly and are taken on 8 ranks in blocks of 2 x 4, more than there are
+Strong: 100 x 500 cells of system B on 1 and 2 ranks. Weak: 100 x 250 cells a rank. At once: two runs on one rank each, at the
+same time: what the cores leave each other of memory and caches, which no program can share out better. Times are the terms of
+run.json less output, the median of three runs. Counts repeat exactly and are taken on 8 ranks in blocks of 2 x 4, more than there are
 cores: such ranks wait for each other, but what they send is what they would send elsewhere."""
 import argparse
+import concurrent.futures
 import json
 import math
 import os
@@ -55,6 +57,14 @@ def median_time(polybed, ranks, cells):
     return statistics.median(seconds_per_step(run(polybed, ranks, cells)[0]) for _ in range(3))
 
 
+def median_time_at_once(polybed, cells):
+    """Seconds per step of two runs beside each other, one rank each: the mean of both."""
+    def pair():
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            return statistics.mean(pool.map(lambda _: seconds_per_step(run(polybed, 1, cells)[0]), range(2)))
+    return statistics.median(pair() for _ in range(3))
+
+
 def counts_per_step(polybed, library, cells):
     """The busiest rank's messages, bytes and collective calls of a step; a run without steps is taken off."""
     few, many = (run(polybed, 8, cells, steps, library)[1] for steps in (10, 60))
@@ -83,6 +93,7 @@ def main():
     strong = {n: median_time(options.polybed, n, (100, 500)) for n in (1, 2)}
     larger = {n: median_time(options.polybed, n, (200, 1000)) for n in (1, 2)}
     weak = {n: median_time(options.polybed, n, (100, 250 * n)) for n in (1, 2)}
+    at_once = median_time_at_once(options.polybed, (100, 500))
     counts = counts_per_step(options.polybed, options.library, COUNTED)
     per_cell = strong[1] / (COUNTED[0] * COUNTED[1])
     table = []
@@ -92,7 +103,7 @@ def main():
         efficiency = projection(per_cell, counts, 50_000, 1) / projection(per_cell, counts, grown, ranks)
         table.append({"ranks": ranks, "strong_speedup": of_fixed, "weak_efficiency": efficiency})
     result = {"speedup_50000_cells": strong[1] / strong[2], "speedup_200000_cells": larger[1] / larger[2],
-              "weak_efficiency": weak[1] / weak[2], "us_per_cell_and_step": 1e6 * per_cell,
+              "at_once_50000_cells": strong[1] / at_once, "weak_efficiency": weak[1] / weak[2], "us_per_cell_and_step": 1e6 * per_cell,
               "messages_per_step": counts[0], "bytes_per_step": counts[1], "collectives_per_step": counts[2],
               "projection": table}
     if options.json:
@@ -100,6 +111,7 @@ def main():
         return
     print(f"measured, two ranks against one: {result['speedup_50000_cells']:.2f} times as fast at 50 000 cells (goal 1.8), "
           f"{result['speedup_200000_cells']:.2f} at 200 000; weak efficiency {result['weak_efficiency']:.2f}")
+    print(f"two runs at once, each on a core: {result['at_once_50000_cells']:.2f} of the rate of one alone")
     print(f"a step: {result['us_per_cell_and_step']:.2f} us per cell; the busiest of 8 ranks sends {counts[0]:.0f} messages, "
           f"{1e-3 * counts[1]:.0f} kB, and takes part in {counts[2]:.0f} collective calls")
     print(f"projected with {1e6 * LATENCY:g} us a message, {1e-9 / PER_BYTE:g} GB/s, {1e6 * STAGE:g} us a stage of a reduction:")

@@ -115,12 +115,13 @@ fixed_step = "4 us"
 youngs_modulus = "20 MPa"
 """
 
-# two sizes in water that rises through them, with drag and added mass
+# two sizes in water that rises through them, with drag and added mass; two of the larger deep, so that there are pairs that are
+# listed with two images
 WET = """
 [column]
 size = ["12 mm", "24 mm"]
 cells = [5, 10]
-depth = "6 mm"
+depth = "2.4 mm"
 [[species]]
 name = "a"
 diameter = "1.2 mm"
@@ -130,7 +131,7 @@ name = "b"
 diameter = "0.8 mm"
 density = 1400
 [bed]
-particles = [200, 300]
+particles = [80, 120]
 start = "mixed"
 solids_fraction = 0.55
 start_solids_fraction = 0.4
