@@ -1,6 +1,5 @@
 #include "tfm/preconditioner.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
 #include "core/operators.hpp"
@@ -17,10 +16,6 @@ using core::Index;
 using Kind = StateLayout::Entry::Kind;
 
 namespace {
-
-constexpr int most_rows = 16;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_rows, most_rows>;
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_rows, 1>;
 
 /// Cycles of multigrid per application; two were found to pay.
 constexpr int cycles = 2;
@@ -56,136 +51,6 @@ Preconditioner::Preconditioner(const Constants& constants, const fluid::Boundari
     face_value_[a] = rows_of_fields(constants.grid, rows_);
   }
   for (core::FaceField& c : coupling_) c = core::make_face_field(constants.grid);
-}
-
-bool Preconditioner::setup(const Fields& fields, double c) {
-  c_ = c;
-  const core::Grid& grid = constants_.grid;
-  for (int axis = 0; axis < grid.dimensions; ++axis) {
-    const core::Box inner = core::interior_faces(grid, axis);
-    core::Box at_top = boundaries_.moving_faces(axis, true);
-    at_top.lo[std::size_t(axis)] = inner.hi[std::size_t(axis)];
-    fluid::with_density(fields.fluid, constants_.fluid.density, [&](const auto& density) {
-      build(fields, density, axis, inner, Place::inside);
-      build(fields, density, axis, at_top, boundaries_.open() ? Place::outlet : Place::screen);
-    });
-  }
-  for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
-  temperature_row_ = temperature_residual_ = fields.granular.decay;
-  for (Field& row : temperature_row_)
-    for (double& rate : row) rate += c;
-  if (fields.stress.present())
-    for (std::size_t cell = 0; cell < slope_.size(); ++cell)
-      slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
-  boundaries_.fill_cells(slope_);
-  if (fields.fluid.compression.present()) {
-    diagonal_ = fields.fluid.compression.kappa;
-    for (double& d : diagonal_) d *= c;
-  }
-  const auto faces = [](const core::FaceField& f) { return std::array<std::span<const double>, 3>{f[0], f[1], f[2]}; };
-  return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]), slope_,
-                       diagonal_, c);
-}
-
-/// At an open outlet solids move, but only those that rise are carried through, and none that is fed there.
-template <class Density>
-void Preconditioner::build(const Fields& fields, const Density& density, int axis, const core::Box& box, Place place) {
-  const Index s = constants_.grid.stride(axis);
-  core::for_each_row(constants_.grid, box, [&](Index begin, Index end) {
-    for (Index face = begin; face < end; ++face) {
-      const auto a = std::size_t(axis), at = std::size_t(face);
-      for (std::size_t j = 0; j < constants_.species(); ++j) {
-        moves_[j] = place == Place::inside || (place == Place::outlet && !constants_.openings.holds(j, face));
-        const bool carried = moves_[j] && (place == Place::inside || fields.solids.velocity[j][a][at] > 0);
-        fraction_[a][j][at] = carried ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
-      }
-      invert_face(fields, density.on_face(face, s), axis, face);
-      respond(fields, axis, face);
-    }
-  });
-}
-
-/// Diagonal of -div(grad U + grad U^T - 2/3 div U I) for the velocity along an axis, 1/m2. The viscosity of the solids
-/// enters S by its diagonal, as if the neighbours stood still.
-double Preconditioner::viscous_diagonal(int axis) const {
-  double sum = 0;
-  for (int d = 0; d < constants_.grid.dimensions; ++d) {
-    const double h = constants_.grid.spacing[std::size_t(d)];
-    sum += (d == axis ? 8.0 / 3 : 2.0) / (h * h);
-  }
-  return sum;
-}
-
-/// S of one face, inverted into its place; the row of a species that is held there is c dU_j.
-void Preconditioner::invert_face(const Fields& fields, double fluid_density, int axis, Index face) {
-  const auto a = std::size_t(axis), at = std::size_t(face);
-  const Index stride = constants_.grid.stride(axis);
-  const std::size_t n = constants_.species();
-  const double eps = std::max(face_mean(fields.fluid.voidage.data(), face, stride), fluid::voidage_floor);
-  const auto row = [](std::size_t k) { return Eigen::Index(k); };
-  Matrix system = Matrix::Identity(row(rows_), row(rows_)) * c_;
-  Vector fluid_velocity = Vector::Zero(row(rows_));  // dU_f as a combination of the unknowns
-  for (std::size_t j = 0; j < n; ++j) fluid_velocity[row(j)] = -fraction_[a][j][at] / eps;
-  fluid_velocity[row(n)] = 1 / eps;
-  for (std::size_t j = 0; j < n; ++j) {
-    if (!moves_[j]) continue;
-    const double slip = fields.fluid.velocity[a][at] - fields.solids.velocity[j][a][at];
-    const double b = fluid::exchange_on_face(fields.solids.exchange[j].data(), face, stride, slip);
-    const double phi = fraction_[a][j][at];
-    const double on_solid = b / constants_.density[j];
-    const double on_flux = phi * b * (1 / fluid_density - 1 / constants_.density[j]);
-    system.row(row(j)) -= on_solid * fluid_velocity.transpose();
-    system(row(j), row(j)) += on_solid;
-    system.row(row(n)) += on_flux * fluid_velocity.transpose();
-    system(row(n), row(j)) -= on_flux;
-    if (fields.stress.viscous()) {
-      const double rate = face_mean(fields.stress.viscosity.data(), face, stride) * viscous_diagonal(axis) * phi /
-                          (phi + diffusion_floor(constants_, j)) / constants_.density[j];
-      system(row(j), row(j)) += rate;
-      system(row(n), row(j)) += phi * rate;
-    }
-    for (std::size_t k = 0; k < n && !fields.species_exchange.empty(); ++k) {
-      if (k == j) continue;
-      const Field& pair = fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)];
-      const double rate = face_mean(pair.data(), face, stride) * fraction_[a][k][at] / constants_.density[j];
-      system(row(j), row(j)) += rate;
-      system(row(j), row(k)) -= rate;
-      system(row(n), row(j)) += phi * rate;
-      system(row(n), row(k)) -= phi * rate;
-    }
-  }
-  Eigen::Map<Matrix>(inverse_[a].data() + inverse_at(face), row(rows_), row(rows_)) = system.inverse();
-}
-
-/// Responses of a face to unit gradients of dp and of L s, and the coefficients of the elliptic system.
-void Preconditioner::respond(const Fields& fields, int axis, Index face) {
-  const auto a = std::size_t(axis), at = std::size_t(face);
-  const Index stride = constants_.grid.stride(axis);
-  const std::size_t n = constants_.species();
-  const double phi = std::max(face_mean(fields.solids_fraction.data(), face, stride), stress_fraction_floor);
-  Vector pressure = Vector::Zero(Eigen::Index(rows_)), stress = pressure;
-  for (std::size_t j = 0; j < n; ++j) {
-    const auto row = Eigen::Index(j);
-    pressure[row] = moves_[j] ? 1 / constants_.density[j] : 0;
-    stress[row] = pressure[row] / phi;
-    stress[Eigen::Index(n)] += fraction_[a][j][at] * stress[row];
-  }
-  pressure[Eigen::Index(n)] = fields.flux_rate.mobility[a][at];
-  const Eigen::Map<const Matrix> inverse(inverse_[a].data() + inverse_at(face), Eigen::Index(rows_),
-                                         Eigen::Index(rows_));
-  const Vector to_pressure = inverse * pressure, to_stress = inverse * stress;
-  double solids_pressure = 0, solids_stress = 0;
-  for (std::size_t k = 0; k < rows_; ++k) {
-    response_pressure_[a][k][at] = to_pressure[Eigen::Index(k)];
-    response_stress_[a][k][at] = to_stress[Eigen::Index(k)];
-    if (k == n) break;
-    solids_pressure += fraction_[a][k][at] * to_pressure[Eigen::Index(k)];
-    solids_stress += fraction_[a][k][at] * to_stress[Eigen::Index(k)];
-  }
-  coupling_[0][a][at] = to_pressure[Eigen::Index(n)];
-  coupling_[1][a][at] = to_stress[Eigen::Index(n)];
-  coupling_[2][a][at] = solids_pressure;
-  coupling_[3][a][at] = solids_stress;
 }
 
 void Preconditioner::apply(const StateLayout& layout, std::span<const double> r, std::span<double> z) {
@@ -235,7 +100,7 @@ void Preconditioner::solve_faces() {
       });
     core::for_each_row(grid, boundaries_.moving_faces(axis, true), [&](Index begin, Index end) {
       const bool held_above = axis == 1 && grid.ends(1, 1) && begin >= grid.index(0, grid.cells[1], 0);
-      std::array<double, most_rows> value{};
+      std::array<double, Preconditioner::most_rows> value{};
       for (Index face = begin; face < end; ++face) {
         const auto at = std::size_t(face);
         const double scale = held_above ? c_ : 1.0;  // the outlet's faces were divided by c above

@@ -30,6 +30,8 @@ namespace polybed::tfm {
 
 class Preconditioner {
  public:
+  static constexpr std::size_t most_rows = 16;  ///< unknowns of a face: fifteen species and the flux
+
   Preconditioner(const Constants& constants, const fluid::Boundaries& boundaries);
 
   /// Builds S^-1, the responses and the elliptic system from the fields of one evaluation. False if it fails.
