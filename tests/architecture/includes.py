@@ -15,7 +15,7 @@ MAY_USE = {
 }
 # header -> the only files that may include it
 LIBRARIES = {
-    r"(arkode|ida|nvector|sundials|sunlinsol|sunmatrix)/": r"core/integrator(_vector)?\.[ch]pp",
+    r"(arkode|ida|nvector|sundials|sunlinsol|sunmatrix)/": r"core/integrator(_\w+)?\.[ch]pp",
     r"_?HYPRE": r"core/(linear_solver\w*\.cpp|hypre_rows\.[ch]pp)",
     r"hdf5": r"core/output_((file|blocks)\.cpp|hdf5\.hpp)",
     r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
