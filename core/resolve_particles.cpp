@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
@@ -66,6 +67,25 @@ void shear(const Scene& scene, Messages& wrong) {
   idle(scene.fluid.equation_of_state != "incompressible", "fluid.equation_of_state");
   for (const char* role : {"fluid_stress", "added_mass", "lift", "magnus", "history"})
     idle(scene.effects.contains(role), (std::string("effects.") + role).c_str());
+}
+
+/// An opening in the bottom: what it needs, and its width.
+void opening(const Scene& scene, Messages& wrong) {
+  if (!scene.dem.opening) return;
+  const Column& column = scene.column;
+  const double width = *scene.dem.opening, depth = column.size[2];
+  const auto say = [&](bool set, const std::string& what) {
+    if (set) wrong.push_back(fmt::format("dem.opening = {:g} m: {}", width, what));
+  };
+  say(scene.fluid.name != "none", "particles cannot leave a column with a fluid; set fluid.name = \"none\"");
+  say(column.ends == "periodic", "column.ends = \"periodic\" leaves no bottom to open");
+  say(width >= column.size[0],
+      fmt::format("it must be narrower than the bottom, which is {:g} m wide", column.size[0]));
+  say(column.dimensions == 3 && width >= depth,
+      fmt::format("it must be narrower than the bottom, which is {:g} m deep", depth));
+  double largest = 0;
+  for (const Species& species : scene.species) largest = std::max(largest, species.diameter);
+  say(width < largest, fmt::format("the largest particle, of {:g} m, must fit through", largest));
 }
 
 /// Particles in a fluid: what it cannot be, and what needs it.
@@ -146,6 +166,7 @@ std::vector<std::string> resolve_particles(Scene& scene, const std::string& case
   gravity(scene.column, wrong);
   periodic_ends(scene, wrong);
   shear(scene, wrong);
+  opening(scene, wrong);
   in_fluid(scene, wrong);
   no_fluid(scene, wrong);
   bed(scene, case_name, wrong);

@@ -161,6 +161,7 @@ struct Dem {
   std::optional<double> greatest_speed;    ///< expected, sets the time step, m/s
   double start_speed = 0;                  ///< rms of each component of random velocities at the start, m/s
   double shear_rate = 0;                   ///< Lees-Edwards, dv_x/dy, 1/s
+  std::optional<double> opening;           ///< of the bottom: width of a slot or a round hole, m; closed without
   bool ledger = true;                      ///< account of the energy
   double cohesion_energy = 0;              ///< W of DMT and JKR, J/m2
   double hamaker_constant = 0;             ///< A, J

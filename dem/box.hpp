@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
+#include "dem/opening.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {
@@ -15,13 +17,15 @@ struct Wall {
   int axis = 0;      ///< 0, 1, 2
   int side = 0;      ///< 0: at 0, 1: at the far end
   double place = 0;  ///< m
+  [[nodiscard]] bool is_bottom() const { return axis == 1 && side == 0; }
 };
 
 struct Box {
   Vector size{};  ///< along x, y (up), z, m
   std::array<bool, 3> periodic{};
-  std::vector<Wall> walls;  ///< of the directions that are not periodic; none where the box is open
-  double shear_rate = 0;    ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
+  std::vector<Wall> walls;         ///< of the directions that are not periodic; none where the box is open
+  std::optional<Opening> opening;  ///< in the bottom; absent: it is whole
+  double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
 
   /// What is added to x and v_x of the image of a particle one box up, at a time, m and m/s. The first within +-L/2.
   [[nodiscard]] double image_shift(double time) const {

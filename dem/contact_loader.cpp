@@ -147,17 +147,32 @@ std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contact
   return p;
 }
 
-std::int32_t ContactLoader::find_walls(const Particles& particles, const Contacts& contacts, std::int32_t p,
-                                       ContactBatch& b) const {
+double ContactLoader::distance_from(std::int32_t wall, const Place& place) const {
+  if (!box_.walls[std::size_t(wall)].is_bottom()) return height_over(wall, place);
+  const Vector d = box_.opening->from_plate(place.x);
+  return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+}
+
+template <class Distance>
+std::int32_t ContactLoader::find_walls_by(const Distance& distance, const Particles& particles,
+                                          const Contacts& contacts, std::int32_t p, ContactBatch& b) const {
   const auto end = std::int32_t(contacts.pairs.size());
   b.count = 0;
   for (; p < end && b.count < ContactBatch::width; ++p) {
     const Contacts::Pair& pair = contacts.pairs[std::size_t(p)];
     const Place& place = particles.place[std::size_t(pair.first)];
     name_pair(contacts, p, b.count, b);
-    if (height_over(pair.second, place) < place.radius + reach_) ++b.count;
+    if (distance(pair.second, place) < place.radius + reach_) ++b.count;
   }
   return p;
+}
+
+/// Chosen once for a batch: a bottom without an opening has no question to ask of its contacts.
+std::int32_t ContactLoader::find_walls(const Particles& particles, const Contacts& contacts, std::int32_t p,
+                                       ContactBatch& b) const {
+  const auto flat = [&](std::int32_t wall, const Place& place) { return height_over(wall, place); };
+  const auto open = [&](std::int32_t wall, const Place& place) { return distance_from(wall, place); };
+  return box_.opening ? find_walls_by(open, particles, contacts, p, b) : find_walls_by(flat, particles, contacts, p, b);
 }
 
 void ContactLoader::load_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
@@ -173,6 +188,18 @@ void ContactLoader::load_pairs(const Particles& particles, const Contacts& conta
   load_memory(contacts.memory.data(), contacts.memory_size, b);
   shape_pairs(b);
   split_velocity(b);
+}
+
+/// Contacts with the bottom, loaded as with a flat one: n, arm and overlap as the opening has them.
+void ContactLoader::turn_to_plate(const Particles& particles, ContactBatch& b) const {
+  for (int c = 0; c < b.count; ++c) {
+    if (!box_.walls[std::size_t(b.second[c])].is_bottom()) continue;
+    const Vector d = box_.opening->from_plate(particles.place[std::size_t(b.first[c])].x);
+    const double distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (std::size_t k = 0; k < 3; ++k) b.distance[k][c] = d[k] / distance;
+    b.arm_i[c] = distance;
+    b.overlap[c] = b.radius_i[c] - distance;
+  }
 }
 
 void ContactLoader::load_walls(const Particles& particles, const Contacts& contacts, ContactBatch& b) const {
@@ -191,6 +218,7 @@ void ContactLoader::load_walls(const Particles& particles, const Contacts& conta
     b.arm_j[c] = 0;
     b.overlap[c] = radius - b.arm_i[c];
   }
+  if (box_.opening) turn_to_plate(particles, b);
   load_memory(contacts.memory.data(), contacts.memory_size, b);
   split_velocity(b);
 }

@@ -40,8 +40,14 @@ class ContactLoader {
     double first, second;  ///< radii, m
     double near;           ///< square of the distance at which they begin to act, m2
   };
-  /// Distance of a centre from a wall, positive inside the box, m.
+  /// Distance of a centre from a flat wall, positive inside the box, m.
   [[nodiscard]] double height_over(std::int32_t wall, const Place& place) const;
+  /// The same where the bottom has an opening: of it the distance from what is left, never negative.
+  [[nodiscard]] double distance_from(std::int32_t wall, const Place& place) const;
+  template <class Distance>
+  [[nodiscard]] std::int32_t find_walls_by(const Distance& distance, const Particles& particles,
+                                           const Contacts& contacts, std::int32_t p, ContactBatch& batch) const;
+  void turn_to_plate(const Particles& particles, ContactBatch& batch) const;
 
   const Box& box_;
   double reach_;

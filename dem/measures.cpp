@@ -21,8 +21,10 @@ class Sum {
   EnergySum sum_;
 };
 
-/// Elastic energy and that of attraction, number and extremes of contacts that this rank counts.
-void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum& elastic, Totals& totals) {
+/// Calls for each contact that this rank counts, with its pair, its energy, of springs and of attraction, J, and the
+/// batch and row it is in.
+template <class See>
+void each_contact(const Model& model, const Contacts& contacts, bool walls, See&& see) {
   const Images images = model.images();
   ContactBatch batch;
   const Particles& particles = model.particles();
@@ -38,16 +40,26 @@ void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum&
     if (model.laws().rolling) model.laws().rolling->add_energy(batch, stored);
     if (model.laws().cohesion) model.laws().cohesion->add_energy(batch, stored);
     for (int c = 0; c < batch.count; ++c) {
-      const Contacts::Pair pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
+      const Contacts::Pair& pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
       if (std::size_t(pair.first) >= particles.owned) continue;
-      elastic.add(model.laws().normal->energy(batch.kind[c], std::max(batch.overlap[c], 0.0)) + stored[c]);
-      if (batch.overlap[c] <= 0) continue;  // held by cohesion across a gap
-      ++totals.contacts;
-      totals.max_overlap = std::max(totals.max_overlap, batch.overlap[c]);
-      totals.max_force = std::max(totals.max_force, batch.elastic[c]);
+      see(pair, model.laws().normal->energy(batch.kind[c], std::max(batch.overlap[c], 0.0)) + stored[c], batch, c);
     }
   }
 }
+
+/// Elastic energy and that of attraction, number and extremes of contacts that this rank counts.
+void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum& elastic, Totals& totals) {
+  each_contact(model, contacts, walls, [&](const Contacts::Pair&, double energy, const ContactBatch& batch, int c) {
+    elastic.add(energy);
+    if (batch.overlap[c] <= 0) return;  // held by cohesion across a gap
+    ++totals.contacts;
+    totals.max_overlap = std::max(totals.max_overlap, batch.overlap[c]);
+    totals.max_force = std::max(totals.max_force, batch.elastic[c]);
+  });
+}
+
+double square(const Vector& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
+double product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 }  // namespace
 
@@ -61,12 +73,10 @@ Totals totals_of(const Model& model) {
   const double far = std::abs(g[0]) * size[0] + std::abs(g[1]) * size[1] + std::abs(g[2]) * size[2];
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Motion& m = particles.motion[i];
-    const Vector& x = particles.place[i].x;
-    const double vv = m.v[0] * m.v[0] + m.v[1] * m.v[1] + m.v[2] * m.v[2];
-    const double ww = m.w[0] * m.w[0] + m.w[1] * m.w[1] + m.w[2] * m.w[2];
+    const double vv = square(m.v);
     kinetic.add(0.5 * vv / m.inverse_mass);
-    rotational.add(0.5 * ww / m.inverse_inertia);
-    potential.add(-(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / m.inverse_mass);
+    rotational.add(0.5 * square(m.w) / m.inverse_inertia);
+    potential.add(-product(g, particles.place[i].x) / m.inverse_mass);
     highest.add(far / m.inverse_mass);
     for (std::size_t k = 0; k < 3; ++k) momentum[k].add(m.v[k] / m.inverse_mass);
     totals.greatest_speed = std::max(totals.greatest_speed, std::sqrt(vv));
@@ -87,6 +97,7 @@ Totals totals_of(const Model& model) {
   totals.elastic = sums[3].units() * unit.unit;
   totals.dissipated = sums[4].units() * unit.unit;
   totals.work = sums[5].units() * unit.unit;
+  if (model.outflow() != nullptr) totals.carried_out = model.outflow()->energy.units() * unit.unit;
   totals.rounding = rounding_of_places(sums[9].units() * unit.unit, model.steps());
   totals.contacts = contacts[0];
   for (std::size_t k = 0; k < 3; ++k) totals.momentum[k] = sums[6 + k].units() * momentum_unit.unit;
@@ -94,6 +105,27 @@ Totals totals_of(const Model& model) {
   totals.max_force = core::greatest_of_ranks(model.ranks(), totals.max_force);
   totals.greatest_speed = core::greatest_of_ranks(model.ranks(), totals.greatest_speed);
   return totals;
+}
+
+EnergySum energy_leaving(const Model& model) {
+  const Particles& particles = model.particles();
+  const Outflow& outflow = *model.outflow();
+  Sum sum(model.energy_unit());
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!outflow.takes(particles.place[i])) continue;
+    const Motion& m = particles.motion[i];
+    const double still = product(model.gravity(), particles.place[i].x);
+    sum.add((0.5 * square(m.v) - still) / m.inverse_mass + 0.5 * square(m.w) / m.inverse_inertia);
+  }
+  const auto add = [&](const Contacts& contacts, bool walls) {
+    each_contact(model, contacts, walls, [&](const Contacts::Pair& pair, double energy, const ContactBatch&, int) {
+      const bool second = !walls && outflow.takes(particles.place[std::size_t(pair.second)]);
+      if (second || outflow.takes(particles.place[std::size_t(pair.first)])) sum.add(energy);
+    });
+  };
+  add(model.pairs(), false);
+  add(model.walls(), true);
+  return sum.sum();
 }
 
 }  // namespace polybed::dem

@@ -14,6 +14,7 @@ struct Totals {
   double elastic = 0;         ///< of springs, and of attraction, which is negative
   double potential = 0;       ///< against the origin of the box; 0 without gravity
   double dissipated = 0;      ///< since the start, by dashpots and friction; 0 without dem.ledger
+  double carried_out = 0;     ///< by particles that have left, since the start; 0 where nothing can
   double work = 0;            ///< of a fluid, or of a sheared box's flow, since the start; 0 without dem.ledger
   std::int64_t contacts = 0;  ///< of particles with each other and with walls
   double max_overlap = 0;     ///< m
@@ -22,7 +23,9 @@ struct Totals {
   double greatest_speed = 0;  ///< m/s
   double rounding = 0;        ///< of rounding_of_places(), J
 
-  [[nodiscard]] double sum() const { return kinetic + rotational + elastic + potential + dissipated - work; }
+  [[nodiscard]] double sum() const {
+    return kinetic + rotational + elastic + potential + dissipated + carried_out - work;
+  }
 };
 
 /// Bound of what rounding of places can do to the potential energy in a number of steps, J: half a unit in the last
@@ -42,5 +45,10 @@ struct Totals {
 
 /// Collective: the same on every rank, and on any number of ranks to the bit.
 [[nodiscard]] Totals totals_of(const Model& model);
+
+/// In the unit of energy: what this rank's particles that are about to leave hold, of motion, spin and gravity, and the
+/// springs of all contacts that they are in, those with particles that stay too. A contact counts where totals_of()
+/// counts it. Between steps, of a model that has an outflow.
+[[nodiscard]] EnergySum energy_leaving(const Model& model);
 
 }  // namespace polybed::dem

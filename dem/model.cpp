@@ -47,6 +47,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   require_room_for_images(box_, materials_.greatest_diameter(), laws_.reach(), skin_);
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
   if (laws_.film) laws_.film->set_step(limits_.dt);
+  if (box_.opening)
+    outflow_ = Outflow{materials_.greatest_diameter(), std::vector<std::int64_t>(scene.species.size(), 0), 0, {}};
   const std::vector<Particle> all = std::move(start_);
   measure(all);
   place(all, std::vector<std::int32_t>(all.size(), 1));
@@ -212,8 +214,10 @@ void Model::restart() {
 
 void Model::rebuild() {
   std::vector<KeptContact> kept = kept_contacts();
+  if (outflow_) count_leaving();
   wrap();
   exchange_.balance(particles_, work_of(particles_, pairs_, walls_, own_work()));
+  if (outflow_) take_out();
   list_pairs(kept);
 }
 
@@ -278,7 +282,7 @@ void Model::find_forces(double dt) {
 Work Model::work() const {
   Work work = work_;
   work.steps = std::uint64_t(steps_);
-  work.particle_steps = work.steps * std::uint64_t(count_);
+  work.particle_steps = work.steps * std::uint64_t(count_) + (outflow_ ? std::uint64_t(outflow_->steps) : 0);
   std::array<double, 3> sums{double(pair_forces_.pair_checks()), double(pair_forces_.contact_steps()),
                              double(work.candidates)};
   core::add_over_ranks(ranks_.get(), sums);

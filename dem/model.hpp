@@ -19,6 +19,7 @@
 #include "dem/exchange.hpp"
 #include "dem/materials.hpp"
 #include "dem/neighbours.hpp"
+#include "dem/outflow.hpp"
 #include "dem/pair_forces.hpp"
 #include "dem/particles.hpp"
 #include "dem/step_limits.hpp"
@@ -81,7 +82,10 @@ class Model : public core::Simulation {
   [[nodiscard]] const Coupling* coupling() const { return coupling_ ? &*coupling_ : nullptr; }
   [[nodiscard]] Vector gravity() const { return gravity_; }
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
+  /// In the box now.
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
+  /// Null where nothing can leave.
+  [[nodiscard]] const Outflow* outflow() const { return outflow_ ? &*outflow_ : nullptr; }
   /// Where the images of the particles are now.
   [[nodiscard]] Images images() const { return {box_, clock(), double(steps_ - marked_at_) * limits_.dt}; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
@@ -113,6 +117,10 @@ class Model : public core::Simulation {
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
+  void count_leaving();
+  void take_out();
+  void write_outflow(core::Checkpoint& checkpoint) const;
+  void read_outflow(const core::Checkpoint& checkpoint);
   void list_pairs(std::vector<KeptContact>& kept);
   void find_forces(double dt);
   /// Time that the state belongs to, s.
@@ -141,6 +149,7 @@ class Model : public core::Simulation {
   std::optional<AffineDrag> affine_drag_;  ///< absent: the box is not sheared, or has no drag
   bool held_;                              ///< the particles do not move
   std::optional<FlowWork> flow_work_;      ///< absent: the box is not sheared, or there is no ledger
+  std::optional<Outflow> outflow_;         ///< absent: nothing can leave
   double skin_;
   Verlet verlet_;
   NeighbourSearch search_;

@@ -135,6 +135,7 @@ core::Checkpoint Model::checkpoint() const {
   add_over_ranks(ranks_.get(), sums);
   write_sum(checkpoint, "dissipated", sums[0]);
   if (coupling_ || affine_drag_) write_sum(checkpoint, "fluid_work", sums[3]);
+  if (outflow_) write_outflow(checkpoint);
   if (flow_work_) {
     write_sum(checkpoint, "flow_work", sums[1]);
     write_sum(checkpoint, "flow_work_due", sums[2]);
@@ -159,6 +160,10 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   if (ledger_) ledger_->set_lost(first("dissipated"));
   if (flow_work_) flow_work_->set(first("flow_work"), first("flow_work_due"));
   if (affine_drag_) affine_drag_->set_work(first("fluid_work"));
+  if (outflow_) {
+    *outflow_ = {outflow_->fall, std::vector<std::int64_t>(outflow_->number.size(), 0), 0, {}};
+    if (same_step) read_outflow(checkpoint);
+  }
   core::take_from_first(ranks_.get(), head);
   particles.resize(std::size_t(head[0]));
   contacts.resize(std::size_t(head[1]));

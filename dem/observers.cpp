@@ -20,11 +20,15 @@ std::vector<std::string> history_columns(const Model& model, bool ledger) {
   }
   columns.insert(columns.end(), {"interface_m", "mixing", "kinetic_J", "rotational_J", "elastic_J", "potential_J"});
   if (ledger) columns.insert(columns.end(), {"dissipated_J", "work_J"});
+  if (ledger && model.outflow() != nullptr) columns.emplace_back("carried_out_J");
   columns.insert(columns.end(), {"contacts", "max_overlap_m", "max_contact_force_N"});
   if (const Coupling* coupling = model.coupling()) {
     columns.emplace_back("max_solids_fraction");
     if (coupling->flow().compressible() != nullptr) columns.emplace_back("mass_fluid_kg");
   }
+  if (model.outflow() != nullptr)
+    for (const Species& s : materials.species())
+      columns.insert(columns.end(), {"out_" + s.name, "out_" + s.name + "_kg"});
   return columns;
 }
 
@@ -150,11 +154,17 @@ std::vector<std::optional<double>> Observers::row_of(double time, const fluid::P
   row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), t.kinetic, t.rotational, t.elastic,
                          t.potential});
   if (has_ledger_) row.insert(row.end(), {t.dissipated, t.work});
+  if (has_ledger_ && model_.outflow() != nullptr) row.emplace_back(t.carried_out);
   row.insert(row.end(), {double(t.contacts), t.max_overlap, t.max_force});
   if (fluid_) {
     row.push_back(most_solids);
     if (model_.coupling()->flow().compressible() != nullptr) row.push_back(fluid_->mass());
   }
+  if (const Outflow* outflow = model_.outflow())
+    for (std::size_t j = 0; j < mass.size(); ++j) {
+      const auto number = double(outflow->number[j]);
+      row.insert(row.end(), {number, number * model_.materials().species()[j].mass});
+    }
   return row;
 }
 

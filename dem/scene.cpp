@@ -49,6 +49,8 @@ Box box_of(const core::Scene& scene) {
   box.periodic = {column.sides == "periodic", column.ends == "periodic",
                   column.dimensions == 2 || column.sides == "periodic"};
   box.shear_rate = scene.dem.shear_rate;
+  if (scene.dem.opening)
+    box.opening = Opening{0.5 * box.size[0], 0.5 * box.size[2], 0.5 * *scene.dem.opening, column.dimensions == 3};
   for (int axis = 0; axis < 3; ++axis) {
     if (box.periodic[std::size_t(axis)]) continue;
     box.walls.push_back({axis, 0, 0});

@@ -20,6 +20,7 @@ constexpr double falls = 100;
 core::Scene falling(core::Scene scene, double step) {
   scene.bed.start = "mixed";
   scene.dem.fixed_step = step;
+  scene.dem.opening.reset();
   scene.dem.restitution = dull;
   for (core::Species& s : scene.species) s.restitution = dull;
   for (core::ContactPair& pair : scene.contact_pairs) pair.restitution.reset();

@@ -144,6 +144,7 @@ class DemRun final : public CaseRun {
     write_timers(json, timers_);
     if (fluid_) write_fluid(json, *fluid_);
     if (observers_) write_ledger(json);
+    if (model_.outflow() != nullptr) write_outflow(json, *model_.outflow());
     if (promise) write_neglected(json, *promise);
     if (!course_.switches.empty()) write_switches(json);
     json.key("warnings").begin_array();
@@ -186,10 +187,21 @@ class DemRun final : public CaseRun {
     json.member("cuts", work_.cuts).member("imbalance", work_.imbalance).end_object();
   }
 
+  void write_outflow(core::Json& json, const dem::Outflow& outflow) const {
+    json.key("outflow").begin_object();
+    for (std::size_t j = 0; j < outflow.number.size(); ++j) {
+      const dem::Species& species = model_.materials().species()[j];
+      json.key(species.name).begin_object().member("particles", outflow.number[j]);
+      json.member("mass_kg", double(outflow.number[j]) * species.mass).end_object();
+    }
+    json.end_object();
+  }
+
   void write_ledger(core::Json& json) const {
     const dem::Totals& t = observers_->totals();
     json.key("energy").begin_object().member("kinetic_J", t.kinetic).member("rotational_J", t.rotational);
     json.member("elastic_J", t.elastic).member("potential_J", t.potential);
+    if (scene_.dem.ledger && model_.outflow() != nullptr) json.member("carried_out_J", t.carried_out);
     if (scene_.dem.ledger)
       json.member("dissipated_J", t.dissipated)
           .member("work_J", t.work)
@@ -207,6 +219,7 @@ class DemRun final : public CaseRun {
     fmt::print(stderr, "\n{} particles, {} steps, {:.4g} particle-steps per CPU second, list made {} times\n",
                model_.particle_count(), work_.steps, double(work_.particle_steps) / std::max(cpu_, 1e-9),
                work_.rebuilds);
+    if (model_.outflow() != nullptr) fmt::print(stderr, "{} particles have left\n", model_.outflow()->all());
     fmt::print(stderr, "step {:.3g} s, limited by {}; {} integrator ({})\n", model_.limits().dt,
                model_.limits().limited_by, model_.synchronised() ? "synchronised" : "thesis",
                model_.limits().integrator_reason);

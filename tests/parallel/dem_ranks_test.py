@@ -115,6 +115,25 @@ fixed_step = "4 us"
 youngs_modulus = "20 MPa"
 """
 
+# a block that drops through a hole, some of it while the run goes on and some stopped by the rim
+EMPTYING = """
+[column]
+size = ["16 mm", "16 mm", "20 mm"]
+cells = [4, 4, 5]
+[[species]]
+name = "a"
+diameter = "1 mm"
+density = 2500
+[bed]
+start = "list:particles.csv"
+[dem]
+friction = 0.3
+greatest_speed = "3 m/s"
+fixed_step = "4 us"
+youngs_modulus = "20 MPa"
+opening = "7 mm"
+"""
+
 # two sizes in water that rises through them, with drag and added mass; two of the larger deep, so that there are pairs that are
 # listed with two images
 WET = """
@@ -182,15 +201,27 @@ def crossing():
     return rows
 
 
+def dropping():
+    """A block of 10 by 10 by 8 particles on its way down: the lowest are out before half of the run is over."""
+    spread = random.Random(3)
+    return [f"a,{(1.04 * i + 3.3) * 1e-3},{(1.04 * j + 0.6) * 1e-3},{(1.04 * k + 3.3) * 1e-3},"
+            f"{spread.uniform(-0.2, 0.2)},{spread.uniform(-1.1, -0.7)},{spread.uniform(-0.2, 0.2)},0,0,0"
+            for i in range(10) for j in range(8) for k in range(10)]
+
+
 def hash_of(checkpoint):
-    """SHA-256 of places, velocities and spins by id, of the histories of all contacts, and of the fluid."""
+    """SHA-256 of places, velocities and spins by id, of the histories of all contacts, of the fluid, and of what has left."""
     with h5py.File(checkpoint) as file:
         particles = file["arrays/particles"][()].reshape(-1, 23)
         contacts = file["arrays/contacts"][()]
-        fluid = [file[f"arrays/{name}"][()].tobytes() for name in sorted(file["arrays"]) if name.startswith("fluid_")]
-    assert list(particles[:, 0]) == list(range(len(particles)))
+        more = [file[f"arrays/{name}"][()].tobytes() for name in sorted(file["arrays"]) if name.startswith("fluid_")]
+        outflow = file["arrays/outflow"][()] if "outflow" in file["arrays"] else np.zeros(1)
+        if outflow.any():
+            more += [outflow.tobytes()] + [file[f"integers/outflow_{name}"][()].tobytes()
+                                           for name in ("steps", "energy", "energy_part")]
+    assert (np.diff(particles[:, 0]) > 0).all() and particles[-1, 0] < len(particles) + outflow.sum()
     assert np.isfinite(particles).all() and np.isfinite(contacts).all()
-    seen = particles[:, :11].tobytes() + contacts.tobytes() + b"".join(fluid)
+    seen = particles[:, :11].tobytes() + contacts.tobytes() + b"".join(more)
     return hashlib.sha256(seen).hexdigest(), len(particles), len(contacts)
 
 
@@ -284,6 +315,16 @@ class DemRanks(Scratch):
     def test_with_a_fluid_between_them(self):
         records = self.check_same(self.scene(WET, common=WITH_FLUID), restart=(3, 2), numbers=(1, 2, 3, 4))
         self.assertGreater(records[1]["work"]["contact_steps"], STEPS)
+
+    def test_particles_that_leave(self):
+        records = self.check_same(self.scene(EMPTYING, dropping()), restart=(3, 4))
+        left = {json.dumps([record["outflow"], record["particles"], record["energy"]["carried_out_J"]])
+                for record in records.values()}
+        self.assertEqual(len(left), 1, left)
+        out = records[1]["outflow"]["a"]["particles"]
+        self.assertGreater(out, 50)
+        self.assertGreater(records[1]["particles"], 50)
+        self.assertEqual(out + records[1]["particles"], 800)
 
     def test_fewer_particles_than_ranks(self):
         rows = [f"a,{x * 1e-3},0.004,0.004,{v},{v},0,30,0,10" for x, v in ((1, 2.0), (3, 0.5), (4.5, -1.0))]

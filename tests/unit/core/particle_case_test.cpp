@@ -177,6 +177,9 @@ INSTANTIATE_TEST_SUITE_P(
                     dem("greatest_speed = 0", "dem.greatest_speed = 0 is out of range: above 0, at most 100000 m/s"),
                     dem("start_speed = -1", "dem.start_speed = -1 is out of range: at least 0, at most 100000 m/s"),
                     dem("shear_rate = \"1 s\"", "expected a value in 1/s, this one is in s"),
+                    dem("opening = 0", "dem.opening = 0 is out of range: above 0, at most 100 m"),
+                    dem("opening = 0.06", "dem.opening = 0.06 m: it must be narrower than the bottom, which is 0.06 m"),
+                    dem("opening = 0.0007", "dem.opening = 0.0007 m: the largest particle, of 0.0008 m, must fit"),
                     dem("ledger = 1", "dem.ledger = 1: expected true or false"),
                     dem("cohesion_energy = -1", "dem.cohesion_energy = -1 is out of range: at least 0"),
                     dem("hamaker_constant = \"1 N\"", "expected a value in J, this one is in"),
@@ -224,6 +227,21 @@ TEST(ParticleCase, EndsAreJoinedOnlyWithoutAFluid) {
   feed.column = "ends = \"periodic\"";
   feed.more = "[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1";
   EXPECT_THAT(message_of(dry_case(feed)), HasSubstr("column.ends = \"periodic\" and [[feed]] contradict"));
+}
+
+TEST(ParticleCase, AnOpeningNeedsABottomAndNoFluid) {
+  Lines lines;
+  lines.dem = "opening = 0.01\n";
+  EXPECT_EQ(parse_case(dry_case(lines), "case.toml", {}, {}).dem.opening, 0.01);
+  std::string wet = dry_case(lines) + "\n[inlet]\nsuperficial_velocity = 0.1\n";
+  wet.replace(wet.find("\"none\""), 6, "\"water\"\ntemperature = \"20 degC\"");
+  EXPECT_THAT(message_of(wet), HasSubstr("dem.opening = 0.01 m: particles cannot leave a column with a fluid"));
+  lines.column = "ends = \"periodic\"";
+  EXPECT_THAT(message_of(dry_case(lines)), HasSubstr("leaves no bottom to open"));
+  std::string solid = dry_case(lines);
+  solid.replace(solid.find("size = [0.06, 0.6]\ncells = [12, 120]"), 37,
+                "size = [0.06, 0.01, 0.6]\ncells = [12, 6, 120]\n");
+  EXPECT_THAT(message_of(solid), HasSubstr("narrower than the bottom, which is 0.01 m deep"));
 }
 
 const std::string closed = "closed = true\n";
