@@ -108,4 +108,13 @@ double implicit_step(const Constants& constants, double velocity, double rtol) {
   return rate > 0 ? share / rate * std::cbrt(rtol / measured_at) : infinite;
 }
 
+double explicit_steps_per_implicit(const core::Scene& scene, const Constants& constants, const Effects& effects,
+                                   double velocity) {
+  const auto drag = scene.effects.find("drag");
+  const double rest = scene.bed.solids_fraction;
+  const double phi = drag == scene.effects.end() ? rest : expanded_fraction(constants, drag->second, velocity, rest);
+  return implicit_step(constants, velocity / (1 - phi), scene.tfm.rtol) /
+         explicit_step(time_scales_of_bed(scene, constants, effects, {phi, velocity}));
+}
+
 }  // namespace polybed::tfm

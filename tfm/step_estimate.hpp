@@ -49,4 +49,10 @@ struct UniformBed {
 /// \param velocity  of the fluid between the particles, m/s
 [[nodiscard]] double implicit_step(const Constants& constants, double velocity, double rtol);
 
+/// How many explicit steps one implicit step is expected to replace, implicit_step() over explicit_step(), in the bed
+/// as a velocity expands it, or packed where that does not carry it: what chooses the integrator of a liquid bed.
+/// \param velocity  superficial, of the fluid, m/s, >= 0
+[[nodiscard]] double explicit_steps_per_implicit(const core::Scene& scene, const Constants& constants,
+                                                 const Effects& effects, double velocity);
+
 }  // namespace polybed::tfm

@@ -8,6 +8,7 @@
 namespace polybed::stability {
 
 [[nodiscard]] std::vector<HardCase> closure_cases();     // T5 T6 T7 T9
+[[nodiscard]] std::vector<HardCase> wave_cases();        // T7 grids, T8
 [[nodiscard]] std::vector<HardCase> settling_cases();    // T1 T2 T3 T17
 [[nodiscard]] std::vector<HardCase> fluidised_cases();   // T4 T16 T22 T23
 [[nodiscard]] std::vector<HardCase> transport_cases();   // T10 T19 T25

@@ -8,7 +8,6 @@
 #include "closures/drag.hpp"
 #include "closures/well_posedness.hpp"
 #include "multiscale/stability/cases.hpp"
-#include "multiscale/stability/problems/waves.hpp"
 #include "multiscale/stability/scenes.hpp"
 
 namespace polybed::stability {
@@ -113,34 +112,6 @@ void well_posedness(Trial& trial) {
   }
 }
 
-/// T7 on five grids: a wave of 20 mm in an even bed at a slope of the solids pressure. Where the equations are
-/// well-posed every halving of the cells changes its growth less than the one before (V14), and the finest grid gives
-/// that of the dispersion relation; where they are not the state is flagged on every grid, and what the grids give is
-/// reported.
-void on_five_grids(Trial& trial) {
-  using verification::Wave;
-  const tfm::Scheme scheme = trial.treatment().flux == "upwind" ? tfm::Scheme::upwind : tfm::Scheme::limited;
-  for (const Wave& wave :
-       {Wave{0, 1.2012, 0.04291}, Wave{2 * 1.1585, 0.5585, 0.04323}, Wave{10 * 1.1585, -2.0677, 0.04463}}) {
-    double before = 0, change = 0;
-    for (const int cells : {16, 32, 64, 128, 256}) {
-      core::Scene scene = verification::uniform_liquid_bed(cells);
-      if (wave.slope > 0) verification::add_stress(scene, wave.slope);
-      verification::HeldFlux bed(scene, scheme);
-      const tfm::WellPosedness margin = bed.margin_of(verification::small_wave(bed.layout(), cells, wave));
-      trial.measure("flagged as it is", (margin.share_below > 0) == (wave.slope == 0) ? 0 : 1, 0);
-      const double growth = verification::rate_of(wave, cells, scheme).real(), now = std::abs(growth - before);
-      if (wave.slope == 0)
-        trial.report("growth without stress on " + std::to_string(cells) + " cells, 1/s", growth);
-      else if (cells > 32)
-        trial.measure("V14 change over the one before", now / change, 1);
-      before = growth;
-      change = now;
-    }
-    if (wave.slope > 0) trial.measure("growth on the finest grid", std::abs(before / wave.growth - 1), 0.02);
-  }
-}
-
 /// The textbook's drag coefficient of a sphere, 24/Re (1 + 0.15 Re^0.687), brought back to drag over Stokes.
 double drag_by_coefficient(double reynolds) {
   const double coefficient = 24 / reynolds * (1 + 0.15 * std::pow(reynolds, 0.687));
@@ -180,11 +151,6 @@ std::vector<HardCase> closure_cases() {
            size_ratio},
           {"T6", "every drag law, any voidage, Reynolds number and slip 0", {"raw_drag"}, one, every_law},
           {"T7", "slope of the solids pressure against the critical one", {"no_stress"}, one, well_posedness},
-          {"T7 grids",
-           "growth of a wave on 16 to 256 cells, well-posed and not",
-           {},
-           {{"explicit", "limited", ""}, {"explicit", "upwind", ""}},
-           on_five_grids},
           {"T9", "slip exactly 0", {"divide_by_phi"}, all_schemes(), no_slip}};
 }
 

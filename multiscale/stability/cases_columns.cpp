@@ -104,7 +104,7 @@ void order_on_flat_cells(Trial& trial) {
   verification::Error last{};
   for (const int n : {8, 16, 32}) {
     const core::Scene scene = verification::all_effects(verification::liquid_bed, 2, {n, 20 * n, 1});
-    const verification::Error now = verification::Driven(scene, scheme, false).error(time);
+    const verification::Error now = verification::Driven(scene, scheme, scheme).error(time);
     const double fraction = std::log2(last.fraction / now.fraction), velocity = std::log2(last.velocity / now.velocity);
     last = now;
     if (n == 8) continue;

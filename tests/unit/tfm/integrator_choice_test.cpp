@@ -21,10 +21,27 @@ core::Scene glass(double diameter) {
   return scene;
 }
 
-// D^2 rho U/(18 mu h): 0.8 mm gives 0.444, 0.6 mm 0.250, by hand; the rule changes over at 0.3.
+// An implicit step is expected to replace 0.9 explicit ones at 0.8 mm and 3.6 at 0.3 mm, each at a velocity that
+// expands its bed to a fraction of 0.3; the rule changes over at 1.5.
 TEST(IntegratorChoice, FineParticlesAreForImplicitSteps) {
-  EXPECT_EQ(chosen(glass(0.8e-3)), "explicit");
-  EXPECT_EQ(chosen(glass(0.6e-3)), "implicit");
+  core::Scene coarse = glass(0.8e-3);
+  coarse.inlet.superficial_velocity = {{0.0, 0.03}};
+  EXPECT_EQ(chosen(coarse), "explicit");
+  EXPECT_EQ(chosen(glass(0.3e-3)), "implicit");
+}
+
+// The same particles on cells of a twelfth: an implicit step is bound to the time in which the fluid crosses one.
+TEST(IntegratorChoice, FinerCellsAreForExplicitSteps) {
+  core::Scene scene = glass(0.3e-3);
+  scene.column.cells[1] *= 12;
+  EXPECT_EQ(chosen(scene), "explicit");
+}
+
+// Implicit steps follow the tolerance, explicit ones the limit of stability.
+TEST(IntegratorChoice, ATightToleranceIsForExplicitSteps) {
+  core::Scene scene = glass(0.3e-3);
+  scene.tfm.rtol = 1e-6;
+  EXPECT_EQ(chosen(scene), "explicit");
 }
 
 TEST(IntegratorChoice, GasAndSettlingBedsAreForImplicitSteps) {

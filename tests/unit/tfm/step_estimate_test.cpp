@@ -58,6 +58,21 @@ TEST(ExpectedStep, ByHand) {
   EXPECT_NEAR(implicit_step(spheres(1e-3, 2000), 0.01, 0.125e-3), 0.5 * step, 1e-12 * step);
 }
 
+// The spheres of StokesByHand on cells of 1 mm at a voidage of 0.7. Drag: b = 18e-3 * 0.7/1e-8 = 1.26e6 kg/(m3 s), of
+// the solids b/2000 = 630/s, of the fluid 0.3 b/700 = 540/s, so 1.4/1170 s; an implicit step 0.5/(5.45 + 70.0357) s.
+TEST(ExplicitStepsPerImplicit, StokesByHand) {
+  core::Scene scene = verification::uniform_bed(1e-4, 2000, 1000, 1e-3, 0.6, 20, 0.02);
+  scene.effects = {{"drag", "stokes"}};
+  scene.tfm.rtol = 1e-3;
+  core::Timers timers;
+  const Model model(scene, timers);
+  const auto replaced = [&](double velocity) {
+    return explicit_steps_per_implicit(scene, model.constants(), model.effects(), velocity);
+  };
+  const double expected = (0.5 / 75.4857) / (1.4 / 1170);
+  EXPECT_NEAR(replaced(0.7 * 5.45e-3), expected, 1e-5 * expected);
+}
+
 /// The estimate against the fields of a packed bed at its start, of which it knows no cells: the same formulas for the
 /// same even bed. What is left are walls and the top of the bed, which had no effect on four digits; 0.1 % is allowed.
 TEST(TimeScalesOfBed, AreThoseOfTheFieldsAtTheStart) {
