@@ -151,6 +151,8 @@ fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes)
     add_mean(t.temperature, at(n, &BoxResult::temperature_ratio), 1);
     if (plan.pushed()) add_mean(t.exchange, at(n, &BoxResult::exchange_ratio, first.back()), 1);
   }
+  if (plan.pushed())
+    for (const BoxResult& b : boxes) t.exchange_drift = std::max(t.exchange_drift, std::abs(b.slip));
   leave_each_out(t);
   return t;
 }
@@ -229,6 +231,13 @@ void require_usable(const fluid::SolidsTable& t) {
         "the curve through the other solids fractions misses one by {:.1f} % more than two standard errors of both, "
         "{:.0f} % are allowed: the grid is too coarse for what it shows; add to calibrate.solids_fraction",
         100 * t.residual, 100 * greatest_residual));
+  for (std::size_t p = 0, n = 0; p < t.phi.size() && !t.exchange.value.empty(); ++p)
+    for (std::size_t s = 0; s < t.size() / t.phi.size(); ++s, ++n)
+      if (!(t.exchange.value[n] > 0))
+        throw core::NumericsError(
+            fmt::format("at phi = {:g} beta_12 is {:.3g} of its form, +- {:.2g}: boxes too short to tell the drift of "
+                        "species that are pushed apart; raise calibrate.particles or calibrate.strain",
+                        t.phi[p], t.exchange.value[n], t.exchange.error[n]));
   const std::vector<double> errors = relative_errors(t);
   for (std::size_t p = 0, n = 0; p < t.phi.size(); ++p)
     for (std::size_t s = 0; s < t.size() / t.phi.size(); ++s, ++n)
