@@ -159,26 +159,17 @@ void make_solids_stress(const core::Scene& scene, const Constants& constants, co
     effects.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);
 }
 
-/// What fills the slot Exchange of the solids; after their stress, whose granular temperatures a table needs.
-void make_species_exchange(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
-                           Fields& fields, Effects& effects) {
-  const std::string name = core::law_of(scene, "species_exchange");
-  if (name == "syamlal") {
-    if (constants.species() > 1)
-      effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);
-  } else if (name.starts_with(table_word)) {
-    const std::string file = name.substr(table_word.size()), regime = fluid::regime_of_table(file);
-    if (regime != "dry")
-      throw core::CaseError("effects.species_exchange = \"" + name + "\" is a " + regime +
-                            " table: what species exchange is measured in dry boxes alone");
-    require_regime(scene, "species_exchange", file, regime);
-    const fluid::SolidsTable table = fluid::read_solids_table(file);
-    effects.species_exchange = std::make_unique<TableExchange>(scene, constants, boundaries, table, file, fields);
-    for (const std::string& line : fluid::beyond(table, fluid::place_of(scene)))
-      effects.warnings.push_back("species exchange " + file + ": " + line);
-  } else if (name != "none") {
-    refuse("species_exchange", name);
-  }
+/// A table of what two species exchange, which has to be of dry boxes and for a scene that is dry.
+fluid::SolidsTable exchange_table(const core::Scene& scene, const std::string& file,
+                                  std::vector<std::string>& warnings) {
+  if (const std::string regime = fluid::regime_of_table(file); regime != "dry")
+    throw core::CaseError("effects.species_exchange = \"table:" + file + "\" is a " + regime +
+                          " table: what species exchange is measured in dry boxes alone");
+  require_regime(scene, "species_exchange", file, "dry");
+  fluid::SolidsTable table = fluid::read_solids_table(file);
+  for (const std::string& line : fluid::beyond(table, fluid::place_of(scene)))
+    warnings.push_back("species exchange " + file + ": " + line);
+  return table;
 }
 
 }  // namespace
@@ -193,7 +184,16 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
   else if (name != "none")
     refuse("fluid_stress", name);
   make_solids_stress(scene, constants, boundaries, fields, effects);
-  make_species_exchange(scene, constants, boundaries, fields, effects);
+  if (const std::string name = core::law_of(scene, "species_exchange"); name == "syamlal") {
+    if (constants.species() > 1)
+      effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);
+  } else if (name.starts_with(table_word)) {
+    const std::string file = name.substr(table_word.size());
+    const fluid::SolidsTable table = exchange_table(scene, file, effects.warnings);
+    effects.species_exchange = std::make_unique<TableExchange>(scene, constants, boundaries, table, file, fields);
+  } else if (name != "none") {
+    refuse("species_exchange", name);
+  }
   if (scene.fluid.equation_of_state != "incompressible") {
     const double density = constants.fluid.density;
     effects.compressible = std::make_unique<fluid::Compressible>(

@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 OURS = re.compile(r"\bpolybed::")
 # What makes effects, once: here the registries themselves differ.
-REGISTRIES = re.compile(r"SideForces::SideForces|make_pair_laws|make_cohesion|calls_for|PairLaws::|roles\(\)|make_effects|make_solids_stress|make_species_exchange|tfm::\(anonymous namespace\)::refuse")
+REGISTRIES = re.compile(r"SideForces::SideForces|make_pair_laws|make_cohesion|calls_for|PairLaws::|roles\(\)|make_effects|make_solids_stress|tfm::\(anonymous namespace\)::refuse")
 CONTROL = "polybed::absent::control_kernel(int)"
 LEAST = 1000  # instructions: below it a function is no kernel
 
