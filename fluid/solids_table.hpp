@@ -25,7 +25,7 @@ struct SolidsTable {
   std::vector<double> phi, stokes, restitution, friction, share;  ///< axes; stokes of a dry table: 0
   TableQuantity pressure, viscosity, dissipation, temperature;    ///< temperature: T_2/T_1
   TableQuantity exchange;            ///< beta_12 of two species over species_exchange_kinetic.hpp; empty if not in it
-  double exchange_drift = 0;         ///< greatest |U_1 - U_2|/sqrt(theta) at which it was measured
+  double exchange_drift = 0;         ///< |U_1 - U_2|/sqrt(theta) up to which all of it was measured
   std::vector<double> shear_number;  ///< S = gamma d/sqrt(theta) at every point
   std::vector<double> bed_phi, bed_pressure, bed_error;  ///< p_bed of a fluidised bed; empty if not in it
   double inertia = 0;                                    ///< lambda of the viscous form

@@ -13,8 +13,8 @@ namespace polybed::tfm {
 /// K_12 = R(phi) beta_12 + C_s p_f phi_1 phi_2/phi^2, beta_12 of closures/species_exchange_kinetic.hpp at the granular
 /// temperatures and the drift of the cell, R the ratio that a dry table of two species holds, at the restitution,
 /// friction and share of the whole bed. p_f is the pressure of friction alone: collisions are in R. Beyond the table R
-/// of its edge is held. Where both species are present, solids fractions outside the table and drifts faster than any
-/// box's, over the root of the mean temperature, are counted.
+/// of its edge is held. Where both species are present, solids fractions outside the table and drifts, over the root of
+/// the mean temperature, faster than those at which all of it was measured are counted.
 class TableExchange : public SolidsExchange {
  public:
   /// Needs a granular temperature, which the stress of the solids has to have made. \param file  of the table
