@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <span>
+#include <stdexcept>
 
 #include "core/error.hpp"
 #include "core/output_file.hpp"
@@ -83,6 +84,11 @@ closures::StressRatios ratios_at(const SolidsTable& table, const TablePlace& pla
   return closures::StressRatios(std::move(curves));
 }
 
+closures::MonotoneCurve exchange_at(const SolidsTable& table, const TablePlace& place) {
+  if (table.exchange.value.empty()) throw std::invalid_argument("a table without an exchange of species");
+  return {table.phi, along_phi(table, table.exchange, 0, place)};
+}
+
 TablePlace place_of(const core::Scene& scene) {
   const std::vector<double>& share = scene.bed.volume_share;
   TablePlace place;
@@ -138,6 +144,7 @@ void write_solids_table(const std::filesystem::path& path, const SolidsTable& ta
     file.write("beta_12_ratio", shape, table.exchange.value);
     file.write("beta_12_ratio_se", shape, table.exchange.error);
     file.write("beta_12_ratio_n", shape, table.exchange.seeds);
+    file.write("beta_12_drift", {1}, std::vector{table.exchange_drift});
   }
   file.write("S", shape, table.shear_number);
   if (!table.bed_phi.empty()) {
@@ -166,9 +173,13 @@ SolidsTable read_solids_table(const std::filesystem::path& path) {
   }
   table.shear_number = file.read("S").values;
   table.git_commit = file.text_attribute("/", "git_commit");
-  if (file.has("beta_12_ratio"))
+  if (file.has("beta_12_drift")) {  // files without it have ratios to another form, that of slow drift
     table.exchange = {file.read("beta_12_ratio").values, file.read("beta_12_ratio_se").values,
                       file.read("beta_12_ratio_n").values};
+    table.exchange_drift = file.read("beta_12_drift").values.front();
+    if (table.exchange.value.size() != table.size() || table.exchange.error.size() != table.size())
+      throw core::FileError(path.string() + ": beta_12_ratio has another number of values than the axes say");
+  }
   if (!file.has("p_bed")) return table;
   table.bed_phi = file.read("phi_bed").values;
   table.bed_pressure = file.read("p_bed").values;

@@ -24,12 +24,13 @@ struct SolidsTable {
   std::string reference;                                          ///< GD-CS | GD-CS e_eff | viscous
   std::vector<double> phi, stokes, restitution, friction, share;  ///< axes; stokes of a dry table: 0
   TableQuantity pressure, viscosity, dissipation, temperature;    ///< temperature: T_2/T_1
-  TableQuantity exchange;                                         ///< beta_12 of two species; empty if not in it
-  std::vector<double> shear_number;                               ///< S = gamma d/sqrt(theta) at every point
-  std::vector<double> bed_phi, bed_pressure, bed_error;           ///< p_bed of a fluidised bed; empty if not in it
-  double inertia = 0;                                             ///< lambda of the viscous form
-  double size_ratio = 1;                                          ///< of the two species, if share is an axis
-  double residual = 0;                                            ///< as left_out, beyond two standard errors
+  TableQuantity exchange;            ///< beta_12 of two species over species_exchange_kinetic.hpp; empty if not in it
+  double exchange_drift = 0;         ///< |U_1 - U_2|/sqrt(theta) up to which all of it was measured
+  std::vector<double> shear_number;  ///< S = gamma d/sqrt(theta) at every point
+  std::vector<double> bed_phi, bed_pressure, bed_error;  ///< p_bed of a fluidised bed; empty if not in it
+  double inertia = 0;                                    ///< lambda of the viscous form
+  double size_ratio = 1;                                 ///< of the two species, if share is an axis
+  double residual = 0;                                   ///< as left_out, beyond two standard errors
   double left_out = 0;  ///< greatest error of p and mu where a solids fraction is left out of the fit
   std::string case_hash, created, git_commit;
 
@@ -62,6 +63,10 @@ struct TablePlace {
 /// The ratios at a place: linear in restitution, friction and share, the edges held. Throws std::invalid_argument for
 /// axes that do not rise.
 [[nodiscard]] closures::StressRatios ratios_at(const SolidsTable& table, const TablePlace& place);
+
+/// beta_12 over its closed form along phi, at a place as the ratios. Throws std::invalid_argument for axes that do not
+/// rise, or a table without it.
+[[nodiscard]] closures::MonotoneCurve exchange_at(const SolidsTable& table, const TablePlace& place);
 
 /// Where a place lies outside the axes of a table, whose edge is then held, or is of other sizes; a line each, empty
 /// if nowhere. Equal is what differs by less than 1e-9, the rounding of a mean.

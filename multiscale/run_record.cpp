@@ -139,6 +139,8 @@ RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_sec
     if (const auto use = effects.solids_stress->use()) totals.closures.push_back(*use);
   if (effects.collisions)
     if (const auto use = effects.collisions->use()) totals.closures.push_back(*use);
+  if (effects.species_exchange)
+    if (const auto use = effects.species_exchange->use()) totals.closures.push_back(*use);
   for (tfm::ClosureUse& use : totals.closures) {
     use.evaluations = std::uint64_t(core::sum_of_ranks(grid, double(use.evaluations)));
     use.guarded = std::uint64_t(core::sum_of_ranks(grid, double(use.guarded)));

@@ -17,6 +17,7 @@
 #include "tfm/effects/solids_viscosity_frictional.hpp"
 #include "tfm/effects/solids_wall_johnson_jackson.hpp"
 #include "tfm/effects/species_exchange_syamlal.hpp"
+#include "tfm/effects/species_exchange_table.hpp"
 
 namespace polybed::tfm {
 
@@ -65,10 +66,14 @@ std::vector<core::Role> roles() {
            "Exchange",
            "momentum that solid species exchange by contact",
            "particles have contacts instead",
-           {{"syamlal", "collisions, Syamlal 1987; contact in a packed bed, Gera 2004"}}}};
+           {{"syamlal", "collisions, Syamlal 1987; contact in a packed bed, Gera 2004"},
+            {"table:FILE", "of collisions, as polybed calibrate measured it in dry boxes"}}}};
 }
 
 namespace {
+
+/// How the name of a law begins that is a table in a file.
+constexpr std::string_view table_word = "table:";
 
 [[noreturn]] void refuse(const char* role, const std::string& name) {
   throw core::CaseError(std::string("effects.") + role + " = \"" + name +
@@ -76,10 +81,11 @@ namespace {
 }
 
 /// A table of sheared particles has to be of the scene's regime: the other misses the stress by factors.
-void require_regime(const core::Scene& scene, const std::string& file, const std::string& regime) {
+void require_regime(const core::Scene& scene, const std::string& role, const std::string& file,
+                    const std::string& regime) {
   const fluid::Regime here = fluid::shear_regime(scene);
   if (here.name.empty() || here.name == regime) return;
-  throw core::CaseError("effects.solids_stress = \"table:" + file + "\" is a " + regime +
+  throw core::CaseError("effects." + role + " = \"table:" + file + "\" is a " + regime +
                         " table, and the solids here are " + here.name + ": " + here.reason +
                         " (calibrate.regime says otherwise)");
 }
@@ -94,7 +100,7 @@ void make_table_stress(const core::Scene& scene, const Constants& constants, con
     return;
   }
   const fluid::SolidsTable table = fluid::read_solids_table(file);
-  require_regime(scene, file, regime);
+  require_regime(scene, "solids_stress", file, regime);
   if (table.bed_phi.empty())
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else
@@ -128,13 +134,12 @@ void make_table_stress(const core::Scene& scene, const Constants& constants, con
 /// All that fills the slot Stress of the solids, in the order in which it is evaluated.
 void make_solids_stress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                         Fields& fields, Effects& effects) {
-  constexpr std::string_view table = "table:";
   const std::string stress = core::law_of(scene, "solids_stress"), viscosity = core::law_of(scene, "solids_viscosity"),
                     temperature = core::law_of(scene, "granular_temperature");
   if (stress == "frictional" || stress == "kinetic")
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
-  else if (stress.starts_with(table))
-    make_table_stress(scene, constants, boundaries, stress.substr(table.size()), fields, effects);
+  else if (stress.starts_with(table_word))
+    make_table_stress(scene, constants, boundaries, stress.substr(table_word.size()), fields, effects);
   else if (stress != "none")
     refuse("solids_stress", stress);
   if (viscosity == "schaeffer" || viscosity == "mu_i") {
@@ -154,6 +159,19 @@ void make_solids_stress(const core::Scene& scene, const Constants& constants, co
     effects.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);
 }
 
+/// A table of what two species exchange, which has to be of dry boxes and for a scene that is dry.
+fluid::SolidsTable exchange_table(const core::Scene& scene, const std::string& file,
+                                  std::vector<std::string>& warnings) {
+  if (const std::string regime = fluid::regime_of_table(file); regime != "dry")
+    throw core::CaseError("effects.species_exchange = \"table:" + file + "\" is a " + regime +
+                          " table: what species exchange is measured in dry boxes alone");
+  require_regime(scene, "species_exchange", file, "dry");
+  fluid::SolidsTable table = fluid::read_solids_table(file);
+  for (const std::string& line : fluid::beyond(table, fluid::place_of(scene)))
+    warnings.push_back("species exchange " + file + ": " + line);
+  return table;
+}
+
 }  // namespace
 
 Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
@@ -169,6 +187,10 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
   if (const std::string name = core::law_of(scene, "species_exchange"); name == "syamlal") {
     if (constants.species() > 1)
       effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);
+  } else if (name.starts_with(table_word)) {
+    const std::string file = name.substr(table_word.size());
+    const fluid::SolidsTable table = exchange_table(scene, file, effects.warnings);
+    effects.species_exchange = std::make_unique<TableExchange>(scene, constants, boundaries, table, file, fields);
   } else if (name != "none") {
     refuse("species_exchange", name);
   }

@@ -36,6 +36,8 @@ class SolidsExchange {
  public:
   virtual ~SolidsExchange() = default;
   virtual void evaluate(Fields& fields) = 0;
+  /// Of an exchange with a range; empty of one that holds everywhere.
+  [[nodiscard]] virtual std::optional<ClosureUse> use() const { return {}; }
 };
 
 /// Slot Stress, of the fluid: adds to the fluid's acceleration.

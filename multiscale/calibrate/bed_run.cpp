@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "closures/bed_expansion.hpp"
 #include "closures/drag.hpp"
@@ -15,6 +14,7 @@
 #include "fluid/properties.hpp"
 #include "multiscale/calibrate/bed_scene.hpp"
 #include "multiscale/calibrate/box_result.hpp"
+#include "multiscale/calibrate/slab.hpp"
 
 namespace polybed::multiscale {
 
@@ -102,19 +102,14 @@ class BedRun {
   }
 
  private:
-  [[nodiscard]] double sigma() const { return slab * result_.diameter; }
   [[nodiscard]] double place(int k) const { return height_ * (low_part + (high_part - low_part) * k / (heights - 1)); }
-  /// A Gaussian of a slab over the area, 1/m3.
-  [[nodiscard]] double weight(double distance) const {
-    const double z = distance / sigma();
-    return std::exp(-0.5 * z * z) / (std::sqrt(2 * std::numbers::pi) * sigma() * area_);
-  }
+  [[nodiscard]] Slab slab_at(int k, double floor) const { return {place(k), slab * result_.diameter, floor}; }
 
   void look(Slabs& sum) {
     const dem::Particles& p = model_.particles();
     const double volume = closures::sphere_volume(0.5 * result_.diameter);
     const dem::FluidMotion& fluid = model_.coupling()->motion();
-    const double per = 1.0 / heights;
+    const double per = 1 / (heights * area_), radius = 0.5 * result_.diameter;
     for (std::size_t i = 0; i < p.owned; ++i) {
       const double y = p.place[i].x[1], v = p.motion[i].v[1], mass = 1 / p.motion[i].inverse_mass;
       const dem::FluidLoad& load = fluid.load[i];
@@ -126,17 +121,16 @@ class BedRun {
         sum.square += u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
       }
       for (int k = 0; k < heights; ++k) {
-        const double distance = y - place(k), w = weight(distance) * per;
-        sum.phi += volume * w;
-        sum.stress += mass * v * v * w;
-        // What lies above presses: the share of the slab's Gaussian that lies below the particle.
-        sum.balance -= force * 0.5 * std::erfc(-distance / (std::sqrt(2.0) * sigma())) / area_ * per;
+        const Slab solids = slab_at(k, 0), passing = slab_at(k, radius);
+        sum.phi += volume * solids.weight(y) * per;
+        sum.stress += mass * v * v * passing.weight(y) * per;
+        sum.balance -= force * passing.below(y) * per;  // what lies above presses
       }
     }
     for (const dem::ContactForce& c : dem::contact_forces(model_)) {
       const double y = p.place[c.first].x[1] - 0.5 * c.length * c.normal[1];
       const double virial = c.length * c.normal[1] * c.force[1] * per;
-      for (int k = 0; k < heights; ++k) sum.stress += virial * weight(y - place(k));
+      for (int k = 0; k < heights; ++k) sum.stress += virial * slab_at(k, radius).weight(y);
     }
   }
 

@@ -110,7 +110,7 @@ class BoxRun {
   /// temperature that the box begins with.
   void choose_push() {
     const double theta = box_.dem.start_speed * box_.dem.start_speed;
-    force_ = exchange_reference(theta, theta) * slip_aimed_at * std::sqrt(theta);
+    force_ = exchange_reference(theta, theta, 0) * slip_aimed_at * std::sqrt(theta);
     const double time = double(steps_per_look) * model_.limits().dt;
     for (std::size_t j = 0; j < 2; ++j)
       push_.push_back({0, 0, (j == 0 ? 1 : -1) * force_ * time / (phi_[j] * box_.species[j].density)});
@@ -125,7 +125,7 @@ class BoxRun {
     for (std::size_t i = 0; i < p.owned; ++i) sum[std::size_t(p.species[i])] += p.motion[i].v[2];
     return sum[0] / number_[0] - sum[1] / number_[1];
   }
-  [[nodiscard]] double exchange_reference(double theta_1, double theta_2) const {
+  [[nodiscard]] double exchange_reference(double theta_1, double theta_2, double drift) const {
     const auto at = [&](std::size_t j, double value) {
       return closures::DriftingSpecies{box_.species[j].diameter, box_.species[j].density, phi_[j], value};
     };
@@ -133,12 +133,14 @@ class BoxRun {
     const double g = closures::radial_of_pair(1 - one.phi - two.phi, one.phi / one.diameter + two.phi / two.diameter,
                                               one.diameter, two.diameter);
     const BoxPoint& p = result_.point;
-    return closures::species_exchange_kinetic(one, two, g, closures::effective_restitution(p.restitution, p.friction));
+    return closures::species_exchange_kinetic(one, two, g, closures::effective_restitution(p.restitution, p.friction),
+                                              drift);
   }
   void find_exchange() {
     const Estimate slip = estimate_of(slips_);
     const double beta = force_ / slip.mean, relative = slip.error / std::abs(slip.mean);
-    const double form = exchange_reference(estimate_of(rows_[first]).mean, estimate_of(rows_[first + 1]).mean);
+    const double form =
+        exchange_reference(estimate_of(rows_[first]).mean, estimate_of(rows_[first + 1]).mean, std::abs(slip.mean));
     result_.exchange = {beta, std::abs(beta) * relative};
     result_.exchange_ratio = {beta / form, std::abs(beta / form) * relative};
     result_.slip = slip.mean / std::sqrt(result_.theta.mean);

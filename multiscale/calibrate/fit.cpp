@@ -83,6 +83,19 @@ double pressure_shape(const fluid::SolidsTable& t, const closures::MonotoneCurve
          ratio(phi).pressure;
 }
 
+/// Least over the points of the greatest drift that their pushed boxes had. \param first  of the boxes of each point; as many
+/// pushed ones lie behind all of them
+double common_drift(const std::vector<BoxResult>& boxes, const std::vector<std::size_t>& first) {
+  double least = 1e300;
+  for (std::size_t n = 0; n + 1 < first.size(); ++n) {
+    double greatest = 0;
+    for (std::size_t k = first[n]; k < first[n + 1]; ++k)
+      greatest = std::max(greatest, std::abs(boxes[first.back() + k].slip));
+    least = std::min(least, greatest);
+  }
+  return least;
+}
+
 /// Ten points for each distance of knots, from 0 to 0.02 below jamming.
 std::vector<double> fine_grid(const std::vector<double>& knots, double jammed) {
   std::vector<double> all{0};
@@ -151,6 +164,7 @@ fluid::SolidsTable fitted(const Plan& plan, const std::vector<BoxResult>& boxes)
     add_mean(t.temperature, at(n, &BoxResult::temperature_ratio), 1);
     if (plan.pushed()) add_mean(t.exchange, at(n, &BoxResult::exchange_ratio, first.back()), 1);
   }
+  if (plan.pushed()) t.exchange_drift = common_drift(boxes, first);
   leave_each_out(t);
   return t;
 }
@@ -229,6 +243,13 @@ void require_usable(const fluid::SolidsTable& t) {
         "the curve through the other solids fractions misses one by {:.1f} % more than two standard errors of both, "
         "{:.0f} % are allowed: the grid is too coarse for what it shows; add to calibrate.solids_fraction",
         100 * t.residual, 100 * greatest_residual));
+  for (std::size_t p = 0, n = 0; p < t.phi.size() && !t.exchange.value.empty(); ++p)
+    for (std::size_t s = 0; s < t.size() / t.phi.size(); ++s, ++n)
+      if (!(t.exchange.value[n] > 0))
+        throw core::NumericsError(
+            fmt::format("at phi = {:g} beta_12 is {:.3g} of its form, +- {:.2g}: boxes too short to tell the drift of "
+                        "species that are pushed apart; raise calibrate.particles or calibrate.strain",
+                        t.phi[p], t.exchange.value[n], t.exchange.error[n]));
   const std::vector<double> errors = relative_errors(t);
   for (std::size_t p = 0, n = 0; p < t.phi.size(); ++p)
     for (std::size_t s = 0; s < t.size() / t.phi.size(); ++s, ++n)

@@ -114,7 +114,8 @@ MeanSphere mean_sphere(const std::vector<core::Species>& species, const std::vec
 
 std::string box_hash(const core::Scene& scene, const BoxPoint& point) {
   const core::Calibrate& c = scene.calibrate;
-  constexpr int method = 3;  // counted up when a box would be measured in another way
+  // Counted up when such a box would be measured in another way.
+  const int method = point.regime == "bed" || point.pushed ? 4 : 3;
   core::Scene box = scene_of_box(scene, point);
   return core::text_hash(fmt::format("{} {} {} {} {} {}{}\n{}", method, point.seed, c.strain, c.discard_strain,
                                      c.doublings, c.softness, point.pushed ? " pushed" : "", core::resolved_case(box)));

@@ -65,9 +65,12 @@ std::vector<BoxResult> Boxes::run() {
   return results();
 }
 
+/// Boxes that other ranks have finished meanwhile are known by their files.
 /// \param begin  s  \param all  expected when it began
-void Boxes::tell(double begin, double all) const {
+void Boxes::tell(double begin, double all) {
   if (options_.quiet) return;
+  for (std::size_t n = 0; n < points_.size(); ++n)
+    done_[n] = done_[n] || (ranks_ && read_box(file_of(directory_, scene_, points_[n]), box_hash(scene_, points_[n])));
   const double passed = seconds() - begin, left_now = expected_left();
   fmt::print(stderr, "{} of {} boxes; about {} left\n", points_.size() - left(), points_.size(),
              core::duration_text(passed * left_now / std::max(all - left_now, 1e-9)));
@@ -113,6 +116,7 @@ std::vector<std::size_t> Boxes::run_here(std::vector<std::size_t> todo) {
     }
   }
   core::add_over_ranks(ranks_.get(), failed);
+  if (here == 0 && left() > 0) tell(begin, all);  // of the boxes that others finished after this rank's last
   std::vector<std::size_t> places;
   for (std::size_t n = 0; n < failed.size(); ++n)
     if (failed[n] != 0) places.push_back(n);

@@ -37,7 +37,7 @@ class Boxes {
   [[nodiscard]] std::vector<std::size_t> run_as_processes(const std::vector<std::size_t>& todo);
   [[nodiscard]] std::vector<std::size_t> run_here(std::vector<std::size_t> todo);
   void run_one(std::size_t place, const std::shared_ptr<const core::Ranks>& ranks);
-  void tell(double begin, double all) const;
+  void tell(double begin, double all);
   [[nodiscard]] std::vector<BoxResult> results() const;
 
   const CalibrateOptions& options_;

@@ -4,6 +4,7 @@ reads it. Usage: calibrate_test.py PROGRAM"""
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tomllib
@@ -71,6 +72,41 @@ history_every = "0.1 ms"
 """ + SHORT + "solids_fraction = [0.2, 0.4]\nstokes = [10, 30]\n"
 
 
+# Two sizes of glass in air, for the table of two species: the ratio of sizes, the share and the friction of its boxes.
+GAS = """[column]
+size = ["20 mm", "60 mm"]
+cells = [4, 12]
+[fluid]
+name = "air"
+temperature = "20 degC"
+[[species]]
+name = "small"
+diameter = "1 mm"
+density = 2500
+[[species]]
+name = "large"
+diameter = "2 mm"
+density = 2500
+[bed]
+volume_share = [0.5, 0.5]
+static_height = "25 mm"
+solids_fraction = 0.6
+start = "mixed"
+start_solids_fraction = 0.45
+[inlet]
+superficial_velocity = "1.2 m/s"
+[effects]
+drag = "gidaspow"
+[dem]
+friction = 0
+restitution = 0.9
+[run]
+until = "5 ms"
+[output]
+history_every = "1 ms"
+"""
+
+
 class Calibration(Scratch):
     def calibrate(self, text, *words):
         case = self.folder / "case.toml"
@@ -125,9 +161,10 @@ class Calibration(Scratch):
         """Of each box what it has measured: all but the time it took."""
         return {p.name: {k: v for k, v in json.loads(p.read_text()).items() if k != "cpu_s"} for p in folder.glob("boxes/*.json")}
 
-    def on_two_ranks(self, *words):
+    def on_two_ranks(self, *words, loud=False):
+        words = words if loud else ("--quiet", *words)
         return subprocess.run(["mpirun", "-q", "-n", "2", program.PROGRAM, "calibrate", self.folder / "case.toml", "-o",
-                               self.folder / "ranks", "--quiet", *words], capture_output=True, encoding="utf-8", timeout=300,
+                               self.folder / "ranks", *words], capture_output=True, encoding="utf-8", timeout=300,
                               env=os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES)
 
     def test_ranks_run_boxes_with_the_same_bits(self):
@@ -137,6 +174,16 @@ class Calibration(Scratch):
         self.assertEqual(done.stdout.count("with a solids fraction left out"), 1, "the first rank speaks")
         self.assertEqual(self.numbers(self.folder / "ranks"), self.numbers(self.folder / "boxes"))
         self.assertEqual(self.on_two_ranks("-j", "2").returncode, WRONG_CASE)
+
+    def test_the_first_rank_tells_of_the_boxes_of_all(self):
+        fractions = ",".join(str(phi) for phi in (0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4))
+        (self.folder / "case.toml").write_text(DRY.replace("solids_fraction = [0.3, 0.45]", f"solids_fraction = [{fractions}]"))
+        done = self.on_two_ranks(loud=True)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        told = [int(n) for n in re.findall(r"(\d+) of 7 boxes; about", done.stderr)]
+        self.assertEqual(told, sorted(told))
+        self.assertLess(len(told), 7, "the first rank runs some of them, one line each and one at the end")
+        self.assertEqual(told[-1], 7)
 
     def test_a_fluidised_box_measured_twice_on_ranks_and_its_pressure_in_the_two_fluid_model(self):
         # Soft, without films and few: some seconds, shared by both ranks. How the model itself takes ranks is tested elsewhere.
@@ -174,10 +221,26 @@ class Calibration(Scratch):
         with h5py.File(self.folder / "boxes/table.h5") as table:
             ratio, hot = table["beta_12_ratio"][:].ravel(), table["T_ratio_12"][:].ravel()
             ratio_error, hot_error = table["beta_12_ratio_se"][:].ravel(), table["T_ratio_12_se"][:].ravel()
+            drift = table["beta_12_drift"][0]
         # The larger are hotter, by a third in long boxes (1.35 at phi 0.4); Enskog's exchange within a third as far as
         # some strains of 300 spheres tell.
         self.assertTrue(np.all(hot + 3 * hot_error > 1) and np.all(hot - 3 * hot_error < 2), hot)
         self.assertTrue(np.all(np.abs(ratio - 1) < 0.33 + 3 * ratio_error), (ratio, ratio_error))
+        # The push aims at a quarter of sqrt(theta); the third that beta_12 may be off, and as much for the temperature, are allowed.
+        self.assertTrue(0.1 < drift < 0.5, drift)
+        gas = self.folder / "gas.toml"
+        gas.write_text(GAS)
+        words = [w for role in ("solids_stress", "species_exchange")
+                 for w in ("--set", f'effects.{role}="table:{self.folder / "boxes/table.h5"}"')]
+        run = program.run("tfm", gas, "-o", self.folder / "run", "--quiet", *words)
+        self.assertEqual(run.returncode, DONE, run.stderr)
+        guards = {c["closure"].split()[0]: c for c in json.loads((self.folder / "run/run.json").read_text())["guards"]}
+        self.assertEqual(set(guards), {"drag", "solids", "species"}, guards)
+        self.assertGreater(guards["species"]["evaluations"], 0)
+        wrong = program.run("tfm", gas, "-o", self.folder / "other", "--quiet", *words[2:], "--set",
+                            'effects.solids_stress="frictional"')
+        self.assertEqual(wrong.returncode, WRONG_CASE)
+        self.assertIn("granular temperatures", wrong.stderr)
 
     def test_check_tells_how_points_between_compare(self):
         self.assertEqual(self.calibrate(DRY).returncode, DONE)

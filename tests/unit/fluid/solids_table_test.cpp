@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "../core/scratch.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
@@ -42,6 +44,8 @@ TEST(SolidsTable, RoundTripKeepsEveryBit) {
   t.bed_phi = {0.2, 0.5};
   t.bed_pressure = {0.1, 0.4};
   t.bed_error = {0.01, 0.02};
+  t.exchange = t.pressure;
+  t.exchange_drift = 0.4;
   const auto path = scratch.path() / "table.h5";
   write_solids_table(path, t);
   EXPECT_EQ(regime_of_table(path), "wet");
@@ -53,6 +57,8 @@ TEST(SolidsTable, RoundTripKeepsEveryBit) {
   EXPECT_EQ(r.temperature.seeds, t.temperature.seeds);
   EXPECT_EQ(r.shear_number, t.shear_number);
   EXPECT_EQ(r.bed_pressure, t.bed_pressure);
+  EXPECT_EQ(r.exchange.value, t.exchange.value);
+  EXPECT_EQ(r.exchange_drift, 0.4);
   EXPECT_EQ(r.inertia, t.inertia);
   EXPECT_EQ(r.case_hash, t.case_hash);
   EXPECT_FALSE(r.git_commit.empty());
@@ -64,6 +70,16 @@ TEST(SolidsTable, IsLinearBetweenAndMovesByStandardErrors) {
   EXPECT_NEAR(ratios_at(t, {0.8, 0.3, 0, 0})(0.3, 1).pressure.pressure, 1.45, 1e-12);
   EXPECT_NEAR(ratios_at(t, {0.8, 0.3, 0, 1})(0.3, 1).pressure.pressure, 1.45 * 1.01, 1e-12);
   EXPECT_NEAR(ratios_at(t, {0.2, 0.3, 0, 0})(0.3, 1).pressure.pressure, 1.4, 1e-12);  // held
+}
+
+// At phi 0.3, e 0.7 and 0.9: half of 1.4 and 1.5, half way 0.725; beyond 0.5 its edge, half of 1.8 and 1.9.
+TEST(SolidsTable, ExchangeIsReadAsTheRatiosAre) {
+  SolidsTable t = sample();
+  EXPECT_THROW((void)exchange_at(t, {0.8, 0.3, 0, 0}), std::invalid_argument);
+  t.exchange = t.pressure;
+  for (double& v : t.exchange.value) v *= 0.5;
+  EXPECT_NEAR(exchange_at(t, {0.8, 0.3, 0, 0})(0.3).pressure, 0.725, 1e-12);
+  EXPECT_NEAR(exchange_at(t, {0.8, 0.3, 0, 0})(0.6).pressure, 0.925, 1e-12);
 }
 
 TEST(SolidsTable, TellsWhereASceneLiesBeyondIt) {

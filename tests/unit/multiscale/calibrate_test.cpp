@@ -275,6 +275,32 @@ TEST(CalibratePlan, DryBoxesOfTwoSpeciesAreAlsoPushedApart) {
   EXPECT_THROW((void)plan_of(scene), core::CaseError) << "one species alone exchanges nothing";
 }
 
+// Two seeds a point: the mean of 0.8 and 0.9 is 0.85. The first point's boxes drift at 0.2 and -0.3, all others at 0.4:
+// up to 0.3 all points are measured.
+TEST(CalibrateFit, ExchangeAndTheDriftThatAllPointsHad) {
+  core::Scene scene = dry_scene();
+  scene.species.push_back(scene.species[0]);
+  scene.species[1].diameter *= 2;
+  scene.bed.volume_share = {0.5, 0.5};
+  scene.calibrate.share = {0.5};
+  const Plan plan = plan_of(scene);
+  std::vector<BoxResult> boxes = synthetic(plan, 0.18, 0);
+  for (BoxResult& b : boxes) {
+    if (!b.point.pushed) continue;
+    b.exchange_ratio = {b.point.seed == 1 ? 0.8 : 0.9, 0.01};
+    b.slip = 0.4;
+  }
+  boxes[boxes.size() / 2].slip = 0.2;
+  boxes[boxes.size() / 2 + 1].slip = -0.3;
+  fluid::SolidsTable t = fitted(plan, boxes);
+  ASSERT_EQ(t.exchange.value.size(), t.size());
+  EXPECT_NEAR(t.exchange.value[0], 0.85, 1e-14);
+  EXPECT_EQ(t.exchange_drift, 0.3);
+  EXPECT_NO_THROW(require_usable(t));
+  t.exchange.value[3] = -0.1;
+  EXPECT_THROW(require_usable(t), core::NumericsError) << "species that are sped up by each other";
+}
+
 // Two points of two seeds: p 1.00 and 1.02, s/sqrt(2) = 0.01, times 1.837; errors of the boxes 0.002/sqrt 2.
 TEST(CalibrateBed, BothWaysTheirErrorsAndTheirDifference) {
   Plan plan;
