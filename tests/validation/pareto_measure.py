@@ -1,0 +1,75 @@
+"""What a finished run of pareto_b.py says: means over the last quarter with their intervals, and what it took."""
+import re
+
+import numpy as np
+from strips import ROOT
+
+STUDENT = 2.262  # 95 %, nine degrees of freedom
+FIRST, SECOND = "fine", "coarse"
+
+
+def weights():
+    """ns of each counter, as `polybed cost` weighs them."""
+    text = (ROOT / "multiscale/cost/work.cpp").read_text()
+    return {name: float(ns) for name, ns in re.findall(r'\{"([\w ]+)", ([\d.e+]+)\}', text)}
+
+
+def work_of(record, cells):
+    """Weighed counters of a run, s: those of multiscale/cost/work.cpp."""
+    work, ns = record["work"], weights()
+    if record["model"] == "tfm":
+        products = "pressure_iterations" if work["pressure_solves"] else "jacobian_products"
+        counts = {"rhs_evaluations x unknowns": work["rhs_evaluations"] * record["unknowns"],
+                  f"{products} x unknowns": work["linear_iterations"] * record["unknowns"]}
+    else:
+        fluid = record["fluid"]
+        counts = {"particle_steps": work["particle_steps"], "pair_checks": work["pair_checks"],
+                  "contact_evaluations": work["contact_steps"], "candidates": work["candidates"],
+                  "particle_steps in the fluid": work["particle_steps"], "fluid_steps": fluid["steps"],
+                  "fluid_steps x particles": fluid["steps"] * record["particles"],
+                  "fluid_iterations x cells": fluid["iterations"] * cells}
+    return 1e-9 * sum(ns[name] * count for name, count in counts.items())
+
+
+def interval(values):
+    """Mean and half-width of its 95 % interval by ten batches."""
+    batches = [np.mean(part) for part in np.array_split(values, 10)]
+    return float(np.mean(values)), float(STUDENT * np.std(batches, ddof=1) / np.sqrt(10))
+
+
+def measured(run, cells):
+    """Means over the last quarter of a run that is done, lengths in mm, and what it took."""
+    history, record = run.history, run.record
+    late = history["time_s"] >= 0.75 * history["time_s"][-1]
+    height = 1e3 * history["bed_height_m"]
+    apart = 1e3 * (history[f"centre_{SECOND}_m"] - history[f"centre_{FIRST}_m"])
+    drop = np.mean(history["pressure_drop_Pa"][late] / history["buoyant_weight_Pa"][late])
+    simulated = record["time_s"]
+    found = {"state": "done", "simulated_s": simulated, "cpu_s": record["cpu_s"], "work_s": work_of(record, cells),
+             "drift_mm_s": float(np.polyfit(history["time_s"][late], height[late], 1)[0]), "drop_over_weight": float(drop),
+             "broken": [w for w in record["warnings"] if "exceeded" in w]}
+    found["bed_height_mm"], found["bed_height_ci_mm"] = interval(height[late])
+    found["apart_mm"], found["apart_ci_mm"] = interval(apart[late])
+    share = interval((apart / height)[late])
+    found["centre_difference"], found["centre_difference_ci"] = share
+    found["commit"], found["integrator"] = record["git_commit"], record["integrator"]
+    return found
+
+
+def crossing(points):
+    """Where the centres change places between runs from the mixed start: (velocity, mean, half-width), by rising velocity.
+
+    Between two neighbours that are certain and of opposite sign, linear; else what is known is a bound."""
+    certain = [(u, value) for u, value, error in points if abs(value) > error]
+    for (u, value), (v, other) in zip(certain, certain[1:]):
+        if value > 0 > other:
+            return {"state": "between", "mm_s": 1e3 * (u + (v - u) * value / (value - other)), "error_mm_s": 500 * (v - u),
+                    "low_mm_s": 1e3 * u, "high_mm_s": 1e3 * v}
+    above = [u for u, value in certain if value > 0]
+    below = [u for u, value in certain if value < 0]
+    return {"state": "not found", "mm_s": None, "low_mm_s": in_mm(max(above, default=None)),
+            "high_mm_s": in_mm(min(below, default=None))}
+
+
+def in_mm(velocity):
+    return None if velocity is None else 1e3 * velocity
