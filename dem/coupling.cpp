@@ -76,6 +76,8 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
   velocity_here_ = gradient_here_ = core::make_face_field(column);
 }
 
+Coupling::~Coupling() = default;
+
 void Coupling::begin(const Particles& particles) {
   motion_.load.assign(particles.owned, FluidLoad{});
   take_fields();

@@ -32,6 +32,7 @@ class Coupling {
   /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume, count  of all particles, m3
   Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
            core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count);
+  ~Coupling();
 
   /// The fluid between the particles at the start of a run. Collective, as are advance and write.
   void begin(const Particles& particles);

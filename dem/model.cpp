@@ -68,6 +68,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   look_ahead();
 }
 
+Model::~Model() = default;
+
 /// The fluid between the particles, if there is one. A sheared box has no room for its motion: there it is the flow.
 void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
   if (scene.fluid.name == "none") return;

@@ -43,6 +43,7 @@ class Model : public core::Simulation {
   Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks = nullptr);
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
+  ~Model() override;
 
   /// The nearest step to a time asked for counts as being there.
   [[nodiscard]] double time() const override { return reported_; }

@@ -1,8 +1,11 @@
 """What Open MPI needs in a container and as root, for the scripts that start the program on ranks. The launcher
 `polybed` sets the same, and tests/CMakeLists.txt for test programs that it starts itself."""
+import pathlib
 
 SETTINGS = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
             "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 # For more ranks than cores: one that waits lets another compute.
 MORE_THAN_CORES = {"OMPI_MCA_mpi_yield_when_idle": "1"}
+# For a process that starts no ranks.
+ONE_PROCESS = {"OMPI_MCA_mca_base_param_files": str(pathlib.Path(__file__).with_name("one_process.conf"))}

@@ -30,7 +30,7 @@ constexpr double slab = 1.5;
 constexpr double low_part = 0.3, high_part = 0.7;
 /// Solids fraction up to which a narrow column of spheres is filled at random without trouble.
 constexpr double most_at_start = 0.4;
-constexpr int heights = 9, blocks_of_a_run = 20;
+constexpr int heights = 9, blocks_of_a_bed = 20;
 
 /// Superficial velocity at which drag carries the buoyant weight at a voidage.
 double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, double voidage) {
@@ -74,10 +74,10 @@ class BedRun {
     std::vector<double> phi, stress, balance, theta;
     // Drag is integrated between the fluid's steps: looks that fall on all phases of one see its mean.
     const int every = box_.dem.fluid_every + 1;
-    for (int b = 1; b <= blocks_of_a_run; ++b) {
+    for (int b = 1; b <= blocks_of_a_bed; ++b) {
       Slabs sum;
       std::int64_t looks = 0;
-      for (double until = (settle + average * b / blocks_of_a_run) * transit; model_.time() < until; ++looks) {
+      for (double until = (settle + average * b / blocks_of_a_bed) * transit; model_.time() < until; ++looks) {
         for (int k = 0; k < every; ++k) model_.step(1e300);
         look(sum);
       }

@@ -56,8 +56,8 @@ void run_estimate(const EstimateOptions& options) {
   const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
   const double probe = options.probe.empty() ? 0 : seconds_of(options.probe);
   const Machine machine = known_machine();
-  const Estimate estimate = model_of(options, scene) == "dem" ? estimate_dem(scene, machine, probe, options.ranks)
-                                                              : estimate_tfm(scene, machine, probe, options.ranks);
+  const CostEstimate estimate = model_of(options, scene) == "dem" ? estimate_dem(scene, machine, probe, options.ranks)
+                                                                  : estimate_tfm(scene, machine, probe, options.ranks);
   if (!options.json) return print_estimate(scene, estimate);
   core::Json json;
   json.begin_object().member("until_s", scene.run.until);

@@ -57,7 +57,7 @@ constexpr Benched effects[] = {{"drag", "none", "dem", "particle"},
                                {"solids_stress", "kinetic", "tfm", "cell"},
                                {"species_exchange", "syamlal", "tfm", "cell"}};
 
-struct Timing {
+struct UnitCost {
   double per_unit = 0;  ///< s
   std::size_t bytes = 0;
   double units = 1;
@@ -88,7 +88,7 @@ std::pair<double, double> time_steps(Model& model, const core::Timers& timers, i
   return {seconds_of(timers) - begin, std::max(count() - done, 1.0)};
 }
 
-Timing time_particles(const Benched* effect, const std::string& per) {
+UnitCost time_particles(const Benched* effect, const std::string& per) {
   core::Timers timers;
   dem::Model model(scene_with(effect), timers);
   const bool contacts = per == "contact";
@@ -100,7 +100,7 @@ Timing time_particles(const Benched* effect, const std::string& per) {
   return {seconds / units, numbers * sizeof(double), units};
 }
 
-Timing time_cells(const Benched* effect) {
+UnitCost time_cells(const Benched* effect) {
   core::Timers timers;
   tfm::Model model(scene_with(effect), timers);
   const auto [seconds, units] = time_steps(model, timers, 4, 24, [&] {
@@ -109,7 +109,7 @@ Timing time_cells(const Benched* effect) {
   return {seconds / units, 0};
 }
 
-Timing time_of(const Benched* effect, const std::string& model, const std::string& per) {
+UnitCost time_of(const Benched* effect, const std::string& model, const std::string& per) {
   return model == "dem" ? time_particles(effect, per) : time_cells(effect);
 }
 
@@ -118,7 +118,7 @@ struct Least {
   std::vector<double> times;
   std::size_t bytes = 0;
   double units = 1;
-  void add(const Timing& t) {
+  void add(const UnitCost& t) {
     times.push_back(t.per_unit);
     units = t.units;
     std::sort(times.begin(), times.end());
@@ -136,7 +136,7 @@ std::vector<EffectCost> bench_effects(int rounds) {
     for (const char* per : {"particle", "contact", "cell"})
       plain[per].add(time_of(nullptr, per == std::string("cell") ? "tfm" : "dem", per));
     for (std::size_t n = 0; n < std::size(effects); ++n) {
-      Timing t = time_of(&effects[n], effects[n].model, effects[n].per);
+      UnitCost t = time_of(&effects[n], effects[n].model, effects[n].per);
       // Per contact of the plain run: what reaches further has more pairs, and all of them are its cost.
       if (effects[n].per == std::string("contact")) t.per_unit *= t.units / plain["contact"].units;
       with[n].add(t);

@@ -115,11 +115,11 @@ TimeBand dem_time(const core::Scene& scene, const Machine& machine) {
                 overhead(scene, machine, double(need.count())));
 }
 
-Estimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks) {
+CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks) {
   core::Timers timers;
   std::unique_ptr<tfm::Model> part;
   const Requirements need = requirements_of(scene, timers, part);
-  Estimate e;
+  CostEstimate e;
   e.model = "tfm";
   e.ranks = ranks;
   e.memory = need.memory.total() + (ranks - 1) * need.memory.program;
@@ -153,9 +153,9 @@ Estimate estimate_tfm(const core::Scene& scene, const Machine& machine, double p
   return e;
 }
 
-Estimate estimate_dem(const core::Scene& scene, const Machine& machine, double probe, int ranks) {
+CostEstimate estimate_dem(const core::Scene& scene, const Machine& machine, double probe, int ranks) {
   const ParticleRequirements need = particle_requirements_of(scene, machine.particles);
-  Estimate e;
+  CostEstimate e;
   e.model = "dem";
   e.ranks = ranks;
   e.memory = need.memory() + (ranks - 1) * need.program;

@@ -25,7 +25,7 @@ struct Way {
   std::string evidence;  ///< measured | extrapolated | literature
 };
 
-struct Estimate {
+struct CostEstimate {
   std::string model;  ///< tfm | dem
   int ranks = 1;
   TimeBand time;      ///< of all ranks together
@@ -47,12 +47,12 @@ struct Estimate {
 /// All of it. The cost of a step of the two-fluid model is measured on a narrow part of the bed for a quarter of a
 /// second; with a probe both models run the case itself for that long and go on from there.
 /// \param probe  CPU seconds; 0: none   \param ranks  that will share the case
-[[nodiscard]] Estimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks);
-[[nodiscard]] Estimate estimate_dem(const core::Scene& scene, const Machine& machine, double probe, int ranks);
+[[nodiscard]] CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks);
+[[nodiscard]] CostEstimate estimate_dem(const core::Scene& scene, const Machine& machine, double probe, int ranks);
 
 /// "least to most"; members of an object that is open.
-void write_estimate(core::Json& json, const Estimate& estimate);
-void print_estimate(const core::Scene& scene, const Estimate& estimate);
+void write_estimate(core::Json& json, const CostEstimate& estimate);
+void print_estimate(const core::Scene& scene, const CostEstimate& estimate);
 
 /// What run.json says of the prediction made before the run. \param actual  CPU s; of a run that is done
 void write_prediction(core::Json& json, const TimeBand& predicted, bool done, double actual);

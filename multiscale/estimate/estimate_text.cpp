@@ -19,7 +19,7 @@ std::string bytes_text(double bytes) {
 
 }  // namespace
 
-void write_estimate(core::Json& json, const Estimate& e) {
+void write_estimate(core::Json& json, const CostEstimate& e) {
   json.member("model", e.model).member("ranks", e.ranks).key("cpu_s").begin_object();
   json.member("least", e.time.least).member("expected", e.time.expected).member("most", e.time.most).end_object();
   json.member("band", 0.8).member("wall_s", e.wall).member("basis", e.basis).member("steps", e.steps);
@@ -35,7 +35,7 @@ void write_estimate(core::Json& json, const Estimate& e) {
   json.end_array();
 }
 
-void print_estimate(const core::Scene& scene, const Estimate& e) {
+void print_estimate(const core::Scene& scene, const CostEstimate& e) {
   fmt::print("{:.4g} s by {} on {} rank{}: about {} of computing, in 80 % of runs between {} and {}\n", scene.run.until,
              e.model, e.ranks, e.ranks > 1 ? "s" : "", time_text(e.time.expected), time_text(e.time.least),
              time_text(e.time.most));

@@ -3,7 +3,7 @@
 
 A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
 `polybed tfm` line gets `--until 0.1s` in place of its own end, a `polybed dem` or `polybed compare` line 1 ms, and replaces an earlier run of the same page;
-a scan for the inversion velocity is by the two-fluid model, of runs of 0.8 s. Each page
+a sweep of `polybed cost` has runs of 0.03 s; a scan for the inversion velocity is by the two-fluid model, of runs of 0.8 s. Each page
 has a folder of its own, so that it must stand alone. Usage: docs_commands.py PROGRAM
 """
 import os
@@ -22,7 +22,9 @@ PYTHON = "/usr/bin/python3"
 MOST_NOT_RUN = 6
 SHORT = ["--until", "0.1 s", "--quiet", "--no-picture"]
 SHORT_SCAN = ["--until", "0.8 s", "--set", 'output.history_every="2 ms"', *SHORT[2:]]
+ALONE = {"tfm", "dem", "compare", "check", "inversion"}  # commands that start no ranks of their own
 SHORT_DEM = ["--until", "1 ms", *SHORT[2:]]  # its steps are microseconds
+SHORT_COST = ["--until", "0.03 s"]  # a sweep runs the case a dozen times
 
 
 def blocks(text):
@@ -47,6 +49,9 @@ def shortened(command, program):
             at = words.index("--until")
             del words[at:at + 2]
         words += (SHORT if words[1] == "tfm" else SHORT_DEM) + ([] if {"--resume", "--force"} & set(words) else ["--force"])
+    if words[:2] == [program, "cost"] and "--until" in words:
+        at = words.index("--until")
+        words[at:at + 2] = SHORT_COST
     if "--scan" in words:
         words[words.index("--scan") + 1] = "tfm"
         words += SHORT_SCAN
@@ -54,9 +59,12 @@ def shortened(command, program):
 
 
 def run(command, program, scratch):
-    environment = os.environ | open_mpi.SETTINGS | {"PYTHONPATH": str(ROOT / "multiscale/python"),
-                                                   "POLYBED": os.path.abspath(program)}
-    done = subprocess.run(shortened(command, program), cwd=scratch, env=environment, capture_output=True, text=True,
+    environment = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
+    environment |= {"PYTHONPATH": str(ROOT / "multiscale/python"), "POLYBED": os.path.abspath(program)}
+    words = shortened(command, program)
+    if words[0] == program and words[1] in ALONE:
+        environment |= open_mpi.ONE_PROCESS
+    done = subprocess.run(words, cwd=scratch, env=environment, capture_output=True, text=True,
                           timeout=300)
     return [] if done.returncode == 0 else [f"{command}\n  ended with {done.returncode}: {done.stderr[-500:]}"]
 
@@ -69,6 +77,7 @@ def self_test():
     assert shortened("./polybed -n 2 check x", "p") == ["mpirun", "-q", "-n", "2", "p", "check", "x"]
     assert shortened("./polybed compare x", "p") == ["p", "compare", "x", *SHORT_DEM, "--force"]
     assert shortened("./polybed inversion x --scan both", "p") == ["p", "inversion", "x", "--scan", "tfm", *SHORT_SCAN]
+    assert shortened("./polybed cost x --until '1 s' --json", "p") == ["p", "cost", "x", *SHORT_COST, "--json"]
     assert "--force" not in shortened("./polybed tfm x --resume", "p")
     assert run("false", "p", ".")
 

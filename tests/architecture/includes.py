@@ -1,5 +1,8 @@
 #!/usr/bin/python3
-"""Every #include goes down the layers, and each library is seen where it is wrapped alone."""
+"""Every #include goes down the layers, each library is seen where it is wrapped alone, and a source includes what it uses of
+the standard library and of fmt, itself or through a header of the program: sources are compiled several at a time
+(POLYBED_JOINED), where another's include would do."""
+import functools
 import re
 import sys
 
@@ -24,6 +27,52 @@ LIBRARIES = {
     r"core/mpi\.hpp": r"core/(ranks|blocks|halo|messages|output_blocks|linear_solver|hypre_rows|integrator_vector)\.cpp",
 }
 CLOSURES_SEE = re.compile(r"^(closures/|Eigen/|[a-z_]+$)")  # ours, Eigen, the standard library
+
+# header -> what tells that a source uses it
+USES = {
+    "algorithm": r"std::(sort|clamp|copy|fill|transform|(max|min)_element|(any|all|none)_of|(find|count)_if|ranges::\w+)\b",
+    "array": r"std::array\b",
+    "cmath": r"std::(sqrt|cbrt|pow|exp|log|log10|abs|isfinite|isnan|sin|cos|floor|ceil|hypot)\b",
+    "cstdint": r"std::u?int(8|16|32|64)_t\b",
+    "filesystem": r"std::filesystem\b",
+    "functional": r"std::(function|plus|minus|less|greater)\b",
+    "limits": r"std::numeric_limits\b",
+    "map": r"std::(multi)?map\b",
+    "memory": r"std::((unique|shared|weak)_ptr|make_(unique|shared))\b",
+    "numbers": r"std::numbers\b",
+    "optional": r"std::(optional|nullopt)\b",
+    "span": r"std::span\b",
+    "stdexcept": r"std::(runtime_error|logic_error|invalid_argument|out_of_range)\b",
+    "string": r"std::(string|to_string)\b",
+    "string_view": r"std::string_view\b",
+    "variant": r"std::(variant|visit|get_if|holds_alternative)\b",
+    "vector": r"std::vector\b",
+    "fmt/format.h": r"fmt::(format|print|format_to|join)\b",
+}
+
+
+@functools.cache
+def includes(name):
+    """Headers that a file of the program includes; none if it is none."""
+    path = ROOT / name
+    return frozenset(re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(), re.M)) if path.is_file() else frozenset()
+
+
+def seen_from(headers):
+    """These headers and all that they include."""
+    seen, ahead = set(), set(headers)
+    while ahead:
+        header = ahead.pop()
+        seen.add(header)
+        ahead |= includes(header) - seen
+    return seen
+
+
+def not_included(name, text, headers):
+    """Headers that a text uses and does not see. :param headers: what it includes"""
+    code, seen = re.sub(r"//.*", "", text), seen_from(headers)
+    return [f"{name}: uses <{header}> without including it" for header, use in USES.items()
+            if header not in seen and re.search(use, code)]
 
 
 def problems_of(name, text):
@@ -53,11 +102,16 @@ def self_test():
     assert problems_of("dem/a.cpp", '#include "tfm/model.hpp"') and problems_of("tfm/a.cpp", '#include "dem/model.hpp"')
     assert problems_of("core/run.cpp", "#include <ida/ida.h>")
     assert not problems_of("tfm/a.cpp", '#include "fluid/pressure.hpp"\n#include <vector>')
+    assert not_included("core/a.cpp", "std::vector<int> a;", {"map"})
+    assert not not_included("core/a.cpp", "std::vector<int> a;  // no std::map", {"core/scene.hpp"})
 
 
 if __name__ == "__main__":
     self_test()
     problems = []
     for path in tracked(".hpp", ".cpp"):
-        problems += problems_of(str(path.relative_to(ROOT)), path.read_text())
+        name, text = str(path.relative_to(ROOT)), path.read_text()
+        problems += problems_of(name, text)
+        if name.split("/")[0] in MAY_USE:
+            problems += not_included(name, text, includes(name))
     sys.exit(report(problems, "includes"))
