@@ -124,7 +124,7 @@ struct Tfm {
   std::string max_packing = "auto";              ///< auto (from bed.solids_fraction) | a number
   double frictional_pressure = 0.05;             ///< Fr of p_f, Pa
   double frictional_onset = 0.5;                 ///< solids fraction above which p_f acts
-  double bulk_viscosity = 1;                     ///< alpha
+  std::optional<double> bulk_viscosity;          ///< alpha; else 1 over the number of directions with cells
   double friction_angle = 28.5;                  ///< delta of Schaeffer's viscosity, degrees
   double viscosity_cap = 10;                     ///< greatest frictional viscosity, Pa s
   double least_shear_rate = 1;                   ///< gamma_0 of the frictional viscosity, 1/s

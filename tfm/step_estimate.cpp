@@ -10,6 +10,7 @@
 #include "closures/drag_schiller_naumann.hpp"
 #include "closures/mixture.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "tfm/bulk_viscosity.hpp"
 
 namespace polybed::tfm {
 
@@ -85,7 +86,8 @@ std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Consta
   if (effects.solids_stress) {
     const double wave = std::sqrt(stress_slope(*effects.solids_stress, bed.solids_fraction) / mean_density(constants));
     scales.push_back({"acoustics", scale(wave / h), 0});
-    scales.push_back({"bulk viscosity", scale(2 * constants.grid.dimensions * scene.tfm.bulk_viscosity * wave / h), 0});
+    const double alpha = bulk_viscosity_of(scene, constants.grid);
+    scales.push_back({"bulk viscosity", scale(2 * constants.grid.dimensions * alpha * wave / h), 0});
   }
   if (effects.fluid_stress)
     scales.push_back(

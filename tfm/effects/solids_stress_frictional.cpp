@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/ranks.hpp"
+#include "tfm/bulk_viscosity.hpp"
 #include "tfm/initial.hpp"
 
 namespace polybed::tfm {
@@ -32,7 +33,7 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
                                    const fluid::Boundaries& boundaries, Fields& fields)
     : constants_(constants),
       boundaries_(boundaries),
-      bulk_viscosity_(scene.tfm.bulk_viscosity),
+      bulk_viscosity_(bulk_viscosity_of(scene, constants.grid)),
       cell_width_(constants.grid.smallest_spacing()) {
   law_.strength = scene.tfm.frictional_pressure;
   law_.onset = scene.tfm.frictional_onset;
