@@ -94,17 +94,23 @@ struct Column {
 /// W/(2 mu K) between two plates (Janssen, Z. Ver. Dt. Ing. 39, 1895, 1045).
 double janssen(double depth_over_lambda) { return (1 - std::exp(-depth_over_lambda)) / depth_over_lambda; }
 
-/// Root mean square by which the stress leaves Janssen's, rho g lambda (1 - exp(-z/lambda)), over that on the floor. mu
-/// K is that of all of the wall, so that both meet on the floor: it is the shape that is looked at.
-double off_the_exponential(const Column& column) {
+using Slices = std::array<double, slices>;
+
+/// By how much the stress leaves Janssen's, rho g lambda (1 - exp(-z/lambda)), over that on the floor. mu K is that of
+/// all of the wall, so that both meet on the floor: it is the shape that is looked at.
+Slices off_the_exponential(const Column& column) {
   const double lambda = width / (2 * column.friction_ratio(0, slices)), loads = column.weight / (width * depth);
-  double squares = 0;
+  Slices off{};
   for (std::size_t s = 0; s < slices; ++s) {
     const double z = column.height * double(s + 1) / slices;
-    const double off = column.stress[s] - loads / column.height * lambda * (1 - std::exp(-z / lambda));
-    squares += off * off;
+    off[s] = column.stress[s] - loads / column.height * lambda * (1 - std::exp(-z / lambda));
+    off[s] /= column.stress[slices - 1];
   }
-  return std::sqrt(squares / slices) / column.stress[slices - 1];
+  return off;
+}
+
+double root_mean_square(const Slices& a) {
+  return std::sqrt(std::inner_product(a.begin(), a.end(), a.begin(), 0.0) / slices);
 }
 
 /// A column after a step of gravity, at rest again.
@@ -133,12 +139,14 @@ Column settled(std::uint64_t seed) {
 }
 
 // Stress against depth, and from what the walls bear in the upper half what the floor bears. Janssen takes friction at
-// the walls and the ratio of stresses for constants; of a column at rest they are not. Allowed is twice what three
-// columns were found to have, 1.5 % of the shape and 5.6 % of the load on the floor: 1 %, this project's goal, is not
-// met.
+// the walls and the ratio of stresses for constants; of a column at rest they are not. Allowed of one column is 1.5
+// times what the worst of eight was found to have, 2.0 % of the shape, and twice for the load on the floor, 5.8 %. Of
+// the mean of all, which has a third of their scatter, 1.5 times 1.1 %: 1 %, this project's goal, is not met.
 TEST(DemJanssen, StressAgainstDepth) {
   constexpr std::size_t top = 2, middle = 10;  // not the surface, where a slice is half empty
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  constexpr int columns = 8;
+  Slices mean{};
+  for (std::uint64_t seed = 1; seed <= columns; ++seed) {
     const Column column = settled(seed);
     const std::string run = fmt::format(" of column {}", seed);
     // Rest: what moves still is below a thousandth of the weight.
@@ -146,7 +154,9 @@ TEST(DemJanssen, StressAgainstDepth) {
     const double above = column.friction_ratio(top, middle), below = column.friction_ratio(middle, slices - 1);
     const double expected = janssen(2 * above * column.height / width), share = column.floor / column.weight;
     compare("share of the floor" + run, share, expected, 0.11);
-    compare("stress off the exponential" + run, off_the_exponential(column), 0, 0.03, 1);
+    const Slices off = off_the_exponential(column);
+    for (std::size_t s = 0; s < slices; ++s) mean[s] += off[s] / columns;
+    compare("stress off the exponential" + run, root_mean_square(off), 0, 0.03, 1);
     std::string profile;
     for (const double s : column.stress) profile += fmt::format("{:.1f} ", s);
     const double pushed = std::accumulate(column.pushed.begin(), column.pushed.end(), 0.0);
@@ -158,6 +168,7 @@ TEST(DemJanssen, StressAgainstDepth) {
                     column.all_carried() / pushed, wall_friction, profile));
     EXPECT_LT(share, 0.9) << "the walls carry something";
   }
+  compare("stress off the exponential, mean of the columns", root_mean_square(mean), 0, 0.016, 1);
 }
 
 }  // namespace

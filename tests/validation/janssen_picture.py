@@ -4,6 +4,7 @@
     build/tests/test_validation --gtest_filter='DemJanssen*' --gtest_output=xml:FILE
     tests/validation/janssen_picture.py FILE PICTURE
 """
+import itertools
 import math
 import re
 import sys
@@ -15,6 +16,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 WIDTH, DIAMETER = 8.0, 1e-3  # of the silo in diameters; m
+SHOWN = 3  # columns
 ROW = re.compile(r"height (\S+) m, weight (\S+) Pa, mu K (\S+),.*stress from the top, Pa: (.*)")
 
 
@@ -30,7 +32,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     figure, axes = plt.subplots(figsize=(5, 4.5), layout="constrained")
-    for number, (height, weight, ratio, stress) in enumerate(columns(sys.argv[1])):
+    for number, (height, weight, ratio, stress) in enumerate(itertools.islice(columns(sys.argv[1]), SHOWN)):
         colour, depth = f"C{number}", [height * (n + 1) / len(stress) for n in range(len(stress))]
         length = WIDTH / (2 * ratio)
         axes.plot(stress, depth, "o", ms=4, color=colour, label=f"column {number + 1}")

@@ -260,6 +260,12 @@ class Particles(SampleRun):
         figure, axes = plt.subplots()
         history.draw_ledger(axes, run)
         self.assertAlmostEqual(axes.get_lines()[-1].get_ydata()[-1], 0.5, places=14)
+        table["carried_out_J"] = np.where(np.arange(len(table["time_s"])) == len(table["time_s"]) - 1, -0.5, 0)
+        figure, axes = plt.subplots()
+        history.draw_ledger(axes, run)
+        lines = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
+        self.assertEqual(lines["carried out"][-1], -0.5)
+        np.testing.assert_allclose(lines["does not close"], 0, atol=1e-14)
 
     def test_temperature_stands_where_there_is_no_pressure(self):
         figure = profiles.draw(self.sample, 1)
