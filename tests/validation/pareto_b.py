@@ -42,7 +42,8 @@ def cells_of(row):
 
 
 def stopped(error):
-    return {"state": "refused" if error.code == 2 else "failed", "reason": str(error).split("ended with")[-1][:300]}
+    said = str(error).split("ended with")[-1].replace(f"{ROOT}/", "")
+    return {"state": "refused" if error.code == 2 else "failed", "reason": said[:300].strip()}
 
 
 def height_run(row, runs, velocity, until):
@@ -109,14 +110,16 @@ def work_through(rows, runs, parts):
     path = runs / "pareto.json"
     runs.mkdir(parents=True, exist_ok=True)
     kept = json.loads(path.read_text())["rows"] if path.exists() else []
+    places = {(row.name, row.level): n for n, row in enumerate(plan.plan())}
     for row in rows:
         entry = next((k for k in kept if (k["name"], k["level"]) == (row.name, row.level)), None)
         if entry is None:
             entry = {"name": row.name, "level": row.level, "model": row.model, "settings": row.settings}
             kept.append(entry)
+            kept.sort(key=lambda k: places.get((k["name"], k["level"]), len(places)))
         entry.update(answers(row, runs, parts))
         print(report.line(entry), flush=True)
-        path.write_text(report.json_text(kept, plan))
+        path.write_text(report.json_text(kept))
     return kept
 
 

@@ -14,7 +14,7 @@ MARKS = {plan.BALANCE: ("*", GREY), plan.FLAT: ("v", COLOURS[4]), plan.GRID: ("s
          plan.LAW: ("D", COLOURS[1]), plan.STRESS: ("P", COLOURS[2]), plan.BOTH: ("X", PALE), plan.PARTICLES: ("h", COLOURS[3])}
 NO_RUN = 2e-3  # s for a simulated second, where answers without a run are drawn
 MEASURED = 30.0  # mm/s, inversion in the experiment of Matsuura and Akehata (1985)
-REFERENCES = ("E 0.03 MPa", "E 0.1 MPa", "E 0.03 MPa, other places")  # particles whose averages are those of the cells
+REFERENCES = ("E 0.03 MPa", "E 0.1 MPa")  # particles with two stiffnesses of contacts
 
 
 def rate(part):
@@ -52,10 +52,21 @@ def front(points):
             if not any(c <= cost and o <= off and (c, o) != (cost, off) for c, o in points)]
 
 
-def json_text(rows, plan_of):
-    kept = {"filetype": "polybed pareto of system B", "version": 1, "case": "cases/quarter-b/case.toml", "bed": plan_of.BED,
-            "velocity_m_s": plan_of.VELOCITY, "rows": rows}
-    return json.dumps(kept, indent=1) + "\n"
+def rounded(item):
+    """Numbers to six digits, lists and tables within."""
+    if isinstance(item, float):
+        return float(f"{item:.6g}")
+    if isinstance(item, dict):
+        return {key: rounded(each) for key, each in item.items()}
+    return [rounded(each) for each in item] if isinstance(item, (list, tuple)) else item
+
+
+def json_text(rows):
+    """The results as JSON, a line for each row."""
+    head = {"filetype": "polybed pareto of system B", "version": 1, "case": "cases/quarter-b/case.toml", "bed": plan.BED,
+            "velocity_m_s": plan.VELOCITY, "turning_time_s": plan.TURNING_TIME}
+    lines = ",\n".join(json.dumps(rounded(row)) for row in rows)
+    return json.dumps(head)[:-1] + ', "rows": [\n' + lines + "\n]}\n"
 
 
 def height_cells(row, against):
@@ -118,7 +129,8 @@ def draw_panel(axes, rows, quantity, target):
     """One point each setting, hollow where it is not ranked, and the front towards the target."""
     shown = [(row, max(rate(found[2]), NO_RUN), found[0], found[1]) for row in rows if (found := value(row, quantity))]
     for level, (mark, colour) in MARKS.items():
-        for row, cost, mean, ci in (p for p in shown if p[0]["level"] == level):
+        of_level = [p for p in shown if p[0]["level"] == level]
+        for row, cost, mean, ci in sorted(of_level, key=lambda p: ranked(p[0], quantity)):
             axes.errorbar([cost], [mean], [ci], fmt=mark, color=colour, markersize=9 if mark in "*h" else 5, elinewidth=0.7, label=level,
                           markerfacecolor=colour if ranked(row, quantity) else "white", markeredgecolor="black", markeredgewidth=0.4)
     counted = [p for p in shown if ranked(p[0], quantity)]
