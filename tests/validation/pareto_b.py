@@ -54,7 +54,7 @@ def height_run(row, runs, velocity, until):
     if kept.exists() and json.loads(kept.read_text())["asked"] == asked:
         return json.loads(kept.read_text())["found"]
     try:
-        return measured(polybed.run(CASE, row.model, given, folder, until), cells_of(row))
+        return measured(polybed.run(CASE, row.model, given, folder, until), cells_of(row), plan.COMMON)
     except ProgramError as error:
         folder.mkdir(parents=True, exist_ok=True)
         kept.write_text(json.dumps({"asked": asked, "found": stopped(error)}))
@@ -77,8 +77,10 @@ def balance(row):
     turns_at = roots[-1]["velocity_m_s"] if roots else None
     on_top = -1 if roots and turns_at < plan.VELOCITY else 1  # the coarse below their inversion, above it the fine
     no_run = {"simulated_s": 0, "cpu_s": 0, "work_s": 0}
-    return ({"state": "done", "bed_height_mm": sum(layers), "bed_height_ci_mm": 0, "mixture_mm": mixture,
-             "apart_mm": on_top * sum(layers) / 2, "apart_ci_mm": 0} | no_run,
+    height_and_layers = {"height": sum(layers), "apart": on_top * sum(layers) / 2}
+    steady = {f"common_{name}_mm": value for name, value in height_and_layers.items()} | {
+        f"common_{name}_ci_mm": 0 for name in height_and_layers}
+    return ({"state": "done", "bed_height_mm": sum(layers), "apart_mm": height_and_layers["apart"], "mixture_mm": mixture} | steady | no_run,
             {"state": "exact" if roots else "not found", "mm_s": 1e3 * turns_at if roots else None} | no_run)
 
 

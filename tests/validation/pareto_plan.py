@@ -13,6 +13,7 @@ BED = {"column.size": [16.667e-3, 0.48], "column.cells": [5, 144], "column.depth
        "dem.skin": 2e-4, "dem.youngs_modulus": 1e5, "dem.fixed_step": 4.5e-5, "dem.fluid_every": 10, "dem.ledger": False,
        "dem.max_overlap": 0.1}
 FINE, COARSE = 0.807e-3, 2.010e-3  # m, of cases/quarter-b
+COMMON = (12.0, 16.0)  # s, in which all runs at VELOCITY are compared: the last quarter of the particles' time
 STATIC_HEIGHT = 33.0e-3  # m, of that bed when it is packed to 0.62
 LAWS = ["cello", "vbk_theory", "yin_sundaresan", "patwardhan_tien", "gidaspow", "di_felice"]
 
