@@ -42,7 +42,8 @@ def cells_of(row):
 
 
 def stopped(error):
-    return {"state": "refused" if error.code == 2 else "failed", "reason": str(error).split("ended with")[-1][:300]}
+    said = str(error).split("ended with")[-1].replace(f"{ROOT}/", "")
+    return {"state": "refused" if error.code == 2 else "failed", "reason": said[:300].strip()}
 
 
 def height_run(row, runs, velocity, until):
@@ -53,7 +54,7 @@ def height_run(row, runs, velocity, until):
     if kept.exists() and json.loads(kept.read_text())["asked"] == asked:
         return json.loads(kept.read_text())["found"]
     try:
-        return measured(polybed.run(CASE, row.model, given, folder, until), cells_of(row))
+        return measured(polybed.run(CASE, row.model, given, folder, until), cells_of(row), plan.COMMON)
     except ProgramError as error:
         folder.mkdir(parents=True, exist_ok=True)
         kept.write_text(json.dumps({"asked": asked, "found": stopped(error)}))
@@ -76,8 +77,10 @@ def balance(row):
     turns_at = roots[-1]["velocity_m_s"] if roots else None
     on_top = -1 if roots and turns_at < plan.VELOCITY else 1  # the coarse below their inversion, above it the fine
     no_run = {"simulated_s": 0, "cpu_s": 0, "work_s": 0}
-    return ({"state": "done", "bed_height_mm": sum(layers), "bed_height_ci_mm": 0, "mixture_mm": mixture,
-             "apart_mm": on_top * sum(layers) / 2, "apart_ci_mm": 0} | no_run,
+    height_and_layers = {"height": sum(layers), "apart": on_top * sum(layers) / 2}
+    steady = {f"common_{name}_mm": value for name, value in height_and_layers.items()} | {
+        f"common_{name}_ci_mm": 0 for name in height_and_layers}
+    return ({"state": "done", "bed_height_mm": sum(layers), "apart_mm": height_and_layers["apart"], "mixture_mm": mixture} | steady | no_run,
             {"state": "exact" if roots else "not found", "mm_s": 1e3 * turns_at if roots else None} | no_run)
 
 
@@ -109,14 +112,16 @@ def work_through(rows, runs, parts):
     path = runs / "pareto.json"
     runs.mkdir(parents=True, exist_ok=True)
     kept = json.loads(path.read_text())["rows"] if path.exists() else []
+    places = {(row.name, row.level): n for n, row in enumerate(plan.plan())}
     for row in rows:
         entry = next((k for k in kept if (k["name"], k["level"]) == (row.name, row.level)), None)
         if entry is None:
             entry = {"name": row.name, "level": row.level, "model": row.model, "settings": row.settings}
             kept.append(entry)
+            kept.sort(key=lambda k: places.get((k["name"], k["level"]), len(places)))
         entry.update(answers(row, runs, parts))
         print(report.line(entry), flush=True)
-        path.write_text(report.json_text(kept, plan))
+        path.write_text(report.json_text(kept))
     return kept
 
 

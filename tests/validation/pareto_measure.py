@@ -37,8 +37,9 @@ def interval(values):
     return float(np.mean(values)), float(STUDENT * np.std(batches, ddof=1) / np.sqrt(10))
 
 
-def measured(run, cells):
-    """Means over the last quarter of a run that is done, lengths in mm, and what it took."""
+def measured(run, cells, common):
+    """Means over the last quarter of a run that is done, lengths in mm, and what it took; "common" ones over these times, s, too, if it
+    is long enough for them."""
     history, record = run.history, run.record
     late = history["time_s"] >= 0.75 * history["time_s"][-1]
     height = 1e3 * history["bed_height_m"]
@@ -50,6 +51,10 @@ def measured(run, cells):
              "broken": [w for w in record["warnings"] if "exceeded" in w]}
     found["bed_height_mm"], found["bed_height_ci_mm"] = interval(height[late])
     found["apart_mm"], found["apart_ci_mm"] = interval(apart[late])
+    begin, end = common if common[1] <= history["time_s"][-1] else (0.75 * history["time_s"][-1], history["time_s"][-1])
+    within = (history["time_s"] >= begin) & (history["time_s"] <= end)
+    found["common_height_mm"], found["common_height_ci_mm"] = interval(height[within])
+    found["common_apart_mm"], found["common_apart_ci_mm"] = interval(apart[within])
     share = interval((apart / height)[late])
     found["centre_difference"], found["centre_difference_ci"] = share
     found["commit"], found["integrator"] = record["git_commit"], record["integrator"]

@@ -13,6 +13,7 @@ BED = {"column.size": [16.667e-3, 0.48], "column.cells": [5, 144], "column.depth
        "dem.skin": 2e-4, "dem.youngs_modulus": 1e5, "dem.fixed_step": 4.5e-5, "dem.fluid_every": 10, "dem.ledger": False,
        "dem.max_overlap": 0.1}
 FINE, COARSE = 0.807e-3, 2.010e-3  # m, of cases/quarter-b
+COMMON = (12.0, 16.0)  # s, in which all runs at VELOCITY are compared: the last quarter of the particles' time
 STATIC_HEIGHT = 33.0e-3  # m, of that bed when it is packed to 0.62
 LAWS = ["cello", "vbk_theory", "yin_sundaresan", "patwardhan_tien", "gidaspow", "di_felice"]
 
@@ -53,14 +54,14 @@ def continua():
     table = {"effects__solids_stress": f"table:{TABLE}", "calibrate__regime": "wet"}
     return [
         *(grid(1, n, FLAT, n == 144) for n in (72, 144, 288, 576)),
-        grid(2, 58), grid(3, 86), grid(5, 144), grid(7, 202), grid(10, 288, turns=False),
+        grid(2, 58), grid(3, 86), grid(5, 144), grid(7, 202, turns=False), grid(10, 288, turns=False),
         tfm("rtol 1e-2", SCHEME, True, tfm__rtol=1e-2),
         tfm("rtol 1e-4", SCHEME, tfm__rtol=1e-4),
         tfm("rtol 1e-5", SCHEME, tfm__rtol=1e-5),
         tfm("implicit", SCHEME, tfm__integrator="implicit"),
         tfm("implicit, rtol 1e-4", SCHEME, tfm__integrator="implicit", tfm__rtol=1e-4),
         tfm("flux upwind", SCHEME, True, tfm__flux="upwind"),
-        tfm("momentum upwind", SCHEME, True, tfm__momentum="upwind"),
+        tfm("momentum upwind", SCHEME, tfm__momentum="upwind"),
         tfm("momentum limited", SCHEME, tfm__momentum="limited"),
         tfm("momentum conservative_limited", SCHEME, True, **limited),
         *(tfm(law, LAW, law in LAWS[1:3], effects__drag=law) for law in LAWS[1:]),
@@ -80,17 +81,11 @@ def continua():
 
 def particles():
     soft = {"dem.youngs_modulus": 3e4, "dem.fixed_step": 7.2e-5, "dem.fluid_every": 12}
-    wide = {"dem.kernel": "diffusion", "dem.kernel_width": 8.04e-3}
-
-    def row(name, **settings):
-        return Row(name, PARTICLES, "dem", settings, 16.0)
-
-    return [row("E 0.03 MPa", **soft), row("E 0.1 MPa"),
-            row("E 0.03 MPa, other places", **soft, **{"bed.seed": 2}), row("E 0.03 MPa, kernel of 8 mm", **soft, **wide)]
+    return [Row("E 0.03 MPa", PARTICLES, "dem", soft, 16.0), Row("E 0.1 MPa", PARTICLES, "dem", {}, 16.0)]
 
 
 def plan():
-    """All of it: some 40 runs at VELOCITY beside the answers without a run, and as many at other velocities."""
+    """All of it: 36 runs at VELOCITY, of which one is refused, 30 at other velocities, six answers without a run."""
     return balances() + continua() + particles()
 
 

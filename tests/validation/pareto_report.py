@@ -14,7 +14,7 @@ MARKS = {plan.BALANCE: ("*", GREY), plan.FLAT: ("v", COLOURS[4]), plan.GRID: ("s
          plan.LAW: ("D", COLOURS[1]), plan.STRESS: ("P", COLOURS[2]), plan.BOTH: ("X", PALE), plan.PARTICLES: ("h", COLOURS[3])}
 NO_RUN = 2e-3  # s for a simulated second, where answers without a run are drawn
 MEASURED = 30.0  # mm/s, inversion in the experiment of Matsuura and Akehata (1985)
-REFERENCES = ("E 0.03 MPa", "E 0.1 MPa", "E 0.03 MPa, other places")  # particles whose averages are those of the cells
+REFERENCES = ("E 0.03 MPa", "E 0.1 MPa")  # particles with two stiffnesses of contacts
 
 
 def rate(part):
@@ -32,7 +32,7 @@ def value(row, quantity):
     return found["mm_s"], 0.0 if found["state"] == "exact" else (found["high_mm_s"] - found["low_mm_s"]) / 2, found
 
 
-def reference(rows, quantity="bed_height_mm"):
+def reference(rows, quantity="common_height_mm"):
     """Mean of these runs of particles and its half-width: of each run's mean or of half what they differ by, the wider."""
     found = [value(row, quantity) for row in rows if row["name"] in REFERENCES and value(row, quantity)]
     if not found:
@@ -52,29 +52,43 @@ def front(points):
             if not any(c <= cost and o <= off and (c, o) != (cost, off) for c, o in points)]
 
 
-def json_text(rows, plan_of):
-    kept = {"filetype": "polybed pareto of system B", "version": 1, "case": "cases/quarter-b/case.toml", "bed": plan_of.BED,
-            "velocity_m_s": plan_of.VELOCITY, "rows": rows}
-    return json.dumps(kept, indent=1) + "\n"
+def rounded(item):
+    """Numbers to six digits, lists and tables within."""
+    if isinstance(item, float):
+        return float(f"{item:.6g}")
+    if isinstance(item, dict):
+        return {key: rounded(each) for key, each in item.items()}
+    return [rounded(each) for each in item] if isinstance(item, (list, tuple)) else item
+
+
+def json_text(rows):
+    """The results as JSON, a line for each row."""
+    head = {"filetype": "polybed pareto of system B", "version": 1, "case": "cases/quarter-b/case.toml", "bed": plan.BED,
+            "velocity_m_s": plan.VELOCITY, "turning_time_s": plan.TURNING_TIME}
+    lines = ",\n".join(json.dumps(rounded(row)) for row in rows)
+    return json.dumps(head)[:-1] + ', "rows": [\n' + lines + "\n]}\n"
 
 
 def height_cells(row, against):
-    """s by work and by CPU, bed height, its deviation from the reference, coarse over fine."""
+    """s by work and by CPU; bed height, its distance from the reference and the layers at the common time; height and layers at the end."""
     found = row.get("height")
     if not found:
-        return ["-"] * 5
+        return ["-"] * 7
     if found["state"] != "done":
-        return ["-", "-", found["state"], "-", "-"]
-    clocks = [f"{rate(found):.3g}", f"{found['cpu_s'] / found['simulated_s']:.3g}"] if found["simulated_s"] else ["no run", "no run"]
-    height = f"{found['bed_height_mm']:.1f}"
-    if "mixture_mm" in found:
-        height += f" (mixed {found['mixture_mm']:.1f})"
-    else:
-        height += f" ± {found['bed_height_ci_mm']:.1f}" + (f", {found['drift_mm_s']:+.2f} mm/s" if drifts(found) else "")
-        height += ", an invariant broken" if found["broken"] else ""
-    off = "-" if against is None else f"{100 * (found['bed_height_mm'] / against[0] - 1):+.1f}"
-    apart = f"{found['apart_mm']:.1f}" + (f" ± {found['apart_ci_mm']:.1f}" if found["simulated_s"] else "")
-    return [*clocks, height, off, apart]
+        return ["-", "-", found["state"], "-", "-", "-", "-"]
+    off = "-" if against is None else f"{100 * (found['common_height_mm'] / against[0] - 1):+.1f}"
+    if not found["simulated_s"]:
+        height = f"{found['bed_height_mm']:.1f} (mixed {found['mixture_mm']:.1f})"
+        return ["no run", "no run", height, off, f"{found['apart_mm']:.1f}", "-", "-"]
+    clocks = [f"{rate(found):.3g}", f"{found['cpu_s'] / found['simulated_s']:.3g}"]
+    common = [plus_minus(found, "common_height"), off, plus_minus(found, "common_apart")]
+    last = plus_minus(found, "bed_height") + (f", {found['drift_mm_s']:+.2f} mm/s" if drifts(found) else "")
+    last += ", an invariant broken" if found["broken"] else ""
+    return [*clocks, *common, last, plus_minus(found, "apart")]
+
+
+def plus_minus(found, name):
+    return f"{found[name + '_mm']:.1f} ± {found[name + '_ci_mm']:.1f}"
 
 
 def drifts(found):
@@ -101,8 +115,9 @@ def inversion_cells(row):
 def table(rows):
     """Lines of a table of all rows."""
     against = reference(rows)
-    head = ["level", "setting", "s/s by work", "s/s by CPU", "bed height, mm", "off, %", "coarse over fine, mm", "inversion, mm/s",
-            "CPU s (runs)"]
+    begin, end = plan.COMMON
+    head = ["level", "setting", "s/s by work", "s/s by CPU", f"bed height at {begin:g} to {end:g} s, mm", "off, %", "coarse over fine, mm",
+            "bed height at the end, mm", "coarse over fine, mm", "inversion, mm/s", "CPU s (runs)"]
     lines = ["| " + " | ".join(head) + " |", "| --- | --- |" + " ---: |" * (len(head) - 2)]
     for row in rows:
         cells = [row["level"], f"`{row['name']}`", *height_cells(row, against), *inversion_cells(row)]
@@ -118,7 +133,8 @@ def draw_panel(axes, rows, quantity, target):
     """One point each setting, hollow where it is not ranked, and the front towards the target."""
     shown = [(row, max(rate(found[2]), NO_RUN), found[0], found[1]) for row in rows if (found := value(row, quantity))]
     for level, (mark, colour) in MARKS.items():
-        for row, cost, mean, ci in (p for p in shown if p[0]["level"] == level):
+        of_level = [p for p in shown if p[0]["level"] == level]
+        for row, cost, mean, ci in sorted(of_level, key=lambda p: ranked(p[0], quantity)):
             axes.errorbar([cost], [mean], [ci], fmt=mark, color=colour, markersize=9 if mark in "*h" else 5, elinewidth=0.7, label=level,
                           markerfacecolor=colour if ranked(row, quantity) else "white", markeredgecolor="black", markeredgewidth=0.4)
     counted = [p for p in shown if ranked(p[0], quantity)]
@@ -142,7 +158,7 @@ def draw(rows, path):
     with plt.rc_context(STYLE):
         figure, panels = plt.subplots(1, 3, figsize=(13, 5))
         figure.subplots_adjust(left=0.05, right=0.985, top=0.97, bottom=0.25, wspace=0.2)
-        for axes, quantity in zip(panels, ("bed_height_mm", "apart_mm")):
+        for axes, quantity in zip(panels, ("common_height_mm", "common_apart_mm")):
             against = reference(rows, quantity)
             draw_panel(axes, rows, quantity, against and against[0])
             if against:
@@ -151,8 +167,9 @@ def draw(rows, path):
         draw_panel(panels[2], rows, "mm_s", MEASURED)
         bounds(panels[2], rows)
         panels[2].axhline(MEASURED, color="black", lw=0.8, ls=":", label="experiment")
-        panels[0].set_ylabel(f"bed height at {1e3 * plan.VELOCITY:g} mm/s, mm")
-        panels[1].set_ylabel(f"centre of coarse over that of fine at {1e3 * plan.VELOCITY:g} mm/s, mm")
+        when = "{:g} mm/s, {:g} to {:g} s".format(1e3 * plan.VELOCITY, *plan.COMMON)
+        panels[0].set_ylabel(f"bed height, {when}, mm")
+        panels[1].set_ylabel(f"centre of coarse over fine, {when}, mm")
         panels[2].set_ylabel("inversion velocity, mm/s")
         handles = {label: handle for axes in panels for handle, label in zip(*axes.get_legend_handles_labels())}
         figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=4, fontsize=8)
