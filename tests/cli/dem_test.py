@@ -197,12 +197,12 @@ class GoOn(Dem):
 
 class Refused(Dem):
     def test_a_depth_that_shows_a_particle_twice(self):
-        """Two of the largest particles and twice the skin, a tenth of the least: 3.2 mm, by hand."""
+        """Two of the largest particles: 3 mm, by hand."""
         told = self.dem(WRONG_CASE, "run", "--set", "column.depth=\"2.9 mm\"").stderr
         self.assertIn("column.depth", told)
-        self.assertIn("0.0032 m", told)
+        self.assertIn("at least 0.003 m", told)
         self.assertFalse((self.folder / "run/run.json").exists())
-        self.dem(DONE, "run", "--set", "column.depth=\"3.2 mm\"", "--until", "1 ms")
+        self.dem(DONE, "run", "--set", "column.depth=\"3 mm\"", "--until", "1 ms")
 
     def test_particles_that_do_not_fit(self):
         told = self.dem(WRONG_CASE, "run", "--set", "bed.particles=[2000,50]").stderr

@@ -102,6 +102,7 @@ core::Scene box_of_gas(const std::string& temperature, int nx, int nz, const std
   scene.column.sides = sides;
   scene.tfm.fixed_step = 5e-5;
   scene.tfm.pressure_tolerance = 1e-13;
+  scene.tfm.bulk_viscosity = 1;  // its default knows the number of directions
   return scene;
 }
 

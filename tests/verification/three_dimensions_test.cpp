@@ -16,6 +16,7 @@ core::Scene box_bed(int nx, int ny, int nz, const std::string& sides) {
   scene.column.sides = sides;
   scene.tfm.fixed_step = 2.5e-4;
   scene.tfm.pressure_tolerance = 1e-13;
+  scene.tfm.bulk_viscosity = 1;  // its default knows the number of directions
   return scene;
 }
 
