@@ -194,7 +194,7 @@ struct SizeClasses {
   std::vector<double> diameter, share;  ///< m; of the volume of this distribution
 };
 
-/// Made, copied and destroyed in one place: written into every source that does it, that is a tenth of a build.
+/// Made, copied and destroyed in one place: so many members are not compiled anew in every source that does it.
 struct Scene {
   Scene();
   Scene(const Scene& other);
