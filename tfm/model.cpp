@@ -99,7 +99,7 @@ void Model::choose_integrator(const core::Scene& scene) {
   if (integrator_name_ == "auto") {
     const bool gas = equations_.constants().fluid.density < 100;
     const bool still = scene.column.closed || inlet().greatest() == 0;
-    // Between 1.6 and 2.2 beds differ: there explicit steps took from 0.5 to 4.5 times as long as implicit ones.
+    // Between 1.6 and 2.2 beds differ: there explicit steps took from 0.5 to 6 times as long as implicit ones.
     constexpr double dear_above = 1.5;
     const double replaced = explicit_steps_per_implicit(scene, equations_.constants(), effects(), inlet().greatest());
     integrator_name_ = compressible() || gas || still || replaced > dear_above ? "implicit" : "explicit";
