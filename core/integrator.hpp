@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/error_weights.hpp"
 #include "core/ranks.hpp"
 
 namespace polybed::core {
@@ -69,6 +70,7 @@ struct ExplicitOptions {
   std::vector<double> atol;                      ///< per entry
   double fixed_step = 0;                         ///< s; > 0: steps of one length, no error control
   std::shared_ptr<const Ranks> ranks = nullptr;  ///< that hold parts of the state; null: it is all here
+  TolerancesAt atol_at = {};                     ///< in place of atol, which gives the size alone; empty: atol
 };
 
 struct ImplicitOptions {
@@ -79,6 +81,7 @@ struct ImplicitOptions {
   int max_order = 2;
   double linear_tolerance = 0.02;  ///< of the linear solve, relative to that of Newton
   int krylov_vectors = 30;
+  TolerancesAt atol_at = {};  ///< in place of atol, which gives the size alone; empty: atol
 };
 
 /// Bogacki and Shampine's method of order 3 with its embedded error estimate (ARKODE).

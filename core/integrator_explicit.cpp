@@ -75,6 +75,14 @@ class ExplicitIntegrator : public Integrator {
     return guarded(me.kept_, [&] { return me.problem_.rates(t, entries(y), entries(dydt)); });
   }
 
+  static int weigh(N_Vector y, N_Vector weight, void* self) {
+    auto& me = *static_cast<ExplicitIntegrator*>(self);
+    return guarded(me.kept_, [&] {
+      weigh_errors(me.options_.rtol, me.options_.atol_at, entries(y), {}, entries(weight));
+      return Rate::ok;
+    });
+  }
+
   void open(double t, double h0) {
     close();
     time_ = t;
@@ -83,7 +91,10 @@ class ExplicitIntegrator : public Integrator {
     require_success(ARKStepSetErrHandlerFn(memory_, keep_silent, nullptr), "ARKStepSetErrHandlerFn");
     require_success(ARKStepSetUserData(memory_, this), "ARKStepSetUserData");
     require_success(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_BOGACKI_SHAMPINE_4_2_3), "ARKStepSetTableNum");
-    require_success(ARKStepSVtolerances(memory_, options_.rtol, atol_), "ARKStepSVtolerances");
+    if (options_.atol_at)
+      require_success(ARKStepWFtolerances(memory_, weigh), "ARKStepWFtolerances");
+    else
+      require_success(ARKStepSVtolerances(memory_, options_.rtol, atol_), "ARKStepSVtolerances");
     // Gustafsson's controller for explicit methods: where stability, not accuracy, bounds the step, the default one
     // runs into the bound again and again (a settled bed in water: 297 of 2006 tries rejected, with this one 29 of
     // 1744).

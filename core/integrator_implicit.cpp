@@ -42,7 +42,10 @@ class ImplicitIntegrator : public Integrator {
     require_success(IDAInit(memory_, residual, t, y_, dydt_), "IDAInit");
     require_success(IDASetErrHandlerFn(memory_, keep_silent, nullptr), "IDASetErrHandlerFn");
     require_success(IDASetUserData(memory_, this), "IDASetUserData");
-    require_success(IDASVtolerances(memory_, options_.rtol, atol_), "IDASVtolerances");
+    if (options_.atol_at)
+      require_success(IDAWFtolerances(memory_, weigh), "IDAWFtolerances");
+    else
+      require_success(IDASVtolerances(memory_, options_.rtol, atol_), "IDASVtolerances");
     require_success(IDASetMaxOrd(memory_, options_.max_order), "IDASetMaxOrd");
     require_success(IDASetId(memory_, id_), "IDASetId");
     require_success(IDASetSuppressAlg(memory_, SUNTRUE), "IDASetSuppressAlg");
@@ -104,6 +107,13 @@ class ImplicitIntegrator : public Integrator {
   static int residual(double t, N_Vector y, N_Vector dydt, N_Vector r, void* self) {
     return guarded(me(self).kept_,
                    [&] { return me(self).problem_.residual(t, entries(y), entries(dydt), entries(r)); });
+  }
+  static int weigh(N_Vector y, N_Vector weight, void* self) {
+    return guarded(me(self).kept_, [&] {
+      const ImplicitOptions& options = me(self).options_;
+      weigh_errors(options.rtol, options.atol_at, entries(y), me(self).dydt_.span(), entries(weight));
+      return Rate::ok;
+    });
   }
   static int setup(double t, N_Vector y, N_Vector dydt, N_Vector r, double cj, void* self) {
     return guarded(me(self).kept_,

@@ -121,4 +121,12 @@ std::vector<double> Inlet::kinks() const {
   return times;
 }
 
+bool Inlet::shuts() const {
+  std::vector<double> times = kinks();
+  times.push_back(0);
+  return std::any_of(times.begin(), times.end(), [&](double t) {
+    return std::all_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.ramp.velocity(t) == 0; });
+  });
+}
+
 }  // namespace polybed::fluid

@@ -51,6 +51,8 @@ class Inlet {
   [[nodiscard]] double mean_velocity(double t) const;
   /// The greatest speed of any part at any time, m/s.
   [[nodiscard]] double greatest() const;
+  /// Whether there is a time at which nothing flows.
+  [[nodiscard]] bool shuts() const;
   /// Times at which a rate jumps: the integrator must stop there.
   [[nodiscard]] std::vector<double> kinks() const;
 

@@ -4,26 +4,19 @@
 #include <utility>
 
 #include "core/ranks.hpp"
-#include "tfm/mixture.hpp"
+#include "tfm/packing_limit.hpp"
 
 namespace polybed::tfm {
 
 using core::Index;
 
-namespace {
-
-/// phi_j of an owned cell in a state: the fractions stand first, species by species.
-double fraction(const StateLayout& layout, std::span<const double> y, std::size_t species, std::size_t cell) {
-  return y[layout.entries()[species].begin + cell];
-}
-
-}  // namespace
-
 void FirstOrderFallback::see(const StateLayout& layout, std::span<const double> y, const StressEffect* stress) {
   const core::Grid& grid = constants_.grid;
   std::vector<std::size_t> out;
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell)
-    if (out_of_bounds(layout, y, cell, stress)) out.push_back(cell);
+    if (const CellSolids is = solids_of(constants_, layout, y, cell, stress);
+        is.least < least_ || is.above_packing > overshoot)
+      out.push_back(cell);
   if (left_.empty()) {  // on one rank as on all
     if (core::sum_of_ranks(grid, double(out.size())) == 0) return;
     left_.assign(grid.cell_count(), 0.0);
@@ -36,24 +29,6 @@ void FirstOrderFallback::see(const StateLayout& layout, std::span<const double> 
   count_ += std::uint64_t(core::sum_of_ranks(grid, fresh));
   if (core::sum_of_ranks(grid, flagged) == 0) left_.clear();
   list_faces(layout);
-}
-
-bool FirstOrderFallback::out_of_bounds(const StateLayout& layout, std::span<const double> y, std::size_t cell,
-                                       const StressEffect* stress) {
-  const std::size_t n = constants_.species();
-  double least = 0, sum = 0, seen = composition_floor;
-  for (std::size_t j = 0; j < n; ++j) {
-    const double phi = fraction(layout, y, j, cell);
-    least = std::min(least, phi);
-    sum += phi;
-    seen += std::max(phi, 0.0);
-  }
-  if (least < least_) return true;
-  if (stress == nullptr) return false;
-  share_.resize(n);
-  for (std::size_t j = 0; j < n; ++j)
-    share_[j] = (std::max(fraction(layout, y, j, cell), 0.0) + composition_floor * constants_.bed_share[j]) / seen;
-  return sum > stress->packing_of(share_) + overshoot;
 }
 
 void FirstOrderFallback::list_faces(const StateLayout& layout) {

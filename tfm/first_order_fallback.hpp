@@ -40,15 +40,13 @@ class FirstOrderFallback {
   void restore(const StateLayout& layout, std::vector<double> steps_left, std::uint64_t count);
 
  private:
-  [[nodiscard]] bool out_of_bounds(const StateLayout& layout, std::span<const double> y, std::size_t cell,
-                                   const StressEffect* stress);
   void list_faces(const StateLayout& layout);
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
   double least_;
   std::uint64_t count_ = 0;
-  std::vector<double> left_, share_;
+  std::vector<double> left_;
   FaceList faces_;
 };
 

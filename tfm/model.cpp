@@ -10,7 +10,9 @@
 #include "core/ranks.hpp"
 #include "fluid/properties.hpp"
 #include "tfm/initial.hpp"
+#include "tfm/packing_limit.hpp"
 #include "tfm/particle_scene.hpp"
+#include "tfm/resting_tolerances.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::tfm {
@@ -129,6 +131,13 @@ std::vector<double> Model::absolute_tolerances() const {
   return atol;
 }
 
+/// Where nothing flows in at times; empty elsewhere.
+core::TolerancesAt Model::tolerances_at() const {
+  if (!boundaries().closed() && !inlet().shuts()) return {};
+  return RestingTolerances(constants().grid, boundaries(), layout_, absolute_tolerances(), velocity_scale_,
+                           constants().gravity);
+}
+
 void Model::make_integrator() {
   if (integrator_name_ == "implicit") {
     implicit_ = std::make_unique<ImplicitProblem>(equations_, layout_, timers_);
@@ -136,6 +145,7 @@ void Model::make_integrator() {
     options.rtol = options_.rtol;
     options.atol = absolute_tolerances();
     options.ranks = constants().grid.ranks;
+    options.atol_at = tolerances_at();
     options.id.assign(layout_.size(), 1.0);
     // Of a compressible fluid p is differential, but left out of the error test all the same: sound that carries
     // nothing must not set the step.
@@ -158,6 +168,7 @@ void Model::make_integrator() {
     options.atol = absolute_tolerances();
     options.fixed_step = options_.fixed_step.value_or(0);
     options.ranks = constants().grid.ranks;
+    options.atol_at = tolerances_at();
     integrator_ = core::make_explicit(*problem, std::move(options));
   }
 }
@@ -193,11 +204,23 @@ void Model::step(double stop) {
   step_ = report.next_step;
   if (compressible()) count_fluid(integrator_->state());
   last_step_ = {report.time, report.step, report.error_norm, ""};
+  if (effects().solids_stress) require_sound_state();
   if (fallback_) {
     fallback_->see(layout_, integrator_->state(), effects().solids_stress.get());
     use_fallback();
   }
   last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
+}
+
+/// Throws where no bed can be so dense; the state is then the one before the step.
+void Model::require_sound_state() {
+  try {
+    require_packing(constants(), layout_, integrator_->state(), time_, *effects().solids_stress);
+  } catch (const core::NumericsError&) {
+    time_ -= last_step_.step;
+    integrator_->interpolate(time_, y_);
+    throw;
+  }
 }
 
 /// In the words of the rank where the limit is.

@@ -96,10 +96,12 @@ class Model : public core::Simulation {
   [[nodiscard]] core::Field inlet_velocity(double t) const;
   void project_jump(const core::Field& before);
   [[nodiscard]] std::vector<double> absolute_tolerances() const;
+  [[nodiscard]] core::TolerancesAt tolerances_at() const;
   [[nodiscard]] StateLayout layout_of_column() const { return layout_on(core::whole_column(constants().grid)); }
   [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void begin_integration();
   void use_fallback();
+  void require_sound_state();
   void restore_fallback(const core::Checkpoint& checkpoint);
   [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }
   /// Whether theta_j is an unknown; where a local balance gives it, it is none.

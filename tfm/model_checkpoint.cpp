@@ -93,7 +93,9 @@ void Model::restore_fallback(const core::Checkpoint& checkpoint) {
   use_fallback();
 }
 
-void Model::keep_last_state() { y_.assign(integrator_->state().begin(), integrator_->state().end()); }
+void Model::keep_last_state() {
+  if (time_ == last_step_.time) y_.assign(integrator_->state().begin(), integrator_->state().end());
+}
 
 void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);

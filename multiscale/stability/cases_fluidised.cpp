@@ -156,11 +156,6 @@ void light_solids(Trial& trial) {
 }  // namespace
 
 std::vector<HardCase> fluidised_cases() {
-  const auto all_forms = [] {
-    std::vector<Treatment> schemes = all_schemes();
-    for (const char* integrator : {"explicit", "implicit"}) schemes.push_back({integrator, "limited", "", "upwind"});
-    return schemes;
-  };
   return {{"T4",
            "steel in air, density ratio 6500",
            {"drag_explicit"},
@@ -168,8 +163,8 @@ std::vector<HardCase> fluidised_cases() {
            [](Trial& trial) { steel_in_air(trial, false); }},
           {"T4 balance",
            "the same as it slugs, pressure drop against weight (V7)",
-           {},
-           all_forms(),
+           {"advective_momentum"},
+           all_schemes(),
            [](Trial& trial) { steel_in_air(trial, true); }},
           {"T16", "inlet stepped, shut, reversed, opened", {"clip_rhs"}, all_schemes(), stepped_inlet},
           {"T22", "density ratio 1.001", {}, all_schemes(), nearly_neutral},

@@ -82,7 +82,6 @@ std::unique_ptr<Run> Trial::begin(core::Scene scene, const std::function<void(tf
     scene.tfm.integrator = treatment_.integrator;
     scene.tfm.flux = treatment_.flux;
   }
-  if (!treatment_.momentum.empty()) scene.tfm.momentum = treatment_.momentum;
   if (scene.tfm.integrator == "implicit") scene.tfm.fixed_step.reset();
   rtol_ = scene.tfm.rtol;
   std::unique_ptr<Run> run;

@@ -16,11 +16,9 @@ namespace polybed::stability {
 /// How a scene is treated: a scheme of the product, or a textbook variant of tests/naive by name.
 struct Treatment {
   std::string integrator = "explicit", flux = "limited", naive;
-  std::string momentum = {};  ///< of the case file; empty: as it is by default
   [[nodiscard]] std::string name() const {
     if (!naive.empty()) return "naive " + naive;
-    const std::string scheme = flux.empty() ? integrator : integrator + "/" + flux;
-    return momentum.empty() ? scheme : scheme + "/" + momentum;
+    return flux.empty() ? integrator : integrator + "/" + flux;
   }
 };
 

@@ -191,6 +191,10 @@ std::unique_ptr<stability::Run> make_run(const std::string& name, core::Scene sc
   if (name == "hard_packing") return explicit_run({"solids_stress"}, hard_packing);
   if (name == "central_flux") return explicit_run({}, central_flux);
   if (name == "unbalanced_gravity") return explicit_run({}, unbalanced_gravity);
+  if (name == "advective_momentum") {
+    scene.tfm.momentum = "upwind";
+    return explicit_run({}, {});
+  }
   if (name == "hidden_unit") return explicit_run({}, hidden_unit);
   if (name == "drag_explicit") {
     scene.tfm.fixed_step = courant_step(scene);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -137,6 +138,32 @@ TEST(Explicit, WhatFollowsARestartDependsOnItsArgumentsAlone) {
   }
 }
 
+// y' = -100 y, with steps that stability bounds: within a tolerance that stays y wanders for ever, with one that
+// follows |y| it dies out. e^-1000 is nothing; 1e-9 is what the tolerance that follows is bounded by.
+TEST(Explicit, ToleranceThatFollowsTheStateLetsItComeToRest) {
+  Ode problem([](double, std::span<const double> y, std::span<double> f) {
+    f[0] = -100 * y[0];
+    return Rate::ok;
+  });
+  ExplicitOptions options{.rtol = 1e-6, .atol = {1e-4}};
+  const auto left = [&] {
+    const auto integrator = make_explicit(problem, options);
+    integrator->restart(0, std::vector<double>{1.0}, {}, 0);
+    double most = 0;
+    for (double t = 0; t < 10;) {
+      t = integrator->step(10).time;
+      if (t > 5) most = std::max(most, std::abs(integrator->state()[0]));
+    }
+    return most;
+  };
+  EXPECT_GT(left(), 1e-7);
+  options.atol_at = [](std::span<const double> y, std::span<const double> dydt, std::span<double> atol) {
+    EXPECT_TRUE(dydt.empty());
+    atol[0] = 1e-4 * std::clamp(std::abs(y[0]), 1e-8, 1.0);
+  };
+  EXPECT_LT(left(), 1e-9);
+}
+
 /// x' = -k (x - cos t), 0 = z - x^2: stiff, with one algebraic entry; x -> cos t for large k.
 class StiffDae : public DaeProblem {
  public:
@@ -172,6 +199,30 @@ TEST(Implicit, StepsOverWhatIsStiff) {
   EXPECT_NEAR(integrator->state()[0], exact, 3e-4);
   EXPECT_NEAR(integrator->state()[1], exact * exact, 3e-4);
   EXPECT_LT(integrator->statistics().steps, 1000U);
+}
+
+// The weights are asked for at each step with the rates there: at the start those that are given.
+TEST(Implicit, ToleranceThatFollowsTheStateGetsItsRates) {
+  StiffDae problem;
+  std::vector<double> first_rates;
+  int asked = 0;
+  ImplicitOptions options{.rtol = 1e-4, .atol = {1e-7, 1e-7}, .id = {1, 0}};
+  options.atol_at = [&](std::span<const double>, std::span<const double> dydt, std::span<double> atol) {
+    if (asked++ == 0) first_rates.assign(dydt.begin(), dydt.end());
+    std::fill(atol.begin(), atol.end(), 1e-7);
+  };
+  const auto follows = make_implicit(problem, options);
+  options.atol_at = {};
+  const auto stays = make_implicit(problem, options);
+  const std::vector<double> y{1.0, 1.0}, dydt{0.0, 0.25};
+  follows->restart(0, y, dydt, 1e-6);
+  stays->restart(0, y, dydt, 1e-6);
+  for (double t = 0; t < 1;) {
+    t = follows->step(1).time;
+    ASSERT_EQ(t, stays->step(1).time) << "the same tolerances, the same steps";
+  }
+  EXPECT_EQ(first_rates, dydt);
+  EXPECT_GE(asked, int(follows->statistics().steps));
 }
 
 TEST(Implicit, WhatFollowsARestartDependsOnItsArgumentsAlone) {

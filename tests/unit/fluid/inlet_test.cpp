@@ -66,6 +66,19 @@ TEST(Inlet, FacesHaveTheirShare) {
   EXPECT_EQ(inlet.greatest(), 0.4);
 }
 
+TEST(Inlet, KnowsWhetherItShuts) {
+  core::Scene scene = with_jet(2);
+  const auto shuts = [&] { return Inlet(bottom(4, 1), scene).shuts(); };
+  EXPECT_FALSE(shuts());
+  scene.jets.clear();
+  scene.inlet.superficial_velocity = {{0.0, 0.01}, {1.0, 0.0}, {1.0, 0.02}};
+  EXPECT_FALSE(shuts()) << "0 at no time: it falls to it and jumps";
+  scene.inlet.superficial_velocity = {{0.0, 0.01}, {1.0, 0.01}, {1.0, 0.0}};
+  EXPECT_TRUE(shuts());
+  scene.inlet.superficial_velocity = {{0.0, 0.0}, {1.0, 0.02}};
+  EXPECT_TRUE(shuts()) << "at its start";
+}
+
 // Half of the depth: (0.013 0.01 0.2 + (0.04 0.02 - 0.013 0.01) 0.01)/(0.04 0.02) = 0.040875 m/s.
 TEST(Inlet, AJetInThreeDimensionsIsARectangle) {
   const Inlet inlet(bottom(5, 3), with_jet(3));
