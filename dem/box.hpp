@@ -102,8 +102,10 @@ struct Images {
 struct FixedPoint {
   double per_unit = 1, unit = 1;  ///< 1/unit and unit, a power of two; N, or N m, or J
 
-  /// Unit for sums of at most `terms` numbers of at most `most` each: the largest power 2^q with most terms 2^q < 2^62.
+  /// Unit for sums of at most `terms` numbers of at most `most` each: the largest power 2^q with most terms 2^q < 2^62;
+  /// 1 if they are all 0.
   static FixedPoint for_sums_of(double most, double terms) {
+    if (most == 0) return {};
     const int q = int(std::floor(62 - std::log2(most * terms)));
     return {std::ldexp(1.0, q), std::ldexp(1.0, -q)};
   }

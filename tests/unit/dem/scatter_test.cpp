@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "cloud.hpp"
@@ -199,6 +200,14 @@ TEST(Scatter, OfTwoPartsAddsUpToThatOfAll) {
         EXPECT_NEAR(p + q, whole, 2.3e-16 * (std::abs(p) + std::abs(q) + std::abs(whole)));
       }
   });
+}
+
+// Sums of nothing have a unit too: where nothing can move, speeds are 0 at most.
+TEST(FixedPoint, OfNothingIsOne) {
+  EXPECT_EQ(FixedPoint::for_sums_of(0, 1).unit, 1);
+  const FixedPoint some = FixedPoint::for_sums_of(3, 5);  // 15 2^58 is below 2^62, 15 2^59 is not
+  EXPECT_EQ(some.per_unit, std::ldexp(1.0, 58));
+  EXPECT_EQ(some.unit, std::ldexp(1.0, -58));
 }
 
 }  // namespace
