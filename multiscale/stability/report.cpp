@@ -110,11 +110,12 @@ std::string outcomes_text(std::span<const Cell> cells) {
 std::string product_row(const Cell& cell) {
   const Result& r = cell.result;
   const bool nothing_allowed = r.worst.limit <= 0 && r.worst.value > 0;
-  return fmt::format("| {} | {} | {} | {} | {} | {:.2g} | {} | {} | {} | {:.2f} |\n", cell.one.id, cell.one.title,
+  return fmt::format("| {} | {} | {} | {} | {} | {:.2g} | {} | {} | {} | {:.2f} | {} |\n", cell.one.id, cell.one.title,
                      cell.treatment.name(), name_of(r.outcome), plain(r.worst.id), r.worst.value,
                      nothing_allowed ? "nothing allowed" : fmt::format("{:.2g}", r.worst.share()),
                      r.least_step > 0 ? fmt::format("{:.2g} s", r.least_step) : "-",
-                     r.work.steps > 0 ? fmt::format("{} ({})", r.work.steps, r.work.rejected_steps) : "-", r.cpu);
+                     r.work.steps > 0 ? fmt::format("{} ({})", r.work.steps, r.work.rejected_steps) : "-", r.cpu,
+                     cell.cost > 0 ? fmt::format("{:.2g}", cell.cost) : "-");
 }
 
 std::string textbook_row(const Cell& cell) {
@@ -139,7 +140,8 @@ std::string markdown(std::span<const Cell> cells, const std::string& suite) {
                                  core::git_commit().substr(0, 10), cpu, summary(cells));
   text +=
       "| case | set-up | scheme | outcome | furthest invariant | value | of its limit | least step | steps "
-      "(rejected) | CPU s |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n" +
+      "(rejected) | CPU s | over the cheapest that passes |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n" +
       product;
   if (!textbooks.empty())
     text += "\n| case | textbook treatment | outcome | how it fails |\n| --- | --- | --- | --- |\n" + textbooks;

@@ -75,7 +75,7 @@ def read_bed(directory):
 def recorded_beds():
     number = lambda r, name: float(r[name]) if r[name] else None  # noqa: E731
     return [Bed("dem", number(r, "u"), number(r, "time"), (number(r, "height"), number(r, "height_se")), number(r, "drift"),
-                number(r, "apart_mm"), (number(r, "apart"), number(r, "apart_se")), r["start"]) for r in rows_of("system_b/particles.csv")]
+                number(r, "apart_mm"), (number(r, "apart"), number(r, "apart_se")), r["start"], number(r, "cpu")) for r in rows_of("system_b/particles.csv")]
 
 
 def cell(value, digits):
@@ -131,7 +131,7 @@ def main():
     parser.add_argument("-o", "--output", help="file of the picture")
     given = parser.parse_args()
     beds = [read_bed(directory) for directory in given.run] + recorded_beds()
-    table(["mm/s", "experiment, thesis", "model", "s, start", "bed height, mm", "its drift, mm/s", "layers", "over the height", "CPU s"], rows(beds))
+    table(["mm/s", "expected of 30 mm/s", "model", "s, start", "bed height, mm", "its drift, mm/s", "layers", "over the height", "CPU s"], rows(beds))
     if given.output:
         draw(beds, given.output)
 

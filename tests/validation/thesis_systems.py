@@ -55,8 +55,12 @@ def row(system, velocity, model, read):
     height, apart = scaled(history, "bed_height_m"), centres[1] - centres[0]
     drift = np.polyfit(history["time_s"][late], height[late], 1)[0]
     drop = np.mean(history["pressure_drop_Pa"][late] / history["buoyant_weight_Pa"][late])
+    interface = scaled(history, "interface_m")[late]
+    seen = interface[np.isfinite(interface)]  # of mixed layers there is none
     return [system, f"{velocity:g}", MODELS[model], f"{history['time_s'][-1]:.0f}", mean(height[late], 1), f"{drift:+.2f}",
-            *(mean(c[late], 1) for c in centres), mean(apart[late], 1), mean((apart / height)[late], 3), f"{drop:.4f}"]
+            *(mean(c[late], 1) for c in centres), mean(apart[late], 1), mean((apart / height)[late], 3),
+            f"{np.mean(seen):.0f} ({100 * len(seen) / len(interface):.0f} %)" if len(seen) else "none", f"{drop:.4f}",
+            f"{read.record['cpu_s']:.0f}" if "cpu_s" in read.record else ""]
 
 
 def draw(reads, picture):
@@ -106,7 +110,7 @@ def main():
                 if (directory / "history.csv").exists():
                     reads[system, velocity, model] = polybed.read(directory)
     table(["system", "mm/s", "model", "s", "bed height, mm", "its drift, mm/s", "centre of fine, mm", "centre of coarse, mm",
-           "coarse over fine, mm", "over the height", "drop / weight"],
+           "coarse over fine, mm", "over the height", "interface, mm (of the time)", "drop / weight", "CPU s"],
           (row(*key, read) for key, read in reads.items()))
     if given.output:
         draw(reads, given.output)
