@@ -18,13 +18,13 @@ SWITCHES = {
     "seed 2": ["bed.seed=2"],
     "added mass, zuber": ['effects.added_mass="zuber"'],
     "drag, vbk_theory": ['effects.drag="vbk_theory"'],
-    "viscous stress of the liquid": ['effects.fluid_stress="newtonian"'],
+    "no viscous stress": ['effects.fluid_stress="none"'],
     "lubrication, wet restitution": ['effects.lubrication="wet_restitution"'],
     # A film reaches 0.3 mm further than contacts: the depth has to hold two coarse diameters and that.
     "nothing, 12.8 mm deep": ['column.depth="12.8 mm"', "dem.skin=8e-5"],
     "film, 12.8 mm deep": ['column.depth="12.8 mm"', "dem.skin=8e-5", 'effects.lubrication="film"'],
 }
-TWO_FLUID = ("nothing", "drag, vbk_theory", "viscous stress of the liquid")  # what is switched there too
+TWO_FLUID = ("nothing", "drag, vbk_theory", "no viscous stress")  # what is switched there too
 
 
 def row(name, model, read):

@@ -18,9 +18,7 @@ import polybed
 from polybed.drawing.style import COLOURS, STYLE
 
 # Velocity, mm/s: time, s. The thesis ran A for 92, 170 and 31 s, B for 170 to 350 and C for 50.
-TIMES = {"A": {0.3: 40, 1.8: 110, 3.7: 31}, "B": {20: 40, 37: 128, 45: 100}, "C": {8: 25, 17: 8}}
-# The bed of the two-fluid model is higher than the column there.
-PARTICLES_ALONE = [("B", 45)]
+TIMES = {"A": {0.3: 40, 1.8: 110, 3.7: 31}, "B": {20: 40, 37: 128}, "C": {8: 25, 17: 8}}
 # So many columns of cells as fit, the particles in proportion, contacts as soft as overlaps allow. A is joined at its sides and two
 # ninths of its width; B has walls, five eighteenths; C a third of its height too, two sevenths of the width. A little more depth
 # than the cases have allows thicker skins; without the ledger of energy steps are cheaper.
@@ -101,8 +99,6 @@ def main():
             if given.name and f"{system}-{velocity:g}" not in given.name:
                 continue
             for model in given.model or MODELS:
-                if model != "dem" and (system, velocity) in PARTICLES_ALONE:
-                    continue
                 directory = given.runs / f"{system}-{velocity:g}-{model}"
                 if not given.read:
                     case = f"thesis-{system.lower()}"
