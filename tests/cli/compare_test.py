@@ -16,7 +16,9 @@ import program
 from program import DONE, FILE, ROOT, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
 
 sys.path.insert(0, str(ROOT / "multiscale/python"))
+import polybed  # noqa: E402
 from polybed import comparison as page  # noqa: E402
+from polybed.drawing import comparison as drawing  # noqa: E402
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
 BED = """[column]
@@ -39,7 +41,7 @@ youngs_modulus = "0.3 MPa"
 [run]
 until = "20 ms"
 [output]
-every = "1 ms"
+every = "0.5 ms"
 history_every = "0.1 ms"
 """
 QUIET = ["--quiet", "--no-picture"]
@@ -117,6 +119,43 @@ class Comparison(Scratch):
                     self.assertEqual(found["models"][model]["profiles_in_window"], at.sum())
             distance = np.abs(mean["tfm"] - mean["dem"]).sum() / mean["dem"].sum()
             np.testing.assert_allclose(found["scores"][f"profile_{species}"]["value"], distance, rtol=1e-10)
+
+    def test_mean_profiles_are_drawn_with_the_interval_of_the_mean(self):
+        found = self.found
+        begin, end = found["window"]["begin_s"], found["window"]["end_s"]
+        means, runs = found["mean_profiles"], {m: polybed.read(found["models"][m]["directory"]) for m in ("tfm", "dem")}
+        for model, run in runs.items():
+            profiles = run.profiles
+            np.testing.assert_array_equal(means["y_m"], profiles["y_m"])
+            at = (profiles["time_s"] > begin - 1e-9) & (profiles["time_s"] < end + 1e-9)
+            groups = at.sum()  # up to ten a profile is a group of its own, so that it is the plain standard error
+            student = {4: 3.182, 5: 2.776, 6: 2.571, 7: 2.447, 8: 2.365, 9: 2.306, 10: 2.262}[groups]
+            for species in ("fine", "coarse"):
+                rows = profiles[f"phi_{species}"][at]
+                of = means[model][f"phi_{species}"]
+                # sums in another order
+                np.testing.assert_allclose(of["mean"], rows.mean(axis=0), rtol=1e-12, atol=1e-15)
+                np.testing.assert_allclose(of["error"], student * rows.std(axis=0, ddof=1) / np.sqrt(groups), rtol=1e-9, atol=1e-15)
+        figure = drawing.draw_profiles(runs, means)
+        for axes, species in zip(figure.axes, ("fine", "coarse"), strict=True):
+            for line, band, (model, name) in zip(axes.lines, axes.collections, drawing.NAMES.items(), strict=True):
+                of = {what: np.array(values) for what, values in means[model][f"phi_{species}"].items()}
+                np.testing.assert_array_equal(line.get_xdata(), of["mean"])
+                edges = band.get_paths()[0].vertices[:, 0]
+                self.assertAlmostEqual(edges.max(), (of["mean"] + of["error"]).max(), delta=1e-12)
+                self.assertAlmostEqual(edges.min(), (of["mean"] - of["error"]).min(), delta=1e-12)
+                self.assertEqual((line.get_label(), band.get_label()), (name, f"{name}: 95 % interval of the mean"))
+        alone = {m: {s: of | {"error": [None] * len(of["mean"])} for s, of in means[m].items()} for m in runs} | {"y_m": means["y_m"]}
+        self.assertEqual({line.get_label() for line in drawing.draw_profiles(runs, alone).axes[0].lines},
+                         {f"{name}, too few profiles for a band" for name in drawing.NAMES.values()})
+
+    def test_the_interface_is_drawn_in_time(self):
+        runs = {m: polybed.read(self.folder / "both" / m) for m in ("tfm", "dem")}
+        lines = {line.get_label(): line for line in drawing.draw_history(runs, self.found["window"]).axes[0].lines}
+        for model, run in runs.items():
+            line = lines[f"interface, {drawing.NAMES[model]}"]
+            np.testing.assert_allclose(line.get_ydata(), run.history["interface_m"] * drawing.length_unit(runs["tfm"])[0])
+            self.assertEqual(line.get_color(), "black")
 
     def test_the_table_for_people(self):
         told = self.given().stdout

@@ -165,8 +165,10 @@ def pictures(found, runs):
                  if len(times := stored_times(run))]
         parts.append(picture(drawing.draw_instant(runs, time, max(tops)),
                              f"stored nearest to {time:.4g} s: {', '.join(shown)}; fields.h5 and particles.h5 of {both[0]} and {both[1]}"))
-    parts.append(picture(drawing.draw_profiles(runs, window),
-                         f"mean over the window, band: standard deviation in time; profiles.h5 of {both[0]} and {both[1]}"))
+    if "mean_profiles" in found:
+        parts.append(picture(drawing.draw_profiles(runs, found["mean_profiles"]),
+                             "means over the window, band: half-width of the 95 % interval of the mean, from leaving out groups of "
+                             f"successive profiles in turn; mean_profiles of comparison.json, from profiles.h5 of {both[0]} and {both[1]}"))
     parts.append(picture(drawing.draw_history(runs, window), f"the window is shaded; history.csv of {both[0]} and {both[1]}"))
     return "".join(parts)
 
