@@ -62,6 +62,10 @@ class Comparer {
     result_.window = window_;
     result_.tfm_profiles = tfm_profiles_.count();
     result_.dem_profiles = dem_profiles_.count();
+    result_.species = species_;
+    result_.height = tfm.profiles.height;
+    result_.tfm_means = tfm_profiles_.time_means();
+    result_.dem_means = dem_profiles_.time_means();
   }
 
   Comparison make() && {

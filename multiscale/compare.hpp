@@ -41,7 +41,10 @@ struct Comparison {
   std::vector<Score> scores;
   std::optional<OnTop> tfm_top, dem_top;           ///< empty for one species
   std::size_t tfm_profiles = 0, dem_profiles = 0;  ///< stored profiles in the window
-  std::string inversion_file;                      ///< where u_inv is from; empty without it
+  std::vector<std::string> species;
+  std::vector<double> height;         ///< of the slabs' centres, m
+  MeanProfiles tfm_means, dem_means;  ///< of the species in the slabs
+  std::string inversion_file;         ///< where u_inv is from; empty without it
   std::vector<std::string> warnings;
 };
 

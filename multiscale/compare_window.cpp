@@ -94,6 +94,28 @@ fluid::Profile WindowProfiles::mean(const std::vector<bool>& kept) const {
   return found;
 }
 
+MeanProfiles WindowProfiles::time_means() const {
+  MeanProfiles found(values_.size());
+  if (rows_.empty()) return found;
+  for (std::size_t j = 0; j < values_.size(); ++j)
+    for (std::size_t k = 0; k < slabs_; ++k) {
+      const auto mean_of = [&](const std::vector<bool>& kept) {
+        double sum = 0, count = 0;
+        for (std::size_t n = 0; n < rows_.size(); ++n)
+          if (kept[n]) {
+            sum += (*values_[j])[rows_[n] * slabs_ + k];
+            ++count;
+          }
+        return sum / count;
+      };
+      fluid::TimeMean mean{mean_of(std::vector<bool>(rows_.size(), true)), std::nullopt};
+      if (const auto left_out = fluid::jackknife(rows_.size(), mean_of))
+        mean.error = fluid::student_quantile(left_out->degrees) * std::sqrt(left_out->variance);
+      found[j].push_back(mean);
+    }
+  return found;
+}
+
 std::vector<std::string> species_of(const core::History& history) {
   const std::string front = "centre_", back = "_m";
   std::vector<std::string> names;

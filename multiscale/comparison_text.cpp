@@ -32,6 +32,29 @@ void write_measures(Json& json, const Comparison& comparison) {
   json.end_object();
 }
 
+/// Means over time in the slabs; an error is null where there are too few profiles to tell it.
+void write_profiles(Json& json, const Comparison& comparison) {
+  const auto list = [&](const std::string& name, const auto& values, const auto& number) {
+    json.key(name).begin_array();
+    for (const auto& v : values) json.value(number(v));
+    json.end_array();
+  };
+  json.key("mean_profiles").begin_object();
+  list("y_m", comparison.height, [](double y) { return y; });
+  for (const auto& [model, means] :
+       {std::pair("tfm", &comparison.tfm_means), std::pair("dem", &comparison.dem_means)}) {
+    json.key(model).begin_object();
+    for (std::size_t j = 0; j < comparison.species.size(); ++j) {
+      json.key("phi_" + comparison.species[j]).begin_object();
+      list("mean", (*means)[j], mean_of);
+      list("error", (*means)[j], error_of);
+      json.end_object();
+    }
+    json.end_object();
+  }
+  json.end_object();
+}
+
 void write_top(Json& json, const std::string& model, const std::optional<OnTop>& top) {
   json.key(model);
   if (top)
@@ -131,6 +154,7 @@ std::string comparison_json(const Comparison& comparison, const ComparedRun& tfm
   json.member("begin_s", comparison.window.begin).member("end_s", comparison.window.end);
   json.member("shortened", comparison.window.shortened).member("confidence", fluid::confidence).end_object();
   write_measures(json, comparison);
+  write_profiles(json, comparison);
   write_scores(json, comparison);
   json.key("models").begin_object();
   write_run(json, "tfm", tfm, comparison.tfm_profiles);

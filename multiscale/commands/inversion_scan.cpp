@@ -123,6 +123,7 @@ class RunsOfModel {
       const core::JsonValue record = read_run_record(run.directory);
       run.cpu_seconds = record.of("cpu_s").number();
       run.integrator = record.of("integrator").text();
+      run.git_commit = record.of("git_commit").text();
     });
     std::array<double, 2> mean{run.mean.value, run.mean.error};
     core::take_from_first(ranks_.get(), mean);
@@ -193,11 +194,20 @@ void run_inversion_scan(const InversionOptions& options) {
     if (options.scan == "dem") throw core::CaseError("--stress-uncertainty is of the two-fluid model: --scan tfm");
     require_table(scene);
   }
-  ScanRequest request{options.case_path.string(),          hash_of_scanned(scene), options.overrides, {},
-                      run_directory(options, "inversion"), force_balance(scene)};
-  for (const core::Species& species : scene.species) request.species.push_back(species.name);
-  const ScanRange range = range_of(options, request.force_balance);
+  const std::optional<InversionPoint> balance = force_balance(scene);
+  const ScanRange range = range_of(options, balance);
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  ScanRequest request{.case_file = options.case_path.string(),
+                      .case_hash = hash_of_scanned(scene),
+                      .overrides = options.overrides,
+                      .species = {},
+                      .directory = run_directory(options, "inversion"),
+                      .force_balance = balance,
+                      .models = options.scan,
+                      .range = range,
+                      .until = scene.run.until,
+                      .ranks = ranks ? ranks->count() : 1};
+  for (const core::Species& species : scene.species) request.species.push_back(species.name);
   const bool speaks = core::is_first(ranks.get()) && !options.json;
   if (speaks && !options.quiet) fmt::print("{}", scan_head());
   std::vector<ScanOfModel> scans;

@@ -20,7 +20,10 @@ void write_run(Json& json, const ScanRun& run, const RunOfScan& of_run) {
   json.member("centre_difference", run.mean.value).member("error", run.mean.error);
   json.member("bed_height_m", of_run.bed_height).member("bed_height_error_m", of_run.bed_height_error);
   json.member("begin_s", of_run.begin).member("end_s", of_run.end).member("cpu_s", of_run.cpu_seconds);
-  json.member("directory", of_run.directory.string()).key("warnings").begin_array();
+  json.member("directory", of_run.directory.string())
+      .member("git_commit", of_run.git_commit)
+      .key("warnings")
+      .begin_array();
   for (const std::string& line : of_run.drifts) json.value(line);
   json.end_array().end_object();
 }
@@ -114,7 +117,9 @@ std::string scan_json(const std::vector<ScanOfModel>& scans, const ScanRequest& 
   json.member("case_hash", request.case_hash).member("directory", request.directory.string());
   json.key("overrides").begin_array();
   for (const std::string& override : request.overrides) json.value(override);
-  json.end_array().key("species").begin_array();
+  json.end_array().member("scan", request.models).member("from_m_s", request.range.low);
+  json.member("to_m_s", request.range.high).member("until_s", request.until);
+  json.member("ranks", std::int64_t(request.ranks)).key("species").begin_array();
   for (const std::string& name : request.species) json.value(name);
   json.end_array().key("force_balance");
   if (const auto& point = request.force_balance)

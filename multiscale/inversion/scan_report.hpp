@@ -19,8 +19,8 @@ struct RunOfScan {
   double bed_height = 0, bed_height_error = 0;  ///< time mean and half-width, m
   double begin = 0, end = 0;                    ///< of the window, s
   double cpu_seconds = 0;
-  std::string integrator;
-  std::vector<std::string> drifts;  ///< what is not steady
+  std::string integrator, git_commit;  ///< of its record
+  std::vector<std::string> drifts;     ///< what is not steady
 };
 
 struct ScanOfModel {
@@ -46,11 +46,16 @@ struct ScanAgreement {
 };
 [[nodiscard]] std::optional<ScanAgreement> agreement_of(const std::vector<ScanOfModel>& scans);
 
+/// What was asked for: all that a command line needs to make the same scan again, and what the case itself says.
 struct ScanRequest {
   std::string case_file, case_hash;  ///< of the case without what a scan varies
   std::vector<std::string> overrides, species;
   std::filesystem::path directory;
   std::optional<InversionPoint> force_balance;
+  std::string models;  ///< tfm | dem | both
+  ScanRange range;     ///< --from and --to, or what stood in their place, m/s
+  double until = 0;    ///< simulated time of each run, s
+  int ranks = 1;
 };
 
 /// inversion.json.

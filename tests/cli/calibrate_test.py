@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -246,9 +247,25 @@ class Calibration(Scratch):
         self.assertEqual(self.calibrate(DRY).returncode, DONE)
         done = self.calibrate(DRY, "--check", self.folder / "boxes/table.h5")
         self.assertEqual(done.returncode, DONE, done.stderr)
-        self.assertIn("0.375", done.stdout)
-        self.assertIn(" se)", done.stdout)
-        self.assertTrue((self.folder / "boxes/check.txt").exists())
+        self.assertIn((self.folder / "boxes/check.txt").read_text(), done.stdout)
+        # Of two knots the curve is at their mean half-way; a seed of its own makes the box.
+        [box] = [b for b in map(json.loads, (p.read_text() for p in (self.folder / "boxes/boxes").iterdir())) if b["seed"] > 10]
+        self.assertEqual(box["solids_fraction"], 0.375)
+        told = re.findall(r"([+-][0-9.]+) % \+- ([0-9.]+) \(([0-9.]+) se\)", done.stdout)
+        with h5py.File(self.folder / "boxes/table.h5") as table:
+            for name, found in zip(("p_ratio", "mu_ratio"), told, strict=True):
+                ratio, error = table[name][:].mean(), table[f"{name}_se"][:].mean()
+                off = box[name][0] / ratio - 1
+                both = np.hypot(box[name][1] / ratio, error / ratio)
+                # as rounded when printed
+                np.testing.assert_allclose([float(n) for n in found], [100 * off, 100 * both, abs(off) / both], atol=0.0501)
+        of_bed = self.folder / "bed.h5"
+        shutil.copy(self.folder / "boxes/table.h5", of_bed)
+        with h5py.File(of_bed, "r+") as table:
+            table.attrs["regime"] = "bed"
+        refused = self.calibrate(DRY, "--check", of_bed)
+        self.assertEqual(refused.returncode, program.FILE, refused.stdout)
+        self.assertIn("bed", refused.stderr)
         drawn = subprocess.run(["/usr/bin/python3", "-m", "polybed.drawing.stress_table", self.folder / "boxes/table.h5"],
                                env=dict(os.environ, PYTHONPATH=str(program.ROOT / "multiscale/python")), timeout=60)
         self.assertEqual(drawn.returncode, 0)

@@ -16,7 +16,9 @@ import program
 from program import DONE, FILE, ROOT, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
 
 sys.path.insert(0, str(ROOT / "multiscale/python"))
+import polybed  # noqa: E402
 from polybed import comparison as page  # noqa: E402
+from polybed.drawing import comparison as drawing  # noqa: E402
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
 BED = """[column]
@@ -39,7 +41,7 @@ youngs_modulus = "0.3 MPa"
 [run]
 until = "20 ms"
 [output]
-every = "1 ms"
+every = "0.5 ms"
 history_every = "0.1 ms"
 """
 QUIET = ["--quiet", "--no-picture"]
@@ -118,6 +120,43 @@ class Comparison(Scratch):
             distance = np.abs(mean["tfm"] - mean["dem"]).sum() / mean["dem"].sum()
             np.testing.assert_allclose(found["scores"][f"profile_{species}"]["value"], distance, rtol=1e-10)
 
+    def test_mean_profiles_are_drawn_with_the_interval_of_the_mean(self):
+        found = self.found
+        begin, end = found["window"]["begin_s"], found["window"]["end_s"]
+        means, runs = found["mean_profiles"], {m: polybed.read(found["models"][m]["directory"]) for m in ("tfm", "dem")}
+        for model, run in runs.items():
+            profiles = run.profiles
+            np.testing.assert_array_equal(means["y_m"], profiles["y_m"])
+            at = (profiles["time_s"] > begin - 1e-9) & (profiles["time_s"] < end + 1e-9)
+            groups = at.sum()  # up to ten a profile is a group of its own, so that it is the plain standard error
+            student = {4: 3.182, 5: 2.776, 6: 2.571, 7: 2.447, 8: 2.365, 9: 2.306, 10: 2.262}[groups]
+            for species in ("fine", "coarse"):
+                rows = profiles[f"phi_{species}"][at]
+                of = means[model][f"phi_{species}"]
+                # sums in another order
+                np.testing.assert_allclose(of["mean"], rows.mean(axis=0), rtol=1e-12, atol=1e-15)
+                np.testing.assert_allclose(of["error"], student * rows.std(axis=0, ddof=1) / np.sqrt(groups), rtol=1e-9, atol=1e-15)
+        figure = drawing.draw_profiles(runs, means)
+        for axes, species in zip(figure.axes, ("fine", "coarse"), strict=True):
+            for line, band, (model, name) in zip(axes.lines, axes.collections, drawing.NAMES.items(), strict=True):
+                of = {what: np.array(values) for what, values in means[model][f"phi_{species}"].items()}
+                np.testing.assert_array_equal(line.get_xdata(), of["mean"])
+                edges = band.get_paths()[0].vertices[:, 0]
+                self.assertAlmostEqual(edges.max(), (of["mean"] + of["error"]).max(), delta=1e-12)
+                self.assertAlmostEqual(edges.min(), (of["mean"] - of["error"]).min(), delta=1e-12)
+                self.assertEqual((line.get_label(), band.get_label()), (name, f"{name}: 95 % interval of the mean"))
+        alone = {m: {s: of | {"error": [None] * len(of["mean"])} for s, of in means[m].items()} for m in runs} | {"y_m": means["y_m"]}
+        self.assertEqual({line.get_label() for line in drawing.draw_profiles(runs, alone).axes[0].lines},
+                         {f"{name}, too few profiles for a band" for name in drawing.NAMES.values()})
+
+    def test_the_interface_is_drawn_in_time(self):
+        runs = {m: polybed.read(self.folder / "both" / m) for m in ("tfm", "dem")}
+        lines = {line.get_label(): line for line in drawing.draw_history(runs, self.found["window"]).axes[0].lines}
+        for model, run in runs.items():
+            line = lines[f"interface, {drawing.NAMES[model]}"]
+            np.testing.assert_allclose(line.get_ydata(), run.history["interface_m"] * drawing.length_unit(runs["tfm"])[0])
+            self.assertEqual(line.get_color(), "black")
+
     def test_the_table_for_people(self):
         told = self.given().stdout
         for line in ("bed_height_m .*[+]-", "on top", "e_H .*goal 0.05", "by the clock; .*particle_steps", "comparison.json$"):
@@ -171,8 +210,7 @@ class Comparison(Scratch):
         self.assertEqual(text.count('src="data:image/png;base64,'), 5)  # three instants, profiles, history
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)[^"]*"', text), [])
         found = strict_json((self.folder / "page/comparison.json").read_text())
-        for measure in found["measures"].values():
-            self.assertIn(f"<td>{measure['tfm']:.4g}", text)
+        self.numbers_stand_on(text, found)
         for line in found["warnings"]:
             self.assertIn(html.escape(line), text)
         tfm, dem, last = [shlex.split(html.unescape(line)) for line in re.search("<pre>(.*)</pre>", text, re.S)[1].splitlines()]
@@ -190,6 +228,24 @@ class Comparison(Scratch):
         lines = page.commands(found, {"tfm": record | {"ranks": 3}, "dem": record}).splitlines()
         self.assertTrue(lines[0].startswith(f"mpirun -n 3 polybed tfm {self.case} "), lines[0])
 
+    def numbers_stand_on(self, text, found):
+        """Every mean of both models and every score of comparison.json, and beside the folder of each run its commit."""
+        for name, measure in found["measures"].items():
+            means = "".join(f"<td>{page.number(measure[m], measure[f'{m}_error'])}</td>" for m in ("tfm", "dem"))
+            self.assertIn(f"<td>{name}</td>{means}", text)
+        self.assertIn(f"<td>{found['measures']['bed_height_m']['dem']:.4g} &plusmn; ", text)
+        for name, score in found["scores"].items():
+            if name != "order":
+                self.assertIn(f"<td>{name}</td><td>{page.number(score['value'], score['error'])}</td>", text)
+        self.assertRegex(text, f"<td>e_H</td><td>{found['scores']['e_H']['value']:.4g} ")
+        self.assertIn(f"On top: two-fluid: {found['scores']['order']['tfm']['species']}", text)
+        self.assertRegex(text, r"On top[^\n]*?centre_ in history\.csv of both runs")
+        for model in ("tfm", "dem"):
+            record = strict_json((self.folder / "both" / model / "run.json").read_text())
+            folder = self.folder / "both" / model
+            for where in (f"<code>{folder}</code>", f"<code>{folder}/run.json</code>"):
+                self.assertIn(f"{where} (commit {record['git_commit']})", text)
+
     def test_a_scan_of_the_case_gives_a_score_and_one_of_another_is_refused(self):
         scan = {"outcome": "bracket", "velocity_m_s": 0.021, "error_m_s": 1e-4, "low_m_s": 0.0207, "high_m_s": 0.0213,
                 "slope_s_m": -10, "cpu_s": 1, "runs": []}
@@ -204,9 +260,38 @@ class Comparison(Scratch):
         self.assertEqual(told["scores"]["D1"]["goal"], 0.1)  # 20 mm/s is within 5 % of it
         self.assertEqual(told["inversion_file"], str(path))
         self.assertNotIn("u_inv", self.found["scores"])
+        self.the_page_tells_where_the_velocity_is_from(found, path, strict_json(made))
         path.write_text(json.dumps(found | {"case_hash": "0"}))
         self.assertIn("another case", self.given("--inversion", path.parent, code=WRONG_CASE).stderr)
         self.assertIn("no scan", self.given("--inversion", self.folder, code=FILE).stderr)
+
+    def the_page_tells_where_the_velocity_is_from(self, found, path, made):
+        runs = made["models"]["tfm"]["runs"]
+        found["models"]["tfm"]["runs"] = runs
+        path.write_text(json.dumps(found))
+        self.ends(DONE, "compare", self.case, "--tfm", self.folder / "both/tfm", "--dem", self.folder / "both/dem", "-o",
+                  self.folder / "scanned", "--inversion", path.parent)
+        text = (self.folder / "scanned/comparison.html").read_text()
+        self.assertIn("<td>u_inv</td><td>0.05 &plusmn; 0.01</td>", text)
+        self.assertIn("<td>two-fluid</td><td>21 &plusmn; 0.1</td><td>20.7 to 21.3</td><td>bracket</td>", text)
+        self.assertIn(f"<code>{path}</code> (commit {found['git_commit']})", text)
+        for run in runs:
+            self.assertIn(f"<code>{run['directory']}</code> (commit {run['git_commit']})", text)
+            self.assertEqual(run["git_commit"], strict_json((pathlib.Path(run["directory"]) / "run.json").read_text())["git_commit"])
+        lines = [shlex.split(html.unescape(line)) for line in re.search("<pre>(.*)</pre>", text, re.S)[1].splitlines()]
+        self.assertEqual(lines[2], ["polybed", "inversion", str(self.case), "--set", "output.history_every=1e-5", "--scan", "tfm",
+                                    "--from", "0.019 m/s", "--to", "0.021 m/s", "--until", "0.002 s", "-o", str(path.parent)])
+        self.assertEqual(lines[3][:2], ["polybed", "compare"])
+        # the line finds every run finished, and what it writes is what was written
+        told = self.ends(DONE, *lines[2][1:], "--no-picture").stdout
+        self.assertEqual(told.count("finished before"), len(runs))
+        self.assertEqual(strict_json(path.read_text()), made)
+        # a scan of before its request was kept has no line, and the page says so
+        old = {name: value for name, value in found.items() if name not in ("scan", "from_m_s", "to_m_s", "until_s", "ranks")}
+        path.write_text(json.dumps(old))
+        text = page.page(self.folder / "scanned")
+        self.assertNotIn("polybed inversion", text)
+        self.assertIn("does not hold what its scan was asked for", text)
 
     def test_resumed_it_goes_on_with_what_is_there(self):
         first = strict_json(self.compare(DONE, "--json", "--until", "2 ms").stdout)

@@ -25,6 +25,7 @@ class Scan(Scratch):
         told = self.scan(DONE).stdout
         found = strict_json((self.folder / "scan/inversion.json").read_text())
         scan = found["models"]["tfm"]
+        self.assertEqual([found[name] for name in ("scan", "from_m_s", "to_m_s", "until_s", "ranks")], ["tfm", 0.03, 0.04, 0.8, 1])
         lines = re.findall(r"(?m)^tfm +[0-9.]+ .*$", told)
         self.assertEqual(len(lines), len(scan["runs"]))
         first, second = scan["runs"][:2]
@@ -32,6 +33,7 @@ class Scan(Scratch):
         for run in scan["runs"]:
             self.means_are_those_of_its_history(run)
             record = strict_json((self.folder / "scan" / run["directory"] / "run.json").read_text())
+            self.assertEqual(run["git_commit"], record["git_commit"])
             if run["from"] is not None:
                 source = scan["runs"][run["from"]]
                 self.assertIn(f"checkpoint:{source['directory']}/checkpoint.h5", record["case"])
@@ -91,6 +93,8 @@ class Scan(Scratch):
         words = [word for word in SHORT if word != "--no-picture"]
         self.ends(DONE, "inversion", CASE, "--scan", "tfm", *words, "--from", "30 mm/s", "-o", self.folder / "scan")
         self.assertTrue((self.folder / "scan/inversion.png").read_bytes().startswith(b"\x89PNG"))
+        found = strict_json((self.folder / "scan/inversion.json").read_text())
+        self.assertEqual(found["to_m_s"], 1.25 * found["force_balance"]["velocity_m_s"])  # no --to was given
 
     def test_refusals(self):
         self.assertIn("--from", self.scan(WRONG_CASE, begin="3 mm").stderr)

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""The Python package as a user's script meets it: runs, sweeps, comparisons and scans, the gallery, and the package as it is
-installed. Usage: python_test.py PROGRAM"""
+"""The Python package as a user's script meets it: runs, sweeps, comparisons, scans and calibrations, the gallery, and the package as
+it is installed. Usage: python_test.py PROGRAM"""
 import os
 import pathlib
 import subprocess
 import sys
 
+import h5py
 import numpy as np
 
 import program
@@ -77,6 +78,39 @@ class Package(Scratch):
         found = polybed.inversion(CASE)
         told = strict_json(program.run("inversion", CASE, "--json").stdout)
         self.assertEqual(found, told)
+
+    def test_a_calibration_returns_its_table(self):
+        few = {"calibrate.particles": 100, "calibrate.strain": 1, "calibrate.discard_strain": 0.5, "calibrate.doublings": 0,
+               "calibrate.seeds": 1, "calibrate.solids_fraction": [0.3, 0.45]}
+        table = polybed.calibrate(ROOT / "cases/shear-box/case.toml", few, self.folder / "boxes", jobs=2)
+        np.testing.assert_array_equal(table["phi"], [0.3, 0.45])
+        with h5py.File(self.folder / "boxes/table.h5") as file:
+            self.assertEqual(table.names(), sorted(file))
+            for name in file:
+                np.testing.assert_array_equal(table[name], file[name][...])
+        self.assertEqual(table["p_ratio"].shape, (2, 1, 1, 1, 1))
+        self.assertEqual((table.unit("p_ratio"), table.unit("phi"), table.attributes["regime"]), ("1", "1", "dry"))
+        with self.assertRaisesRegex(KeyError, "holds no heat; it holds .*p_ratio"):
+            table.unit("heat")
+        boxes = {path: path.stat().st_mtime_ns for path in (self.folder / "boxes/boxes").iterdir()}
+        polybed.calibrate(ROOT / "cases/shear-box/case.toml", few, self.folder / "boxes")
+        self.assertEqual({path: path.stat().st_mtime_ns for path in boxes}, boxes)  # nothing was run again
+        with self.assertRaisesRegex(polybed.ProgramError, "(?s)ended with 2.*must rise"):
+            polybed.calibrate(ROOT / "cases/shear-box/case.toml", {"calibrate.solids_fraction": [0.45, 0.3]}, self.folder / "none")
+
+    def test_the_units_of_a_table_of_fluidised_boxes(self):
+        with h5py.File(self.folder / "table.h5", "w") as file:
+            file.attrs.update({"filetype": "polybed solids table", "version": 1, "regime": "bed"})
+            for name in ("phi", "p_bed", "p_bed_se", "p_bed_n", "p_bed_by_balance_se", "theta_bed", "velocity"):
+                file[name] = [0.1, 0.2]
+        table = polybed.read_table(self.folder / "table.h5")
+        self.assertEqual([table.unit(name) for name in ("phi", "p_bed_n", "velocity", "theta_bed")],
+                         ["1", "1", "m/s", "(rho_p - rho_f) g D/rho_p"])
+        self.assertEqual({table.unit(name) for name in ("p_bed", "p_bed_se", "p_bed_by_balance_se")}, {"(rho_p - rho_f) g D"})
+        with h5py.File(self.folder / "table.h5", "r+") as file:
+            file.attrs["version"] = 2
+        with self.assertRaisesRegex(polybed.FormatError, "version 2"):
+            polybed.read_table(self.folder / "table.h5")
 
     def test_what_the_program_refuses_is_raised_with_its_words(self):
         with self.assertRaisesRegex(polybed.ProgramError, "(?s)ended with 2.*bed.start") as caught:

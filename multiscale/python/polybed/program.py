@@ -1,10 +1,11 @@
-"""Runs the program: one run, a sweep, a comparison of both models, a scan for the inversion velocity.
+"""Runs the program: one run, a sweep, a comparison of both models, a scan for the inversion velocity, a calibration.
 
     import polybed
     run = polybed.run("case.toml", "tfm", {"inlet.superficial_velocity": "30 mm/s"}, until="20 s")
     runs = polybed.sweep("case.toml", "inlet.superficial_velocity", ["20 mm/s", "30 mm/s"])
     found = polybed.compare("case.toml")
     found = polybed.inversion("case.toml", scan="tfm")
+    table = polybed.calibrate("case.toml", {"calibrate.solids_fraction": [0.2, 0.4]}, jobs=2)
 
 A run that is finished already, of the same case, is opened and not made again.
 """
@@ -17,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from polybed.read import read, read_json
+from polybed.solids_table import read_table
 
 OWN = Path(__file__).resolve()
 # What Open MPI needs in a container and as root; one rank needs neither network nor daemon.
@@ -142,3 +144,16 @@ def inversion(case, scan=None, overrides=None, output=None, until=None, begin=No
         words += [] if velocity is None else [option, velocity]
     call(*words, "--scan", scan, "-o", output, "--quiet", "--no-picture")
     return read_json(output / "inversion.json", "polybed inversion")
+
+
+def calibrate(case, overrides=None, output=None, jobs=1):
+    """Runs the boxes of a case and returns the table that they give, arrays by name with units. Finished boxes are kept: the
+    same call runs none, another grid of points only what is new. Raises ProgramError, with code 3 if the table may not be used.
+
+    overrides: keys of the case file, the axes of the table among them, {"calibrate.solids_fraction": [0.2, 0.4]}
+    output: directory of table.h5 and the boxes; default runs/<case name>-calibrate
+    jobs: boxes at once
+    """
+    output = Path(output) if output else Path("runs") / f"{name_of(case)}-calibrate"
+    call("calibrate", case, *settings(overrides), "-o", output, "-j", jobs, "--quiet")
+    return read_table(output / "table.h5")

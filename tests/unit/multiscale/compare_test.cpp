@@ -62,6 +62,25 @@ const Score& score(const Comparison& comparison, const std::string& name) {
   throw std::invalid_argument("no score " + name);
 }
 
+// Of 26 profiles in the window the first two have 0.13 more fine in the lowest slab: 0.26/26 in the mean. Ten groups of
+// 2 3 2 3 3 2 3 2 3 3 are left out in turn: 0 without the first, 0.26/24 without another of 2, 0.26/23 without one
+// of 3. Their squares about their mean, 0.01003261, are 1.122807e-4, times 9/10; 2.262 of 9 degrees of freedom times
+// its root is 0.0227387. The rows themselves are spread by 0.0346.
+TEST(Compare, MeanProfilesHaveTheIntervalOfTheirMeanNotTheSpreadInTime) {
+  Measured swings = at_rest(0.03, 0.06);
+  for (const std::size_t t : {75, 76}) swings.profiles.values[1].values[t * slabs] += 0.13;
+  const Comparison c = compare(swings, at_rest(0.03, 0.06));
+  ASSERT_EQ(c.species, (std::vector<std::string>{"fine", "coarse"}));
+  ASSERT_EQ(c.height.size(), slabs);
+  EXPECT_NEAR(c.tfm_means[0][0].mean, 0.51, 1e-14);
+  EXPECT_NEAR(*c.tfm_means[0][0].error, 0.0227387, 1e-7);
+  EXPECT_EQ(c.tfm_means[0][1].mean, 0.5);
+  EXPECT_EQ(*c.tfm_means[0][1].error, 0);
+  EXPECT_EQ(*c.dem_means[0][0].error, 0);
+  EXPECT_EQ(c.dem_means[1][0].mean, 0) << "coarse on top";
+  EXPECT_EQ(c.dem_means[1][15].mean, 0.5) << "centre at 31 mm";
+}
+
 TEST(Compare, ARunWithItself) {
   const Measured run = at_rest(0.03, 0.06);
   const Comparison c = compare(run, run);

@@ -14,6 +14,7 @@ from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, length_unit
 from polybed.read import nearest
 
 LINES = {"tfm": "-", "dem": "--"}
+DOTS = {"tfm": (0, (1, 2)), "dem": (0, (1, 5))}  # of the interface, which no species has a colour for
 MAP_HEIGHT = 4.0  # inches
 GAP, LEFT, HEAD, BARS = 0.35, 0.75, 0.7, 0.9  # inches
 
@@ -66,34 +67,32 @@ def draw_instant(runs, time, top):
     return figure
 
 
-def rows_in(times, window):
-    slack = 1e-9 * window["end_s"]
-    return (times >= window["begin_s"] - slack) & (times <= window["end_s"] + slack)
+def draw_profiles(runs, means):
+    """Mean profile of each species over the window, with the 95 % interval of that mean as a band. None if no run has stored a
+    profile in the window.
 
-
-def draw_profiles(runs, window):
-    """Mean profile of each species over the window, with a band of the standard deviation in time. None if no run has
-    stored a profile in the window."""
+    means: "mean_profiles" of comparison.json
+    """
     species = runs["tfm"].species or runs["dem"].species
     figure, all_axes = plt.subplots(1, len(species), figsize=(1 + 2.6 * len(species), 4.2), sharey=True, squeeze=False,
                                     constrained_layout=True)
     factor, unit = length_unit(runs["tfm"])
+    height = np.array(means["y_m"]) * factor
     drawn, top = False, 0
     for model, run in runs.items():
-        profiles = run.profiles
-        at = rows_in(profiles["time_s"], window)
-        if not at.any():
-            continue
-        drawn, top = True, max(top, shown_top(run))
         for n, name in enumerate(species):
-            rows, height = profiles[f"phi_{name}"][at], profiles["y_m"] * factor
-            mean, spread = rows.mean(axis=0), rows.std(axis=0)
-            axes = all_axes[0][n]
-            axes.plot(mean, height, color=colour(n), linestyle=LINES[model], label=NAMES[model])
-            axes.fill_betweenx(height, mean - spread, mean + spread, color=colour(n), alpha=0.2, linewidth=0)
+            mean, error = (np.array(means[model][f"phi_{name}"][what], float) for what in ("mean", "error"))
+            if not len(mean):
+                continue
+            drawn, top = True, max(top, shown_top(run))
+            axes, told = all_axes[0][n], np.isfinite(error).any()
+            axes.plot(mean, height, color=colour(n), linestyle=LINES[model],
+                      label=NAMES[model] + ("" if told else ", too few profiles for a band"))
+            axes.fill_betweenx(height, mean - error, mean + error, color=colour(n), alpha=0.2, linewidth=0,
+                               label=f"{NAMES[model]}: 95 % interval of the mean" if told else None)
             axes.set_title(name)
             axes.set_xlabel("volume fraction")
-            axes.legend(fontsize=8)
+            axes.legend(fontsize=7)
     if not drawn:
         plt.close(figure)
         return None
@@ -103,7 +102,7 @@ def draw_profiles(runs, window):
 
 
 def draw_history(runs, window):
-    """Centres and bed height in time, above the pressure drop over the buoyant weight; the window is shaded."""
+    """Centres, bed height and interface in time, above the pressure drop over the buoyant weight; the window is shaded."""
     figure, (heights, drop) = plt.subplots(2, 1, figsize=(8, 5.4), sharex=True, height_ratios=[2, 1],
                                            constrained_layout=True)
     factor, unit = length_unit(runs["tfm"])
@@ -115,6 +114,9 @@ def draw_history(runs, window):
                          label=f"centre of {name}, {NAMES[model]}")
         heights.plot(t, history["bed_height_m"] * factor, color=GREY, linestyle=line, linewidth=1,
                      label=f"bed height, {NAMES[model]}")
+        if np.isfinite(history.get("interface_m", np.nan)).any():  # empty where nothing is alike
+            heights.plot(t, history["interface_m"] * factor, color="black", linestyle=DOTS[model], linewidth=1,
+                         label=f"interface, {NAMES[model]}")
         weight = history["buoyant_weight_Pa"]
         ratio = np.divide(history["pressure_drop_Pa"], weight, out=np.full(len(t), np.nan), where=weight > 0)
         drop.plot(t, ratio, color="black", linestyle=line, linewidth=1, label=NAMES[model])

@@ -18,37 +18,43 @@ with needed(__name__ == "__main__"):
 
     from polybed.drawing.style import COLOURS, PALE, STYLE
     from polybed.plot import save
-    from polybed.read import FormatError, check_kind, open_hdf5
+    from polybed.read import FormatError
+    from polybed.solids_table import AXES, read_table
 
 RATIOS = (("p_ratio", "pressure"), ("mu_ratio", "viscosity"), ("gamma_ratio", "dissipation"))
 
 
 def lines_of(table, name):
     """(label, values, errors) along phi at every point of the other axes."""
-    values, errors = table[name][:], table[name + "_se"][:]
-    axes = [(axis, table[axis][:]) for axis in ("stokes", "e", "mu_p", "x2")]
+    values, errors = table[name], table[name + "_se"]
+    axes = [(axis, table[axis]) for axis in AXES[1:]]
     for place in np.ndindex(values.shape[1:]):
         label = ", ".join(f"{axis} {knots[n]:g}" for (axis, knots), n in zip(axes, place) if len(knots) > 1)
         yield label, values[(slice(None), *place)], errors[(slice(None), *place)]
 
 
+def draw_ratios(table, plots):
+    """Draws the three ratios of a table of sheared particles into as many plots. Raises FormatError for another table."""
+    if table.attributes["regime"] not in ("dry", "wet"):
+        raise FormatError(f"{table.path}: of regime {table.attributes['regime']}, not of sheared particles")
+    for plot, (name, title) in zip(plots, RATIOS):
+        for n, (label, values, errors) in enumerate(lines_of(table, name)):
+            plot.errorbar(table["phi"], values, errors, color=COLOURS[n % len(COLOURS)], marker="o", markersize=3,
+                          linewidth=1, capsize=2, label=label or None)
+        plot.axhline(1, color=PALE, linewidth=0.8, zorder=0)
+        plot.set_title(f"{title} over {table.attributes['reference']}")
+        plot.set_xlabel("solids fraction")
+        plot.set_ylim(bottom=0)
+    if plots[0].get_legend_handles_labels()[1]:
+        plots[0].legend()
+
+
 def draw(path, picture):
     """Draws a table of sheared particles and returns the path of the picture."""
-    with plt.rc_context(STYLE), open_hdf5(path) as table:
-        check_kind(table.attrs, "polybed solids table", path)
-        if table.attrs["regime"] not in ("dry", "wet"):
-            raise FormatError(f"{path}: of regime {table.attrs['regime']}, not of sheared particles")
+    table = read_table(path)
+    with plt.rc_context(STYLE):
         figure, plots = plt.subplots(1, len(RATIOS), figsize=(9, 3), layout="constrained", sharex=True)
-        for plot, (name, title) in zip(plots, RATIOS):
-            for n, (label, values, errors) in enumerate(lines_of(table, name)):
-                plot.errorbar(table["phi"][:], values, errors, color=COLOURS[n % len(COLOURS)], marker="o", markersize=3,
-                              linewidth=1, capsize=2, label=label or None)
-            plot.axhline(1, color=PALE, linewidth=0.8, zorder=0)
-            plot.set_title(f"{title} over {table.attrs['reference']}")
-            plot.set_xlabel("solids fraction")
-            plot.set_ylim(bottom=0)
-        if plots[0].get_legend_handles_labels()[1]:
-            plots[0].legend()
+        draw_ratios(table, plots)
         return save(figure, picture)
 
 

@@ -1,0 +1,44 @@
+"""A table of the solids stress, what `polybed calibrate` writes: numpy arrays by name, with their units.
+
+    table = polybed.read_table("runs/beads-calibrate/table.h5")
+    table["p_ratio"], table["p_ratio_se"]     # [phi][stokes][e][mu_p][x2]
+    table["phi"], table.unit("phi"), table.names()
+    table.attributes["regime"], table.attributes["reference"]
+"""
+
+from pathlib import Path
+
+from polybed.read import check_kind, open_hdf5
+
+# Units of what is no ratio and no fraction; pressures of a fluidised bed are told over the weight of a layer of one diameter.
+BED = "(rho_p - rho_f) g D"
+UNITS = {"velocity": "m/s", "theta_bed": BED + "/rho_p"}
+AXES = ("phi", "stokes", "e", "mu_p", "x2")  # of sheared particles, in the order of the arrays
+
+
+class SolidsTable:
+    """A table.h5, read whole: table[name] is an array, table.unit(name) its unit, "1" of ratios, fractions and seeds."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        with open_hdf5(self.path) as file:
+            check_kind(file.attrs, "polybed solids table", self.path)
+            self.attributes = dict(file.attrs)
+            self._arrays = {name: data[...] for name, data in file.items()}
+
+    def __getitem__(self, name):
+        if name not in self._arrays:
+            raise KeyError(f"{self.path} holds no {name}; it holds {', '.join(self.names())}")
+        return self._arrays[name]
+
+    def names(self):
+        return sorted(self._arrays)
+
+    def unit(self, name):
+        self[name]  # one that is not there has no unit
+        return BED if name.startswith("p_bed") and not name.endswith("_n") else UNITS.get(name, "1")
+
+
+def read_table(path):
+    """Opens a table of the solids stress, table.h5."""
+    return SolidsTable(path)
