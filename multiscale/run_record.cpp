@@ -225,3 +225,4 @@ std::string run_record_text(const RunRecord& record) {
 }
 
 }  // namespace polybed::multiscale
+  write_left_out(json, record.left_out);

@@ -10,6 +10,7 @@
 #include "core/json_value.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
+#include "multiscale/effects/left_out.hpp"
 #include "multiscale/effects/neglected.hpp"
 #include "tfm/observers.hpp"
 
@@ -42,6 +43,7 @@ struct RunRecord {
   std::string state;  ///< running | done | stopped by the user | failed: ...
   double begin;       ///< simulated time at which this process began, s
   RunTotals totals;
+  const LeftOut& left_out;
   const Neglected* promise = nullptr;                 ///< what a monitor has seen; null without one
   std::vector<std::string> warnings;                  ///< its own
   std::function<void(core::Json&)> write_prediction;  ///< writes its own member

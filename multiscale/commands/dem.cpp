@@ -34,7 +34,7 @@ class DemRun final : public CaseRun {
   /// \param begin  of this part of the course, s
   DemRun(const RunOptions& options, const Course& course, double begin, fs::path directory,
          std::shared_ptr<const core::Ranks> ranks)
-      : CaseRun(options, at_time(course.scene, course.switches, begin), std::move(directory), std::move(ranks)),
+      : CaseRun(options, at_time(course.scene, course.switches, begin), std::move(directory), std::move(ranks), "dem"),
         model_(scene_, timers_, ranks_),
         course_(course),
         next_switch_(multiscale::next_switch(course.switches, begin)) {
@@ -147,6 +147,7 @@ class DemRun final : public CaseRun {
     if (model_.outflow() != nullptr) write_outflow(json, *model_.outflow());
     if (promise) write_neglected(json, *promise);
     if (!course_.switches.empty()) write_switches(json);
+    write_left_out(json, left_out_);
     json.key("warnings").begin_array();
     if (!model_.limits().warning.empty()) json.value(model_.limits().warning);
     if (monitor_)
