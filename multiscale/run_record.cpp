@@ -28,6 +28,18 @@ void write_work(Json& json, const tfm::Work& work) {
   json.member("first_order_cells", work.first_order_cells).end_object();
 }
 
+/// Of a run that has failed: the steps before, with what limited each.
+void write_last_steps(Json& json, const std::deque<tfm::StepLine>& steps) {
+  json.key("last_steps").begin_array();
+  for (const tfm::StepLine& step : steps)
+    json.begin_object()
+        .member("time_s", step.time)
+        .member("dt_s", step.step)
+        .member("limited_by", step.limited_by)
+        .end_object();
+  json.end_array();
+}
+
 /// How often closures were asked outside their range.
 void write_guards(Json& json, const std::vector<tfm::ClosureUse>& closures) {
   json.key("guards").begin_array();
@@ -213,6 +225,7 @@ std::string run_record_text(const RunRecord& record) {
       .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);
   record.write_prediction(json);
   write_work(json, model.work());
+  if (record.state.starts_with("failed")) write_last_steps(json, record.observers.last_steps());
   write_timers(json, record.timers);
   write_invariants(json, record.observers.invariants().worst());
   write_ledger(json, model.constants(), record.totals, record.observers.invariants());

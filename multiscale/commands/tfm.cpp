@@ -84,10 +84,13 @@ class TfmRun final : public CaseRun {
   }
 
   std::string advice() override {
+    std::string steps;
+    for (const tfm::StepLine& step : observers_->last_steps())
+      steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
     return fmt::format(
-        "last step: {:.3g} s, limited by {}; steps.csv has all of them\n"
+        "the last steps: time, s; length, s; what limited it; steps.csv has all of them\n{}"
         "try a smaller tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)",
-        model_.last_step().step, model_.last_step().limited_by);
+        steps);
   }
 
   std::string record_text(const std::string& state) override {
