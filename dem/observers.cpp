@@ -118,8 +118,11 @@ void Observers::close_ledger() {
   // In a viscous fluid, or at a start with overlaps, little is ever kinetic: it is work of the fluid, or in springs.
   greatest_energy_ = std::max({greatest_energy_, totals_.kinetic + totals_.rotational, totals_.dissipated,
                                totals_.elastic, std::abs(totals_.work)});
-  if (greatest_energy_ > 0)
-    ledger_error_ = std::max(ledger_error_, ledger_miss(totals_, initial_energy_, greatest_energy_));
+  if (!(greatest_energy_ > 0)) return;
+  const double miss = ledger_miss(totals_, initial_energy_, greatest_energy_);
+  if (miss <= ledger_error_) return;
+  ledger_error_ = miss;
+  ledger_error_time_ = model_.time();
 }
 
 void Observers::write_history(double time) {

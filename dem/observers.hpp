@@ -41,6 +41,8 @@ class Observers {
   [[nodiscard]] double initial_energy() const { return initial_energy_; }
   /// Largest difference of the ledger from the energy at the start, against the greatest energy met: V5.
   [[nodiscard]] double ledger_error() const { return ledger_error_; }
+  /// When it was that large, s.
+  [[nodiscard]] double ledger_error_time() const { return ledger_error_time_; }
   /// Null without a fluid.
   [[nodiscard]] const FluidRecord* fluid() const { return fluid_ ? &*fluid_ : nullptr; }
 
@@ -64,7 +66,7 @@ class Observers {
   std::unique_ptr<Files> files_;
   Totals totals_;
   std::optional<double> bed_height_;
-  double initial_energy_ = 0, greatest_energy_ = 0, ledger_error_ = 0;
+  double initial_energy_ = 0, greatest_energy_ = 0, ledger_error_ = 0, ledger_error_time_ = 0;
 };
 
 }  // namespace polybed::dem

@@ -28,15 +28,14 @@ void write_work(Json& json, const tfm::Work& work) {
   json.member("first_order_cells", work.first_order_cells).end_object();
 }
 
-void write_invariants(Json& json, const fluid::Invariants& invariants) {
-  json.key("invariants").begin_array();
-  for (const fluid::WorstInvariant& w : invariants.worst())
+/// Of a run that has failed: the steps before, with what limited each.
+void write_last_steps(Json& json, const std::deque<tfm::StepLine>& steps) {
+  json.key("last_steps").begin_array();
+  for (const tfm::StepLine& step : steps)
     json.begin_object()
-        .member("name", w.name)
-        .member("worst", w.value)
-        .member("limit", w.limit)
-        .member("time_s", w.time)
-        .member("held", w.value <= w.limit)
+        .member("time_s", step.time)
+        .member("dt_s", step.step)
+        .member("limited_by", step.limited_by)
         .end_object();
   json.end_array();
 }
@@ -187,6 +186,26 @@ void begin_record(Json& json, const core::Scene& scene, const std::string& model
       .end_object();
 }
 
+void write_invariants(Json& json, std::span<const fluid::WorstInvariant> worst) {
+  json.key("invariants").begin_array();
+  for (const fluid::WorstInvariant& w : worst)
+    json.begin_object()
+        .member("name", w.name)
+        .member("worst", w.value)
+        .member("limit", w.limit)
+        .member("time_s", w.time)
+        .member("held", w.value <= w.limit)
+        .end_object();
+  json.end_array();
+}
+
+std::vector<std::string> exceeded_lines(std::span<const fluid::WorstInvariant> worst) {
+  std::vector<std::string> lines;
+  for (const fluid::WorstInvariant& w : worst)
+    if (!(w.value <= w.limit)) lines.push_back(w.name + " exceeded its limit");
+  return lines;
+}
+
 void write_timers(Json& json, const core::Timers& timers) {
   json.key("timers").begin_object();
   for (const core::Timers::Term& term : timers.terms()) json.member(term.name, term.seconds);
@@ -206,17 +225,18 @@ std::string run_record_text(const RunRecord& record) {
       .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);
   record.write_prediction(json);
   write_work(json, model.work());
+  if (record.state.starts_with("failed")) write_last_steps(json, record.observers.last_steps());
   write_timers(json, record.timers);
-  write_invariants(json, record.observers.invariants());
+  write_invariants(json, record.observers.invariants().worst());
   write_ledger(json, model.constants(), record.totals, record.observers.invariants());
   json.member("pressure_drop_over_weight", record.observers.force_balance());
   write_well_posedness(json, record.observers.least_well_posed(), model.constants().grid.dimensions);
   write_drifts(json, record.observers.drifts());
   write_guards(json, record.totals.closures);
+  write_left_out(json, record.left_out);
   if (record.promise != nullptr) write_neglected(json, *record.promise);
   json.key("warnings").begin_array();
-  for (const fluid::WorstInvariant& w : record.observers.invariants().worst())
-    if (w.value > w.limit) json.value(w.name + " exceeded its limit");
+  for (const std::string& line : exceeded_lines(record.observers.invariants().worst())) json.value(line);
   for (const std::string& line : drift_lines(record.observers.drifts())) json.value(line);
   for (const std::string& line : model.effects().warnings) json.value(line);
   for (const std::string& line : record.warnings) json.value(line);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "core/json_value.hpp"
 #include "core/scene.hpp"
 #include "core/timers.hpp"
+#include "fluid/invariants.hpp"
+#include "multiscale/effects/left_out.hpp"
 #include "multiscale/effects/neglected.hpp"
 #include "tfm/observers.hpp"
 
@@ -42,6 +45,7 @@ struct RunRecord {
   std::string state;  ///< running | done | stopped by the user | failed: ...
   double begin;       ///< simulated time at which this process began, s
   RunTotals totals;
+  const LeftOut& left_out;
   const Neglected* promise = nullptr;                 ///< what a monitor has seen; null without one
   std::vector<std::string> warnings;                  ///< its own
   std::function<void(core::Json&)> write_prediction;  ///< writes its own member
@@ -56,6 +60,12 @@ void write_size_classes(core::Json& json, const core::Scene& scene);
 /// Opens a record with what is the same for both models: program, case, machine.
 void begin_record(core::Json& json, const core::Scene& scene, const std::string& model, const std::string& state,
                   int ranks);
+
+/// Writes "invariants": the worst value of each, its limit, when it was, and whether it held.
+void write_invariants(core::Json& json, std::span<const fluid::WorstInvariant> worst);
+
+/// One line for each invariant that is beyond its limit: what the warnings of a record begin with.
+[[nodiscard]] std::vector<std::string> exceeded_lines(std::span<const fluid::WorstInvariant> worst);
 
 /// Writes "timers": seconds by term.
 void write_timers(core::Json& json, const core::Timers& timers);

@@ -15,6 +15,8 @@ namespace polybed::tfm {
 
 namespace {
 
+constexpr std::size_t last_steps_kept = 10;  // that a run that fails tells
+
 std::vector<std::string> history_columns(const Constants& constants, bool compressible) {
   std::vector<std::string> columns{"time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"};
   for (const std::string& name : constants.name) {
@@ -212,6 +214,8 @@ void Observers::write_fields(double time) {
 
 void Observers::log_step() {
   const StepLine& step = model_.last_step();
+  last_steps_.push_back(step);
+  if (last_steps_.size() > last_steps_kept) last_steps_.pop_front();
   const std::string row = fmt::format("{},{},{:.4g},\"{}\"\n", step.time, step.step, step.error_norm, step.limited_by);
   core::on_first(ranks_, [&] {
     std::FILE* file = files_->steps.get();

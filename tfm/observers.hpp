@@ -1,6 +1,7 @@
 // What a run of the continuum model writes while it goes: history, profiles, fields, the step log, its invariants.
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <optional>
 
@@ -37,6 +38,8 @@ class Observers {
   /// One row of steps.csv, handed to the operating system at once and whole.
   void log_step();
 
+  /// The steps logged last, the newest at the end: ten, or as many as this process has done.
+  [[nodiscard]] const std::deque<StepLine>& last_steps() const { return last_steps_; }
   [[nodiscard]] const fluid::Invariants& invariants() const { return invariants_; }
   /// Bed height of the last row of the history, m.
   [[nodiscard]] std::optional<double> bed_height() const { return bed_height_; }
@@ -67,6 +70,7 @@ class Observers {
   std::optional<core::FieldWriter> fields_;  ///< every rank writes its block
   std::optional<double> bed_height_;
   double force_balance_ = 0;
+  std::deque<StepLine> last_steps_;
 };
 
 /// Mass of each species in the column, kg. Collective.

@@ -12,7 +12,7 @@
 namespace polybed::multiscale {
 
 CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
-                 std::shared_ptr<const core::Ranks> ranks)
+                 std::shared_ptr<const core::Ranks> ranks, const std::string& model)
     : options_(options),
       scene_(std::move(scene)),
       case_(scene_),
@@ -20,6 +20,7 @@ CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::
       ranks_(std::move(ranks)),
       first_(core::is_first(ranks_.get())) {
   options_.quiet = options_.quiet || !first_;
+  core::on_first(ranks_.get(), [&] { left_out_ = left_out(scene_, model); });
 }
 
 void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& resume,
@@ -98,6 +99,7 @@ std::optional<Neglected> CaseRun::promise_of(const Monitor* monitor) {
 }
 
 void CaseRun::print_promise() const {
+  for (const std::string& line : left_out_lines(left_out_)) fmt::print(stderr, "{}\n", line);
   if (!promise_) return;
   fmt::print(stderr, "{}", neglected_table(*promise_));
   for (const core::Timers::Term& term : timers_.terms())

@@ -15,6 +15,7 @@
 #include "core/run.hpp"
 #include "core/timers.hpp"
 #include "multiscale/commands/run_directory.hpp"
+#include "multiscale/effects/left_out.hpp"
 #include "multiscale/effects/monitor.hpp"
 #include "multiscale/estimate/estimate.hpp"
 
@@ -28,8 +29,9 @@ class CaseRun {
   bool run();
 
  protected:
+  /// \param model  "tfm" or "dem"
   CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
-          std::shared_ptr<const core::Ranks> ranks);
+          std::shared_ptr<const core::Ranks> ranks, const std::string& model);
 
   /// Takes up the run that --resume asks for, or the state of bed.start = "checkpoint:FILE", or begins anew.
   /// Collective. \param resume  with the checkpoint, on the first rank what the file says of all, and the file's path
@@ -74,7 +76,7 @@ class CaseRun {
   }
   /// What a monitor has seen on all ranks, kept for print_promise(); empty without one. Collective.
   [[nodiscard]] std::optional<Neglected> promise_of(const Monitor* monitor);
-  /// The table of bounds against what was seen; nothing without a monitor.
+  /// What the run leaves out by its case, and of a monitor the table of bounds against what was seen.
   void print_promise() const;
   /// Time by the clock since this process took up the run, s.
   [[nodiscard]] double wall_seconds() const;
@@ -85,7 +87,8 @@ class CaseRun {
   core::Scene case_;   ///< as it is written: without what has been switched on meanwhile
   std::filesystem::path directory_;
   std::shared_ptr<const core::Ranks> ranks_;
-  bool first_;  ///< this process is the one that reads, writes and speaks
+  bool first_;        ///< this process is the one that reads, writes and speaks
+  LeftOut left_out_;  ///< on the first rank
   core::Timers timers_;
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
 

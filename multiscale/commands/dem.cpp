@@ -34,7 +34,7 @@ class DemRun final : public CaseRun {
   /// \param begin  of this part of the course, s
   DemRun(const RunOptions& options, const Course& course, double begin, fs::path directory,
          std::shared_ptr<const core::Ranks> ranks)
-      : CaseRun(options, at_time(course.scene, course.switches, begin), std::move(directory), std::move(ranks)),
+      : CaseRun(options, at_time(course.scene, course.switches, begin), std::move(directory), std::move(ranks), "dem"),
         model_(scene_, timers_, ranks_),
         course_(course),
         next_switch_(multiscale::next_switch(course.switches, begin)) {
@@ -143,16 +143,26 @@ class DemRun final : public CaseRun {
     write_work(json);
     write_timers(json, timers_);
     if (fluid_) write_fluid(json, *fluid_);
+    const std::vector<fluid::WorstInvariant> watched = invariants();
+    if (!watched.empty()) write_invariants(json, watched);
     if (observers_) write_ledger(json);
     if (model_.outflow() != nullptr) write_outflow(json, *model_.outflow());
+    write_left_out(json, left_out_);
     if (promise) write_neglected(json, *promise);
     if (!course_.switches.empty()) write_switches(json);
     json.key("warnings").begin_array();
+    for (const std::string& line : exceeded_lines(watched)) json.value(line);
     if (!model_.limits().warning.empty()) json.value(model_.limits().warning);
     if (monitor_)
       for (const std::string& line : monitor_->warnings()) json.value(line);
     json.end_array().end_object();
     return json.text();
+  }
+
+  /// The ledger of the energy; nothing without one.
+  [[nodiscard]] std::vector<fluid::WorstInvariant> invariants() const {
+    if (!observers_ || !scene_.dem.ledger) return {};
+    return {{"energy", observers_->ledger_error(), ledger_limit, observers_->ledger_error_time()}};
   }
 
   void write_switches(core::Json& json) const {

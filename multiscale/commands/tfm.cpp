@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 class TfmRun final : public CaseRun {
  public:
   TfmRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
-      : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks)), model_(scene_, timers_, ranks_) {
+      : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks), "tfm"),
+        model_(scene_, timers_, ranks_) {
     if (first_ && !options_.quiet)
       for (const std::string& line : model_.effects().warnings) fmt::print(stderr, "{}\n", line);
     model_.show(model_.time());
@@ -83,17 +84,20 @@ class TfmRun final : public CaseRun {
   }
 
   std::string advice() override {
+    std::string steps;
+    for (const tfm::StepLine& step : observers_->last_steps())
+      steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
     return fmt::format(
-        "last step: {:.3g} s, limited by {}; steps.csv has all of them\n"
+        "the last steps: time, s; length, s; what limited it; steps.csv has all of them\n{}"
         "try a smaller tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)",
-        model_.last_step().step, model_.last_step().limited_by);
+        steps);
   }
 
   std::string record_text(const std::string& state) override {
     totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
     const std::optional<Neglected> promise = promise_of(monitor_.get());
-    return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, promise ? &*promise : nullptr,
-                            monitor_ ? monitor_->warnings() : std::vector<std::string>{},
+    return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
+                            promise ? &*promise : nullptr, monitor_ ? monitor_->warnings() : std::vector<std::string>{},
                             [&](core::Json& json) { write_prediction_of(json, state, totals_.cpu_seconds); }});
   }
 

@@ -7,6 +7,7 @@
 #include "core/version.hpp"
 #include "multiscale/cost/judge.hpp"
 #include "multiscale/cost/report.hpp"
+#include "multiscale/cost/timing.hpp"
 
 namespace polybed::multiscale {
 
@@ -46,7 +47,7 @@ std::string table_of(const Sweep& sweep) {
   for (std::size_t n = 0; n < sweep.rows.size(); ++n) {
     const Row& row = sweep.rows[n];
     body += fmt::format("| {} | {} | {:.3g} | {:.3g} | {:.3g} |", n, settings_text(sweep, row), row.rate,
-                        weighed(row.outcome.counters), row.cpu.empty() ? 0.0 : row.cpu.front());
+                        weighed(row.outcome.counters), row.cpu.empty() ? 0.0 : timing_of(row.cpu).median);
     for (const std::string& id : sweep.options.quantities) body += " " + cell_of(row, id) + " |";
     body += " " + status_of(sweep, n) + " |\n";
   }

@@ -70,16 +70,12 @@ Choice choose(const core::Scene& scene) {
   const Survey of_scene = survey(scene);
   choice.surfaces = surfaces_of(scene, of_scene);
   choice.rows = weigh(scene, of_scene);
-  std::vector<EffectRow> of_case = choice.rows;
+  choice.of_case = choice.rows;
   decide(choice.rows, rule_of(scene, !has_auto(scene)));
   choice.neglected_sum = neglected_sum(choice.rows);
   choice.sum_up_to = neglected_up_to(choice.rows);
-  if (has_auto(scene)) {
-    choice.case_sum = choice.neglected_sum;
-  } else {
-    decide(of_case, rule_of(scene, false));
-    choice.case_sum = neglected_sum(of_case);
-  }
+  decide(choice.of_case, rule_of(scene, false));
+  choice.case_sum = neglected_sum(choice.of_case);
   return choice;
 }
 

@@ -30,8 +30,22 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule);
 /// The same on the scales that a run may reach, within the ranges of the laws: no less.
 [[nodiscard]] double neglected_up_to(const std::vector<EffectRow>& rows);
 
+/// Whether a run of this model does without a row: it is off, cannot be built, or acts on particles by laws that this
+/// model does not have. The closures of the other model (stress of the averaged solids, contacts) are no rows of this
+/// one.
+/// \param model  "tfm" or "dem"
+[[nodiscard]] bool is_left_out(const EffectRow& row, const std::string& model);
+
+/// Both sums of what a run of one model leaves out: no less than those of the choice, which may have on what the model
+/// has no law of.
+/// \param rows  decided  \param model  "tfm" or "dem"
+[[nodiscard]] double neglected_sum(const std::vector<EffectRow>& rows, const std::string& model);
+[[nodiscard]] double neglected_up_to(const std::vector<EffectRow>& rows, const std::string& model);
+
 struct Choice {
   std::vector<EffectRow> rows;
+  std::vector<EffectRow>
+      of_case;  ///< decided by the roles that the case has; those of the choice if it leaves any to it
   double tolerance = 0;
   double neglected_sum = 0;  ///< of the choice, as a share of the buoyant weight
   double sum_up_to = 0;      ///< of the choice, on the scales that a run may reach

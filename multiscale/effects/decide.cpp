@@ -55,6 +55,15 @@ void decide_by_number(EffectRow& row) {
   row.reason = fmt::format("band {:.2g} to {:.2g}, uncertain there: not switched", row.band->least, row.band->most);
 }
 
+/// Bound on what leaving a row out neglects. What is always on has a number that chooses its law and bounds nothing,
+/// other than of a force.
+std::optional<double> bound_of(const EffectRow& row, bool always, bool transient) {
+  if (!row.value || row.below || (always && !row.summed)) return row.neglected;
+  if (of_acceleration(row) && !transient) return 0;
+  const bool known = !is_uncertain(row) || (row.threshold && row.band->most <= *row.threshold);
+  return known ? row.value : std::nullopt;
+}
+
 /// Whether leaving a row out counts in the sum.
 bool counts(const EffectRow& row) { return row.summed && row.state == State::off && row.neglected.value_or(0) > 0; }
 
@@ -92,6 +101,8 @@ void limit_sum(std::vector<EffectRow>& rows, const DecisionRule& rule) {
 void decide(std::vector<EffectRow>& rows, const DecisionRule& rule) {
   for (EffectRow& row : rows) {
     const bool decided = row.state != State::off || (!row.reason.empty() && !row.value);
+    const bool always = row.state == State::on;
+    row.bound = row.neglected;
     if (row.kind != Kind::role && (row.kind == Kind::condition || !row.threshold || !row.value)) continue;
     if (!decided || (row.kind == Kind::unmodelled)) {
       const std::string said = row.kind == Kind::unmodelled ? row.reason : "";
@@ -99,6 +110,7 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule) {
       if (!said.empty()) row.reason = said;
       if (row.kind == Kind::unmodelled && !row.is_force) row.neglected.reset();
     }
+    if (row.kind == Kind::role || row.is_force) row.bound = bound_of(row, always, rule.transient);
     if (row.kind != Kind::role) continue;
     constexpr double powder = 10;  // pull over weight from which beds are not the ones that drag laws are known of
     if (row.effect == "cohesion" && row.value.value_or(0) > powder)
@@ -116,6 +128,25 @@ double neglected_sum(const std::vector<EffectRow>& rows) {
   double sum = 0;
   for (const EffectRow& row : rows)
     if (row.summed && (row.state == State::off || !row.not_built.empty())) sum += row.neglected.value_or(0);
+  return sum;
+}
+
+bool is_left_out(const EffectRow& row, const std::string& model) {
+  const bool has_law = row.models.find(model) != std::string::npos;
+  return has_law ? row.state == State::off || !row.not_built.empty() : row.on_particles;
+}
+
+double neglected_sum(const std::vector<EffectRow>& rows, const std::string& model) {
+  double sum = 0;
+  for (const EffectRow& row : rows)
+    if (row.summed && is_left_out(row, model)) sum += row.bound.value_or(0);
+  return sum;
+}
+
+double neglected_up_to(const std::vector<EffectRow>& rows, const std::string& model) {
+  double sum = 0;
+  for (const EffectRow& row : rows)
+    if (row.summed && is_left_out(row, model)) sum += std::max(row.bound.value_or(0), row.up_to.value_or(0));
   return sum;
 }
 

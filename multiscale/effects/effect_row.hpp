@@ -34,8 +34,10 @@ struct EffectRow {
   State state = State::off;
   Kind kind = Kind::role;
   bool summed = false;              ///< a force on particles that counts in what is left out
+  bool on_particles = false;        ///< acts on particles: a model that has no law of it leaves it out
   bool is_force = false;            ///< of what is not modelled: its value is a share of the weight
   std::optional<double> neglected;  ///< bound on what leaving it out neglects, in the table as decided
+  std::optional<double> bound;      ///< the same whatever is decided; empty where it is not known
   std::string reason;
   std::string not_built;  ///< why a run cannot have it; empty: it can
 };

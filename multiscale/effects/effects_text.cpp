@@ -60,12 +60,17 @@ std::string effects_table(const core::Scene& scene, const Choice& choice) {
       choice.neglected_sum, choice.tolerance, scene.chooser.purpose,
       choice.neglected_sum > choice.tolerance ? ": more than promised, since what would be needed is not to be had"
                                               : "");
+  const double two_fluid = neglected_sum(choice.rows, "tfm"), of_case = neglected_sum(choice.of_case, "tfm");
+  text += fmt::format("by the two-fluid model, which has no law of any of them: {:.2g}{}\n", two_fluid,
+                      two_fluid > choice.tolerance ? ": more than promised" : "");
   if (choice.sum_up_to > choice.tolerance)
     text += fmt::format(
         "in a run up to {:.2g}, where the fluid is sheared within a cell or impacts spin particles: a scale that "
         "switches nothing; polybed effects audit tells what a run met\n",
         choice.sum_up_to);
-  if (!has_auto(scene)) text += fmt::format("left out by the case as it stands: {:.2g}\n", choice.case_sum);
+  if (!has_auto(scene))
+    text += fmt::format("left out by the case as it stands: {:.2g}, by the two-fluid model {:.2g}\n", choice.case_sum,
+                        of_case);
   return text;
 }
 
@@ -95,6 +100,12 @@ void write_effects(core::Json& json, const core::Scene& scene, const Choice& cho
       .member("neglected_sum", choice.neglected_sum)
       .member("neglected_up_to", choice.sum_up_to)
       .member("neglected_sum_of_case", choice.case_sum);
+  const auto by_model = [&](const char* name, const std::vector<EffectRow>& rows) {
+    json.key(name).begin_object().member("tfm", neglected_sum(rows, "tfm"));
+    json.member("dem", neglected_sum(rows, "dem")).end_object();
+  };
+  by_model("neglected_sum_by_model", choice.rows);
+  by_model("neglected_sum_of_case_by_model", choice.of_case);
   json.member("tolerance", choice.tolerance).member("purpose", scene.chooser.purpose);
 }
 

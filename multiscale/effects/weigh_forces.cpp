@@ -22,6 +22,7 @@ EffectRow force_row(const char* effect, const char* model, const char* number, d
   EffectRow row = effect_row(effect, model, number);
   row.threshold = tolerance;
   row.summed = true;
+  row.on_particles = true;
   return row;
 }
 

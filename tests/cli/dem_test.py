@@ -119,6 +119,22 @@ class Files(Dem):
         self.assertLess(record["energy"]["worst_error"], record["energy"]["limit"])
         self.assertEqual(strict_json((self.folder / "run/run.json").read_text())["state"], "done")
 
+    def test_the_record_says_whether_the_ledger_held(self):
+        """A step of some quarter of a contact is too long: energy comes from nowhere, and the record says so."""
+        self.dem(DONE, "held", "--until", "10 ms")
+        self.dem(DONE, "broken", "--until", "20 ms", "--set", "dem.fixed_step=4e-5", "--set", "dem.max_overlap=0.3")
+        for name in ("held", "broken"):
+            record = strict_json((self.folder / name / "run.json").read_text())
+            [energy] = record["invariants"]
+            self.assertEqual((energy["name"], energy["limit"]), ("energy", 1e-3))
+            self.assertEqual(energy["worst"], record["energy"]["worst_error"])
+            self.assertEqual(energy["held"], name == "held")
+            self.assertEqual(energy["worst"] <= 1e-3, name == "held")
+            self.assertEqual("energy exceeded its limit" in record["warnings"], name == "broken")
+            self.assertTrue(0 < energy["time_s"] <= record["time_s"])
+        self.dem(DONE, "none", "--until", "1 ms", "--set", "dem.ledger=false")
+        self.assertNotIn("invariants", strict_json((self.folder / "none/run.json").read_text()))
+
     def test_without_the_ledger_its_columns_are_absent(self):
         self.dem(DONE, "run", "--set", "dem.ledger=false", "--until", "1 ms")
         rows = history(self.folder / "run")

@@ -51,6 +51,22 @@ class Table(Scratch):
         for effect in CATALOGUE:
             self.assertIn(f"\n{effect} ", "\n" + text)
 
+    def test_the_two_fluid_model_leaves_out_what_only_particles_have(self):
+        case = self.write("hand.toml", BY_HAND)
+        for words in ([], ["--set", "effects.lift=saffman_mei"]):
+            answer, rows = self.table(case, *words)
+            of_choice, of_case = answer["neglected_sum_by_model"], answer["neglected_sum_of_case_by_model"]
+            self.assertEqual(of_choice["dem"], answer["neglected_sum"])
+            self.assertEqual(of_case["dem"], answer["neglected_sum_of_case"])
+            # What is on takes nothing from the sum of a model that has no law of it.
+            bounds = {effect: 0 if rows[effect].get("band", [0, None])[1] == rows[effect]["value"] else rows[effect]["value"]
+                      for effect in ("lift", "magnus", "cohesion", "brownian")}  # the top of a band bounds nothing
+            on = sum(bound for effect, bound in bounds.items() if rows[effect]["on"])
+            self.assertAlmostEqual(of_choice["tfm"] - of_choice["dem"], on, places=12)
+            self.assertAlmostEqual(of_case["tfm"] - of_case["dem"], bounds["lift"] if words else 0, places=12)
+            self.assertGreater(bounds["lift"], 0)
+        self.assertIn("by the two-fluid model", self.ends(DONE, "effects", case).stdout)
+
     def test_missing_data_are_said_to_be_unknown(self):
         rows = self.table(CASE)[1]
         self.assertIsNone(rows["charge"]["on"])
@@ -135,6 +151,50 @@ drag = "cello"
 solids_stress = "frictional"
 contact = "hertz_mindlin"
 """
+
+
+class Neglected(Scratch):
+    """A shipped case that names all of its roles and nothing of the chooser, by both models."""
+    SHIPPED = program.ROOT / "cases/small-binary/case.toml"
+    END = {"tfm": "20 ms", "dem": "1 ms"}
+
+    def record(self, model, name, *words):
+        done = self.ends(DONE, model, self.SHIPPED, "-o", self.folder / name, "--no-picture", "--until", self.END[model], *words)
+        return strict_json((self.folder / name / "run.json").read_text()), done.stderr
+
+    def test_every_run_tells_what_it_leaves_out_and_its_bound(self):
+        weighed = strict_json(self.ends(DONE, "effects", self.SHIPPED, "--json").stdout)
+        values = {row["effect"]: row["value"] for row in weighed["effects"]}
+        for model, named in (("tfm", "two-fluid model"), ("dem", "particle model")):
+            record, told = self.record(model, model)
+            self.assertNotIn("promise", record)  # nothing is watched
+            neglected = record["neglected"]
+            rows = {row["effect"]: row for row in neglected["rows"]}
+            self.assertEqual(rows["cohesion"]["bound"], values["cohesion"])
+            self.assertGreater(rows["cohesion"]["bound"], 0)
+            self.assertAlmostEqual(neglected["sum"], sum(row["bound"] or 0 for row in rows.values() if row["summed"]), places=12)
+            self.assertEqual(neglected["sum"], weighed["neglected_sum_of_case_by_model"][model])
+            self.assertEqual(neglected["promise"], 0.02)
+            self.assertIsNone(rows["charge"]["bound"])
+            lines = told.splitlines()
+            first = next(n for n, line in enumerate(lines) if line.startswith(f"left out of the {named}"))
+            self.assertIn(f"forces of {neglected['sum']:.2g} of the weight (promise 0.02: more than promised)", lines[first])
+            self.assertTrue(any(line.startswith("bounds unknown") and "charge" in line for line in lines[first:first + 3]), told)
+
+    def test_an_effect_that_is_on_is_left_out_by_the_model_without_it_alone(self):
+        """The fluid's own viscosity, which both models have, and the pull of surfaces, which only particles have."""
+        on = ["--set", "effects.fluid_stress=newtonian", "--set", "effects.cohesion=van_der_waals", "--set", "dem.hamaker_constant=1e-20"]
+        for model in ("tfm", "dem"):
+            off_rows, on_rows = ({row["effect"]: row for row in self.record(model, model + name, "--quiet", *words)[0]["neglected"]["rows"]}
+                                 for name, words in (("off", []), ("on", on)))
+            self.assertEqual(off_rows["fluid_stress"]["why"], "off in the case")
+            self.assertGreater(off_rows["fluid_stress"]["bound"], 0)
+            self.assertNotIn("fluid_stress", on_rows)
+            self.assertIn("cohesion", off_rows)
+            self.assertEqual("cohesion" in on_rows, model == "tfm")
+
+    def test_quiet_runs_print_nothing_of_it(self):
+        self.assertNotIn("left out", self.record("tfm", "quiet", "--quiet")[1])
 
 
 class Promise(Scratch):

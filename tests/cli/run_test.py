@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Runs of the continuum model: what they write, how they stop and go on. Usage: run_test.py PROGRAM"""
+import csv
 import os
 import shutil
 
@@ -7,7 +8,7 @@ import h5py
 import numpy as np
 
 import program
-from program import CASE, DONE, FILE, SMALL, WRONG_CASE, Scratch, history, same_bits, strict_json
+from program import CASE, DONE, FILE, NUMBERS, SMALL, WRONG_CASE, Scratch, history, same_bits, strict_json
 
 SPECIES = ("fine", "coarse")
 
@@ -36,6 +37,7 @@ class Run(Scratch):
             self.assertGreater(record["work"][counter], 10, counter)
         self.assertTrue(all(i["held"] for i in record["invariants"]), record["invariants"])
         self.assertEqual(record["warnings"], [])
+        self.assertNotIn("last_steps", record)  # of a run that has failed
 
     def check_history(self, directory):
         columns = history(directory)
@@ -68,6 +70,21 @@ class Run(Scratch):
             for name in ["voidage", "p"] + [f"{q}_{s}" for q in ("phi", "u") for s in SPECIES]:
                 self.assertEqual(profiles[name].shape, (4, 60), name)
             np.testing.assert_allclose(profiles["voidage"][3], last["voidage"][()].mean(axis=1), atol=1e-12)  # a mean
+
+    def test_a_run_that_fails_tells_its_last_steps(self):
+        """A monitor that ends the run, at its third look, is as good a failure as any."""
+        directory = self.folder / "run"
+        done = self.ends(NUMBERS, "tfm", CASE, *SMALL, "--until", "1 s", "-o", directory, "--quiet", "--set", "chooser.monitor=stop", "--set",
+                         "chooser.monitor_every=6", "--set", "chooser.monitor_sample=1", "--set", "chooser.tolerance=1e-6")
+        with open(directory / "steps.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertGreater(len(rows), 10)
+        told = strict_json((directory / "run.json").read_text())["last_steps"]
+        self.assertEqual([(str(step["time_s"]), step["limited_by"]) for step in told],
+                         [(str(float(row["time_s"])), row["limited_by"]) for row in rows[-10:]])
+        lines = done.stderr.splitlines()
+        for row in rows[-10:]:
+            self.assertTrue(any(f"{float(row['time_s']):.6g} " in line and line.endswith(row["limited_by"]) for line in lines), row)
 
     def test_what_still_drifts_and_how_well_posed_the_bed_was_is_told(self):
         directory = self.folder / "run"

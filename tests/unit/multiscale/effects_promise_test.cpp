@@ -59,6 +59,32 @@ TEST(Decision, CountsWhatIsCalledForAndNotBuilt) {
   EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.5);
 }
 
+// What is on in the choice is left out all the same by a model that has no law of it.
+TEST(Decision, CountsForEachModelWhatItHasNoLawOf) {
+  std::vector<EffectRow> rows{force("a", 0.5), force("b", 0.004), force("c", 0.3), force("d", 0.03)};
+  for (EffectRow& row : rows) row.on_particles = true;
+  rows[0].models = rows[1].models = rows[2].models = "dem";
+  rows[2].band = NumberBand{0.001, 0.3};  // not known within the range: bounds nothing
+  decide(rows, {0.02, false, {"c"}, {}});
+  EXPECT_TRUE(on(rows[0]) && !on(rows[1]) && on(rows[2]) && on(rows[3]));
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "dem"), 0.004);
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "dem"), neglected_sum(rows));
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "tfm"), 0.504);
+  rows[0].up_to = 0.7;
+  EXPECT_DOUBLE_EQ(neglected_up_to(rows, "dem"), 0.004);
+  EXPECT_DOUBLE_EQ(neglected_up_to(rows, "tfm"), 0.704);
+}
+
+// A mean of 0 in what is steady is 0 in any model.
+TEST(Decision, LeavesNothingOutByAccelerationsThatVanish) {
+  std::vector<EffectRow> rows{force("added_mass", 0.4), force("b", 0.004)};
+  for (EffectRow& row : rows) row.models = "dem", row.on_particles = true;
+  decide(rows, {0.02, false, {"added_mass"}, {}});
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "tfm"), 0.004);
+  decide(rows, {0.02, true, {"added_mass"}, {}});
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "tfm"), 0.404);
+}
+
 // U = (3 + 2 x - 4 y, 1 + 5 x + y, 0): curl 5 + 4; walls are left out of what is asked, they mirror.
 TEST(FluidMap, IsExactOfALinearField) {
   FluidMap map;

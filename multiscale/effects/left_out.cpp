@@ -1,0 +1,103 @@
+#include "multiscale/effects/left_out.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace polybed::multiscale {
+
+namespace {
+
+using State = EffectRow::State;
+using Kind = EffectRow::Kind;
+
+constexpr std::size_t most_named = 4;  // on the screen; the record has all
+
+/// Why a run does without a row; empty if it does not, or if the scene has nothing of it.
+std::string why_left_out(const EffectRow& row, const std::string& model) {
+  if (row.kind == Kind::condition) return row.state == State::off && row.bound ? "off in the case" : "";
+  if (row.kind == Kind::unmodelled) {
+    const bool below = row.threshold && row.state == State::off && row.value;
+    return row.bound == 0.0 || (below && !row.is_force) ? "" : "not modelled";
+  }
+  if (!is_left_out(row, model)) return "";
+  if (row.models.find(model) == std::string::npos) return "no law of it in this model";
+  return row.state == State::off ? "off in the case" : row.not_built;
+}
+
+const char* name_of(Kind kind) {
+  return kind == Kind::role ? "role" : kind == Kind::condition ? "condition" : "unmodelled";
+}
+
+std::string with_bound(const LeftOutEffect& one) {
+  std::string text = fmt::format("{} {:.2g}", one.row.effect, *one.bound);
+  if (one.row.band && one.row.band->most > *one.bound)
+    text += fmt::format(" (uncertain, to {:.2g})", one.row.band->most);
+  return text;
+}
+
+/// The largest first, those beyond the most that are named as a count.
+std::string largest_of(std::vector<LeftOutEffect> effects) {
+  std::stable_sort(effects.begin(), effects.end(), [](const auto& a, const auto& b) { return *a.bound > *b.bound; });
+  std::vector<std::string> named;
+  for (std::size_t n = 0; n < std::min(effects.size(), most_named); ++n) named.push_back(with_bound(effects[n]));
+  std::string text = fmt::format("{}", fmt::join(named, ", "));
+  if (effects.size() > most_named) text += fmt::format(" and {} smaller", effects.size() - most_named);
+  return text;
+}
+
+std::string sum_text(const LeftOut& left_out) {
+  std::string text = fmt::format("left out of the {}: forces of {:.2g} of the weight (promise {:.2g}{})",
+                                 left_out.model == "tfm" ? "two-fluid model" : "particle model", left_out.sum,
+                                 left_out.promise, left_out.sum > left_out.promise ? ": more than promised" : "");
+  if (left_out.up_to > std::max(left_out.sum, left_out.promise))
+    text += fmt::format(", in a run up to {:.2g}", left_out.up_to);
+  return text;
+}
+
+}  // namespace
+
+LeftOut left_out(const core::Scene& scene, const std::string& model) {
+  const Choice choice = choose(scene);
+  LeftOut all;
+  all.model = model;
+  all.purpose = scene.chooser.purpose;
+  all.promise = choice.tolerance;
+  all.sum = neglected_sum(choice.of_case, model);
+  all.up_to = neglected_up_to(choice.of_case, model);
+  for (const EffectRow& row : choice.of_case)
+    if (const std::string why = why_left_out(row, model); !why.empty()) all.effects.push_back({row, why, row.bound});
+  return all;
+}
+
+void write_left_out(core::Json& json, const LeftOut& left_out) {
+  json.key("neglected").begin_object().member("sum", left_out.sum).member("promise", left_out.promise);
+  json.member("up_to", left_out.up_to).member("purpose", left_out.purpose).key("rows").begin_array();
+  for (const LeftOutEffect& one : left_out.effects) {
+    json.begin_object().member("effect", one.row.effect).member("kind", name_of(one.row.kind)).member("why", one.why);
+    json.member("number", one.row.number).member("bound", one.bound).member("summed", one.row.summed);
+    if (one.row.band) json.key("band").begin_array().value(one.row.band->least).value(one.row.band->most).end_array();
+    if (one.row.up_to) json.member("up_to", *one.row.up_to);
+    json.member("reason", one.row.reason).end_object();
+  }
+  json.end_array().end_object();
+}
+
+std::vector<std::string> left_out_lines(const LeftOut& left_out) {
+  std::vector<LeftOutEffect> forces, others;
+  std::vector<std::string> unknown;
+  for (const LeftOutEffect& one : left_out.effects) {
+    if (!one.bound)
+      unknown.push_back(one.row.effect);
+    else if (*one.bound > 0)
+      (one.row.summed ? forces : others).push_back(one);
+  }
+  std::vector<std::string> lines{sum_text(left_out) + (forces.empty() ? "" : ": " + largest_of(forces))};
+  if (!others.empty()) lines.push_back("beside them, each by its own number (polybed effects): " + largest_of(others));
+  if (!unknown.empty()) lines.push_back(fmt::format("bounds unknown: {}", fmt::join(unknown, ", ")));
+  return lines;
+}
+
+}  // namespace polybed::multiscale

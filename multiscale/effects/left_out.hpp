@@ -1,0 +1,43 @@
+// What a run leaves out, told before it and in its record whether or not anything is left to the chooser: each effect
+// that its model does without, with the bound that the case alone gives.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json.hpp"
+#include "core/scene.hpp"
+#include "multiscale/effects/choice.hpp"
+
+namespace polybed::multiscale {
+
+/// One effect that is left out.
+struct LeftOutEffect {
+  EffectRow row;                ///< decided by the case
+  std::string why;              ///< off in the case | no law of it in this model | not modelled | what it would need
+  std::optional<double> bound;  ///< by row.number, of a force as a share of the weight; empty: not known
+};
+
+struct LeftOut {
+  std::string model;    ///< "tfm" or "dem"
+  std::string purpose;  ///< "steady" or "transient": whether what goes with acceleration counts
+  double promise = 0;   ///< chooser.tolerance
+  double sum = 0;       ///< of the bounds of forces on particles, as a share of the buoyant weight
+  double up_to = 0;     ///< the same on the scales that a run may reach
+  std::vector<LeftOutEffect> effects;
+};
+
+/// What a run of a scene leaves out, by the rules of docs/effects.md; nothing is run, it takes some milliseconds.
+/// \param scene  with its roles in words  \param model  "tfm" or "dem"
+/// Throws core::CaseError if the fluid is not known at a temperature that the chooser is to span.
+[[nodiscard]] LeftOut left_out(const core::Scene& scene, const std::string& model);
+
+/// The member "neglected" of an open object.
+void write_left_out(core::Json& json, const LeftOut& left_out);
+
+/// The same in at most three lines: forces and their sum against the promise, what has a number of its own, what is
+/// not known.
+[[nodiscard]] std::vector<std::string> left_out_lines(const LeftOut& left_out);
+
+}  // namespace polybed::multiscale

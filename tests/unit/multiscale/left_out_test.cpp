@@ -1,0 +1,118 @@
+// What a run's record says of the effects that its model does without.
+#include "multiscale/effects/left_out.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "closures/relevance.hpp"
+#include "core/case_file.hpp"
+#include "multiscale/roles.hpp"
+
+namespace polybed::multiscale {
+namespace {
+
+const std::string beads = R"(
+column = { size = [0.02, 0.1], cells = [4, 20] }
+fluid = { name = "water", density = 1000, viscosity = 1e-3 }
+bed = { volume_share = [1], static_height = "40 mm", solids_fraction = 0.6 }
+inlet = { superficial_velocity = "10 mm/s" }
+run = { until = "1 s" }
+[[species]]
+name = "beads"
+diameter = "1 mm"
+density = 2500
+[effects]
+drag = "cello"
+solids_stress = "frictional"
+contact = "hertz_mindlin"
+)";
+
+core::Scene scene_of(const std::vector<std::string>& overrides = {}) {
+  return core::parse_case(beads, "case.toml", overrides, all_roles(), size_classes);
+}
+
+const LeftOutEffect* find(const LeftOut& all, const std::string& effect) {
+  for (const LeftOutEffect& one : all.effects)
+    if (one.row.effect == effect) return &one;
+  return nullptr;
+}
+
+// The pull of asperities, A R/(12 z^2) with R half the roughness over two and z the gap of contact, over the weight.
+TEST(LeftOut, BoundsAForceThatTheCaseHasOff) {
+  const LeftOut all = left_out(scene_of({"dem.roughness=2e-7", "chooser.hamaker=3e-20"}), "dem");
+  const LeftOutEffect* cohesion = find(all, "cohesion");
+  ASSERT_TRUE(cohesion != nullptr && cohesion->bound);
+  const double weight = std::acos(-1.0) / 6 * 1e-9 * 1500 * 9.81;
+  EXPECT_NEAR(*cohesion->bound / (3e-20 * 1e-7 / (12 * std::pow(closures::relevance_contact_gap, 2)) / weight), 1,
+              1e-12);  // rounding
+  EXPECT_EQ(cohesion->why, "off in the case");
+}
+
+TEST(LeftOut, IsOfTheModelThatRuns) {
+  const core::Scene scene = scene_of({"effects.lift=saffman_mei"});
+  const LeftOut two_fluid = left_out(scene, "tfm"), particles = left_out(scene, "dem");
+  const LeftOutEffect* lift = find(two_fluid, "lift");
+  ASSERT_TRUE(lift != nullptr && lift->bound);
+  EXPECT_GT(*lift->bound, 0);
+  EXPECT_EQ(lift->why, "no law of it in this model");
+  EXPECT_EQ(find(particles, "lift"), nullptr);
+  EXPECT_NEAR(two_fluid.sum - particles.sum, *lift->bound, 1e-15);
+  // The same bound as where the case has it off.
+  EXPECT_EQ(*find(left_out(scene_of(), "dem"), "lift")->bound, *lift->bound);
+  // What the other model is made of is not left out of this one.
+  EXPECT_EQ(find(two_fluid, "contact"), nullptr);
+  EXPECT_EQ(find(particles, "solids_stress"), nullptr);
+}
+
+TEST(LeftOut, SumsTheBoundsOfForces) {
+  const LeftOut all = left_out(scene_of({"chooser.purpose=transient"}), "dem");
+  double sum = 0;
+  for (const LeftOutEffect& one : all.effects)
+    if (one.row.summed) sum += one.bound.value_or(0);
+  EXPECT_DOUBLE_EQ(all.sum, sum);
+  EXPECT_GT(*find(all, "added_mass")->bound, 0.02);  // of s = 0.4: C_m s/(1 + C_m s) with C_m of 0.5 at least
+  EXPECT_EQ(*find(left_out(scene_of(), "dem"), "added_mass")->bound, 0);
+  EXPECT_GE(all.up_to, all.sum);
+}
+
+TEST(LeftOut, SaysWhatIsNotKnown) {
+  const LeftOut all = left_out(scene_of(), "dem");
+  ASSERT_NE(find(all, "charge"), nullptr);
+  EXPECT_FALSE(find(all, "charge")->bound);
+  EXPECT_NE(left_out_lines(all).back().find("charge"), std::string::npos);
+  const LeftOut known = left_out(scene_of({"chooser.charge=1e-12"}), "dem");
+  EXPECT_GT(*find(known, "charge")->bound, 0);
+  EXPECT_EQ(left_out_lines(known).back().find("charge"), std::string::npos);
+}
+
+TEST(LeftOut, SaysWhereTheSumIsMoreThanPromised) {
+  const LeftOut more = left_out(scene_of({"chooser.tolerance=1e-4"}), "tfm");
+  const LeftOut less = left_out(scene_of({"chooser.tolerance=0.9"}), "tfm");
+  ASSERT_TRUE(more.sum > more.promise && less.sum < less.promise);
+  EXPECT_NE(left_out_lines(more)[0].find("more than promised"), std::string::npos);
+  EXPECT_EQ(left_out_lines(less)[0].find("more than promised"), std::string::npos);
+}
+
+TEST(LeftOut, IsThereForEveryCaseThatIsShipped) {
+  int cases = 0;
+  for (const auto& folder : std::filesystem::directory_iterator(POLYBED_SOURCE_DIR "/cases")) {
+    if (!std::filesystem::exists(folder.path() / "case.toml")) continue;
+    ++cases;
+    const core::Scene scene = core::read_case(folder.path() / "case.toml", {}, all_roles(), size_classes);
+    for (const char* model : {"tfm", "dem"}) {
+      const LeftOut all = left_out(scene, model);
+      EXPECT_TRUE(std::isfinite(all.sum)) << folder.path();
+      EXPECT_FALSE(all.effects.empty()) << folder.path();
+      EXPECT_LE(left_out_lines(all).size(), 3U) << folder.path();
+      core::Json json;
+      json.begin_object();
+      write_left_out(json, all);  // throws where a number is not finite
+    }
+  }
+  EXPECT_GE(cases, 15);
+}
+
+}  // namespace
+}  // namespace polybed::multiscale
