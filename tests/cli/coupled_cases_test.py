@@ -26,7 +26,7 @@ class CoupledCases(Scratch):
         earlier; the sphere's own flow at a kernel of six diameters makes it 0.1 % late."""
         _, directory = self.dem("settling-sphere", run__until=0.19)
         expected = sphere_reference.reference(0.045, law="turton_levenspiel")
-        found = sphere_reference.motion(directory)
+        found, = sphere_reference.events(*sphere_reference.motion(directory))
         self.assertAlmostEqual(found["contact_s"] / expected["contact_s"], 1, delta=0.01)
         self.assertAlmostEqual(found["contact_speed"] / expected["contact_speed"], 1, delta=0.01)
         # specification of the case: 5 %; 0.3 % was seen
