@@ -20,14 +20,15 @@ struct Series {
   std::vector<double> height, centre, drop;
 };
 
-constexpr double diameter = 2e-3, solids_density = 2500, liquid_density = 1000, viscosity = 0.03, velocity = 30e-3;
+constexpr double diameter = 2e-3, solids_density = 2500, liquid_density = 1000, liquid_viscosity = 0.03,
+                 velocity = 30e-3;
 constexpr double until = 1.6, sphere = verification::pi / 6 * diameter * diameter * diameter, gravity = 9.81;  // s, m3
 constexpr int particles = 160, samples = 160;
 
 /// 160 glass beads of 2 mm in a viscous liquid, expanded, in a column joined on its sides.
 core::Scene bed_of_beads() {
-  core::Scene scene =
-      verification::wet_box(diameter, solids_density, {liquid_density, viscosity}, {12e-3, 48e-3, 12e-3}, {4, 16, 4});
+  core::Scene scene = verification::wet_box(diameter, solids_density, {liquid_density, liquid_viscosity},
+                                            {12e-3, 48e-3, 12e-3}, {4, 16, 4});
   scene.column.closed = false;
   scene.column.sides = "periodic";
   scene.column.gravity = gravity;

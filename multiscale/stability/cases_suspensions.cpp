@@ -163,7 +163,7 @@ void impact_in_liquid(Trial& trial) {
     scene.effects["contact"] = "hertz_mindlin";
     if (!trial.naive()) scene.effects["lubrication"] = "wet_restitution";
     scene.dem.restitution = 0.9;
-    scene.dem.tail = "keep";  // a clipped one leaves 0.05 at least, where less than 0.001 is asked for
+    scene.dem.tail = "keep";            // a clipped one leaves 0.05 at least, where less than 0.001 is asked for
     scene.dem.steps_per_contact = 400;  // a strongly damped impact to 1 %
     scene.dem.max_overlap = 0.2;
     scene.dem.greatest_speed = 2 * speed;
