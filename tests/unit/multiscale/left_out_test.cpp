@@ -39,13 +39,14 @@ const LeftOutEffect* find(const LeftOut& all, const std::string& effect) {
   return nullptr;
 }
 
-// The pull of asperities, A R/(12 z^2) with R half the roughness over two and z the gap of contact, over the weight.
+// The pull of two asperities of 200 nm, A R*/(6 z^2) with R* half of that and z the gap of contact (docs/effects.md),
+// over the weight.
 TEST(LeftOut, BoundsAForceThatTheCaseHasOff) {
   const LeftOut all = left_out(scene_of({"dem.roughness=2e-7", "chooser.hamaker=3e-20"}), "dem");
   const LeftOutEffect* cohesion = find(all, "cohesion");
   ASSERT_TRUE(cohesion != nullptr && cohesion->bound);
   const double weight = std::acos(-1.0) / 6 * 1e-9 * 1500 * 9.81;
-  EXPECT_NEAR(*cohesion->bound / (3e-20 * 1e-7 / (12 * std::pow(closures::relevance_contact_gap, 2)) / weight), 1,
+  EXPECT_NEAR(*cohesion->bound / (3e-20 * 1e-7 / (6 * std::pow(closures::relevance_contact_gap, 2)) / weight), 1,
               1e-12);  // rounding
   EXPECT_EQ(cohesion->why, "off in the case");
 }
