@@ -186,7 +186,7 @@ class Neglected(Scratch):
         on = ["--set", "effects.fluid_stress=newtonian", "--set", "effects.cohesion=van_der_waals", "--set", "dem.hamaker_constant=1e-20"]
         for model in ("tfm", "dem"):
             off_rows, on_rows = ({row["effect"]: row for row in self.record(model, model + name, "--quiet", *words)[0]["neglected"]["rows"]}
-                                 for name, words in (("off", []), ("on", on)))
+                                 for name, words in (("off", ["--set", "effects.fluid_stress=none"]), ("on", on)))
             self.assertEqual(off_rows["fluid_stress"]["why"], "off in the case")
             self.assertGreater(off_rows["fluid_stress"]["bound"], 0)
             self.assertNotIn("fluid_stress", on_rows)
