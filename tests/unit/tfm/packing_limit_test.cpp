@@ -39,8 +39,8 @@ TEST(PackingLimit, TellsWhatHoldsSpeciesTogether) {
   EXPECT_THAT(said_of(0.6401, 2), HasSubstr("tfm.exchange_pressure"));
 }
 
-// A run that passes the limit ends at the state before the step: a cell that starts at 0.6299, onto which solids fall at
-// 0.5 m/s.
+// A run that passes the limit ends at the state before the step: a cell that starts at 0.6299, onto which solids fall
+// at 0.5 m/s.
 TEST(PackingLimit, LeavesTheStateBeforeTheStep) {
   core::Scene scene = uniform_bed(1e-3, 2500, 1000, 1e-3, 0.5, 8, 0.04);
   scene.column.closed = true;
