@@ -23,6 +23,20 @@ struct NormalForce {
 /// m* = m_i m_j/(m_i + m_j), kg; infinity stands for a wall.
 [[nodiscard]] inline double reduced_mass(double mass_i, double mass_j) { return 1 / (1 / mass_i + 1 / mass_j); }
 
+/// Mass, kg, whose energy one contact takes where the heavier of two spheres runs into the other, which its neighbours
+/// hold: the heavier's, shared out over as many of them as it covers, (R_heavier/R_other)^2, if it is the larger. Ours,
+/// for set-up; two free spheres have the energy of m*, which is less.
+[[nodiscard]] inline double mass_on_a_contact(double mass_i, double radius_i, double mass_j, double radius_j) {
+  const bool i_is_heavier = mass_i >= mass_j;
+  const double ratio = i_is_heavier ? radius_i / radius_j : radius_j / radius_i;
+  return (i_is_heavier ? mass_i : mass_j) / (ratio > 1 ? ratio * ratio : 1);
+}
+
+/// (1 + e) m_i/(m_i + m_j): speed of j, at rest before, over that of i which runs straight into it; restitution e.
+[[nodiscard]] inline double speed_passed_on(double mass_i, double mass_j, double restitution) {
+  return (1 + restitution) * mass_i / (mass_i + mass_j);
+}
+
 /// 1/E* = sum (1 - nu^2)/E (Hertz 1882; Johnson, Contact Mechanics, 1985, eq. 4.1).
 [[nodiscard]] inline double reduced_youngs_modulus(const Elastic& a, const Elastic& b) {
   return 1 / ((1 - a.poisson_ratio * a.poisson_ratio) / a.youngs_modulus +

@@ -7,6 +7,10 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+# One search path of libraries for building and installing: to one that it replaces when it installs, CMake appends an empty entry,
+# for which the loader takes libraries from the working directory.
+set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 
 option(POLYBED_NATIVE "Compile for this machine's processor; off makes programs that run anywhere" OFF)
 option(POLYBED_WARNINGS_AS_ERRORS "Stop at a warning" OFF)

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+#include <map>
 
+#include "core/case_depth.hpp"
 #include "core/case_override.hpp"
 #include "core/case_values.hpp"
+#include "core/files.hpp"
 #include "core/keys.hpp"
 #include "core/resolve_particles.hpp"
 
@@ -19,8 +18,8 @@ namespace {
 /// One reading of a case: the scene as it grows, and the problems found so far.
 class CaseReader {
  public:
-  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes)
-      : name_(std::move(name)), roles_(roles), classes_(classes), values_(name_) {}
+  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, const SceneRule& rule)
+      : name_(std::move(name)), roles_(roles), classes_(classes), rule_(rule), values_(name_) {}
 
   void read(toml::table& root, std::span<const std::string> overrides);
   Scene finish();
@@ -31,15 +30,21 @@ class CaseReader {
   void read_effects(const toml::node& node);
   void read_key(const Key& key, std::size_t index, const toml::node& node);
   void check_given();
+  void check_amount();
+  void check_fluid();
   void check_sizes(const toml::table& species);
+  void check_scene();
+  void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message);
   void wrong_key(const toml::key& key, std::string_view table);
 
   std::string name_;
   std::span<const Role> roles_;
   const ClassRule& classes_;
+  const SceneRule& rule_;
   CaseValues values_;
   Scene scene_;
-  std::vector<std::string> given_;  ///< paths of the keys that the case sets
+  std::map<std::string, toml::source_region> given_;  ///< the keys that the case sets, by path, and where
+  WrongKeys wrong_;
 };
 
 /// A name as people write it: [table] or [[array]].
@@ -47,12 +52,9 @@ std::string bracketed(std::string_view table) {
   return is_array_of_tables(table) ? fmt::format("[[{}]]", table) : fmt::format("[{}]", table);
 }
 
-bool contains(const std::vector<std::string>& paths, std::string_view path) {
-  return std::find(paths.begin(), paths.end(), path) != paths.end();
-}
-
 void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& node) {
-  given_.push_back(key.path());
+  given_.emplace(key.path(), node.source());
+  const std::size_t problems = values_.problems().size();
   const auto store = [&]<class T>(T& place, const auto& value) {
     if (value) place = static_cast<T>(*value);
   };
@@ -78,6 +80,14 @@ void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& n
           store(place, key.by_size ? values_.sieves(key, node) : values_.points(key, node));
       },
       key.place);
+  if (values_.problems().size() > problems) wrong_.add(key.path());
+}
+
+/// A table that cannot be read: none of its keys has a value.
+void CaseReader::wrong_table(std::string_view table, const toml::source_region& place, const std::string& message) {
+  values_.add(place, message);
+  for (const Key& key : keys())
+    if (key.table == table) wrong_.add(key.path());
 }
 
 void CaseReader::wrong_key(const toml::key& key, std::string_view table) {
@@ -104,9 +114,13 @@ void CaseReader::read_table(const toml::table& table, std::string_view name, std
       read_key(*found, index, node);
   }
   for (const Key& key : keys())
-    if (key.required && key.table == name && !table.contains(key.name))
+    if (key.required && key.table == name && !table.contains(key.name)) {
       values_.add(table.source(), fmt::format("{} is missing: {}", key.path(), key.help));
+      wrong_.add(key.path());
+    }
+  const std::size_t problems = values_.problems().size();
   if (name == "species") check_sizes(table);
+  if (values_.problems().size() > problems) wrong_.add("species.diameter");
 }
 
 /// A species has one diameter or a distribution, and a distribution what its kind needs and nothing else.
@@ -147,6 +161,7 @@ void CaseReader::read_effects(const toml::node& node) {
     return;
   }
   for (const auto& [name, value] : *table) {
+    given_.emplace(fmt::format("effects.{}", name.str()), name.source());
     const auto role = std::find_if(roles_.begin(), roles_.end(), [&](const Role& r) { return r.name == name.str(); });
     if (role == roles_.end()) {
       wrong_key(name, "effects");
@@ -160,6 +175,7 @@ void CaseReader::read_effects(const toml::node& node) {
       values_.add(value.source(),
                   fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value), fmt::join(laws, " | "),
                               near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+      wrong_.add("effects." + role->name);
       continue;
     }
     if (*law != "none") scene_.effects[role->name] = *law;
@@ -172,7 +188,7 @@ void CaseReader::read_entry(std::string_view table, const toml::key& name, const
   if (is_array_of_tables(table)) {
     const toml::array* entries = node.as_array();
     if (entries == nullptr || !entries->is_homogeneous<toml::table>())
-      return values_.add(node.source(), fmt::format("{} is an array of tables: write [[{}]]", table, table));
+      return wrong_table(table, node.source(), fmt::format("{} is an array of tables: write [[{}]]", table, table));
     if (table == "species") scene_.species.resize(entries->size());
     if (table == "contact_pair") scene_.contact_pairs.resize(entries->size());
     if (table == "jet") scene_.jets.resize(entries->size());
@@ -180,7 +196,8 @@ void CaseReader::read_entry(std::string_view table, const toml::key& name, const
     for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), table, n);
     return;
   }
-  if (!node.is_table()) return values_.add(node.source(), fmt::format("{} is a table: write [{}]", table, table));
+  if (!node.is_table())
+    return wrong_table(table, node.source(), fmt::format("{} is a table: write [{}]", table, table));
   read_table(*node.as_table(), table, 0);
 }
 
@@ -198,37 +215,78 @@ void CaseReader::read(toml::table& root, std::span<const std::string> overrides)
       read_entry(name.str(), name, node);
   }
   for (std::string_view table : {"column", "fluid", "species", "bed", "run"})
-    if (!root.contains(table)) values_.add(fmt::format("{} is missing", bracketed(table)));
+    if (!root.contains(table)) wrong_table(table, {}, fmt::format("{} is missing", bracketed(table)));
+}
+
+/// How much there is in the bed: said once.
+void CaseReader::check_amount() {
+  const auto given = [&](const std::string& path) { return given_.contains(path); };
+  const bool by_particles = given("bed.particles"), list = is_list(scene_.bed);
+  for (const char* key : {"bed.volume_share", "bed.static_height"}) {
+    if (by_particles && given(key))
+      values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
+    if (by_particles || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
+    values_.add(fmt::format("{} is missing (or give bed.particles)", key));
+    wrong_.add(key);
+  }
+  // A feed is held against the packing of the settled bed, whatever the bed begins as.
+  const bool anywhere = scene_.bed.start == "random" && by_particles;
+  if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
+  if ((list || anywhere) && scene_.feeds.empty()) return;
+  values_.add("bed.solids_fraction is missing: of the settled bed");
+  wrong_.add("bed.solids_fraction");
+}
+
+/// A fluid with density and viscosity needs no name.
+void CaseReader::check_fluid() {
+  const auto given = [&](const char* path) { return given_.contains(path); };
+  if (given("fluid.name") || !wrong_.sound("fluid.name")) return;
+  if (given("fluid.density") && given("fluid.viscosity")) return;
+  values_.add(
+      "fluid.name is missing: \"water\" or \"air\" with fluid.temperature, \"none\" for particles without a fluid, or "
+      "give fluid.density and fluid.viscosity");
+  wrong_.add("fluid.name");
 }
 
 /// What must be given together, or not together.
 void CaseReader::check_given() {
-  const auto given = [&](std::string_view path) { return contains(given_, path); };
-  const bool by_particles = given("bed.particles"), list = is_list(scene_.bed);
-  for (std::string_view key : {"bed.volume_share", "bed.static_height"}) {
-    if (by_particles && given(key))
-      values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
-    if (!by_particles && !given(key) && !list) values_.add(fmt::format("{} is missing (or give bed.particles)", key));
-  }
-  // A feed is held against the packing of the settled bed, whatever the bed begins as.
-  const bool anywhere = scene_.bed.start == "random" && given("bed.particles");
-  if (!given("bed.solids_fraction") && ((!list && !anywhere) || !scene_.feeds.empty()))
-    values_.add("bed.solids_fraction is missing: of the settled bed");
-  if (!scene_.column.closed && !given("inlet.superficial_velocity") && scene_.fluid.name != "none" &&
-      scene_.dem.shear_rate == 0)
+  check_amount();
+  check_fluid();
+  const bool inlet = given_.contains("inlet.superficial_velocity");
+  const bool flows = scene_.fluid.name != "none" && scene_.dem.shear_rate == 0;
+  if (!scene_.column.closed && !inlet && flows && wrong_.sound({"column.closed", "fluid.name", "dem.shear_rate"}))
     values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");
-  if (scene_.column.closed && given("inlet.superficial_velocity"))
-    values_.add("inlet.superficial_velocity cannot act: column.closed = true");
+  if (scene_.column.closed && inlet) values_.add("inlet.superficial_velocity cannot act: column.closed = true");
+}
+
+/// What the keys say of each other, as far as they are sound.
+void CaseReader::check_scene() {
+  std::vector<CaseProblem>& problems = values_.problems();
+  const auto take = [&](const std::vector<CaseProblem>& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+    return !more.empty();
+  };
+  const bool one_size = std::all_of(scene_.species.begin(), scene_.species.end(),
+                                    [](const Species& species) { return species.sizes.kind.empty(); });
+  const bool readable = wrong_.sound({"species.", "bed.volume_share"});
+  // Without its classes a distribution has no diameter.
+  if (!wrong_.sound("species.distribution") ||
+      (!one_size && (!readable || take(expand_size_classes(scene_, classes_, name_)))))
+    wrong_.add("species.diameter");
+  take(resolve(scene_, name_, given_.contains("bed.particles"), wrong_));
+  if (!rule_) return;
+  for (const SceneFault& fault : rule_(scene_)) {
+    const auto sound = [&](const std::string& key) { return wrong_.sound(key); };
+    if (!sound(fault.key) || !std::all_of(fault.rests_on.begin(), fault.rests_on.end(), sound)) continue;
+    const auto place = given_.find(fault.key);
+    place == given_.end() ? values_.add(fault.message) : values_.add(place->second, fault.message);
+  }
 }
 
 Scene CaseReader::finish() {
   check_given();
+  check_scene();
   std::vector<CaseProblem>& problems = values_.problems();
-  if (problems.empty()) {
-    std::vector<CaseProblem> more = expand_size_classes(scene_, classes_, name_);
-    if (more.empty()) more = resolve(scene_, name_, contains(given_, "bed.particles"));
-    problems.insert(problems.end(), more.begin(), more.end());
-  }
   std::stable_sort(problems.begin(), problems.end(), [](const CaseProblem& a, const CaseProblem& b) {
     return std::pair(a.line == 0, a.line) < std::pair(b.line == 0, b.line);
   });
@@ -239,7 +297,8 @@ Scene CaseReader::finish() {
 }  // namespace
 
 Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                 std::span<const Role> roles, const ClassRule& classes) {
+                 std::span<const Role> roles, const ClassRule& classes, const SceneRule& rule) {
+  if (const auto problem = too_deep(text, name)) throw CaseError(std::vector{*problem});
   toml::table root;
   try {
     root = toml::parse(text, name);
@@ -249,24 +308,17 @@ Scene parse_case(std::string_view text, const std::string& name, std::span<const
     problem.push_back({name, int(at.line), int(at.column), std::string(error.description())});
     throw CaseError(problem);
   }
-  CaseReader reader(name, roles, classes);
+  CaseReader reader(name, roles, classes, rule);
   reader.read(root, overrides);
   return reader.finish();
 }
 
 Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides, std::span<const Role> roles,
-                const ClassRule& classes) {
-  constexpr std::uintmax_t largest = 10'000'000;
+                const ClassRule& classes, const SceneRule& rule) {
+  constexpr std::size_t largest = 10'000'000;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw FileError(path.string() + " is a folder: name its case.toml");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
-  if (const auto size = std::filesystem::file_size(path, error); !error && size > largest)
-    throw FileError(fmt::format("{}: {} bytes is too long for a case file", path.string(), size));
-  std::stringstream text;
-  text << file.rdbuf();
-  if (file.bad()) throw FileError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
-  return parse_case(text.str(), path.string(), overrides, roles, classes);
+  return parse_case(read_text(path, largest), path.string(), overrides, roles, classes, rule);
 }
 
 }  // namespace polybed::core

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/registry.hpp"
 #include "core/scene.hpp"
+#include "core/scene_rule.hpp"
 #include "core/size_classes.hpp"
 
 namespace polybed::core {
@@ -21,16 +22,19 @@ namespace polybed::core {
 /// "species.fine.diameter=1 mm"
 /// \param roles      what [effects] may name
 /// \param classes    how a distribution of sizes becomes species; without it a case may have none
+/// \param rule       what the laws ask of a scene; its faults are reported together with all others
 [[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
-                              std::span<const Role> roles, const ClassRule& classes = {});
+                              std::span<const Role> roles, const ClassRule& classes = {}, const SceneRule& rule = {});
 
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                               std::span<const Role> roles, const ClassRule& classes = {});
+                               std::span<const Role> roles, const ClassRule& classes = {}, const SceneRule& rule = {});
 
 /// What the keys say of each other: sums, sizes, conflicts, a bed that does not fit. Fills in what follows
 /// from them (axes of the column, depth, shares, defaults of output). Problems have no line.
-[[nodiscard]] std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool bed_given_by_particles);
+/// \param wrong  keys with problems of their own: what rests on them is not checked
+[[nodiscard]] std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool bed_given_by_particles,
+                                               WrongKeys wrong = {});
 
 /// The whole case in SI as TOML; reads back to the same scene.
 [[nodiscard]] std::string resolved_case(const Scene& scene);

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "core/case_depth.hpp"
 #include "core/json.hpp"
 
 namespace polybed::core {
@@ -28,6 +29,11 @@ void apply_override(toml::table& root, const std::string& given, CaseValues& val
   if (sign == std::string::npos || sign == 0)
     return values.problems().push_back({"--set " + given, 0, 0, "expected KEY=VALUE"});
   const std::string value = given.substr(sign + 1);
+  for (const std::string& text : {path, value})
+    if (auto problem = too_deep(text, source)) {
+      problem->line = 0;
+      return values.problems().push_back(*problem);
+    }
   toml::table parsed;
   try {
     parsed = parse_override(value, source);

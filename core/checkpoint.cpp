@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -103,10 +104,11 @@ void keep_previous(const fs::path& path) {
   const fs::path previous = previous_checkpoint(path), spare = previous.string() + ".temporary";
   ::unlink(spare.c_str());
   const bool linked = ::link(path.c_str(), spare.c_str()) == 0;
-  if (!linked && errno == ENOENT) return;
   const fs::path& source = linked ? spare : path;
-  if (std::rename(source.c_str(), previous.c_str()) != 0)
+  if (std::rename(source.c_str(), previous.c_str()) != 0) {
+    if (!linked && errno == ENOENT) return;  // the first
     throw FileError(fmt::format("cannot write {}: {}", previous.string(), std::system_category().message(errno)));
+  }
   ::unlink(spare.c_str());  // still there if both names were of one file
 }
 
@@ -157,16 +159,60 @@ void write_fresh(const fs::path& fresh, const Checkpoint& checkpoint, const Rank
   });
 }
 
+double one_number(const OutputFile& file, const std::string& name) {
+  const std::vector<double> values = file.read(name).values;
+  if (values.size() != 1) refuse_checkpoint(fmt::format("{} has {} numbers in place of one", name, values.size()));
+  return values.front();
+}
+
 Checkpoint content(const OutputFile& file) {
   Checkpoint checkpoint;
   for (const auto& name : file.names("arrays")) checkpoint.arrays[name] = file.read("arrays/" + name).values;
-  for (const auto& name : file.names("numbers")) checkpoint.numbers[name] = file.read("numbers/" + name).values.at(0);
+  for (const auto& name : file.names("numbers")) checkpoint.numbers[name] = one_number(file, "numbers/" + name);
   for (const auto& name : file.names("integers")) checkpoint.integers[name] = file.read_integer("integers/" + name);
   for (const auto& name : file.names("texts")) checkpoint.texts[name] = file.read_text("texts/" + name);
   return checkpoint;
 }
 
+template <class Value>
+const Value& entry(const std::map<std::string, Value>& entries, const std::string& name) {
+  const auto found = entries.find(name);
+  if (found == entries.end()) refuse_checkpoint(fmt::format("it has no {}", name));
+  return found->second;
+}
+
 }  // namespace
+
+void refuse_checkpoint(const std::string& reason) {
+  throw FileError("the checkpoint is whole but cannot be resumed: " + reason);
+}
+
+void require_numbers(const Checkpoint& checkpoint) {
+  constexpr double greatest = 1e30;
+  const auto odd = [](double v) { return !(std::abs(v) <= greatest); };
+  for (const auto& [name, values] : checkpoint.arrays)
+    if (const auto found = std::find_if(values.begin(), values.end(), odd); found != values.end())
+      refuse_checkpoint(fmt::format("number {} of {} is {}", found - values.begin() + 1, name, *found));
+  for (const auto& [name, value] : checkpoint.numbers)
+    if (odd(value)) refuse_checkpoint(fmt::format("{} is {}", name, value));
+}
+
+const std::vector<double>& Checkpoint::array(const std::string& name) const { return entry(arrays, name); }
+double Checkpoint::number(const std::string& name) const { return entry(numbers, name); }
+std::int64_t Checkpoint::integer(const std::string& name) const { return entry(integers, name); }
+
+double Checkpoint::time(const std::string& name) const {
+  constexpr double longest = 1e9;  // s, as of run.until
+  const double seconds = number(name);
+  if (!(seconds >= 0 && seconds <= longest)) refuse_checkpoint(fmt::format("{} is {:g} s", name, seconds));
+  return seconds;
+}
+
+std::int64_t Checkpoint::count(const std::string& name) const {
+  const std::int64_t times = integer(name);
+  if (times < 0) refuse_checkpoint(fmt::format("{} is {}", name, times));
+  return times;
+}
 
 fs::path previous_checkpoint(const fs::path& path) {
   return path.parent_path() / (path.stem().string() + ".previous" + path.extension().string());

@@ -38,7 +38,22 @@ struct Checkpoint {
   std::map<std::string, std::string> texts;
 
   bool operator==(const Checkpoint&) const = default;
+
+  /// What stands under a name; each throws FileError if there is none.
+  [[nodiscard]] const std::vector<double>& array(const std::string& name) const;
+  [[nodiscard]] double number(const std::string& name) const;
+  [[nodiscard]] std::int64_t integer(const std::string& name) const;
+  /// The same for a time or a length of time, s: also throws for one that no run has.
+  [[nodiscard]] double time(const std::string& name) const;
+  /// The same for how often something was done: also throws for less than nothing.
+  [[nodiscard]] std::int64_t count(const std::string& name) const;
 };
+
+/// What a checkpoint says that cannot be, though it is whole: FileError with the reason.
+[[noreturn]] void refuse_checkpoint(const std::string& reason);
+
+/// Throws FileError for numbers that no state of a run has: not finite, or beyond 1e30 in SI units.
+void require_numbers(const Checkpoint& checkpoint);
 
 /// Where the checkpoint before `path` is kept: checkpoint.h5 -> checkpoint.previous.h5.
 [[nodiscard]] std::filesystem::path previous_checkpoint(const std::filesystem::path& path);

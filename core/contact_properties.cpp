@@ -15,7 +15,7 @@ struct Material {
 
 Material material_of(const Scene& scene, const std::string& name) {
   const Dem& dem = scene.dem;
-  const Material common{{dem.youngs_modulus, dem.poisson_ratio}, dem.restitution, dem.friction};
+  const Material common{{dem.youngs_modulus.value_or(least_modulus), dem.poisson_ratio}, dem.restitution, dem.friction};
   if (name == "wall") return common;
   const auto found =
       std::find_if(scene.species.begin(), scene.species.end(), [&](const Species& s) { return s.name == name; });

@@ -48,6 +48,11 @@ class NumericsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A conservation law is broken far beyond its limit: a run that is permissive goes on (exit code 3).
+class ConservationError : public NumericsError {
+  using NumericsError::NumericsError;
+};
+
 /// A file could not be read or written (exit code 4).
 class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -75,7 +75,10 @@ void HypreRows::assemble(int functions, bool symmetric) {
   HYPRE_BoomerAMGSetInterpType(multigrid_, 6);    // extended+i
   HYPRE_BoomerAMGSetPMaxElmts(multigrid_, 4);
   HYPRE_BoomerAMGSetStrongThreshold(multigrid_, 0.25);
-  if (symmetric) HYPRE_BoomerAMGSetRelaxType(multigrid_, 6);  // symmetric hybrid Gauss-Seidel
+  // hypre's default, l1 Gauss-Seidel, adds to the diagonal what couples a row to other ranks. Here that contains the
+  // other unknown of the cell beyond, which may exceed the diagonal by far: such rows then hardly move.
+  constexpr HYPRE_Int hybrid = 3, hybrid_symmetric = 6;  // Gauss-Seidel on each rank, Jacobi between ranks
+  HYPRE_BoomerAMGSetRelaxType(multigrid_, symmetric ? hybrid_symmetric : hybrid);
   HYPRE_BoomerAMGSetTol(multigrid_, 0);
   HYPRE_BoomerAMGSetMaxIter(multigrid_, 1);
   HYPRE_BoomerAMGSetup(multigrid_, parcsr(), vector(right_), vector(solution_));

@@ -1,6 +1,9 @@
 #include "core/interrupt.hpp"
 
 #include <csignal>
+#include <string>
+
+#include "core/error.hpp"
 
 namespace polybed::core {
 
@@ -22,10 +25,15 @@ Interrupt::Interrupt() {
 }
 
 Interrupt::~Interrupt() {
+  asked = 0;
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }
 
 bool Interrupt::wanted() const { return asked != 0; }
+
+void stop_if_wanted(const char* doing) {
+  if (asked != 0) throw Stopped(std::string("stopped by the user while ") + doing + ": the run has not begun");
+}
 
 }  // namespace polybed::core

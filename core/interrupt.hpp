@@ -14,4 +14,8 @@ class Interrupt {
   [[nodiscard]] bool wanted() const;
 };
 
+/// Throws Stopped if the user wants to stop: for long work before the first step. Without an Interrupt nobody does.
+/// \param doing  what is not finished, for the message
+void stop_if_wanted(const char* doing);
+
 }  // namespace polybed::core

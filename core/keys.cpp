@@ -34,7 +34,7 @@ std::vector<Key> make_keys() {
   k.push_back({"column", "outlet", at<std::string>([](S& s, N) -> auto& { return s.column.outlet; }), "top of the column: a screen that holds solids, or open to them: they leave and are counted", {}, -infinity, infinity, false, "screen", {"screen", "open"}});
   k.push_back({"column", "closed", at<bool>([](S& s, N) -> auto& { return s.column.closed; }), "walls all round: no inlet and no outlet", {}, -infinity, infinity, false, "false"});
 
-  k.push_back({"fluid", "name", at<std::string>([](S& s, N) -> auto& { return s.fluid.name; }), "water and air know density and viscosity from the temperature; any other name needs both; none: particles without a fluid, for the DEM only", {}, -infinity, infinity, false, {}, {}, true});
+  k.push_back({"fluid", "name", at<std::string>([](S& s, N) -> auto& { return s.fluid.name; }), "water and air know density and viscosity from the temperature; any other fluid needs both, and may go without a name; none: particles without a fluid, for the DEM only"});
   k.push_back({"fluid", "temperature", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.temperature; }), "water 0 to 40 degC, air 200 to 1000 K", dimension::temperature, 0, 5000, true});
   k.push_back({"fluid", "density", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.density; }), "rho_f", dimension::density, 0, 1e5, true});
   k.push_back({"fluid", "viscosity", at<std::optional<double>>([](S& s, N) -> auto& { return s.fluid.viscosity; }), "mu", dimension::viscosity, 0, 1e6, true});
@@ -113,7 +113,7 @@ std::vector<Key> make_keys() {
   k.push_back({"tfm", "pressure_tolerance", at<std::optional<double>>([](S& s, N) -> auto& { return s.tfm.pressure_tolerance; }), "relative residual of the pressure's equation; default: the smaller of 1e-4 and rtol/10", {}, 1e-15, 0.1});
 
   k.push_back({"dem", "steps_per_contact", at<double>([](S& s, N) -> auto& { return s.dem.steps_per_contact; }), "time steps in one contact", {}, 5, 1e5, false, "20"});
-  k.push_back({"dem", "youngs_modulus", at<double>([](S& s, N) -> auto& { return s.dem.youngs_modulus; }), "E of all species that do not say otherwise", dimension::pressure, 0, 1e13, true, "5 MPa"});
+  k.push_back({"dem", "youngs_modulus", at<std::optional<double>>([](S& s, N) -> auto& { return s.dem.youngs_modulus; }), "E of all species that do not say otherwise; default: 5 MPa, or the least at which impacts at dem.greatest_speed overlap by no more than dem.max_overlap", dimension::pressure, 0, 1e13, true});
   k.push_back({"dem", "poisson_ratio", at<double>([](S& s, N) -> auto& { return s.dem.poisson_ratio; }), "likewise", {}, 0, 0.5, false, "0.25"});
   k.push_back({"dem", "friction", at<double>([](S& s, N) -> auto& { return s.dem.friction; }), "likewise; the TFM's species exchange reads it too", {}, 0, 10, false, "0.3"});
   k.push_back({"dem", "restitution", at<double>([](S& s, N) -> auto& { return s.dem.restitution; }), "likewise; the TFM's species exchange reads it too", {}, 0, 1, true, "0.9"});

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/linear_solver_algebraic.hpp"
 #include "core/mpi.hpp"
+#include "core/mpi_start.hpp"
 
 namespace polybed::core {
 

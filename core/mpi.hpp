@@ -14,9 +14,6 @@ namespace polybed::core {
 }
 [[nodiscard]] inline MPI_Comm communicator(const Grid& grid) { return communicator(grid.ranks.get()); }
 
-/// Starts MPI if nobody has.
-void open_mpi();
-
 /// Turns what an MPI call returns into an MpiError.
 void check_mpi(int code, const char* call);
 

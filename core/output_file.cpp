@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <functional>
+#include <new>
 
 #include "core/error.hpp"
 #include "core/output_hdf5.hpp"
@@ -13,6 +15,18 @@
 namespace polybed::core {
 
 using namespace hdf5;
+
+namespace {
+
+/// HDF5 crashes where it lacks memory for a file, or at its own beginning: throws std::bad_alloc in its place.
+void require_room_for_a_file() {
+  constexpr std::size_t room = 8 << 20;
+  void* address = ::mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (address == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(address, room);
+}
+
+}  // namespace
 
 struct OutputFile::State {
   hid_t file = -1;
@@ -26,6 +40,7 @@ struct OutputFile::State {
 
   /// Files in memory are told apart by name: each takes that of its own address. `image`: what to begin with.
   void open(std::span<const std::byte> image) {
+    require_room_for_a_file();
     constexpr std::size_t growth = 1 << 20;
     const Handle access("a file in memory", [] { return H5Pcreate(H5P_FILE_ACCESS); });
     checked("a file in memory", [&] { return H5Pset_fapl_core(access, growth, false); });
@@ -103,7 +118,9 @@ OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::
 }
 
 OutputFile OutputFile::on_disk(const std::filesystem::path& path, const FileKind& kind) {
+  (void)bytes_of_file(path);
   OutputFile file;
+  require_room_for_a_file();
   readable(path, [&] {
     file.state_->file = checked("the file", [&] { return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT); });
   });
@@ -294,6 +311,11 @@ std::string OutputFile::read_text(const std::string& name) const {
   char* buffer = nullptr;
   checked(name, [&] { return H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &buffer); });
   return taken(buffer);
+}
+
+bool OutputFile::has_attribute(const std::string& object, const std::string& name) const {
+  const Handle owner = state_->object(object);
+  return checked(name, [&] { return H5Aexists(owner, name.c_str()); }) > 0;
 }
 
 double OutputFile::attribute(const std::string& object, const std::string& name) const {

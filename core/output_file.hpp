@@ -93,6 +93,7 @@ class OutputFile {
   [[nodiscard]] std::vector<double> read(const std::string& name, const Slab& slab) const;
   [[nodiscard]] std::int64_t read_integer(const std::string& name) const;
   [[nodiscard]] std::string read_text(const std::string& name) const;
+  [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] double attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] std::vector<std::string> texts_attribute(const std::string& object, const std::string& name) const;

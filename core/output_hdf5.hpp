@@ -17,36 +17,31 @@
 
 namespace polybed::core::hdf5 {
 
-/// Keeps HDF5 from printing its errors: they go into the exception.
-class Quiet {
- public:
-  Quiet() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
+/// The innermost error of HDF5's stack.
+struct Reason {
+  std::string text = "no reason given";
+  bool memory = false;  ///< that it had not enough
 };
 
-inline herr_t keep_reason(unsigned depth, const H5E_error2_t* error, void* text) {
-  if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
+inline herr_t keep_reason(unsigned depth, const H5E_error2_t* error, void* kept) {
+  if (depth != 0) return 0;
+  auto& reason = *static_cast<Reason*>(kept);
+  if (error->desc != nullptr) reason.text = error->desc;
+  reason.memory = error->maj_num == H5E_RESOURCE && (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC);
   return 0;
 }
 
-/// The one check of what HDF5 returns: negative is a failure, and its innermost reason goes into the message.
+/// The one check of what HDF5 returns: negative is a failure, and its innermost reason goes into the message. HDF5 is
+/// kept from printing its errors from its first call on, and for good: it prints when the program ends, too.
 template <class Call>
 auto checked(const std::string& what, Call&& call) {
-  const Quiet quiet;
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const auto result = call();
   if (result < 0) {
-    std::string reason = "no reason given";
+    Reason reason;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_reason, &reason);
-    throw FileError(fmt::format("HDF5 failed on {}: {}", what, reason));
+    throw FileError(fmt::format("HDF5 failed on {}: {}{}", what, reason.text,
+                                reason.memory ? " (not enough memory: choose fewer column.cells)" : ""));
   }
   return result;
 }

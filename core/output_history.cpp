@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -11,7 +10,6 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
 
 namespace polybed::core {
 
@@ -50,8 +48,10 @@ double number(std::string_view entry, const fs::path& path) {
   return value;
 }
 
-/// The file's text up to a time; throws FileError if its columns are others.
-std::string text_until(const fs::path& path, const std::string& header, double time) {
+/// What the file begins with: its header, and what an earlier part of the run has written up to a time. Throws
+/// FileError if its columns are others.
+std::string kept_text(const fs::path& path, const std::string& header, std::optional<double> time) {
+  if (!time || !fs::exists(path)) return header;
   const std::string text = read_text(path);
   const auto lines = whole_lines(text);
   if (lines.empty()) return header;
@@ -59,7 +59,7 @@ std::string text_until(const fs::path& path, const std::string& header, double t
     throw FileError(path.string() + " has other columns: it cannot be continued");
   std::string kept = header;
   for (std::size_t n = 1; n < lines.size(); ++n)
-    if (number(entries(lines[n]).front(), path) <= time) kept += std::string(lines[n]) + "\n";
+    if (number(entries(lines[n]).front(), path) <= *time) kept += std::string(lines[n]) + "\n";
   return kept;
 }
 
@@ -67,19 +67,8 @@ std::string text_until(const fs::path& path, const std::string& header, double t
 
 HistoryWriter::HistoryWriter(const fs::path& run_directory, std::vector<std::string> columns,
                              std::optional<double> resume_time)
-    : path_(run_directory / "history.csv"), columns_(std::move(columns)) {
-  const std::string header = joined(columns_);
-  const bool go_on = resume_time && fs::exists(path_);
-  write_atomically(path_, go_on ? text_until(path_, header, *resume_time) : header);
-  file_.reset(std::fopen(path_.c_str(), "ae"));
-  if (!file_)
-    throw FileError(fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
-}
-
-void HistoryWriter::append(const std::string& line) {
-  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0)
-    throw FileError(fmt::format("cannot write {}: {}", path_.string(), std::system_category().message(errno)));
-}
+    : columns_(std::move(columns)),
+      file_(run_directory / "history.csv", kept_text(run_directory / "history.csv", joined(columns_), resume_time)) {}
 
 void HistoryWriter::write_row(std::span<const std::optional<double>> row) {
   if (row.size() != columns_.size())
@@ -92,7 +81,7 @@ void HistoryWriter::write_row(std::span<const std::optional<double>> row) {
     if (n > 0) line += ',';
     if (row[n]) line += fmt::format("{}", *row[n]);
   }
-  append(line + "\n");
+  file_.append(line + "\n");
 }
 
 const std::vector<double>& History::of(const std::string& column) const {

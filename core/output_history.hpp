@@ -1,13 +1,13 @@
 // history.csv: what a run measures as a whole, one row per history time.
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "core/files.hpp"
 
 namespace polybed::core {
 
@@ -25,14 +25,8 @@ class HistoryWriter {
   void write_row(std::span<const std::optional<double>> row);
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  void append(const std::string& line);
-
-  std::filesystem::path path_;
   std::vector<std::string> columns_;
-  std::unique_ptr<std::FILE, Close> file_;
+  LineFile file_;
 };
 
 /// A table of numbers by column; entries without value are NaN.

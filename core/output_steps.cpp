@@ -32,7 +32,7 @@ fs::path step_path(const fs::path& directory, const std::string& name, std::size
 
 StepWriter::StepWriter(fs::path run_directory, StepSeries series, std::optional<double> resume_time)
     : directory_(std::move(run_directory)), series_(std::move(series)) {
-  make_directories(directory_ / series_.name);
+  make_folder(directory_ / series_.name);
   if (resume_time && fs::exists(index_path()))
     go_on(*resume_time);
   else

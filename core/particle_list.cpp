@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/keys.hpp"
 #include "core/resolve_particles.hpp"
 
@@ -189,6 +190,7 @@ ParticleList read_particle_list(const Scene& scene) {
   if (!is_list(scene.bed))
     throw CaseError("bed.start = \"" + scene.bed.start + "\" names no list of particles: write \"list:FILE.csv\"");
   const std::string file = scene.bed.start.substr(std::string_view("list:").size());
+  (void)bytes_of_file(file, longest_file);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(fmt::format("{}: cannot be read ({})", file, std::strerror(errno)));
   return ListReader(scene, file).read(in);

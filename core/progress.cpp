@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/print.hpp"
+
 namespace polybed::core {
 
 namespace {
@@ -35,7 +37,7 @@ Progress::Progress(bool quiet, double from, double until)
       last_(begin_) {}
 
 Progress::~Progress() {
-  if (!quiet_ && terminal_) fmt::print(stderr, "\n");
+  if (!quiet_ && terminal_) print(stderr, "\n");
 }
 
 bool Progress::due(double time) const {
@@ -56,12 +58,12 @@ void Progress::show(const ProgressLine& line) {
   const std::string text = fmt::format("t {:.3f}/{:g} s  dt {:.2g} s ({}){}  {}{}", line.time, line.until, line.step,
                                        line.limited_by, bed, line.worst_invariant, speed);
   if (!terminal_) {
-    fmt::print(stderr, "{}\n", text);
+    print(stderr, "{}\n", text);
     return;
   }
   const int full = int(share * bar_width);
-  fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(std::size_t(full), '#'),
-             std::string(std::size_t(bar_width - full), '.'), text);
+  print(stderr, "\r\033[K[{}{}] {}", std::string(std::size_t(full), '#'),
+        std::string(std::size_t(bar_width - full), '.'), text);
   std::fflush(stderr);
 }
 

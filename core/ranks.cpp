@@ -6,18 +6,9 @@
 
 #include "core/error.hpp"
 #include "core/mpi.hpp"
+#include "core/mpi_start.hpp"
 
 namespace polybed::core {
-
-void check_mpi(int code, const char* call) {
-  if (code != MPI_SUCCESS) throw MpiError(std::string(call) + " failed");
-}
-
-void open_mpi() {
-  int started = 0;
-  MPI_Initialized(&started);
-  if (started == 0) check_mpi(MPI_Init(nullptr, nullptr), "MPI_Init");
-}
 
 std::shared_ptr<const Ranks> Ranks::of_program() {
   open_mpi();
@@ -113,7 +104,7 @@ namespace {
 
 /// How work ended, in a form that another rank can be told.
 struct Ending {
-  enum Outcome : int { fine, file, numerics, wrong_case, memory };
+  enum Outcome : int { fine, file, numerics, wrong_case, memory, stopped };
   int outcome = fine;
   std::string message;
 };
@@ -125,6 +116,8 @@ Ending ending_of(const std::function<void()>& work) {
     return {Ending::numerics, error.what()};
   } catch (const CaseError& error) {
     return {Ending::wrong_case, error.what()};
+  } catch (const Stopped& error) {
+    return {Ending::stopped, error.what()};
   } catch (const std::bad_alloc& error) {
     return {Ending::memory, error.what()};
   } catch (const std::exception& error) {
@@ -140,6 +133,7 @@ void share(const Ranks& ranks, int from, Ending ending) {
   const std::string message = broadcast(communicator(&ranks), from, ranks.rank(), ending.message);
   if (ending.outcome == Ending::numerics) throw NumericsError(message);
   if (ending.outcome == Ending::wrong_case) throw CaseError(message);
+  if (ending.outcome == Ending::stopped) throw Stopped(message);
   if (ending.outcome == Ending::memory) throw std::bad_alloc();
   throw FileError(message);
 }

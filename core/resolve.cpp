@@ -11,6 +11,7 @@
 #include "core/case_file.hpp"
 #include "core/keys.hpp"
 #include "core/resolve_particles.hpp"
+#include "core/schedule.hpp"
 
 namespace polybed::core {
 
@@ -28,8 +29,13 @@ bool can_name_files(const std::string& name) {
 /// Collects problems that have no line of their own.
 class Checker {
  public:
-  Checker(Scene& scene, std::string name) : scene_(scene), name_(std::move(name)) {}
+  Checker(Scene& scene, std::string name, WrongKeys& wrong) : scene_(scene), name_(std::move(name)), wrong_(wrong) {}
+  void all(bool by_particles);
+  [[nodiscard]] Problems problems() && { return std::move(problems_); }
+
+ private:
   void column();
+  void room_for_particles(double largest);
   void species();
   void contact_pairs();
   void bed(bool by_particles);
@@ -38,9 +44,6 @@ class Checker {
   void feeds();
   void chooser();
   void numerics();
-  [[nodiscard]] Problems problems() && { return std::move(problems_); }
-
- private:
   bool lies_on_end(const std::vector<double>& from, const std::vector<double>& to, const char* what);
   template <class... Args>
   void add(fmt::format_string<Args...> text, Args&&... args) {
@@ -48,15 +51,36 @@ class Checker {
   }
   Scene& scene_;
   std::string name_;
+  WrongKeys& wrong_;
   Problems problems_;
 };
+
+/// Every check whose keys are sound.
+void Checker::all(bool by_particles) {
+  if (wrong_.sound({"column.size", "column.cells"}))
+    column();
+  else
+    wrong_.add("column.size");  // which fills in the axes that others read
+  if (wrong_.sound({"column.size", "jet."})) jets();
+  if (wrong_.sound({"column.size", "feed.", "species.name", "bed.solids_fraction"})) feeds();
+  if (wrong_.sound({"species.name", "contact_pair."})) species();
+  if (wrong_.sound({"column.size", "bed.start", "bed.particles", "bed.volume_share"}) &&
+      wrong_.sound({"bed.static_height", "bed.solids_fraction", "bed.start_solids_fraction"}))
+    bed(by_particles);
+  fluid();
+  chooser();
+  numerics();
+}
 
 void Checker::column() {
   Column& c = scene_.column;
   const std::size_t n = c.given_size.size();
-  if (n != 2 && n != 3)
-    return add("column.size has {} numbers: two (width, height) or three (width, depth, height)", n);
-  if (c.given_cells.size() != n) return add("column.cells has {} numbers, column.size {}", c.given_cells.size(), n);
+  const bool plain = n == 2 || n == 3;
+  if (!plain || c.given_cells.size() != n) {
+    wrong_.add("column.size");
+    return plain ? add("column.cells has {} numbers, column.size {}", c.given_cells.size(), n)
+                 : add("column.size has {} numbers: two (width, height) or three (width, depth, height)", n);
+  }
   double smallest = 1, largest = 0;
   for (const Species& s : scene_.species) {
     smallest = std::min(smallest, s.diameter);
@@ -74,12 +98,20 @@ void Checker::column() {
     c.size = {c.given_size[0], c.given_size[1], c.depth.value_or(2 * largest + 2 * skin)};
     c.cells = {cells(0), cells(1), 1};
   }
-  if (largest > c.size[1])
-    add("species.diameter: {:.4g} m is more than the height of the column, {:.4g} m", largest, c.size[1]);
+  if (wrong_.sound("species.diameter")) room_for_particles(largest);
   constexpr double most_cells = 2147483647;  // hypre numbers them with 32 bits
   const double all = double(c.cells[0]) * c.cells[1] * c.cells[2];
   if (all > most_cells)
     add("column.cells: {:.3g} cells; at most {:.0f} can be numbered, however large the memory", all, most_cells);
+}
+
+/// A column that the largest particle does not fit into has no solids fraction that means anything.
+void Checker::room_for_particles(double largest) {
+  constexpr std::array<const char*, 3> sides{"width", "height", "depth"};
+  for (std::size_t axis = 0; axis < sides.size(); ++axis)
+    if (largest > scene_.column.size[axis])
+      add("species.diameter: {:.4g} m is more than the {} of the column, {:.4g} m", largest, sides[axis],
+          scene_.column.size[axis]);
 }
 
 void Checker::species() {
@@ -176,6 +208,7 @@ void Checker::bed(bool by_particles) {
   const std::size_t species = scene_.species.size();
   const double area = scene_.column.size[0] * scene_.column.size[2];
   if (by_particles) {
+    if (!wrong_.sound({"species.diameter", "column.depth", "dem.skin"})) return;
     if (bed.particles.size() != species)
       return add("bed.particles has {} numbers, there are {} species", bed.particles.size(), species);
     double total = 0;
@@ -228,7 +261,8 @@ void Checker::numerics() {
         "packing",
         tfm.rtol);
   if (scene_.effects.contains("solids_stress") && tfm.max_packing == "auto" && scene_.bed.solids_fraction > 0 &&
-      scene_.bed.solids_fraction <= tfm.frictional_onset)
+      scene_.bed.solids_fraction <= tfm.frictional_onset &&
+      wrong_.sound({"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"}))
     add("bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
         scene_.bed.solids_fraction, tfm.frictional_onset);
   const double until = scene_.run.until;
@@ -239,18 +273,13 @@ void Checker::numerics() {
 
 }  // namespace
 
-std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool by_particles) {
-  Checker checker(scene, name);
-  checker.column();
-  checker.jets();
-  checker.feeds();
-  checker.species();
-  checker.bed(by_particles);
-  checker.fluid();
-  checker.chooser();
-  checker.numerics();
+std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool by_particles, WrongKeys wrong) {
+  join_times(scene);
+  Checker checker(scene, name, wrong);
+  checker.all(by_particles);
   Problems problems = std::move(checker).problems();
-  for (std::string& message : resolve_particles(scene, name)) problems.push_back({name, 0, 0, std::move(message)});
+  for (std::string& message : resolve_particles(scene, name, wrong))
+    problems.push_back({name, 0, 0, std::move(message)});
   return problems;
 }
 

@@ -119,7 +119,8 @@ void no_fluid(const Scene& scene, Messages& wrong) {
   };
   idle(!scene.inlet.superficial_velocity.empty(), "inlet.superficial_velocity");
   idle(!scene.jets.empty(), "[[jet]]");
-  for (const char* role : {"drag", "fluid_stress", "added_mass", "lift", "magnus", "history", "lubrication"})
+  for (const char* role :
+       {"drag", "fluid_stress", "added_mass", "lift", "magnus", "history", "lubrication", "brownian", "gas_slip"})
     idle(scene.effects.contains(role) && scene.effects.at(role) != automatic, (std::string("effects.") + role).c_str());
   idle(scene.fluid.temperature.has_value(), "fluid.temperature");
   idle(scene.fluid.density.has_value(), "fluid.density");
@@ -161,15 +162,17 @@ void bed(Scene& scene, const std::string& case_name, Messages& wrong) {
 
 bool is_list(const Bed& bed) { return bed.start.starts_with(list_prefix); }
 
-std::vector<std::string> resolve_particles(Scene& scene, const std::string& case_name) {
+std::vector<std::string> resolve_particles(Scene& scene, const std::string& case_name, const WrongKeys& wrong_keys) {
   Messages wrong;
-  gravity(scene.column, wrong);
-  periodic_ends(scene, wrong);
-  shear(scene, wrong);
-  opening(scene, wrong);
-  in_fluid(scene, wrong);
-  no_fluid(scene, wrong);
-  bed(scene, case_name, wrong);
+  const auto sound = [&](std::initializer_list<std::string_view> keys) { return wrong_keys.sound(keys); };
+  const bool fluid = sound({"fluid.name"}), shape = sound({"column.size", "column.ends"});
+  if (sound({"column.size", "column.gravity_direction"})) gravity(scene.column, wrong);
+  if (fluid && sound({"column.ends", "dem.shear_rate"})) periodic_ends(scene, wrong);
+  if (fluid && shape && sound({"dem.shear_rate", "column.sides", "column.gravity"})) shear(scene, wrong);
+  if (fluid && shape && sound({"dem.opening", "species.diameter"})) opening(scene, wrong);
+  if (fluid && sound({"column.size", "column.gravity_direction", "effects.drag"})) in_fluid(scene, wrong);
+  if (fluid) no_fluid(scene, wrong);
+  if (sound({"bed.start"})) bed(scene, case_name, wrong);
   return wrong;
 }
 

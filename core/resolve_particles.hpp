@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scene.hpp"
+#include "core/scene_rule.hpp"
 
 namespace polybed::core {
 
@@ -13,6 +14,8 @@ namespace polybed::core {
 
 /// Direction of gravity, ends of the column, a scene without a fluid, shear, the place of a list of particles. Fills in
 /// Column::down and the path of the list. Returns what is wrong; column.size must have been read into the scene.
-[[nodiscard]] std::vector<std::string> resolve_particles(Scene& scene, const std::string& case_name);
+/// \param wrong  keys with problems of their own: what rests on them is not checked
+[[nodiscard]] std::vector<std::string> resolve_particles(Scene& scene, const std::string& case_name,
+                                                         const WrongKeys& wrong);
 
 }  // namespace polybed::core

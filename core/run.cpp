@@ -1,70 +1,65 @@
 #include "core/run.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/schedule.hpp"
 
 namespace polybed::core {
 
 namespace {
 
-/// Multiples of a period, counted in integers so that they do not drift.
-class Periodic {
- public:
-  Periodic(double every, double from) : every_(every) {
-    if (every_ > 0) count_ = std::int64_t(std::floor(from / every_ * (1 + 1e-12))) + 1;
-  }
-  [[nodiscard]] double next() const {
-    return every_ > 0 ? double(count_) * every_ : std::numeric_limits<double>::infinity();
-  }
-  void advance() { ++count_; }
-
- private:
-  double every_;
-  std::int64_t count_ = 0;
+/// Where the next step must not go beyond.
+struct Event {
+  double time;      ///< s
+  bool checkpoint;  ///< the run can be taken up again there
 };
 
-double next_kink(const std::vector<double>& kinks, double time) {
-  double next = std::numeric_limits<double>::infinity();
-  for (double kink : kinks)
-    if (kink > time) next = std::min(next, kink);
-  return next;
+/// The next event after a time. Kinks and checkpoints that are the same event as another are met together, at the
+/// kink's own time or, without one, at the end's.
+Event next_event(const Stops& stops, double now) {
+  const double checkpoint = next_multiple(stops.checkpoint_every, now);
+  double kink = std::numeric_limits<double>::infinity();
+  for (const double t : stops.kinks)
+    if (is_later(t, now)) kink = std::min(kink, t);
+  const double first = std::min({stops.until, checkpoint, kink});
+  const double time = same_time(kink, first) ? kink : same_time(stops.until, first) ? stops.until : first;
+  return {time, same_time(time, checkpoint) || same_time(time, stops.until)};
 }
 
 }  // namespace
 
 void run(Simulation& simulation, const Stops& stops, const std::vector<Observer>& observers, bool at_start,
          const std::function<void(double)>& checkpoint, const std::function<bool()>& after_step) {
-  std::vector<Periodic> due;
-  for (const Observer& observer : observers) due.emplace_back(observer.every, simulation.time());
-  Periodic checkpoint_due(stops.checkpoint_every, simulation.time());
   std::vector<double> acted(observers.size(), -std::numeric_limits<double>::infinity());
   const auto act = [&](std::size_t n, double t) {
     simulation.show(t);
     observers[n].act(t);
     acted[n] = t;
   };
-  for (std::size_t n = 0; n < observers.size() && at_start; ++n) act(n, simulation.time());
-  while (simulation.time() < stops.until) {
-    const double kink = next_kink(stops.kinks, simulation.time());
-    const double stop = std::min({stops.until, checkpoint_due.next(), kink});
-    simulation.step(stop);
+  double before = simulation.time();
+  for (std::size_t n = 0; n < observers.size() && at_start; ++n) act(n, before);
+  Event event = next_event(stops, before);
+  for (bool done = !is_later(stops.until, before); !done;) {
+    simulation.step(event.time);
     const double now = simulation.time();
-    const bool last = now >= stops.until;
+    const bool met = now >= event.time;
+    done = met && !is_later(stops.until, now);
     for (std::size_t n = 0; n < observers.size(); ++n) {
-      for (; due[n].next() <= now; due[n].advance()) act(n, due[n].next());
-      if (last && acted[n] < now) act(n, now);
+      const double every = observers[n].every;
+      for (double due = next_multiple(every, before); !is_later(due, now); due = next_multiple(every, due))
+        act(n, same_time(due, now) ? now : due);
+      if (done && acted[n] < now) act(n, now);
     }
+    before = now;
     const bool go_on = after_step();
-    if (now >= stop || !go_on) {
+    if (met || !go_on) {
       simulation.restart();
-      if (last || !go_on || now >= checkpoint_due.next()) checkpoint(now);
-      if (now >= checkpoint_due.next()) checkpoint_due.advance();
+      if (event.checkpoint || done || !go_on) checkpoint(now);
+      event = next_event(stops, now);
     }
-    if (!go_on && !last) throw Stopped("stopped by the user; a checkpoint has been written");
+    if (!go_on && !done) throw Stopped("stopped by the user; a checkpoint has been written");
   }
 }
 

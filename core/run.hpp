@@ -36,7 +36,8 @@ struct Stops {
   std::vector<double> kinks;    ///< s
 };
 
-/// Runs a simulation from its present time to stops.until.
+/// Runs a simulation from its present time to stops.until. Stops and output times that rounding alone keeps apart
+/// (core/schedule.hpp) are one event: one step ends there, at the time of the kink or else of the end.
 /// Observers act at every multiple of their period after the present time, in the order given, and `at_start`
 /// says whether they act on the state at the start too (not after a resume: they have). `checkpoint` is
 /// called at checkpoint times and at the end; `after_step` after every accepted step and returns false if the

@@ -139,9 +139,13 @@ struct Tfm {
   std::optional<double> pressure_tolerance;      ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
 };
 
+/// E of particles whose case gives none, where they are slow, Pa.
+inline constexpr double least_modulus = 5e6;
+
 struct Dem {
   double steps_per_contact = 20;
-  double youngs_modulus = 5e6, poisson_ratio = 0.25, friction = 0.3, restitution = 0.9;
+  std::optional<double> youngs_modulus;  ///< Pa; else chosen for the speeds to expect, at least least_modulus
+  double poisson_ratio = 0.25, friction = 0.3, restitution = 0.9;
   int fluid_every = 16;
   std::string kernel = "auto";             ///< auto | bilinear | diffusion: how particles are averaged for the fluid
   std::optional<double> kernel_width;      ///< of diffusion, full width at half height, m

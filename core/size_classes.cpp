@@ -109,9 +109,10 @@ std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule
       if (shares_fit) shares.push_back(bed.volume_share[n] * classes.share[k]);
     }
   }
+  if (!shares_fit && !is_list(bed)) return problems;
   scene.feeds = expanded_feeds(scene.feeds, scene.size_classes);
   scene.contact_pairs = expanded_pairs(scene.contact_pairs, scene.size_classes);
-  if (shares_fit || is_list(bed)) scene.species = std::move(species);
+  scene.species = std::move(species);
   if (shares_fit) bed.volume_share = std::move(shares);
   return problems;
 }

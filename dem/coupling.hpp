@@ -44,6 +44,8 @@ class Coupling {
   void turn(Particles& particles) { sides_.turn(particles, motion_); }
   /// Whether the fluid takes its step after so many of the particles.
   [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
+  /// Step of the particles from now on, s; only between steps of the fluid, and without side forces, which know theirs.
+  void set_dt(double dt) { dt_ = dt; }
   /// The fluid's step that ends at time t, s, and the particles' answer to it.
   void advance(Particles& particles, double t);
   /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.

@@ -1,6 +1,8 @@
 // The fluid between particles, to the bit, as one column on however many ranks.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/blocks.hpp"
 #include "core/error.hpp"
 #include "dem/coupling.hpp"
@@ -61,27 +63,32 @@ void Coupling::write(core::Checkpoint& checkpoint) const {
 
 void Coupling::read(const core::Checkpoint& checkpoint) {
   Field column = core::make_field(core::whole_column(flow_.grid()));
-  const auto take = [&](const std::string& name, Field& own) {
+  const auto take = [&](const std::string& name, double least, double most, Field& own) {
     core::on_first(ranks_.get(), [&] {
       const auto found = checkpoint.arrays.find(name);
       if (found == checkpoint.arrays.end() || found->second.size() != column.size())
         throw core::FileError("the checkpoint is of a case without a fluid, or on another grid");
       column = found->second;
+      const auto odd = std::find_if(column.begin(), column.end(), [&](double v) { return v < least || v > most; });
+      if (odd != column.end()) core::refuse_checkpoint(fmt::format("{} is {:g}", name, *odd));
     });
     core::take_from_first(ranks_.get(), column);
     take_own(column, own);
   };
+  constexpr double fastest = 1e5, highest = 1e13;  // m/s; Pa and N/m3
+  constexpr double rounding = 1e-9, densest = 10;  // averages over cells smaller than a particle exceed 1
   fluid::FluidState& fluid = flow_.state();
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
-    take(fmt::format("fluid_velocity_{}", a), fluid.velocity[a]);
-  take("fluid_pressure", fluid.pressure);
-  take("fluid_at_ends", at_ends_);
-  for (std::size_t j = 0; j < fraction_.size(); ++j) take(fmt::format("fluid_fraction_{}", j), fraction_[j]);
+    take(fmt::format("fluid_velocity_{}", a), -fastest, fastest, fluid.velocity[a]);
+  take("fluid_pressure", -highest, highest, fluid.pressure);
+  take("fluid_at_ends", -highest, highest, at_ends_);
+  for (std::size_t j = 0; j < fraction_.size(); ++j)
+    take(fmt::format("fluid_fraction_{}", j), -rounding, densest, fraction_[j]);
   flow_.set_gradient();
   flow_.forget();
   take_fields();
   const auto count = [&](const char* name) {
-    return checkpoint.integers.contains(name) ? std::uint64_t(checkpoint.integers.at(name)) : 0;
+    return checkpoint.integers.contains(name) ? std::uint64_t(checkpoint.count(name)) : 0;
   };
   steps_ = count("fluid_steps");
 }

@@ -28,15 +28,6 @@ void require_fluid(const core::Scene& scene) {
     throw core::CaseError("effects.magnus = \"" + law +
                           "\" is a force of rotation, and with effects.contact = \"hertz\" nothing rotates: use "
                           "hertz_mindlin or linear, or leave it out");
-  if (const std::string law = core::law_of(scene, "history"); law != "none" && scene.dem.held)
-    throw core::CaseError("effects.history = \"" + law +
-                          "\" is a force on particles that accelerate, and dem.held holds them: leave one out");
-  const std::string heat = core::law_of(scene, "brownian");
-  if (heat != "none" && !scene.fluid.temperature)
-    throw core::CaseError("fluid.temperature: effects.brownian = \"" + heat + "\" needs it, as in \"20 degC\"");
-  if (heat != "none" && (scene.dem.held || core::law_of(scene, "drag") == "none"))
-    throw core::CaseError("effects.brownian = \"" + heat +
-                          "\" moves particles against their drag: name a law of effects.drag, and leave out dem.held");
 }
 
 std::unique_ptr<NormalLaw> make_dry(const core::Scene& scene, const Materials& materials, const std::string& contact,
@@ -44,9 +35,7 @@ std::unique_ptr<NormalLaw> make_dry(const core::Scene& scene, const Materials& m
   if (contact == "none")
     throw core::CaseError("effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear");
   if (contact != "linear") return std::make_unique<HertzContact>(materials, tail);
-  if (!scene.dem.normal_stiffness)
-    throw core::CaseError("dem.normal_stiffness: effects.contact = \"linear\" needs it, as in \"1000 N/m\"");
-  return std::make_unique<LinearContact>(materials, *scene.dem.normal_stiffness, tail);
+  return std::make_unique<LinearContact>(materials, scene.dem.normal_stiffness.value(), tail);
 }
 
 /// Its memory, if any, is the first in a contact's.
@@ -64,17 +53,9 @@ std::unique_ptr<TangentialLaw> make_tangential(const core::Scene& scene, const M
                                                const std::string& contact, int place) {
   const std::string& law = scene.dem.tangential;
   if (contact == "hertz") return nullptr;
-  if (contact == "linear") {
-    if (law == "mindlin" || law == "mindlin_deresiewicz")
-      throw core::CaseError("dem.tangential = \"" + law +
-                            "\" needs the radius of a contact, which effects.contact = \"linear\" has not: use "
-                            "hertz_mindlin, or dem.tangential = \"linear\"");
+  if (contact == "linear")
     return std::make_unique<SpringFriction>(materials, scene.dem.normal_stiffness.value(), scene.dem.tangential_ratio,
                                             place);
-  }
-  if (law == "linear")
-    throw core::CaseError(
-        "dem.tangential = \"linear\" is a share of dem.normal_stiffness: it goes with effects.contact = \"linear\"");
   if (law == "mindlin") return std::make_unique<MindlinFriction>(materials, place);
   if (law == "mindlin_deresiewicz") return std::make_unique<PartialSlipFriction>(materials, place);
   return std::make_unique<SpringFriction>(materials, place);
@@ -88,13 +69,7 @@ std::unique_ptr<RollingLaw> make_rolling(const core::Scene& scene, const Materia
     throw core::CaseError("effects.rolling = \"" + law +
                           "\" resists rotation, and with effects.contact = \"hertz\" nothing rotates: use "
                           "hertz_mindlin or linear, or leave it out");
-  if (!(scene.dem.rolling_friction > 0))
-    throw core::CaseError("dem.rolling_friction: effects.rolling = \"" + law + "\" needs it, above 0");
-  if (law == "cdt") {
-    if (scene.dem.rolling_damping > 0)
-      throw core::CaseError("dem.rolling_damping: effects.rolling = \"cdt\" has no spring to damp; use epsd");
-    return std::make_unique<ConstantRolling>(materials, scene.dem.rolling_friction);
-  }
+  if (law == "cdt") return std::make_unique<ConstantRolling>(materials, scene.dem.rolling_friction);
   return std::make_unique<SpringRolling>(materials, scene.dem.rolling_friction, scene.dem.rolling_damping, place);
 }
 
@@ -102,14 +77,9 @@ std::unique_ptr<CohesionLaw> make_cohesion(const core::Scene& scene, const Mater
                                            const std::string& contact, int place) {
   const std::string law = core::law_of(scene, "cohesion");
   if (law == "none") return nullptr;
-  if (law == "van_der_waals") {
-    if (!(scene.dem.hamaker_constant > 0))
-      throw core::CaseError("dem.hamaker_constant: effects.cohesion = \"van_der_waals\" needs it, as in 1e-19");
+  if (law == "van_der_waals")
     return std::make_unique<VanDerWaalsCohesion>(materials, scene.dem.hamaker_constant, scene.dem.cohesion_gap,
                                                  scene.dem.asperity_radius);
-  }
-  if (!(scene.dem.cohesion_energy > 0))
-    throw core::CaseError("dem.cohesion_energy: effects.cohesion = \"" + law + "\" needs it, as in \"50 mJ/m2\"");
   if (law == "dmt") return std::make_unique<DmtCohesion>(materials, scene.dem.cohesion_energy);
   if (contact == "linear")
     throw core::CaseError(
@@ -122,6 +92,7 @@ std::unique_ptr<CohesionLaw> make_cohesion(const core::Scene& scene, const Mater
 
 PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials) {
   require_fluid(scene);
+  core::refuse(effect_faults(scene));
   PairLaws laws;
   const std::string contact = core::law_of(scene, "contact");
   laws.normal = make_normal(scene, materials, contact);

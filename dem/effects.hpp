@@ -9,6 +9,7 @@
 
 #include "core/registry.hpp"
 #include "core/scene.hpp"
+#include "core/scene_rule.hpp"
 #include "dem/contact_batch.hpp"
 #include "dem/materials.hpp"
 
@@ -101,6 +102,10 @@ struct PairLaws {
   }
   [[nodiscard]] int memory_size() const { return contact_memory() + (cohesion ? cohesion->memory_size() : 0); }
 };
+
+/// What the laws of particles that a scene names lack: numbers, other roles, a fluid. Laws that are "auto" lack nothing
+/// yet.
+[[nodiscard]] std::vector<core::SceneFault> effect_faults(const core::Scene& scene);
 
 /// The laws that a scene names; throws core::CaseError for what contradicts itself or lacks a number. Each law is given
 /// its place in the memory of a contact: that of the normal force first, then friction's, rolling's, cohesion's.

@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <array>
 
-#include "fluid/fluid_mass.hpp"
-
 namespace polybed::dem {
 
 FluidRecord::FluidRecord(const Coupling& coupling, const core::Ranks* ranks, const FluidTotals& before)
     : coupling_(coupling), ranks_(ranks), totals_(before), seen_(coupling.steps()), begin_(coupling.forces().use()) {
-  if (totals_.steps == 0) look();
+  std::array<double, 4> kg{before.mass, before.account.start, before.account.in, before.account.out};
+  core::take_from_first(ranks_, kg);
+  totals_.mass = kg[0];
+  totals_.account = {kg[1], kg[2], kg[3]};
+  if (core::on_any_rank(ranks_, before.steps > 0)) return;
+  look();
+  totals_.account = {totals_.mass, 0, 0};
 }
 
 /// What stands in the fields now.
@@ -27,6 +31,8 @@ void FluidRecord::see() {
   totals_.iterations += std::uint64_t(step.iterations);
   totals_.worst_residual = std::max(totals_.worst_residual, step.residual);
   totals_.greatest_courant = std::max(totals_.greatest_courant, step.courant);
+  totals_.account.in += step.mass_in;
+  totals_.account.out += step.mass_out;
   look();
 }
 
@@ -53,16 +59,19 @@ void write(const FluidTotals& t, core::Checkpoint& checkpoint) {
   checkpoint.numbers["fluid_record_courant"] = t.greatest_courant;
   checkpoint.numbers["fluid_record_pressure_drop"] = t.pressure_drop;
   checkpoint.numbers["fluid_record_mass"] = t.mass;
+  checkpoint.numbers["fluid_record_start"] = t.account.start;
+  checkpoint.numbers["fluid_record_in"] = t.account.in;
+  checkpoint.numbers["fluid_record_out"] = t.account.out;
 }
 
 FluidTotals read_fluid_totals(const core::Checkpoint& checkpoint) {
   const auto count = [&](const char* key) {
     const auto found = checkpoint.integers.find(key);
-    return found == checkpoint.integers.end() ? 0 : std::uint64_t(found->second);
+    return found == checkpoint.integers.end() ? 0 : std::uint64_t(checkpoint.count(key));
   };
-  const auto number = [&](const char* key) {
+  const auto number = [&](const char* key, double otherwise = 0) {
     const auto found = checkpoint.numbers.find(key);
-    return found == checkpoint.numbers.end() ? 0.0 : found->second;
+    return found == checkpoint.numbers.end() ? otherwise : found->second;
   };
   FluidTotals t;
   t.steps = count("fluid_record_steps");
@@ -72,6 +81,7 @@ FluidTotals read_fluid_totals(const core::Checkpoint& checkpoint) {
   t.greatest_courant = number("fluid_record_courant");
   t.pressure_drop = number("fluid_record_pressure_drop");
   t.mass = number("fluid_record_mass");
+  t.account = {number("fluid_record_start", t.mass), number("fluid_record_in"), number("fluid_record_out")};
   return t;
 }
 

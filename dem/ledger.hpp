@@ -18,7 +18,9 @@ namespace polybed::dem {
 /// The thesis scheme knows the velocity of a drift, v_h: the work over it is (F_old + F_new)/2 . v_h dt, exactly that
 /// of the kicks. The synchronised scheme knows the velocity at the time of the force, and the work is F . v dt, half of
 /// it now and half in the next step; with v_h in place of v, or the other way round, the account errs by first order in
-/// dt.
+/// dt. Its contacts see the spin foreseen with the torque of the last step: where torques jump, as of a constant moment
+/// against rolling that flickers at rest, the work of each particle's torque on the spin missed is first order too, and
+/// counted.
 ///
 /// Of the normal force only the dashpot's part counts, found from its own law and not as what is missing, so that an
 /// error of the integration does not hide in it. Of the tangential force: the work less what the spring has stored; of
@@ -42,6 +44,8 @@ class Ledger {
   void act(ContactBatch& batch, const ContactBatch::Row& counted, double dt);
   /// The film's part, beside act().
   void act_film(ContactBatch& batch, const ContactBatch::Row& force, const ContactBatch::Row& counted, double dt);
+  /// What torques have done to a particle of this rank beyond their work at the spin that contacts foresaw, J.
+  void correct(double work) { lost_.add(-work * unit_.per_unit); }
   /// Before the memory of contacts that have parted is forgotten.
   /// \param owned  pairs whose first particle is below it are counted here
   void part(const Contacts& contacts, std::size_t owned);

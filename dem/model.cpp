@@ -28,13 +28,16 @@ std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pa
 }  // namespace
 
 Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks)
-    : ranks_(std::move(ranks)),
+    : scene_(scene),
+      ranks_(std::move(ranks)),
       timers_(timers),
       box_(box_of(scene)),
       materials_(scene),
       laws_(make_pair_laws(scene, materials_)),
       start_(start_particles(scene, materials_, box_)),
-      limits_(step_limits(scene, materials_, laws_, greatest_speed(scene, box_, start_))),
+      expected_(expected_speeds(scene, materials_, box_, start_)),
+      limits_(step_limits(scene, materials_, laws_, expected_.greatest)),
+      overlap_(overlap_forecast(scene, materials_, *laws_.normal, expected_.impact)),
       gravity_(gravity_of(scene)),
       force_unit_(force_unit(scene, materials_, laws_)),
       torque_unit_(torque_unit(force_unit_, materials_)),
@@ -55,6 +58,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   if (scene.dem.ledger) {
     ledger_.emplace(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
     pair_forces_.keep(*ledger_);
+    verlet_.keep(*ledger_);
   }
   if (scene.dem.ledger && box_.shear_rate != 0) {
     flow_work_.emplace(force_unit_, energy_unit_, limits_.dt);
@@ -121,9 +125,11 @@ void Model::place(const std::vector<Particle>& all, const std::vector<std::int32
 
 void Model::step(double stop) {
   if (ahead_ == Ahead::trouble) stop_in_trouble();
-  if (ahead_ == Ahead::stale) {
+  if (ahead_ == Ahead::stale || ahead_ == Ahead::fast) {
     const auto scope = timers_.scope("neighbours");
+    const bool fast = ahead_ == Ahead::fast;
     rebuild();
+    if (fast) shorten_step();
   }
   constexpr std::int64_t all_timed = 64, sampled = 16;  // so many first steps, and then one of so many
   timed_ = steps_ < all_timed ? 1 : (steps_ % sampled == 0 ? std::uint64_t(sampled) : 0);
@@ -166,8 +172,13 @@ void Model::look_ahead() {
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
   const Verlet::Drift drift = held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, around());
   hasty_ = drift.hasty;
+  met_ = std::max(met_, drift.speed);
+  // The time of a contact goes with the fifth root of the speed: a quarter more is no matter.
+  constexpr double tolerated = 1.25;
   const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0;
-  const Ahead here = troubled ? Ahead::trouble : (list_goes_stale(drift.distance, since) ? Ahead::stale : Ahead::clear);
+  const bool fast = drift.speed > tolerated * limits_.greatest_speed && may_shorten();
+  const bool stale = list_goes_stale(drift.distance, since);
+  const Ahead here = troubled ? Ahead::trouble : fast ? Ahead::fast : stale ? Ahead::stale : Ahead::clear;
   ahead_ = Ahead(int(core::greatest_of_ranks(ranks_.get(), double(here))));
 }
 
@@ -176,6 +187,31 @@ bool Model::list_goes_stale(double drift, double since) const {
   // Two particles may approach from both sides, and a sheared box moves the one faster than the other.
   const double flow = std::abs(box_.shear_rate) * since * (materials_.greatest_diameter() + skin_ + laws_.reach());
   return !(2 * drift + flow <= skin_);
+}
+
+/// Not where the length of a step is that of the case, or is counted in: strain of a sheared box, weights of the
+/// history force; and not within a step of the fluid.
+bool Model::may_shorten() const {
+  if (scene_.dem.fixed_step || box_.shear_rate != 0 || held_) return false;
+  return !coupling_ || (coupling_->due(steps_) && !coupling_->sides().present());
+}
+
+/// From here on steps are as short as the fastest particle asks for, and a quarter faster ones. Collective.
+void Model::shorten_step() {
+  constexpr double reserve = 1.25;
+  const double met = core::greatest_of_ranks(ranks_.get(), met_);
+  take_up_step(clock(), steps_, reserve * met);
+  if (coupling_) coupling_->restart();
+  ++work_.shortenings;
+}
+
+/// Steps for a speed. \param began, began_at  time and number of the first of them
+void Model::take_up_step(double began, std::int64_t began_at, double speed) {
+  began_ = began;
+  began_at_ = began_at;
+  limits_ = step_limits(scene_, materials_, laws_, speed);
+  verlet_.set_dt(limits_.dt);
+  if (coupling_) coupling_->set_dt(limits_.dt);
 }
 
 void Model::wrap() {
@@ -292,6 +328,7 @@ Work Model::work() const {
   work.contact_steps = std::uint64_t(sums[1]);
   work.candidates = std::uint64_t(sums[2]);
   work.cuts = exchange_.cuts();
+  work.greatest_speed = core::greatest_of_ranks(ranks_.get(), met_);
   work.imbalance = exchange_.imbalance();
   return work;
 }

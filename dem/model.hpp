@@ -20,8 +20,10 @@
 #include "dem/materials.hpp"
 #include "dem/neighbours.hpp"
 #include "dem/outflow.hpp"
+#include "dem/overlap_forecast.hpp"
 #include "dem/pair_forces.hpp"
 #include "dem/particles.hpp"
+#include "dem/scene.hpp"
 #include "dem/step_limits.hpp"
 #include "dem/verlet.hpp"
 
@@ -31,8 +33,10 @@ namespace polybed::dem {
 /// what pairs across ranks add and how the box was cut.
 struct Work {
   std::uint64_t steps = 0, particle_steps = 0, pair_checks = 0, contact_steps = 0, rebuilds = 0, candidates = 0;
-  std::uint64_t cuts = 0;  ///< of the box among the ranks, after the first
-  double imbalance = 1;    ///< greatest over mean work of the ranks when the list was last made
+  std::uint64_t cuts = 0;         ///< of the box among the ranks, after the first
+  std::uint64_t shortenings = 0;  ///< of the step, by particles faster than expected
+  double greatest_speed = 0;      ///< met since the start, against a sheared box's own flow, m/s
+  double imbalance = 1;           ///< greatest over mean work of the ranks when the list was last made
 };
 
 class Model : public core::Simulation {
@@ -74,7 +78,11 @@ class Model : public core::Simulation {
   [[nodiscard]] const PairLaws& laws() const { return laws_; }
   [[nodiscard]] const PairForces& pair_forces() const { return pair_forces_; }
   [[nodiscard]] const Box& box() const { return box_; }
+  /// Of the step as it is now: it becomes shorter where particles turn out faster than expected.
   [[nodiscard]] const StepLimits& limits() const { return limits_; }
+  /// Speeds expected before the run, and what they do to contacts.
+  [[nodiscard]] const Speeds& expected() const { return expected_; }
+  [[nodiscard]] const OverlapForecast& overlap_expected() const { return overlap_; }
   [[nodiscard]] const core::Ranks* ranks() const { return ranks_.get(); }
   [[nodiscard]] const std::shared_ptr<const core::Ranks>& share() const { return ranks_; }
   /// Of a sheared box with drag; null where there is none.
@@ -116,6 +124,9 @@ class Model : public core::Simulation {
   void take_up_sides(const core::Checkpoint& checkpoint, std::size_t count);
   void look_ahead();
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
+  [[nodiscard]] bool may_shorten() const;
+  void shorten_step();
+  void take_up_step(double began, std::int64_t began_at, double speed);
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
   void count_leaving();
@@ -125,9 +136,10 @@ class Model : public core::Simulation {
   void list_pairs(std::vector<KeptContact>& kept);
   void find_forces(double dt);
   /// Time that the state belongs to, s.
-  [[nodiscard]] double clock() const { return double(steps_) * limits_.dt; }
+  [[nodiscard]] double clock() const { return began_ + double(steps_ - began_at_) * limits_.dt; }
   [[noreturn]] void stop_in_trouble() const;
   [[nodiscard]] std::string trouble_of_pair() const;
+  [[nodiscard]] std::string remedy_of_pair(const Contacts::Pair& pair, const PairTrouble& trouble) const;
   [[nodiscard]] std::string trouble_of_haste() const;
   void wrap();
   void move(double dt);
@@ -136,13 +148,16 @@ class Model : public core::Simulation {
   }
   void couple(const core::Scene& scene, const std::vector<Particle>& all);
 
+  core::Scene scene_;
   std::shared_ptr<const core::Ranks> ranks_;
   core::Timers& timers_;
   Box box_;
   Materials materials_;
   PairLaws laws_;
   std::vector<Particle> start_;  ///< of all ranks; gone once they are at home
+  Speeds expected_;
   StepLimits limits_;
+  OverlapForecast overlap_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
   std::optional<Ledger> ledger_;           ///< absent: energies lost are not counted
@@ -159,9 +174,13 @@ class Model : public core::Simulation {
   Particles particles_;
   Contacts pairs_, walls_;
   double reported_ = 0;  ///< s
+  double began_ = 0;     ///< time of the first step of the present length, s
   std::int64_t steps_ = 0, count_ = 0, marked_at_ = 0;
-  /// What all ranks have found for the next step: its drift is too far for the list, or something is wrong.
-  enum class Ahead { clear, stale, trouble } ahead_ = Ahead::clear;
+  std::int64_t began_at_ = 0;  ///< steps before it
+  double met_ = 0;             ///< greatest speed of the particles of this rank so far, m/s
+  /// What all ranks have found for the next step: its drift is too far for the list, a particle is too fast for its
+  /// length, or something is wrong.
+  enum class Ahead { clear, stale, fast, trouble } ahead_ = Ahead::clear;
   std::int64_t hasty_ = -1;  ///< id of an owned particle that would move too far in it, or none
   std::uint64_t timed_ = 1;  ///< steps that the clock's answer in this one stands for: it costs a system call
   Work work_;

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "core/error.hpp"
 #include "dem/gathered.hpp"
@@ -34,7 +36,57 @@ EnergySum sum_on_first(const core::Ranks* ranks, const core::Checkpoint& checkpo
   return {found(key), found(key + "_part")};
 }
 
-constexpr std::size_t particle_width = 2 + 9 + 12;
+constexpr std::size_t particle_width = 2 + 9 + 12, contact_head = 2;
+
+/// Particles that a file may hold, and where: ids are of one particle each, and nothing has left the world. What the
+/// ranges leave open is what no check tells from a state.
+void require_particles(const std::vector<double>& numbers, std::size_t species, const Vector& size) {
+  constexpr double most_ids = 9007199254740992.0, fastest = 1e5, far = 100, half = 4294967296.0;
+  if (numbers.size() % particle_width != 0) core::refuse_checkpoint("particles is cut short");
+  std::unordered_set<double> ids;
+  const double reach = far * *std::max_element(size.begin(), size.end());
+  const auto require = [](bool holds, const char* what, double value) {
+    if (!holds) core::refuse_checkpoint(fmt::format("the {} of a particle is {:g}", what, value));
+  };
+  for (const double* p = numbers.data(); p != numbers.data() + numbers.size(); p += particle_width) {
+    require(p[0] >= 0 && p[0] < most_ids && p[0] == std::floor(p[0]) && ids.insert(p[0]).second, "number", p[0]);
+    require(p[1] >= 0 && p[1] < double(species) && p[1] == std::floor(p[1]), "species", p[1]);
+    for (std::size_t k = 2; k < 5; ++k) require(std::abs(p[k]) <= reach, "place", p[k]);
+    for (std::size_t k = 5; k < 8; ++k) require(std::abs(p[k]) <= fastest, "velocity", p[k]);
+    for (std::size_t k = 11; k < particle_width; ++k) require(std::abs(p[k]) <= half, "load", p[k]);
+  }
+}
+
+/// The time of a run is that of its steps, or of a stop within a step of it.
+/// \param began, began_at  time, s, and number of the first step of this length
+void require_clock(double steps, double dt, double time, double began, double began_at) {
+  const bool known = began >= 0 && began <= time + dt && began_at >= 0 && began_at <= steps;
+  if (!known || !(std::abs(began + (steps - began_at) * dt - time) <= dt * (1 + 1e-6)))
+    core::refuse_checkpoint(
+        fmt::format("{} steps from {:g} s on, of {:g} s, do not end at {:g} s", steps - began_at, began, dt, time));
+}
+
+/// What a run may begin without, but not go on without.
+void require_sums(const core::Checkpoint& checkpoint, bool ledger, bool fluid) {
+  for (const char* key : {"dissipated", "dissipated_part"})
+    if (ledger) (void)checkpoint.integer(key);
+  if (!fluid) return;
+  for (const char* key : {"fluid_work", "fluid_work_part", "fluid_steps"}) (void)checkpoint.integer(key);
+  (void)checkpoint.array("fluid_loads");
+}
+
+/// Contacts of particles that are there.
+void require_contacts(const std::vector<double>& numbers, std::size_t memory_size,
+                      const std::vector<double>& particles) {
+  const std::size_t width = contact_head + memory_size;
+  if (numbers.size() % width != 0) core::refuse_checkpoint("contacts is cut short");
+  std::unordered_set<double> ids;
+  for (std::size_t n = 0; n < particles.size(); n += particle_width) ids.insert(particles[n]);
+  for (std::size_t n = 0; n < numbers.size(); n += width)
+    if (!ids.contains(numbers[n]) || (numbers[n + 1] >= 0 && !ids.contains(numbers[n + 1])))
+      core::refuse_checkpoint(
+          fmt::format("a contact of {:g} and {:g}, which are not there", numbers[n], numbers[n + 1]));
+}
 
 void write_particles(core::Checkpoint& checkpoint, const std::vector<Particle>& particles) {
   std::vector<double>& out = checkpoint.arrays["particles"];
@@ -69,9 +121,9 @@ Particle read_particle(const double* in, const Materials& materials) {
 
 std::vector<KeptContact> read_contacts(const std::vector<double>& numbers, std::size_t memory_size) {
   std::vector<KeptContact> kept;
-  for (std::size_t n = 0; n < numbers.size(); n += 2 + memory_size) {
+  for (std::size_t n = 0; n < numbers.size(); n += contact_head + memory_size) {
     KeptContact c{std::int64_t(numbers[n]), std::int64_t(numbers[n + 1]), {}};
-    std::copy_n(numbers.data() + n + 2, memory_size, c.memory.begin());
+    std::copy_n(numbers.data() + n + contact_head, memory_size, c.memory.begin());
     kept.push_back(c);
   }
   return kept;
@@ -88,6 +140,12 @@ std::vector<std::int32_t> work_of(const std::vector<Particle>& particles, const 
     if (c.high >= 0) ++work.at(where.at(c.high));
   }
   return work;
+}
+
+/// Of checkpoints that older versions wrote: what holds for them.
+double number_of(const core::Checkpoint& checkpoint, const std::string& key, double without) {
+  const auto found = checkpoint.numbers.find(key);
+  return found == checkpoint.numbers.end() ? without : found->second;
 }
 
 constexpr std::size_t load_width = 11;
@@ -131,6 +189,10 @@ core::Checkpoint Model::checkpoint() const {
   checkpoint.integers["memory_size"] = pairs_.memory_size;
   checkpoint.numbers["dt"] = limits_.dt;
   checkpoint.numbers["time"] = reported_;
+  checkpoint.numbers["step_began"] = began_;
+  checkpoint.numbers["step_began_at"] = double(began_at_);
+  checkpoint.numbers["step_speed"] = limits_.greatest_speed;
+  checkpoint.numbers["greatest_speed_met"] = core::greatest_of_ranks(ranks_.get(), met_);
   std::array<EnergySum, 4> sums{dissipated(), flow_work(), flow_work_ ? flow_work_->due() : EnergySum(), fluid_work()};
   add_over_ranks(ranks_.get(), sums);
   write_sum(checkpoint, "dissipated", sums[0]);
@@ -147,14 +209,27 @@ void Model::resume(const core::Checkpoint& checkpoint) { take_up(checkpoint, tru
 
 void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   std::vector<double> particles, contacts;
-  std::array<double, 5> head{};
+  std::array<double, 9> head{};
   core::on_first(ranks_.get(), [&] {
-    particles = checkpoint.arrays.at("particles");
-    contacts = checkpoint.arrays.at("contacts");
-    head = {double(particles.size()), double(contacts.size()), double(checkpoint.integers.at("steps")),
-            checkpoint.numbers.at("dt"), checkpoint.numbers.at("time")};
-    if (checkpoint.integers.at("memory_size") != pairs_.memory_size || (same_step && head[3] != limits_.dt))
+    core::require_numbers(checkpoint);
+    particles = checkpoint.array("particles");
+    contacts = checkpoint.array("contacts");
+    head = {double(particles.size()),
+            double(contacts.size()),
+            double(checkpoint.count("steps")),
+            checkpoint.number("dt"),
+            checkpoint.time("time"),
+            number_of(checkpoint, "step_began", 0),
+            number_of(checkpoint, "step_began_at", 0),
+            number_of(checkpoint, "step_speed", limits_.greatest_speed),
+            number_of(checkpoint, "greatest_speed_met", 0)};
+    const double dt = step_limits(scene_, materials_, laws_, head[7]).dt;
+    if (checkpoint.integer("memory_size") != pairs_.memory_size || (same_step && head[3] != dt))
       throw core::FileError("the checkpoint is of another law of contact or another time step");
+    if (same_step) require_clock(head[2], head[3], head[4], head[5], head[6]);
+    if (same_step) require_sums(checkpoint, ledger_.has_value(), coupling_.has_value());
+    require_particles(particles, materials_.species().size(), box_.size);
+    require_contacts(contacts, std::size_t(pairs_.memory_size), particles);
   });
   const auto first = [&](const char* key) { return sum_on_first(ranks_.get(), checkpoint, key); };
   if (ledger_) ledger_->set_lost(first("dissipated"));
@@ -171,6 +246,10 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   core::take_from_first(ranks_.get(), contacts);
   steps_ = std::int64_t(head[2]);
   reported_ = head[4];
+  if (same_step) {
+    take_up_step(head[5], std::int64_t(head[6]), head[7]);
+    met_ = head[8];
+  }
   std::vector<Particle> all;
   for (std::size_t n = 0; n < particles.size(); n += particle_width)
     all.push_back(read_particle(particles.data() + n, materials_));
@@ -189,7 +268,11 @@ void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<
   coupling_->motion().load.assign(particles_.owned, FluidLoad{});
   coupling_->sides().rows().clear(particles_.owned);
   if (!with_fluid) return;
-  core::on_first(ranks_.get(), [&] { loads = checkpoint.arrays.at("fluid_loads"); });
+  core::on_first(ranks_.get(), [&] {
+    if (checkpoint.array("fluid_loads").size() != loads.size())
+      core::refuse_checkpoint("fluid_loads is not of these particles");
+    loads = checkpoint.array("fluid_loads");
+  });
   core::take_from_first(ranks_.get(), loads);
   std::unordered_map<std::int64_t, std::size_t> row;
   for (std::size_t n = 0; n < all.size(); ++n) row[all[n].id] = n;

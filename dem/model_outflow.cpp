@@ -48,11 +48,14 @@ void Model::read_outflow(const core::Checkpoint& checkpoint) {
   std::vector<std::int64_t> numbers(outflow_->number.size() + 3, 0);
   core::on_first(ranks_.get(), [&] {
     if (!checkpoint.arrays.contains("outflow")) return;
-    const std::vector<double>& stored = checkpoint.arrays.at("outflow");
-    for (std::size_t j = 0; j < outflow_->number.size(); ++j) numbers[j] = std::int64_t(stored.at(j));
-    numbers.end()[-3] = checkpoint.integers.at("outflow_steps");
-    numbers.end()[-2] = checkpoint.integers.at("outflow_energy");
-    numbers.end()[-1] = checkpoint.integers.at("outflow_energy_part");
+    const std::vector<double>& stored = checkpoint.array("outflow");
+    if (stored.size() != outflow_->number.size() ||
+        std::any_of(stored.begin(), stored.end(), [](double n) { return !(n >= 0 && n < 9e15); }))
+      core::refuse_checkpoint("outflow is not a number of particles of each species");
+    for (std::size_t j = 0; j < stored.size(); ++j) numbers[j] = std::int64_t(stored[j]);
+    numbers.end()[-3] = checkpoint.count("outflow_steps");
+    numbers.end()[-2] = checkpoint.integer("outflow_energy");
+    numbers.end()[-1] = checkpoint.integer("outflow_energy_part");
   });
   // Others have zeros: a sum is what the first has.
   core::add_over_ranks(ranks_.get(), numbers);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/ranks.hpp"
 #include "dem/gathered.hpp"
@@ -71,13 +72,6 @@ struct Snapshot {
   [[nodiscard]] core::ParticleSnapshot view() const { return {id, species, radius, position, velocity, spin}; }
 };
 
-/// An earlier run of the same directory may have had a fluid.
-void remove_fields(const std::filesystem::path& directory) {
-  if (!std::filesystem::remove(directory / "fields.h5")) return;
-  std::filesystem::remove(directory / "fields.xdmf");
-  std::filesystem::remove_all(directory / "fields");
-}
-
 std::vector<double> slab_centres(const fluid::Slabs& slabs) {
   std::vector<double> y;
   for (std::size_t k = 0; k < slabs.count; ++k) y.push_back((double(k) + 0.5) * slabs.thickness());
@@ -87,12 +81,12 @@ std::vector<double> slab_centres(const fluid::Slabs& slabs) {
 }  // namespace
 
 Observers::Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
-                     std::optional<double> initial_energy, const FluidTotals& fluid, std::optional<double> resume_time)
+                     std::optional<RunStart> start, const FluidTotals& fluid, std::optional<double> resume_time)
     : model_(model),
       slabs_{model.box().size[0] * model.box().size[2], model.box().size[1], std::size_t(scene.column.cells[1])},
       has_ledger_(scene.dem.ledger),
-      totals_(totals_of(model)) {
-  initial_energy_ = initial_energy.value_or(totals_.sum());
+      totals_(totals_of(model)),
+      invariants_(model, start ? std::move(*start) : RunStart{totals_.sum(), numbers_of(model)}, has_ledger_) {
   const Coupling* coupling = model.coupling();
   if (coupling != nullptr) fluid_.emplace(*coupling, model.ranks(), fluid);
   core::on_first(model.ranks(), [&] {
@@ -102,7 +96,6 @@ Observers::Observers(const Model& model, const core::Scene& scene, const std::fi
                            {directory, slab_centres(slabs_), profile_names(model), resume_time},
                            {directory, particles, resume_time},
                            nullptr});
-    if (coupling == nullptr && !resume_time) remove_fields(directory);
     if (coupling != nullptr)
       files_->fluid = std::make_unique<FluidOutput>(*coupling, particles.species, directory, resume_time);
   });
@@ -112,22 +105,10 @@ void Observers::see_step() {
   if (fluid_) fluid_->see();
 }
 
-void Observers::close_ledger() {
-  totals_ = totals_of(model_);
-  if (!has_ledger_) return;
-  // In a viscous fluid, or at a start with overlaps, little is ever kinetic: it is work of the fluid, or in springs.
-  greatest_energy_ = std::max({greatest_energy_, totals_.kinetic + totals_.rotational, totals_.dissipated,
-                               totals_.elastic, std::abs(totals_.work)});
-  if (!(greatest_energy_ > 0)) return;
-  const double miss = ledger_miss(totals_, initial_energy_, greatest_energy_);
-  if (miss <= ledger_error_) return;
-  ledger_error_ = miss;
-  ledger_error_time_ = model_.time();
-}
-
 void Observers::write_history(double time) {
-  close_ledger();
+  totals_ = totals_of(model_);
   see_step();
+  invariants_.see(totals_, fluid());
   const std::vector<Particle> all = gathered_particles(model_.particles(), model_.share());
   const double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
   core::on_first(model_.ranks(), [&] {

@@ -12,6 +12,7 @@
 #include "core/scene.hpp"
 #include "dem/fluid_output.hpp"
 #include "dem/fluid_record.hpp"
+#include "dem/invariants.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "fluid/particle_profile.hpp"
@@ -22,15 +23,15 @@ namespace polybed::dem {
 class Observers {
  public:
   /// Starts the files of a run directory, or goes on with them from a time.
-  /// \param initial_energy  J, that the ledger is checked against; empty: that of now
+  /// \param start  what the laws are checked against; empty: the state now
   /// \param fluid  what the fluid of a run that goes on had taken before; the first rank's counts
   Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
-            std::optional<double> initial_energy, const FluidTotals& fluid, std::optional<double> resume_time);
+            std::optional<RunStart> start, const FluidTotals& fluid, std::optional<double> resume_time);
 
   /// After each step.
   void see_step();
 
-  /// One row of history.csv; also measures the ledgers.
+  /// One row of history.csv; also measures the invariants.
   void write_history(double time);
   /// One row of profiles.h5, one step of particles.h5 and, with a fluid, of fields.h5.
   void write_particles(double time);
@@ -38,11 +39,7 @@ class Observers {
   /// Of the last row of the history.
   [[nodiscard]] const Totals& totals() const { return totals_; }
   [[nodiscard]] std::optional<double> bed_height() const { return bed_height_; }
-  [[nodiscard]] double initial_energy() const { return initial_energy_; }
-  /// Largest difference of the ledger from the energy at the start, against the greatest energy met: V5.
-  [[nodiscard]] double ledger_error() const { return ledger_error_; }
-  /// When it was that large, s.
-  [[nodiscard]] double ledger_error_time() const { return ledger_error_time_; }
+  [[nodiscard]] const Invariants& invariants() const { return invariants_; }
   /// Null without a fluid.
   [[nodiscard]] const FluidRecord* fluid() const { return fluid_ ? &*fluid_ : nullptr; }
 
@@ -54,7 +51,6 @@ class Observers {
     core::ParticleWriter particles;
     std::unique_ptr<FluidOutput> fluid;  ///< null without one
   };
-  void close_ledger();
   [[nodiscard]] std::vector<std::optional<double>> row_of(double time, const fluid::Profile& profile,
                                                           const fluid::ParticleHeights& heights,
                                                           const std::vector<double>& mass, double most_solids) const;
@@ -65,8 +61,8 @@ class Observers {
   std::optional<FluidRecord> fluid_;  ///< absent: there is no fluid
   std::unique_ptr<Files> files_;
   Totals totals_;
+  Invariants invariants_;
   std::optional<double> bed_height_;
-  double initial_energy_ = 0, greatest_energy_ = 0, ledger_error_ = 0, ledger_error_time_ = 0;
 };
 
 }  // namespace polybed::dem

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
@@ -43,23 +44,33 @@ struct Layer {
   double low, high;
 };
 
+/// Solids fraction that the particles are placed at.
+double start_fraction(const core::Scene& scene) {
+  return scene.bed.start_solids_fraction > 0 ? std::min(loose, scene.bed.start_solids_fraction) : loose;
+}
+
+/// Height of each species by itself, at the solids fraction of the start, m.
+std::vector<double> heights(const core::Scene& scene, const Materials& materials, const Box& box,
+                            const std::vector<std::int64_t>& numbers) {
+  const double area = box.size[0] * box.size[2];
+  std::vector<double> height;
+  for (std::size_t j = 0; j < numbers.size(); ++j)
+    height.push_back(double(numbers[j]) * closures::sphere_volume(materials.species()[j].radius) /
+                     (area * start_fraction(scene)));
+  return height;
+}
+
 /// Layers of the species, each as high as its volume asks for; or one for all of them.
 std::vector<Layer> layers(const core::Scene& scene, const Materials& materials, const Box& box,
                           const std::vector<std::int64_t>& numbers) {
-  const double area = box.size[0] * box.size[2];
-  std::vector<double> height;
-  double sum = 0;
-  const double wanted = scene.bed.start_solids_fraction > 0 ? std::min(loose, scene.bed.start_solids_fraction) : loose;
-  for (std::size_t j = 0; j < numbers.size(); ++j) {
-    height.push_back(double(numbers[j]) * closures::sphere_volume(materials.species()[j].radius) / (area * wanted));
-    sum += height.back();
-  }
+  const std::vector<double> height = heights(scene, materials, box, numbers);
+  double sum = std::accumulate(height.begin(), height.end(), 0.0);
   if (scene.bed.start == "random") sum = box.size[1];
   if (sum > box.size[1])
     throw core::CaseError(fmt::format(
         "column.size: the particles fill {:.4g} m of its height at a solids fraction of {:.3g}, which is more than it "
         "has, {:.4g} m",
-        sum, wanted, box.size[1]));
+        sum, start_fraction(scene), box.size[1]));
   std::vector<Layer> layers(numbers.size(), {0, sum});
   if (scene.bed.start != "layered") return layers;
   double low = 0;
@@ -105,6 +116,13 @@ std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Mater
     numbers.push_back(
         std::llround(scene.bed.volume_share[j] * solids / closures::sphere_volume(materials.species()[j].radius)));
   return numbers;
+}
+
+double start_height(const core::Scene& scene, const Materials& materials, const Box& box) {
+  const std::string& start = scene.bed.start;
+  if (start != "mixed" && start != "layered" && start != "settled") return box.size[1];
+  const std::vector<double> height = heights(scene, materials, box, particle_numbers(scene, materials, box));
+  return std::min(box.size[1], std::accumulate(height.begin(), height.end(), 0.0));
 }
 
 std::vector<Particle> start_particles(const core::Scene& scene, const Materials& materials, const Box& box) {

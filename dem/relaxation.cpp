@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "dem/neighbours.hpp"
 
 namespace polybed::dem {
@@ -34,6 +35,7 @@ class Relaxation {
   double push(double size, int rounds) {
     double worst = 0;  // so that the first round makes a list
     for (int round = 0; round < rounds; ++round) {
+      core::stop_if_wanted("particles were placed");
       const bool fresh = worst < left_over || 2 * farthest() > skin_;
       if (fresh) list();
       worst = 0;

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "closures/contact_pair.hpp"
 #include "closures/drag_turton_levenspiel.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/error.hpp"
+#include "core/resolve_particles.hpp"
+#include "dem/packing.hpp"
 #include "fluid/properties.hpp"
 
 namespace polybed::dem {
@@ -24,20 +27,49 @@ double most_contacts(double radius, double partner) {
 
 constexpr double most_walls = 3;  ///< that a particle touches at once
 
-/// Speed that a fluid lets particles have: twice the terminal velocity of the fastest, or twice what they start with,
-/// and what the fluid's inflow becomes between packed particles.
-double speed_in_fluid(const core::Scene& scene, const std::vector<Particle>& start) {
+/// Speed that a fluid lets particles have: twice the terminal velocity of the fastest, or what they start with, and the
+/// inflow; or that of a channel. \param first  speed at the start, m/s
+double speed_in_fluid(const core::Scene& scene, double first) {
   const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
   const auto drag = [law = closures::DragTurtonLevenspiel{}](double eps, double re) { return law(eps, re).f; };
-  double fastest = 0, inflow = 0;
+  double fastest = first, inflow = 0;
   for (const core::Species& s : scene.species)
     fastest = std::max(fastest, closures::terminal_velocity(drag, s.diameter, s.density - fluid.density, fluid.density,
                                                             fluid.viscosity, scene.column.gravity));
-  for (const Particle& p : start) fastest = std::max(fastest, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
   for (const auto& [t, u] : scene.inlet.superficial_velocity) inflow = std::max(inflow, u);
   for (const core::Jet& jet : scene.jets)
     for (const auto& [t, u] : jet.superficial_velocity) inflow = std::max(inflow, u);
-  return 2 * (fastest + inflow);
+  // Channels through a bed: 3 times the velocity between packed particles was met by particles of a settled bed.
+  const double channel = scene.bed.solids_fraction > 0 ? 4 * inflow / (1 - scene.bed.solids_fraction) : 0;
+  return std::max(2 * (fastest + inflow), channel);
+}
+
+/// Greatest speed of a particle at rest that another has run into, over the other's; at least 1.
+double most_passed_on(const Materials& materials) {
+  double most = 1;
+  const auto& species = materials.species();
+  for (int i = 0; i < int(species.size()); ++i)
+    for (int j = 0; j < int(species.size()); ++j)
+      most =
+          std::max(most, closures::speed_passed_on(species[std::size_t(i)].mass, species[std::size_t(j)].mass,
+                                                   materials.kinds()[std::size_t(materials.kind(i, j))].restitution));
+  return most;
+}
+
+/// m, that a particle can fall.
+double fall_height(const core::Scene& scene, const Materials& materials, const Box& box,
+                   const std::vector<Particle>& start) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!box.periodic[k]) longest = std::max(longest, box.size[k]);
+  if (box.periodic[1] || scene.column.down[1] != -1) return longest;
+  double top = 0;
+  if (core::is_list(scene.bed))
+    for (const Particle& p : start) top = std::max(top, p.place.x[1]);
+  else
+    top = start_height(scene, materials, box);
+  // What leaves falls on by a diameter before it is taken out.
+  return top + (box.opening ? materials.greatest_diameter() : 0);
 }
 
 }  // namespace
@@ -72,23 +104,31 @@ double skin_of(const core::Scene& scene, const Materials& materials) {
   return scene.dem.skin.value_or(0.1 * materials.least_diameter());
 }
 
-double greatest_speed(const core::Scene& scene, const Box& box, const std::vector<Particle>& start) {
-  if (scene.dem.greatest_speed) return *scene.dem.greatest_speed;
-  double height = 0, least = std::numeric_limits<double>::infinity(), speed = std::abs(box.image_speed());
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!box.periodic[k]) height = std::max(height, box.size[k]);
-  speed = std::max(speed, std::sqrt(2 * scene.column.gravity * height));
-  for (const Particle& p : start) {
-    speed = std::max(speed, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
-    least = std::min(least, 2 * p.place.radius);
-  }
-  if (scene.fluid.name != "none" && scene.dem.shear_rate == 0) speed = std::min(speed, speed_in_fluid(scene, start));
-  if (!(speed > 0) && scene.dem.fixed_step) speed = 0.01 * least / *scene.dem.fixed_step;
-  if (!(speed > 0))
+Speeds known_speeds(const core::Scene& scene, const Materials& materials, const Box& box,
+                    const std::vector<Particle>& start) {
+  if (scene.dem.greatest_speed) return {*scene.dem.greatest_speed, *scene.dem.greatest_speed};
+  double first = 0;
+  for (const Particle& p : start) first = std::max(first, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
+  const double fall = std::sqrt(first * first + 2 * scene.column.gravity * fall_height(scene, materials, box, start));
+  const double shear = std::abs(box.image_speed());
+  const Speeds dry{std::max(fall, shear), std::max(fall * most_passed_on(materials), shear)};
+  if (scene.fluid.name == "none" || scene.dem.shear_rate != 0) return dry;
+  const double wet = speed_in_fluid(scene, first);
+  return {std::min(dry.impact, wet), std::min(dry.greatest, wet)};
+}
+
+Speeds expected_speeds(const core::Scene& scene, const Materials& materials, const Box& box,
+                       const std::vector<Particle>& start) {
+  const Speeds known = known_speeds(scene, materials, box, start);
+  if (known.greatest > 0) return known;
+  if (!scene.dem.fixed_step)
     throw core::CaseError(
         "dem.greatest_speed: without gravity, shear or particles that move nothing tells how fast they will be; give "
         "the greatest speed expected, which sets the time step");
-  return speed;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Particle& p : start) least = std::min(least, 2 * p.place.radius);
+  const double speed = 0.01 * least / *scene.dem.fixed_step;
+  return {speed, speed};
 }
 
 FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws) {

@@ -18,10 +18,24 @@ namespace polybed::dem {
 /// or a tenth of the least diameter.
 [[nodiscard]] double skin_of(const core::Scene& scene, const Materials& materials);
 
-/// m/s, that particles are expected to reach: as the case gives it, or that of a fall through the box, of the particles
-/// at the start and of the shear; of particles at rest that nothing moves, what dem.fixed_step is made for. Throws
+/// What particles are expected to reach, m/s.
+struct Speeds {
+  double impact = 0;    ///< at which many meet others
+  double greatest = 0;  ///< of any, at least that: what the step is made for
+};
+
+/// As the case gives it; or that of the shear or of a fall, sqrt(v^2 + 2 g h) from the top of the bed as it starts with
+/// the greatest speed v there (h is the height of the box where the start does not tell more), and what the heaviest
+/// pass on to the lightest when they meet so. In a fluid both are at most twice the terminal velocity of the fastest,
+/// or v, and the inflow, or four times what the inflow becomes between packed particles. 0 if nothing tells it.
+/// \param start  the particles, or some as fast as any; the places matter of a list alone
+[[nodiscard]] Speeds known_speeds(const core::Scene& scene, const Materials& materials, const Box& box,
+                                  const std::vector<Particle>& start);
+
+/// The same for a run: of particles at rest that nothing moves it is what dem.fixed_step is made for. Throws
 /// core::CaseError if nothing tells it.
-[[nodiscard]] double greatest_speed(const core::Scene& scene, const Box& box, const std::vector<Particle>& start);
+[[nodiscard]] Speeds expected_speeds(const core::Scene& scene, const Materials& materials, const Box& box,
+                                     const std::vector<Particle>& start);
 
 /// Unit of forces: at the overlap allowed, on as many contacts as the largest particle has room for.
 [[nodiscard]] FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws);

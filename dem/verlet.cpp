@@ -71,14 +71,24 @@ void Verlet::begin_with(Particles& particles, Push&& push) {
   std::fill(particles.load.begin(), particles.load.end(), Load{});
 }
 
+/// What the torque of a step does beyond its work at the spin foreseen, J.
+double Verlet::work_on(const Particles& particles, std::size_t i, const Vector& foreseen) const {
+  double power = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    power += double(particles.load[i].torque[k]) * (particles.motion[i].w[k] - foreseen[k]);
+  return power * torque_.unit * dt_;
+}
+
 template <class Push>
 void Verlet::end_with(Particles& particles, Push&& push) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
+    const Vector foreseen = particles.motion[i].w;
     if (synchronised_) {
       particles.motion[i].v = half_[i].v;
       particles.motion[i].w = half_[i].w;
     }
     kick(particles, i, push, WorkShare::after_drift(synchronised_));
+    if (synchronised_ && ledger_ != nullptr) ledger_->correct(work_on(particles, i, foreseen));
   }
 }
 
@@ -111,7 +121,7 @@ template <class Push>
 Verlet::Drift Verlet::next_drift_with(const Particles& particles, double time, Push&& push) const {
   // Beyond a tenth of a diameter in a step contacts are no longer resolved; far beyond, walls are jumped over.
   constexpr double share_of_diameter = 0.1;
-  double most = 0;
+  double most = 0, longest = 0;
   Drift drift;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Vector &x = particles.place[i].x, &from = marked_[i], &v = particles.motion[i].v,
@@ -123,9 +133,12 @@ Verlet::Drift Verlet::next_drift_with(const Particles& particles, double time, P
     // Turned round, so that what is not a number counts as too far, and stays.
     most = square <= most || std::isnan(most) ? most : square;
     const double against = sx - shear_rate_ * x[1] * dt_, allowed = 2 * share_of_diameter * particles.place[i].radius;
-    if (!(against * against + sy * sy + sz * sz <= allowed * allowed)) drift.hasty = particles.id[i];
+    const double length = against * against + sy * sy + sz * sz;
+    if (!(length <= allowed * allowed)) drift.hasty = particles.id[i];
+    longest = std::max(longest, length);
   }
   drift.distance = std::sqrt(most);
+  drift.speed = std::sqrt(longest) / dt_;
   return drift;
 }
 

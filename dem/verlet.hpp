@@ -7,6 +7,7 @@
 #include "dem/affine_drag.hpp"
 #include "dem/box.hpp"
 #include "dem/fluid_motion.hpp"
+#include "dem/ledger.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {
@@ -32,14 +33,20 @@ class Verlet {
   /// Second half: the velocities of the full step.
   void end(Particles& particles, Around around);
 
+  /// Where what torques did to spins that the contacts had not foreseen is counted; it must outlive this object.
+  void keep(Ledger& ledger) { ledger_ = &ledger; }
+
   [[nodiscard]] bool synchronised() const { return synchronised_; }
   [[nodiscard]] double dt() const { return dt_; }
+  /// For the steps that follow, s.
+  void set_dt(double dt) { dt_ = dt; }
 
   /// Remembers where the owned particles are: what next_drift() counts from.
   void mark(const Particles& particles);
   /// What the next begin() will do.
   struct Drift {
     double distance = 0;      ///< greatest from the marked place, against a sheared box's own flow, m
+    double speed = 0;         ///< greatest of an owned particle, likewise, m/s
     std::int64_t hasty = -1;  ///< id of an owned particle that it will move by more than a tenth of its diameter
   };
   /// \param time  from the mark to then, s
@@ -59,11 +66,14 @@ class Verlet {
   template <class Push>
   void kick(Particles& particles, std::size_t i, Push& push, WorkShare share) const;
 
+  [[nodiscard]] double work_on(const Particles& particles, std::size_t i, const Vector& foreseen) const;
+
   bool synchronised_;
   double dt_;
   Vector gravity_;
   FixedPoint force_, torque_;
   double shear_rate_;
+  Ledger* ledger_ = nullptr;  ///< null: nothing is counted
   struct Velocities {
     Vector v, w;
   };

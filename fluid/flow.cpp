@@ -11,6 +11,7 @@
 #include "core/ranks.hpp"
 #include "fluid/convection.hpp"
 #include "fluid/density.hpp"
+#include "fluid/fluid_mass.hpp"
 #include "fluid/pressure.hpp"
 #include "fluid/properties.hpp"
 #include "fluid/viscous_stress.hpp"
@@ -49,8 +50,9 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       mobility_(core::make_face_field(grid)),
       source_(core::make_field(grid)),
       change_(core::make_field(grid)) {
-  if (conservative_) own_flux_ = core::make_face_field(grid);
-  if (scene.fluid.equation_of_state == "incompressible") return;
+  const bool compressible = scene.fluid.equation_of_state != "incompressible";
+  if (conservative_ || compressible) own_flux_ = core::make_face_field(grid);
+  if (!compressible) return;
   compressible_.emplace(grid, boundaries_, equation_of_state(scene.fluid, constants_.density),
                         scene.fluid.outlet_pressure, constants_.density, gravity_);
   compressible_->make_fields(fluid_);
@@ -72,7 +74,8 @@ void Flow::begin(double t, const ParticlePhase& particles) {
     });
   }
   clear(velocity_change_);
-  constexpr double any = 1;  // s: an impulse has no duration
+  clear(own_flux_);          // an impulse carries nothing on
+  constexpr double any = 1;  // s: it has no duration
   FlowStep step;
   close_pressure(t, any, step);
   correct(any);
@@ -90,6 +93,7 @@ FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
   with_density(fluid_, constants_.density, [&](const auto& density) { push(density, dt, particles); });
   close_pressure(t, dt, step);
   correct(dt);
+  if (compressible_) finish_compression(dt, step);
   step.courant = courant(dt);
   if (!(step.courant <= 1))
     throw core::NumericsError(
@@ -101,8 +105,21 @@ FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
 void Flow::set_voidage(const ParticlePhase& particles) {
   fluid_.voidage = particles.voidage;
   boundaries_.fill_cells(fluid_.voidage);
-  if (compressible_ && !compressible_->set_density(fluid_))
+  if (compressible_) set_density();
+}
+
+void Flow::set_density() {
+  if (!compressible_->set_density(fluid_))
     throw core::NumericsError("the pressure of the fluid has left the range of its equation of state");
+}
+
+/// What passed the ends in a step, at the density that its equations had; then the density is that of the new pressure.
+/// No particle crosses an end of a column with a fluid: J is the fluid's own flux there.
+void Flow::finish_compression(double dt, FlowStep& step) {
+  const MassFlow flow = mass_flow(grid_, boundaries_, fluid_, fluid_.flux[1]);
+  step.mass_in = flow.in * dt;
+  step.mass_out = flow.out * dt;
+  set_density();
 }
 
 /// What flows in, over the voidage of the cells above.
@@ -118,8 +135,8 @@ void Flow::set_inlet(double t) {
 /// a, and dt (U.grad)U.
 void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   boundaries_.fill_velocity(fluid_.velocity, WallSlip::no_slip);
+  if (conservative_ || compressible_) find_own_flux(particles);
   if (conservative_) {
-    find_own_flux(particles);
     const auto on_face = [&](std::size_t a, Index c, Index) { return particles.voidage_on[a][std::size_t(c)]; };
     conservative_convection(grid_, boundaries_, limited_, true, own_flux_, fluid_.velocity, on_face, acceleration_);
   } else {
@@ -173,22 +190,24 @@ void Flow::push(const Density& density, double dt, const ParticlePhase& particle
   }
 }
 
-/// What a fluid that yields to pressure adds to the constraint, over dt: div J = -kappa (dP/dt + U.grad P).
+/// What a fluid that yields to pressure adds to the constraint, over dt: div J = -kappa dP/dt - (Q.grad) rho_f/rho_f.
+/// The last is taken between faces and cell, so that with div J it is div(rho_f Q): what leaves a cell enters the next.
 void Flow::add_compression(double dt) {
-  const double hydrostatic = constants_.density * gravity_;
+  const LocalDensity density{fluid_.compression.density.data()};
   core::for_each_row(grid_, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-      const double kappa = fluid_.compression.kappa[c];
-      double along = 0;  // U.grad P
+    for (Index f = begin; f < end; ++f) {
+      const auto c = std::size_t(f);
+      const double here = density.cells[c];
+      double carried = 0;  // (Q.grad) rho_f, kg/(m3 s)
       for (int axis = 0; axis < grid_.dimensions; ++axis) {
         const auto a = std::size_t(axis);
-        const auto next = c + std::size_t(grid_.stride(axis));
-        const double fall = axis == 1 ? hydrostatic : 0;
-        along += 0.5 * (fluid_.velocity[a][c] * (gradient_[a][c] - fall) +
-                        fluid_.velocity[a][next] * (gradient_[a][next] - fall));
+        const Index s = grid_.stride(axis);
+        carried += (own_flux_[a][c + std::size_t(s)] * (density.on_face(f + s, s) - here) -
+                    own_flux_[a][c] * (density.on_face(f, s) - here)) /
+                   grid_.spacing[a];
       }
-      shift_[c] = kappa / (dt * dt);
-      source_[c] -= kappa * along / dt;
+      shift_[c] = fluid_.compression.kappa[c] / (dt * dt);
+      source_[c] -= carried / (here * dt);
     }
   });
 }

@@ -31,6 +31,8 @@ struct FlowStep {
   int iterations = 0;   ///< of the linear solver
   double residual = 0;  ///< its true relative residual
   double courant = 0;   ///< greatest |U| dt/h, and of the viscous stress 2 nu dt sum(1/h^2)
+  double mass_in = 0;   ///< kg of a compressible fluid that came in through the distributor
+  double mass_out = 0;  ///< the same, out through the outlet
 };
 
 class Flow {
@@ -67,6 +69,8 @@ class Flow {
 
  private:
   void set_voidage(const ParticlePhase& particles);
+  void set_density();
+  void finish_compression(double dt, FlowStep& step);
   void set_inlet(double t);
   void find_acceleration(double dt, const ParticlePhase& particles);
   void find_own_flux(const ParticlePhase& particles);
@@ -91,7 +95,7 @@ class Flow {
   core::FaceField convected_, acceleration_, velocity_change_, gradient_, gradient_change_;
   core::FaceField per_inertia_;  ///< (eps + S)/(m + K), 1/(kg/m3): what dU gains by -dt dG
   core::FaceField mobility_;     ///< B, m3/kg
-  core::FaceField own_flux_;     ///< eps U, m/s; empty unless momentum is conserved
+  core::FaceField own_flux_;     ///< eps U, m/s; empty unless momentum is conserved or the fluid compressible
   core::Field source_, change_;  ///< of the pressure's equation: right-hand side, 1/s2, and solution, Pa
   core::Field shift_;            ///< kappa/dt^2; empty without compression
   core::Field with_ghosts_;      ///< a pressure whose gradient is being taken

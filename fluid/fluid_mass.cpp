@@ -10,7 +10,8 @@ namespace polybed::fluid {
 
 using core::Index;
 
-MassFlow mass_flow(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid) {
+MassFlow mass_flow(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
+                   const core::Field& own_flux) {
   if (boundaries.closed()) return {};
   const LocalDensity density{fluid.compression.density.data()};
   const Index s = grid.stride(1);
@@ -18,7 +19,7 @@ MassFlow mass_flow(const core::Grid& grid, const Boundaries& boundaries, const F
   const auto through = [&](int side) {
     double sum = 0;
     for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
-      for (Index c = begin; c < end; ++c) sum += density.on_face(c, s) * fluid.flux[1][std::size_t(c)];
+      for (Index c = begin; c < end; ++c) sum += density.on_face(c, s) * own_flux[std::size_t(c)];
     });
     return core::sum_of_ranks(grid, sum) * area;
   };

@@ -11,8 +11,11 @@ struct MassFlow {
   double in = 0, out = 0;
 };
 
-/// Flow at one time: rho_f J on the boundary faces, where solids are held. Zero in a closed column.
-[[nodiscard]] MassFlow mass_flow(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid);
+/// Flow at one time: rho_f Q on the boundary faces, as in the fluid's continuity equation. Zero in a closed column.
+/// Collective.
+/// \param own_flux  Q, vertical volume flux of the fluid alone, m/s
+[[nodiscard]] MassFlow mass_flow(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
+                                 const core::Field& own_flux);
 
 /// Mass in the owned cells, kg, sum of eps rho_f.
 [[nodiscard]] double fluid_mass(const core::Grid& grid, const FluidState& fluid);

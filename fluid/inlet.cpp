@@ -10,23 +10,26 @@ namespace polybed::fluid {
 
 using core::Index;
 
+/// The first point later than a time: tables may be long.
+std::vector<std::pair<double, double>>::const_iterator Ramp::after(double t) const {
+  return std::upper_bound(table_.begin(), table_.end(), t,
+                          [](double time, const auto& point) { return time < point.first; });
+}
+
 double Ramp::velocity(double t) const {
   if (table_.empty()) return 0;
   if (t <= table_.front().first) return table_.front().second;
-  for (std::size_t n = 1; n < table_.size(); ++n)
-    if (t < table_[n].first) {
-      const auto& [t0, v0] = table_[n - 1];
-      const auto& [t1, v1] = table_[n];
-      return v0 + (v1 - v0) * (t - t0) / (t1 - t0);
-    }
-  return table_.back().second;
+  const auto next = after(t);
+  if (next == table_.end()) return table_.back().second;
+  const auto& [t0, v0] = *std::prev(next);
+  const auto& [t1, v1] = *next;
+  return v0 + (v1 - v0) * (t - t0) / (t1 - t0);
 }
 
 double Ramp::rate(double t) const {
-  if (table_.empty() || t < table_.front().first) return 0;
-  for (std::size_t n = 1; n < table_.size(); ++n)
-    if (t < table_[n].first) return (table_[n].second - table_[n - 1].second) / (table_[n].first - table_[n - 1].first);
-  return 0;
+  const auto next = after(t);
+  if (next == table_.begin() || next == table_.end()) return 0;
+  return (next->second - std::prev(next)->second) / (next->first - std::prev(next)->first);
 }
 
 double Ramp::greatest() const {

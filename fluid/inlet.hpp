@@ -26,6 +26,7 @@ class Ramp {
   [[nodiscard]] const std::vector<std::pair<double, double>>& table() const { return table_; }
 
  private:
+  [[nodiscard]] std::vector<std::pair<double, double>>::const_iterator after(double t) const;
   std::vector<std::pair<double, double>> table_;
 };
 

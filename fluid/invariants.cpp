@@ -1,7 +1,10 @@
 #include "fluid/invariants.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/ranks.hpp"
@@ -15,20 +18,48 @@ namespace {
 enum Which : std::size_t { mass, bounds, packing, volume };
 }
 
-Invariants::Invariants(std::vector<double> initial_mass, double rtol, bool compressible)
-    : initial_mass_(std::move(initial_mass)),
-      compressible_(compressible),
-      worst_{{"mass", 0, 1e-12, 0},
-             {"solids fraction below 0", 0, rtol, 0},
-             {"solids fraction above packing", 0, 1e-3, 0},
-             {"divergence of the volume flux", 0, 1e-2, 0}} {
-  if (compressible) worst_[volume] = {"mass of the fluid", 0, rtol, 0};
+void WorstInvariant::keep(double now, double at, const std::string& where) {
+  if (!(now > value)) return;  // the history reports NaN
+  value = now;
+  time = at;
+  place = where;
 }
 
-void Invariants::keep(std::size_t which, double value, double time) {
-  if (!(value > worst_[which].value)) return;
-  worst_[which].value = value;
-  worst_[which].time = time;
+double WorstInvariant::share() const {
+  if (limit > 0) return value / limit;
+  return value > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
+std::string WorstInvariant::text() const {
+  const std::string what = place.empty() ? name : fmt::format("{} ({})", name, place);
+  return fmt::format("t = {:.6g} s: a conservation law is broken: {} is off by {:.3g}, the limit is {:g}; {}", time,
+                     what, value, limit, remedy);
+}
+
+const WorstInvariant* broken_law(std::span<const WorstInvariant> worst) {
+  const WorstInvariant* broken = nullptr;
+  for (const WorstInvariant& law : worst)
+    if (law.broken() && (broken == nullptr || law.share() > broken->share())) broken = &law;
+  return broken;
+}
+
+Invariants::Invariants(std::vector<double> initial_mass, std::vector<std::string> species, double rtol,
+                       bool compressible)
+    : initial_mass_(std::move(initial_mass)),
+      species_(std::move(species)),
+      compressible_(compressible),
+      worst_{{.name = "mass",
+              .limit = 1e-12,
+              .judged = true,
+              .remedy = "that is a fault of the program: report it with the case"},
+             {.name = "solids fraction below 0", .limit = rtol},
+             {.name = "solids fraction above packing",
+              .limit = 1e-3,
+              .judged = true,
+              .remedy = "lower tfm.rtol, or give tfm.exchange_pressure where species differ"},
+             {.name = "divergence of the volume flux", .limit = 1e-2}} {
+  if (compressible)
+    worst_[volume] = {.name = "mass of the fluid", .limit = rtol, .judged = true, .remedy = "lower tfm.rtol"};
 }
 
 const WorstInvariant& Invariants::nearest() const {
@@ -62,11 +93,13 @@ InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids
                                 std::span<const Passed> passed, double fluid_error) {
   InvariantValues now;
   const std::vector<double> volume_now = species_volumes(grid, solids);
-  for (std::size_t j = 0; j < solids.species(); ++j)
-    now.mass_error =
-        std::max(now.mass_error, ledger_error(initial_mass_[j], passed.empty() ? 0 : passed[j].in * solids.density[j],
-                                              passed.empty() ? 0 : passed[j].out * solids.density[j],
-                                              volume_now[j] * solids.density[j]));
+  for (std::size_t j = 0; j < solids.species(); ++j) {
+    const double error =
+        ledger_error(initial_mass_[j], passed.empty() ? 0 : passed[j].in * solids.density[j],
+                     passed.empty() ? 0 : passed[j].out * solids.density[j], volume_now[j] * solids.density[j]);
+    now.mass_error = std::max(now.mass_error, error);
+    worst_[mass].keep(error, time, "species " + species_[j]);
+  }
   double least = 0, most = 0;
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
@@ -79,11 +112,10 @@ InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids
   now.packing_above = packing_above;
   now.divergence = divergence_error(grid, fluid.flux, velocity_scale);
   now.force_balance = force_balance;
-  keep(mass, now.mass_error, time);
-  keep(bounds, now.fraction_below, time);
-  keep(packing, now.packing_above, time);
+  worst_[bounds].keep(now.fraction_below, time);
+  worst_[packing].keep(now.packing_above, time);
   now.fluid_error = fluid_error;
-  keep(volume, compressible_ ? now.fluid_error : now.divergence, time);
+  worst_[volume].keep(compressible_ ? now.fluid_error : now.divergence, time);
   return now;
 }
 

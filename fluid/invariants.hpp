@@ -23,20 +23,38 @@ struct InvariantValues {
   double force_balance = 0;   ///< pressure drop over buoyant weight per area, less 1
 };
 
-/// Largest value an invariant has had, where it was, against its limit.
+/// Largest value an invariant has had, when and where it was, against its limit.
 struct WorstInvariant {
   std::string name;
-  double value = 0, limit = 0, time = 0;
-  [[nodiscard]] double share() const { return limit > 0 ? value / limit : 0; }
+  double limit = 0;
+  bool judged = false;         ///< a conservation law: a run that breaks it ends, unless it is permissive
+  std::string remedy = {};     ///< what to do about a law that is broken
+  double value = 0, time = 0;  ///< time in s
+  std::string place = {};      ///< empty where it has none
+
+  /// Takes a value that is worse than the worst so far.
+  void keep(double now, double at, const std::string& where = {});
+  [[nodiscard]] double share() const;
+  /// A law is broken, not only beyond its limit.
+  [[nodiscard]] bool broken() const { return judged && !(value <= broken_above * limit); }
+  /// What is wrong, when and where, the value, the limit, and what to do.
+  [[nodiscard]] std::string text() const;
+
+  static constexpr double broken_above = 10;  ///< limits
 };
+
+/// Of the laws that are broken the one furthest beyond its limit; null if all stand.
+[[nodiscard]] const WorstInvariant* broken_law(std::span<const WorstInvariant> worst);
 
 /// Watches the invariants over a run.
 class Invariants {
  public:
   /// \param initial_mass  of each species, any unit; a species without mass is not watched
+  /// \param species  their names
   /// \param rtol          relative tolerance of the time integration: sets the bounds of the fractions
   /// \param compressible  the mass of the fluid is watched in place of the divergence of the volume flux
-  Invariants(std::vector<double> initial_mass, double rtol, bool compressible = false);
+  Invariants(std::vector<double> initial_mass, std::vector<std::string> species, double rtol,
+             bool compressible = false);
 
   /// Measures and keeps what is worst in the column. Collective.
   /// \param passed       what each species has passed through open ends; empty: nothing
@@ -51,9 +69,8 @@ class Invariants {
   [[nodiscard]] const WorstInvariant& nearest() const;
 
  private:
-  void keep(std::size_t which, double value, double time);
-
   std::vector<double> initial_mass_;
+  std::vector<std::string> species_;
   bool compressible_;
   std::vector<WorstInvariant> worst_;
 };

@@ -6,17 +6,17 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <span>
 #include <stdexcept>
 
 #include "core/error.hpp"
 #include "core/output_file.hpp"
+#include "fluid/solids_table_file.hpp"
 
 namespace polybed::fluid {
 
 namespace {
-
-const core::FileKind kind{"polybed solids table", 1};
 
 /// Weights of the two knots around a value, the edges held.
 struct Between {
@@ -72,6 +72,12 @@ constexpr Texts texts{{{"regime", &SolidsTable::regime},
                        {"case_hash", &SolidsTable::case_hash},
                        {"created", &SolidsTable::created}}};
 
+BedPressure bed_pressure(const core::OutputFile& file, const char* phi) {
+  const bool uncertain = file.has("p_bed_se");
+  return {file.read(phi).values, file.read("p_bed").values,
+          uncertain ? file.read("p_bed_se").values : std::vector<double>()};
+}
+
 }  // namespace
 
 closures::StressRatios ratios_at(const SolidsTable& table, const TablePlace& place) {
@@ -121,11 +127,16 @@ std::vector<std::string> beyond(const SolidsTable& table, const TablePlace& plac
 }
 
 std::string regime_of_table(const std::filesystem::path& path) {
-  return core::OutputFile(path, kind).text_attribute("/", "regime");
+  return open_table(path).text_attribute("/", "regime");
+}
+
+std::string missing_checksum(const std::filesystem::path& path) {
+  if (is_sealed(open_table(path))) return "";
+  return path.string() + " carries no checksum: it is of an earlier version, and damage to it would not be noticed";
 }
 
 void write_solids_table(const std::filesystem::path& path, const SolidsTable& table) {
-  core::OutputFile file(kind);
+  core::OutputFile file = new_table();
   for (const auto& [name, text] : texts) file.set_attribute("/", name, table.*text);
   for (const auto& [name, number] : numbers) file.set_attribute("/", name, table.*number);
   file.set_attribute("/", "units", std::string("ratios to the reference; p_bed over |rho_p - rho_f| g D"));
@@ -147,16 +158,16 @@ void write_solids_table(const std::filesystem::path& path, const SolidsTable& ta
     file.write("beta_12_drift", {1}, std::vector{table.exchange_drift});
   }
   file.write("S", shape, table.shear_number);
-  if (!table.bed_phi.empty()) {
-    file.write("phi_bed", {table.bed_phi.size()}, table.bed_phi);
-    file.write("p_bed", {table.bed_phi.size()}, table.bed_pressure);
-    file.write("p_bed_se", {table.bed_phi.size()}, table.bed_error);
+  if (!table.bed.phi.empty()) {
+    file.write("phi_bed", {table.bed.phi.size()}, table.bed.phi);
+    file.write("p_bed", {table.bed.phi.size()}, table.bed.pressure);
+    file.write("p_bed_se", {table.bed.phi.size()}, table.bed.error);
   }
-  file.save(path);
+  save_table(file, path);
 }
 
 SolidsTable read_solids_table(const std::filesystem::path& path) {
-  const core::OutputFile file(path, kind);
+  const core::OutputFile file = open_table(path);
   SolidsTable table;
   for (const auto& [name, text] : texts) table.*text = file.text_attribute("/", name);
   if (table.regime != "dry" && table.regime != "wet")
@@ -168,23 +179,25 @@ SolidsTable read_solids_table(const std::filesystem::path& path) {
     TableQuantity& q = table.*quantity;
     q = {file.read(name).values, file.read(std::string(name) + "_se").values,
          file.read(std::string(name) + "_n").values};
-    if (q.value.size() != table.size() || q.error.size() != table.size())
-      throw core::FileError(fmt::format("{}: {} has another number of values than the axes say", path.string(), name));
   }
   table.shear_number = file.read("S").values;
   table.git_commit = file.text_attribute("/", "git_commit");
   if (file.has("beta_12_drift")) {  // files without it have ratios to another form, that of slow drift
     table.exchange = {file.read("beta_12_ratio").values, file.read("beta_12_ratio_se").values,
                       file.read("beta_12_ratio_n").values};
-    table.exchange_drift = file.read("beta_12_drift").values.front();
-    if (table.exchange.value.size() != table.size() || table.exchange.error.size() != table.size())
-      throw core::FileError(path.string() + ": beta_12_ratio has another number of values than the axes say");
+    const std::vector<double> drift = file.read("beta_12_drift").values;
+    require_axis(path, "beta_12_drift", drift, 0, std::numeric_limits<double>::max());
+    table.exchange_drift = drift.front();
   }
-  if (!file.has("p_bed")) return table;
-  table.bed_phi = file.read("phi_bed").values;
-  table.bed_pressure = file.read("p_bed").values;
-  table.bed_error = file.read("p_bed_se").values;
+  if (file.has("p_bed")) table.bed = bed_pressure(file, "phi_bed");
+  require_values(path, table);
   return table;
+}
+
+BedPressure read_bed_table(const std::filesystem::path& path) {
+  BedPressure bed = bed_pressure(open_table(path), "phi");
+  require_values(path, bed);
+  return bed;
 }
 
 }  // namespace polybed::fluid

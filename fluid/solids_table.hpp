@@ -19,6 +19,11 @@ struct TableQuantity {
 /// Name of kinetic theory at closures::effective_restitution.
 inline const std::string effective_reference = "GD-CS e_eff";
 
+/// p_bed of a fluidised bed over the solids fraction; empty of a table that has none.
+struct BedPressure {
+  std::vector<double> phi, pressure, error;  ///< error: one standard error, or empty
+};
+
 struct SolidsTable {
   std::string regime;                                             ///< dry | wet
   std::string reference;                                          ///< GD-CS | GD-CS e_eff | viscous
@@ -27,11 +32,11 @@ struct SolidsTable {
   TableQuantity exchange;            ///< beta_12 of two species over species_exchange_kinetic.hpp; empty if not in it
   double exchange_drift = 0;         ///< |U_1 - U_2|/sqrt(theta) up to which all of it was measured
   std::vector<double> shear_number;  ///< S = gamma d/sqrt(theta) at every point
-  std::vector<double> bed_phi, bed_pressure, bed_error;  ///< p_bed of a fluidised bed; empty if not in it
-  double inertia = 0;                                    ///< lambda of the viscous form
-  double size_ratio = 1;                                 ///< of the two species, if share is an axis
-  double residual = 0;                                   ///< as left_out, beyond two standard errors
-  double left_out = 0;  ///< greatest error of p and mu where a solids fraction is left out of the fit
+  BedPressure bed;
+  double inertia = 0;     ///< lambda of the viscous form
+  double size_ratio = 1;  ///< of the two species, if share is an axis
+  double residual = 0;    ///< as left_out, beyond two standard errors
+  double left_out = 0;    ///< greatest error of p and mu where a solids fraction is left out of the fit
   std::string case_hash, created, git_commit;
 
   /// Restitution at which the reference of a dry table is taken: that of smooth spheres that lose as much as rough
@@ -75,8 +80,14 @@ struct TablePlace {
 /// Regime of a file of type "polybed solids table": dry, wet or bed. Throws core::FileError.
 [[nodiscard]] std::string regime_of_table(const std::filesystem::path& path);
 
+/// One line for a table that carries no checksum, as those of earlier versions do not; empty of one that does. Throws
+/// core::FileError.
+[[nodiscard]] std::string missing_checksum(const std::filesystem::path& path);
+
 void write_solids_table(const std::filesystem::path& path, const SolidsTable& table);
-/// Throws core::FileError if it is another file, or of regime "bed".
+/// Throws core::FileError if it is another file, damaged, or of regime "bed", and for numbers that cannot be.
 [[nodiscard]] SolidsTable read_solids_table(const std::filesystem::path& path);
+/// Of a table of regime "bed". Throws core::FileError likewise.
+[[nodiscard]] BedPressure read_bed_table(const std::filesystem::path& path);
 
 }  // namespace polybed::fluid

@@ -10,13 +10,14 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "core/descriptor.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "multiscale/installed.hpp"
+#include "multiscale/mpirun.hpp"
 
 namespace polybed::multiscale {
 
@@ -27,37 +28,23 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds look_every{2};
 constexpr std::chrono::seconds grace{5};  // mpirun gives its ranks one
 
-/// What Open MPI needs in a container and as root, and without binding; a user's own settings stand.
-constexpr std::array<std::string_view, 5> settings{
-    "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "OMPI_MCA_rmaps_base_oversubscribe=1",
-    "OMPI_MCA_hwloc_base_binding_policy=none", "OMPI_MCA_btl_vader_single_copy_mechanism=none"};
-
 std::vector<std::string> environment(int ranks) {
+  if (ranks > 1) return environment_of_mpirun();
   std::vector<std::string> all;
   for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
-  if (ranks == 1) return all;
-  const std::size_t own = all.size();
-  for (const std::string_view setting : settings) {
-    const std::string_view name = setting.substr(0, setting.find('=') + 1);
-    if (std::none_of(all.begin(), all.begin() + std::ptrdiff_t(own),
-                     [&](const std::string& entry) { return entry.starts_with(name); }))
-      all.emplace_back(setting);
-  }
   return all;
 }
 
 std::vector<std::string> words_of(const ChildOrder& order) {
   std::vector<std::string> words;
-  if (order.ranks > 1) words = {"mpirun", "-q", "--oversubscribe", "-n", std::to_string(order.ranks)};
-  words.push_back(this_program().string());
+  if (order.ranks > 1) words = {mpirun(), "-q", "--oversubscribe", "-n", std::to_string(order.ranks)};
+  words.push_back((order.program.empty() ? this_program() : order.program).string());
   words.insert(words.end(), order.words.begin(), order.words.end());
   return words;
 }
 
-int opened(const std::filesystem::path& path) {
-  const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (number < 0) throw core::FileError(fmt::format("{}: {}", path.string(), std::system_category().message(errno)));
-  return number;
+core::Descriptor file_of(const std::filesystem::path& path) {
+  return path.empty() ? core::Descriptor(-1) : core::new_file(path);
 }
 
 /// Made before the fork, behind which nothing may be allocated.
@@ -116,8 +103,7 @@ ChildProgram::ChildProgram(const ChildOrder& order) {
   int reason = 0;
   {
     const core::Descriptor writing(pipe[1]);
-    const core::Descriptor output(order.output.empty() ? -1 : opened(order.output));
-    const core::Descriptor errors(order.errors.empty() ? -1 : opened(order.errors));
+    const core::Descriptor output = file_of(order.output), errors = file_of(order.errors);
     const int out = order.output.empty() ? STDERR_FILENO : output.number();
     const Start start{pointers_to(words),
                       pointers_to(variables),

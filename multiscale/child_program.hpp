@@ -1,4 +1,5 @@
-// This program as another process, on one rank or several, so that one that fails or hangs ends nothing but itself.
+// This program, or one installed beside it, as another process, on one rank or several, so that one that fails or hangs
+// ends nothing but itself.
 #pragma once
 
 #include <sys/types.h>
@@ -14,10 +15,11 @@ namespace polybed::multiscale {
 
 /// What is started.
 struct ChildOrder {
-  std::vector<std::string> words;  ///< behind the name of this program
+  std::vector<std::string> words;  ///< behind the name of the program
   int ranks = 1;                   ///< above one by mpirun, which may be root, as with the launcher
   /// Files of what it prints; no output: this process's standard error; no errors: where its output goes.
   std::filesystem::path output = {}, errors = {};
+  std::filesystem::path program = {};  ///< empty: this program
 };
 
 /// How it ended.

@@ -8,9 +8,13 @@
 
 #include "core/blocks.hpp"
 #include "core/memory.hpp"
+#include "core/print.hpp"
 #include "core/progress.hpp"
+#include "core/resolve_particles.hpp"
+#include "dem/effects/contact_hertz.hpp"
 #include "dem/packing.hpp"
 #include "dem/scene.hpp"
+#include "dem/settling.hpp"
 
 namespace polybed::multiscale {
 
@@ -51,6 +55,10 @@ std::vector<std::int64_t> numbers_of(const core::Scene& scene, const dem::Materi
   return numbers;
 }
 
+std::int64_t sum_of(const std::vector<std::int64_t>& numbers) {
+  return std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0));
+}
+
 constexpr double mega = 1e-6;
 
 std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materials& materials, std::int64_t particles,
@@ -68,27 +76,33 @@ std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materia
 }
 
 /// CPU time, s: of the particles, and of the fluid's steps.
-double expected_time(const ParticleRequirements& need, const ParticleSpeed& speed) {
+double expected_time(const ParticleRequirements& need, const ParticleSpeed& speed, double steps) {
+  const double count = double(need.count());
   const double particles =
-      need.particle_steps * (need.fluid ? speed.particle_step_in_fluid : speed.particle_step) + need.steps * speed.step;
+      steps * (count * (need.fluid ? speed.particle_step_in_fluid : speed.particle_step) + speed.step);
   if (!need.fluid) return particles;
-  return particles + need.fluid->steps * (speed.fluid_step + speed.exchange * double(need.count()) +
-                                          speed.cell * double(need.fluid->cells));
+  return particles + steps / need.fluid->every *
+                         (speed.fluid_step + speed.exchange * count + speed.cell * double(need.fluid->cells));
 }
 
 void print_fluid(const FluidNeed& fluid) {
-  fmt::print("# fluid step {:.3g} s, one in {} of the particles': {:.3g} steps on {} cells\n", fluid.step, fluid.every,
-             fluid.steps, fluid.cells);
+  core::print("# fluid step {:.3g} s, one in {} of the particles': {:.3g} steps on {} cells\n", fluid.step, fluid.every,
+              fluid.steps, fluid.cells);
   if (fluid.kernel.width > 0)
-    fmt::print("# kernel diffusion, {:.3g} mm wide: {}\n", 1e3 * fluid.kernel.width, fluid.kernel.reason);
+    core::print("# kernel diffusion, {:.3g} mm wide: {}\n", 1e3 * fluid.kernel.width, fluid.kernel.reason);
   else
-    fmt::print("# kernel bilinear: {}\n", fluid.kernel.reason);
+    core::print("# kernel bilinear: {}\n", fluid.kernel.reason);
 }
 
 }  // namespace
 
-std::int64_t ParticleRequirements::count() const {
-  return std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0));
+std::int64_t ParticleRequirements::count() const { return sum_of(numbers); }
+
+std::vector<std::string> ParticleRequirements::warnings() const {
+  std::vector<std::string> lines;
+  for (const std::string& line : {limits.warning, overlap.warning})
+    if (!line.empty()) lines.push_back(line);
+  return lines;
 }
 
 ParticleRequirements particle_requirements_of(const core::Scene& scene, const ParticleSpeed& speed) {
@@ -99,16 +113,41 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   ParticleRequirements need;
   need.numbers = numbers_of(scene, materials, box);
   const std::vector<dem::Particle> fastest = fastest_at_start(scene, materials, box, need.count());
-  need.limits = dem::step_limits(scene, materials, laws, dem::greatest_speed(scene, box, fastest));
+  const dem::Speeds speeds = dem::expected_speeds(scene, materials, box, fastest);
+  need.limits = dem::step_limits(scene, materials, laws, speeds.greatest);
+  need.overlap = dem::overlap_forecast(scene, materials, *laws.normal, speeds.impact);
   need.program = core::process_memory().now + output;
   need.particles = bytes_per_particle * double(need.count());
   need.steps = std::ceil(scene.run.until / need.limits.dt);
   need.particle_steps = need.steps * double(need.count());
   need.fluid = fluid_need(scene, materials, need.count(), need.limits.dt, need.steps);
-  need.expected = expected_time(need, speed);
+  if (scene.bed.start == "settled") need.settling = dem::settling_time(scene, materials, box);
+  need.before = expected_time(need, speed, need.settling / need.limits.dt);
+  need.expected = need.before + expected_time(need, speed, need.steps);
   need.least = need.expected / band;
   need.most = need.expected * band;
   return need;
+}
+
+void choose_stiffness(core::Scene& scene) {
+  const auto own = [](const auto& part) { return part.youngs_modulus.has_value(); };
+  const std::string law = core::law_of(scene, "contact");
+  if ((law != "hertz" && law != "hertz_mindlin") || own(scene.dem) ||
+      std::any_of(scene.species.begin(), scene.species.end(), own) ||
+      std::any_of(scene.contact_pairs.begin(), scene.contact_pairs.end(), own))
+    return;
+  const dem::Box box = dem::box_of(scene);
+  const dem::Materials materials(scene);
+  const std::int64_t count = core::is_list(scene.bed) ? 0 : sum_of(dem::particle_numbers(scene, materials, box));
+  const dem::Speeds speeds = dem::known_speeds(scene, materials, box, fastest_at_start(scene, materials, box, count));
+  const dem::HertzContact hertz(materials, scene.dem.tail);
+  const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, hertz, speeds.impact);
+  scene.dem.youngs_modulus = dem::rounded_up(core::least_modulus * std::max(1.0, overlap.stiffening));
+}
+
+void write_overlap(core::Json& json, const dem::OverlapForecast& overlap) {
+  json.key("overlap").begin_object().member("pair", overlap.pair).member("expected_m", overlap.overlap);
+  json.member("over_diameter", overlap.share).end_object();
 }
 
 void write_particle_requirements(core::Json& json, const core::Scene& scene, const ParticleRequirements& need) {
@@ -131,7 +170,9 @@ void write_particle_requirements(core::Json& json, const core::Scene& scene, con
   for (const dem::StepLimit& limit : need.limits.all)
     json.begin_object().member("name", limit.name).member("dt_s", limit.dt).end_object();
   json.end_array().end_object();
-  json.key("time").begin_object().member("steps", need.steps).member("particle_steps", need.particle_steps);
+  write_overlap(json, need.overlap);
+  json.key("time").begin_object().member("settling_s", need.settling).member("before_s", need.before);
+  json.member("steps", need.steps).member("particle_steps", need.particle_steps);
   json.member("expected_s", need.expected).member("least_s", need.least).member("most_s", need.most).end_object();
 }
 
@@ -139,19 +180,24 @@ void print_particle_requirements(const core::Scene& scene, const ParticleRequire
   std::string each;
   for (std::size_t j = 0; j < need.numbers.size(); ++j)
     each += fmt::format("{}{} {}", j == 0 ? "" : ", ", need.numbers[j], scene.species[j].name);
-  fmt::print("# {} particles: {}\n", need.count(), each);
+  core::print("# {} particles: {}\n", need.count(), each);
   const std::string fluid = need.fluid ? fmt::format("fluid {:.1f}, ", mega * need.fluid->memory) : "";
-  fmt::print("# memory about {:.0f} MB: particles and contacts {:.1f}, {}program {:.0f}\n", mega * need.memory(),
-             mega * need.particles, fluid, mega * need.program);
-  fmt::print("# time step {:.3g} s, limited by {}; greatest speed expected {:.3g} m/s; {} integrator ({})\n",
-             need.limits.dt, need.limits.limited_by, need.limits.greatest_speed,
-             need.limits.synchronised ? "synchronised" : "thesis", need.limits.integrator_reason);
-  for (const dem::StepLimit& limit : need.limits.all) fmt::print("#   {}: {:.3g} s\n", limit.name, limit.dt);
+  core::print("# memory about {:.0f} MB: particles and contacts {:.1f}, {}program {:.0f}\n", mega * need.memory(),
+              mega * need.particles, fluid, mega * need.program);
+  core::print("# time step {:.3g} s, limited by {}; greatest speed expected {:.3g} m/s; {} integrator ({})\n",
+              need.limits.dt, need.limits.limited_by, need.limits.greatest_speed,
+              need.limits.synchronised ? "synchronised" : "thesis", need.limits.integrator_reason);
+  for (const dem::StepLimit& limit : need.limits.all) core::print("#   {}: {:.3g} s\n", limit.name, limit.dt);
+  core::print("# contacts overlap by up to {:.2g} of the smaller diameter, those of {}; the run stops above {:g}\n",
+              need.overlap.share, need.overlap.pair, scene.dem.max_overlap);
   if (need.fluid) print_fluid(*need.fluid);
   const auto text = [](double seconds) {
     return seconds < 9.5 ? fmt::format("{:.1g} s", seconds) : core::duration_text(seconds);
   };
-  fmt::print(
+  if (need.settling > 0)
+    core::print("# the bed settles first, for about {:.2g} s, which takes {} of the time below\n", need.settling,
+                text(need.before));
+  core::print(
       "# computing {:.4g} s takes about {} of one core, between {} and {}: {:.3g} steps, {:.3g} particle-steps\n",
       scene.run.until, text(need.expected), text(need.least), text(need.most), need.steps, need.particle_steps);
 }

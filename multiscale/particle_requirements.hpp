@@ -9,6 +9,7 @@
 #include "core/json.hpp"
 #include "core/scene.hpp"
 #include "dem/kernel.hpp"
+#include "dem/overlap_forecast.hpp"
 #include "dem/step_limits.hpp"
 
 namespace polybed::multiscale {
@@ -26,11 +27,15 @@ struct FluidNeed {
 struct ParticleRequirements {
   std::vector<std::int64_t> numbers;  ///< of each species
   dem::StepLimits limits;             ///< the step and what sets it
+  dem::OverlapForecast overlap;       ///< at the speed that it is made for
   double program = 0, particles = 0;  ///< memory, bytes: the program itself; what grows with the number
   std::optional<FluidNeed> fluid;     ///< absent without one
   double steps = 0, particle_steps = 0;
   double least = 0, expected = 0, most = 0;  ///< CPU time of the run, s: the middle of a band and its ends
+  double settling = 0, before = 0;           ///< s simulated until a bed that settles first is at rest; of expected
   [[nodiscard]] std::int64_t count() const;
+  /// Of a step that the case gives, and of contacts too soft.
+  [[nodiscard]] std::vector<std::string> warnings() const;
   [[nodiscard]] double memory() const { return program + particles + (fluid ? fluid->memory : 0); }
 };
 
@@ -46,6 +51,13 @@ struct ParticleSpeed {
 /// From the case alone: nothing is packed and nothing is stepped, so that it is known at once for any number. Throws
 /// core::CaseError for what the particle model could not build.
 [[nodiscard]] ParticleRequirements particle_requirements_of(const core::Scene& scene, const ParticleSpeed& speed = {});
+
+/// Gives a scene whose particles touch after Hertz and that states no modulus one: core::least_modulus, or more where
+/// the speeds to expect need it to keep overlaps within dem.max_overlap. Steps are the longer the softer contacts are.
+void choose_stiffness(core::Scene& scene);
+
+/// "overlap": the deepest contact to expect.
+void write_overlap(core::Json& json, const dem::OverlapForecast& overlap);
 
 /// Members of an object that is open.
 void write_particle_requirements(core::Json& json, const core::Scene& scene, const ParticleRequirements& need);

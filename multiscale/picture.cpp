@@ -1,9 +1,8 @@
 #include "multiscale/picture.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 
+#include "core/print.hpp"
 #include "multiscale/python_module.hpp"
 
 namespace polybed::multiscale {
@@ -35,9 +34,9 @@ void draw_and_tell(const std::string& module, const std::filesystem::path& direc
   const bool drawn = draw(module, directory, message);
   if (quiet) return;
   if (drawn)
-    fmt::print("{}\n", message);
+    core::print("{}\n", message);
   else
-    fmt::print(stderr, "no {}: {}\n", what, message);
+    core::print(stderr, "no {}: {}\n", what, message);
 }
 
 }  // namespace polybed::multiscale

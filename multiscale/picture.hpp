@@ -7,8 +7,8 @@
 
 namespace polybed::multiscale {
 
-/// Hands a folder over to a module of the Python package, `python3 -m module OPTIONS -- directory`. Nothing is printed
-/// and nothing thrown: what lies in the folder is complete without its picture.
+/// Hands a folder over to a module of the Python package, with the words `OPTIONS -- directory`. Nothing is printed and
+/// nothing thrown: what lies in the folder is complete without its picture.
 /// \param message  the last line it says, where the picture is; or, if false is returned, why there is none (Python or a
 ///                 package of it missing, nothing stored yet)
 [[nodiscard]] bool draw(const std::string& module, const std::filesystem::path& directory, std::string& message,

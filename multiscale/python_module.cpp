@@ -6,8 +6,8 @@
 
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -21,25 +21,8 @@ namespace {
 /// Debian's own Python: another one may come first on the path and lack the packages.
 constexpr const char* python = "/usr/bin/python3";
 
-/// This process's environment with the package in front of Python's search path.
-std::vector<std::string> environment() {
-  constexpr std::string_view name = "PYTHONPATH=";
-  std::string path = std::string(name) + beside_program(POLYBED_PYTHON_INSTALLED, POLYBED_PYTHON_SOURCE).string();
-  std::vector<std::string> all;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view text = *entry;
-    if (text.starts_with(name))
-      path += ":" + std::string(text.substr(name.size()));
-    else
-      all.emplace_back(text);
-  }
-  all.push_back(path);
-  return all;
-}
-
 /// Starts a program whose output goes into a pipe, or where ours goes if there is none; 0 or why it did not start.
 int start(std::vector<std::string> arguments, const std::optional<std::array<int, 2>>& pipe, pid_t& child) {
-  std::vector<std::string> settings = environment();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   if (pipe) {
@@ -47,8 +30,8 @@ int start(std::vector<std::string> arguments, const std::optional<std::array<int
     posix_spawn_file_actions_adddup2(&actions, (*pipe)[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, (*pipe)[1], STDERR_FILENO);
   }
-  const int reason = posix_spawn(&child, arguments.front().c_str(), &actions, nullptr, pointers_to(arguments).data(),
-                                 pointers_to(settings).data());
+  const int reason =
+      posix_spawn(&child, arguments.front().c_str(), &actions, nullptr, pointers_to(arguments).data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   return reason;
 }
@@ -75,7 +58,8 @@ int wait_for(pid_t child) {
 }  // namespace
 
 PythonEnd run_python(const std::string& module, const std::vector<std::string>& arguments, PythonOutput output) {
-  std::vector<std::string> words{python, "-m", module};
+  const std::filesystem::path package = beside_program(POLYBED_PYTHON_INSTALLED, POLYBED_PYTHON_SOURCE) / "polybed";
+  std::vector<std::string> words{python, "-I", package / "isolated.py", module};
   words.insert(words.end(), arguments.begin(), arguments.end());
   PythonEnd end;
   std::optional<std::array<int, 2>> pipe;

@@ -15,8 +15,8 @@ struct PythonEnd {
 
 enum class PythonOutput { keep, show };
 
-/// Runs `python3 -m module arguments...` with Debian's Python and the package in front of its search path, and waits
-/// for its end. Nothing is thrown.
+/// Runs a module of the package with Debian's Python, as `python3 -m module arguments...` would, and waits for its end.
+/// Python is isolated: nothing of the working directory and of PYTHONPATH is imported. Nothing is thrown.
 /// \param output  keep: standard output and error go into PythonEnd::output; show: they are those of this process
 [[nodiscard]] PythonEnd run_python(const std::string& module, const std::vector<std::string>& arguments,
                                    PythonOutput output);

@@ -12,6 +12,7 @@
 #include "core/json.hpp"
 #include "core/ranks.hpp"
 #include "core/version.hpp"
+#include "multiscale/scene_rules.hpp"
 
 namespace polybed::multiscale {
 
@@ -195,6 +196,7 @@ void write_invariants(Json& json, std::span<const fluid::WorstInvariant> worst) 
         .member("limit", w.limit)
         .member("time_s", w.time)
         .member("held", w.value <= w.limit)
+        .member("judged", w.judged)
         .end_object();
   json.end_array();
 }
@@ -202,7 +204,9 @@ void write_invariants(Json& json, std::span<const fluid::WorstInvariant> worst) 
 std::vector<std::string> exceeded_lines(std::span<const fluid::WorstInvariant> worst) {
   std::vector<std::string> lines;
   for (const fluid::WorstInvariant& w : worst)
-    if (!(w.value <= w.limit)) lines.push_back(w.name + " exceeded its limit");
+    if (!(w.value <= w.limit))
+      lines.push_back(fmt::format("{} exceeded its limit{}", w.name,
+                                  w.broken() ? " more than tenfold: the results do not conserve it" : ""));
   return lines;
 }
 
@@ -239,6 +243,7 @@ std::string run_record_text(const RunRecord& record) {
   for (const std::string& line : exceeded_lines(record.observers.invariants().worst())) json.value(line);
   for (const std::string& line : drift_lines(record.observers.drifts())) json.value(line);
   for (const std::string& line : model.effects().warnings) json.value(line);
+  for (const std::string& line : scene_warnings(record.scene)) json.value(line);
   for (const std::string& line : record.warnings) json.value(line);
   json.end_array().end_object();
   return json.text();

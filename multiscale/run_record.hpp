@@ -61,7 +61,8 @@ void write_size_classes(core::Json& json, const core::Scene& scene);
 void begin_record(core::Json& json, const core::Scene& scene, const std::string& model, const std::string& state,
                   int ranks);
 
-/// Writes "invariants": the worst value of each, its limit, when it was, and whether it held.
+/// Writes "invariants": the worst value of each, its limit, when it was, whether it held, and whether a run that breaks
+/// it ends.
 void write_invariants(core::Json& json, std::span<const fluid::WorstInvariant> worst);
 
 /// One line for each invariant that is beyond its limit: what the warnings of a record begin with.

@@ -1,5 +1,5 @@
-"""What Open MPI needs in a container and as root, for the scripts that start the program on ranks. The launcher
-`polybed` sets the same, and tests/CMakeLists.txt for test programs that it starts itself."""
+"""What Open MPI needs in a container and as root, for the scripts that start mpirun. multiscale/mpirun.cpp sets the same
+for `polybed -n`, and tests/CMakeLists.txt for test programs that it starts itself."""
 import pathlib
 
 SETTINGS = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",

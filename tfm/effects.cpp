@@ -94,6 +94,7 @@ void require_regime(const core::Scene& scene, const std::string& role, const std
 void make_table_stress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                        const std::string& file, Fields& fields, Effects& effects) {
   const std::string regime = fluid::regime_of_table(file);
+  if (const std::string line = fluid::missing_checksum(file); !line.empty()) effects.warnings.push_back(line);
   if (regime == "bed") {
     effects.solids_stress =
         std::make_unique<TableStress>(scene, constants, boundaries, read_bed_pressure(file), file, fields);
@@ -101,11 +102,11 @@ void make_table_stress(const core::Scene& scene, const Constants& constants, con
   }
   const fluid::SolidsTable table = fluid::read_solids_table(file);
   require_regime(scene, "solids_stress", file, regime);
-  if (table.bed_phi.empty())
+  if (table.bed.phi.empty())
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else
-    effects.solids_stress = std::make_unique<TableStress>(
-        scene, constants, boundaries, bed_curve(table.bed_phi, table.bed_pressure, file), file, fields);
+    effects.solids_stress =
+        std::make_unique<TableStress>(scene, constants, boundaries, bed_curve(table.bed, file), file, fields);
   const fluid::TablePlace place = fluid::place_of(scene);
   for (const std::string& line : fluid::beyond(table, place))
     effects.warnings.push_back("solids stress " + file + ": " + line);
@@ -142,13 +143,10 @@ void make_solids_stress(const core::Scene& scene, const Constants& constants, co
     make_table_stress(scene, constants, boundaries, stress.substr(table_word.size()), fields, effects);
   else if (stress != "none")
     refuse("solids_stress", stress);
-  if (viscosity == "schaeffer" || viscosity == "mu_i") {
-    if (!effects.solids_stress)
-      throw core::CaseError("effects.solids_viscosity = \"" + viscosity + "\" needs a solids_stress: its pressure");
+  if (viscosity == "schaeffer" || viscosity == "mu_i")
     effects.solids_viscosity = std::make_unique<FrictionalViscosity>(scene, constants, viscosity, fields);
-  } else if (viscosity != "none") {
+  else if (viscosity != "none")
     refuse("solids_viscosity", viscosity);
-  }
   if (stress == "kinetic")
     effects.collisions = std::make_unique<KineticStress>(scene, constants, boundaries, temperature == "transported",
                                                          effects.solids_stress->max_packing(), fields);
@@ -176,6 +174,7 @@ fluid::SolidsTable exchange_table(const core::Scene& scene, const std::string& f
 
 Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                      Fields& fields) {
+  core::refuse(effect_faults(scene));
   Effects effects;
   if (const std::string name = core::law_of(scene, "drag"); name != "none")
     effects.drag = std::make_unique<Drag>(constants, boundaries, name, fluid::slip_divisors(scene, constants.diameter));

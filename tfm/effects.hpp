@@ -11,6 +11,7 @@
 
 #include "core/registry.hpp"
 #include "core/scene.hpp"
+#include "core/scene_rule.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/compressible.hpp"
 #include "tfm/fields.hpp"
@@ -105,6 +106,9 @@ struct Effects {
   std::unique_ptr<fluid::Compressible> compressible;  ///< of an incompressible fluid: null
   std::vector<std::string> warnings;                  ///< where the scene is not what an effect was measured for
 };
+
+/// What the laws of the continuum that a scene names lack: other roles, numbers. Laws that are "auto" lack nothing yet.
+[[nodiscard]] std::vector<core::SceneFault> effect_faults(const core::Scene& scene);
 
 /// Makes the effects that a scene names and the fields they own; throws core::CaseError for a law that the
 /// continuum model lacks.

@@ -204,7 +204,7 @@ void Model::step(double stop) {
   step_ = report.next_step;
   if (compressible()) count_fluid(integrator_->state());
   last_step_ = {report.time, report.step, report.error_norm, ""};
-  if (effects().solids_stress) require_sound_state();
+  if (effects().solids_stress && !goes_on_above_packing_) require_sound_state();
   if (fallback_) {
     fallback_->see(layout_, integrator_->state(), effects().solids_stress.get());
     use_fallback();

@@ -52,6 +52,9 @@ class Model : public core::Simulation {
   [[nodiscard]] core::CheckpointParts checkpoint_parts() const;
   /// Keeps the state last accepted as the one that checkpoint() returns, after a step has failed.
   void keep_last_state();
+  /// Whether steps that leave solids far above their packing are taken; without being told so a model throws
+  /// core::ConservationError.
+  void go_on_above_packing(bool go_on) { goes_on_above_packing_ = go_on; }
   /// Begins at time 0 from the state of a checkpoint of the same species and grid.
   void start_from(const core::Checkpoint& checkpoint);
   /// Takes a run up again from a checkpoint written by any number of ranks: each rank's own parts, the rest of the
@@ -126,6 +129,7 @@ class Model : public core::Simulation {
   double time_ = 0, step_ = 0, velocity_scale_ = 1, pressure_scale_ = 100;
   std::vector<double> y_, dydt_;
   std::size_t column_size_ = 0;  ///< entries of the whole column's state
+  bool goes_on_above_packing_ = false;
   StepLine last_step_;
   std::optional<FirstOrderFallback> fallback_;  ///< absent where all fluxes are of first order anyway
   Work before_;                                 ///< of the integrators that a restart has closed

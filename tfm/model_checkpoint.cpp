@@ -1,4 +1,6 @@
 // The model's state in a checkpoint: each rank has its block of the column, whoever reads it next.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -43,6 +45,17 @@ core::Slab slab_of(const core::Grid& grid, const StateLayout::Entry& entry, cons
   return slab;
 }
 
+/// What an unknown can be: far beyond what a step leaves, and far below what makes the next one fail.
+std::pair<double, double> range_of(StateLayout::Entry::Kind kind) {
+  using Kind = StateLayout::Entry::Kind;
+  constexpr double undershoot = 0.1, fastest = 1e5, highest = 1e13;  // of a fraction; m/s; Pa
+  if (kind == Kind::fraction) return {-undershoot, 1 + undershoot};
+  if (kind == Kind::temperature) return {-undershoot, fastest * fastest};
+  if (kind == Kind::pressure) return {-highest, highest};
+  if (kind == Kind::passed) return {-highest, highest};
+  return {-fastest, fastest};
+}
+
 }  // namespace
 
 core::CheckpointParts Model::checkpoint_parts() const {
@@ -85,8 +98,8 @@ core::Checkpoint Model::checkpoint() const {
 void Model::restore_fallback(const core::Checkpoint& checkpoint) {
   if (!fallback_) return;
   const auto flags = checkpoint.arrays.find("first_order_steps_left");
-  const auto known = checkpoint.integers.find("first_order_cells");
-  double count = known == checkpoint.integers.end() ? 0.0 : double(known->second);
+  const bool known = checkpoint.integers.contains("first_order_cells");
+  double count = known ? double(checkpoint.count("first_order_cells")) : 0.0;
   core::take_from_first(constants().grid.ranks.get(), std::span(&count, 1));
   fallback_->restore(layout_, flags == checkpoint.arrays.end() ? std::vector<double>() : flags->second,
                      std::uint64_t(count));
@@ -117,16 +130,23 @@ void Model::check_fits(const core::Checkpoint& checkpoint) const {
       pressure->second.size() != constants().grid.cell_count() ||
       (first && (kind == checkpoint.texts.end() || kind->second != integrator_name_)))
     throw core::FileError("the checkpoint belongs to another case: its unknowns or its integrator differ");
+  core::require_numbers(checkpoint);
+  for (const StateLayout::Entry& entry : layout_.entries()) {
+    const auto [least, most] = range_of(entry.kind);
+    const auto begin = state->second.begin() + std::ptrdiff_t(entry.begin), end = begin + std::ptrdiff_t(entry.size);
+    const auto odd = std::find_if(begin, end, [&](double v) { return !(v >= least && v <= most); });
+    if (odd != end)
+      core::refuse_checkpoint(fmt::format("{} is {:g}", StateLayout::name_of(entry, constants().name), *odd));
+  }
 }
 
 void Model::resume(const core::Checkpoint& checkpoint) {
   const core::Ranks* ranks = constants().grid.ranks.get();
-  const bool first = core::is_first(ranks);
   core::on_all(ranks, [&] { check_fits(checkpoint); });
   y_ = checkpoint.arrays.at("state");
   layout_.unpack(layout_.entries().front(), checkpoint.arrays.at("pressure"), equations_.fields().fluid.pressure);
   std::array<double, 2> clock{};
-  if (first) clock = {checkpoint.numbers.at("time_s"), checkpoint.numbers.at("step_s")};
+  core::on_first(ranks, [&] { clock = {checkpoint.time("time_s"), checkpoint.time("step_s")}; });
   core::take_from_first(ranks, clock);
   time_ = clock[0];
   step_ = clock[1];
@@ -139,11 +159,12 @@ void Model::resume(const core::Checkpoint& checkpoint) {
 /// Counts go on where they were; they are exact in a double up to 9e15.
 void Model::take_up_counts(const core::Checkpoint& checkpoint) {
   const core::Ranks* ranks = constants().grid.ranks.get();
-  for (const auto& [name, count] : counts) {
-    double value = core::is_first(ranks) ? double(checkpoint.integers.at(name)) : 0;
-    core::take_from_first(ranks, std::span(&value, 1));
-    before_.*count = std::uint64_t(value);
-  }
+  std::array<double, counts.size()> values{};
+  core::on_first(ranks, [&] {
+    for (std::size_t n = 0; n < counts.size(); ++n) values[n] = double(checkpoint.count(counts[n].first));
+  });
+  core::take_from_first(ranks, values);
+  for (std::size_t n = 0; n < counts.size(); ++n) before_.*(counts[n].second) = std::uint64_t(values[n]);
 }
 
 }  // namespace polybed::tfm

@@ -61,7 +61,8 @@ void Model::begin_compressible() {
     for (const StateLayout::Entry& entry : layout_.entries())
       if (entry.kind == StateLayout::Entry::Kind::pressure)
         std::fill_n(dydt_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
-  ledger_.begin(time_, ledger_.at(time_), fluid::mass_flow(constants().grid, boundaries(), fields().fluid));
+  ledger_.begin(time_, ledger_.at(time_),
+                fluid::mass_flow(constants().grid, boundaries(), fields().fluid, fields().fluid.compression.flux[1]));
 }
 
 void Model::count_fluid(std::span<const double> y) {

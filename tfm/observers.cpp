@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "core/blocks.hpp"
-#include "core/error.hpp"
 #include "core/ranks.hpp"
 
 namespace polybed::tfm {
@@ -69,12 +66,8 @@ std::vector<core::FieldName> field_names(const Constants& constants, bool temper
   return names;
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw core::FileError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-}
-
-/// Opens steps.csv; when a run goes on, rows later than its time and a row cut short are dropped.
-std::FILE* open_steps(const std::filesystem::path& path, std::optional<double> resume_time) {
+/// What steps.csv begins with; when a run goes on, rows later than its time and a row cut short are dropped.
+std::string kept_steps(const std::filesystem::path& path, std::optional<double> resume_time) {
   std::string kept = "time_s,dt_s,error_norm,limited_by\n";
   if (resume_time) {
     std::ifstream old(path);
@@ -83,10 +76,7 @@ std::FILE* open_steps(const std::filesystem::path& path, std::optional<double> r
     while (std::getline(old, line) && !old.eof())
       if (std::strtod(line.c_str(), nullptr) <= *resume_time) kept += line + "\n";
   }
-  core::write_atomically(path, kept);
-  std::FILE* file = std::fopen(path.c_str(), "a");
-  if (file == nullptr) fail(path);
-  return file;
+  return kept;
 }
 
 }  // namespace
@@ -98,6 +88,26 @@ core::FieldValues components(const core::Grid& grid, const core::FaceField& u) {
 }
 
 }  // namespace
+
+core::Field shown_temperature(const core::Field& fraction, const core::Field& temperature) {
+  constexpr double absent_below = 1e-6;
+  core::Field shown = temperature;
+  for (std::size_t c = 0; c < shown.size(); ++c)
+    if (!(fraction[c] >= absent_below)) shown[c] = 0;
+  return shown;
+}
+
+std::vector<double> mean_temperature(const core::Grid& grid, const core::Field& fraction, const core::Field& shown) {
+  core::Field weight = fraction, weighted = shown;
+  for (std::size_t c = 0; c < weight.size(); ++c) {
+    weight[c] = std::max(fraction[c], 0.0);
+    weighted[c] *= weight[c];
+  }
+  std::vector<double> mean = fluid::lateral_mean(grid, weighted);
+  const std::vector<double> solids = fluid::lateral_mean(grid, weight);
+  for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = mean[k] > 0 ? mean[k] / solids[k] : 0;
+  return mean;
+}
 
 std::vector<double> masses(const Model& model) {
   std::vector<double> mass = fluid::species_volumes(model.constants().grid, model.fields().solids);
@@ -118,7 +128,7 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
                      std::vector<double> initial_mass, std::optional<double> resume_time)
     : model_(model),
       ranks_(model.constants().grid.ranks.get()),
-      invariants_(std::move(initial_mass), rtol, model.effects().compressible != nullptr),
+      invariants_(std::move(initial_mass), model.constants().name, rtol, model.effects().compressible != nullptr),
       drifts_(names_of_heights(model.constants())) {
   const Constants& constants = model.constants();
   const bool compressible = model.effects().compressible != nullptr;
@@ -127,8 +137,7 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
     files_.reset(new Files{
         {directory, history_columns(constants, compressible), resume_time},
         {directory, slab_centres(constants.grid), profile_names(constants, knows_temperature(model)), resume_time},
-        steps,
-        {open_steps(steps, resume_time), std::fclose}});
+        {steps, kept_steps(steps, resume_time)}});
   });
   fields_.emplace(directory, constants.grid, field_names(constants, knows_temperature(model), compressible),
                   resume_time);
@@ -191,6 +200,9 @@ void Observers::write_fields(double time) {
                                         fluid::lateral_mean(grid, fields.fluid.pressure)};
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));
+  std::vector<core::Field> temperatures;
+  for (std::size_t j = 0; j < fields.solids.species() && knows_temperature(model_); ++j)
+    temperatures.push_back(shown_temperature(fields.solids.fraction[j], fields.solids.temperature[j]));
   std::vector<core::FieldValues> values{
       {fields.fluid.voidage}, {fields.fluid.pressure}, components(grid, velocities[0])};
   for (std::size_t j = 0; j < fields.solids.species(); ++j) {
@@ -199,8 +211,9 @@ void Observers::write_fields(double time) {
     values.push_back({fields.solids.fraction[j]});
     values.push_back(components(grid, velocities[j + 1]));
     if (!knows_temperature(model_)) continue;
-    rows.push_back(fluid::lateral_mean(grid, fields.solids.temperature[j]));
-    values.push_back({fields.solids.temperature[j]});
+    const core::Field& shown = temperatures[j];
+    rows.push_back(mean_temperature(grid, fields.solids.fraction[j], shown));
+    values.push_back({shown});
   }
   core::Field total;
   if (model_.effects().compressible) {
@@ -217,10 +230,7 @@ void Observers::log_step() {
   last_steps_.push_back(step);
   if (last_steps_.size() > last_steps_kept) last_steps_.pop_front();
   const std::string row = fmt::format("{},{},{:.4g},\"{}\"\n", step.time, step.step, step.error_norm, step.limited_by);
-  core::on_first(ranks_, [&] {
-    std::FILE* file = files_->steps.get();
-    if (std::fwrite(row.data(), 1, row.size(), file) != row.size() || std::fflush(file) != 0) fail(files_->steps_path);
-  });
+  core::on_first(ranks_, [&] { files_->steps.append(row); });
 }
 
 }  // namespace polybed::tfm

@@ -54,8 +54,7 @@ class Observers {
   struct Files {
     core::HistoryWriter history;
     core::ProfileWriter profiles;
-    std::filesystem::path steps_path;
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> steps;
+    core::LineFile steps;
   };
 
   /// What does not go into a row: the drift of its heights, and how well-posed the equations are.
@@ -72,6 +71,13 @@ class Observers {
   double force_balance_ = 0;
   std::deque<StepLine> last_steps_;
 };
+
+/// theta_j as files show it, m2/s2: 0 where the species is absent (phi_j below 1e-6), whose equation there is that of
+/// nothing and whose value means nothing.
+[[nodiscard]] core::Field shown_temperature(const core::Field& fraction, const core::Field& temperature);
+/// Mean of the shown theta_j over the solids of each layer of the column, m2/s2; 0 where there are none. Collective.
+[[nodiscard]] std::vector<double> mean_temperature(const core::Grid& grid, const core::Field& fraction,
+                                                   const core::Field& shown);
 
 /// Mass of each species in the column, kg. Collective.
 [[nodiscard]] std::vector<double> masses(const Model& model);

@@ -46,7 +46,7 @@ void require_packing(const Constants& constants, const StateLayout& layout, std:
   if (worst <= most_above_packing) return;
   const std::string place =
       core::said_by(grid, core::rank_of_greatest(grid, most), layout.describe(where, constants.name));
-  throw core::NumericsError(fmt::format(
+  throw core::ConservationError(fmt::format(
       "t = {:.9g} s: solids at {} lie {:.3g} above the packing they can have, more than {:g}{}", t, place, worst,
       most_above_packing,
       constants.species() > 1 ? "; species that part push each other into what they leave: effects.species_exchange = "

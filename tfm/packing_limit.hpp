@@ -21,8 +21,8 @@ struct CellSolids {
 /// Above this no bed is shown any more: ten times what a stress that yields may leave (invariant V2).
 constexpr double most_above_packing = 0.01;
 
-/// Throws core::NumericsError that names time, cell and what holds unlike solids together if solids lie further above
-/// the packing than that. Collective.
+/// Throws core::ConservationError that names time, cell and what holds unlike solids together if solids lie further
+/// above the packing than that. Collective.
 void require_packing(const Constants& constants, const StateLayout& layout, std::span<const double> y, double t,
                      const StressEffect& stress);
 

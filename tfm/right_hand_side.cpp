@@ -105,7 +105,8 @@ std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLay
   layout.unpack(y, fields_.solids, fields_.fluid);
   set_inlet_velocity(t);
   if (!effects_.compressible->set_density(fields_.fluid)) return std::nullopt;
-  return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid);
+  fluid_flux_through_ends(constants_, side_of(t), fields_, flux_[1]);
+  return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid, fields_.fluid.compression.flux[1]);
 }
 
 /// Pressure of the solids and, where effects give them any, viscosity and granular temperature.

@@ -82,6 +82,21 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
     constants.openings.set_rate_ghosts(t, j, fields.solids);
 }
 
+void fluid_flux_through_ends(const Constants& constants, double t, Fields& fields, core::Field& flux) {
+  const auto on_ends = [&](auto&& body) {
+    for (const int side : {fluid::Openings::bottom, fluid::Openings::top})
+      fluid::for_each_boundary_row(constants.grid, 1, side, [&](Index begin, Index end) {
+        for (auto c = std::size_t(begin); c < std::size_t(end); ++c) body(c);
+      });
+  };
+  core::Field& own = fields.fluid.compression.flux[1];
+  on_ends([&](std::size_t c) { own[c] = fields.fluid.flux[1][c]; });
+  for (std::size_t j = 0; j < constants.species() && constants.openings.present(); ++j) {
+    constants.openings.cross(t, j, fields.solids, flux);
+    on_ends([&](std::size_t c) { own[c] -= flux[c]; });
+  }
+}
+
 void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields) {
   const bool limited = scheme == Scheme::limited;
   fluid::convection(constants.grid, boundaries, limited, true, fields.fluid.velocity, fields.fluid_acceleration);

@@ -29,6 +29,10 @@ enum class Scheme { upwind, limited };
 void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux,
                 const FaceList* first_order, ConservativeConvection* momentum = nullptr);
 
+/// Of a compressible fluid: sets its own flux, J - sum F_j, on the faces of bottom and top alone, to the values that
+/// continuity() sets there. J, U_j and phi_j of the owned faces and cells are read. flux is work space.
+void fluid_flux_through_ends(const Constants&, double t, Fields&, core::Field& flux);
+
 /// Sets the accelerations of all phases to their convection, -(U.grad)U; the rest is added to them.
 void convection(const Constants&, const fluid::Boundaries&, Scheme, Fields&);
 

@@ -7,6 +7,7 @@
 #include "closures/stress_table.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
+#include "fluid/solids_table_file.hpp"
 
 namespace polybed::multiscale {
 
@@ -59,7 +60,7 @@ void require_usable(const BedTable& t) {
 
 void write_bed_table(const std::filesystem::path& path, const BedTable& table, const std::string& created,
                      const std::string& case_hash) {
-  core::OutputFile file(core::FileKind{"polybed solids table", 1});
+  core::OutputFile file = fluid::new_table();
   file.set_attribute("/", "regime", std::string("bed"));
   file.set_attribute("/", "units",
                      std::string("p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity m/s"));
@@ -74,15 +75,10 @@ void write_bed_table(const std::filesystem::path& path, const BedTable& table, c
   file.write("p_bed_by_balance_se", shape, table.balance_error);
   file.write("theta_bed", shape, table.temperature);
   file.write("velocity", shape, table.velocity);
-  file.save(path);
+  fluid::save_table(file, path);
 }
 
-void take_bed(fluid::SolidsTable& table, const std::filesystem::path& path) {
-  const core::OutputFile file(path, core::FileKind{"polybed solids table", 1});
-  table.bed_phi = file.read("phi").values;
-  table.bed_pressure = file.read("p_bed").values;
-  table.bed_error = file.read("p_bed_se").values;
-}
+void take_bed(fluid::SolidsTable& table, const std::filesystem::path& path) { table.bed = fluid::read_bed_table(path); }
 
 std::string bed_rows(const BedTable& t) {
   std::string out = fmt::format("{:>8} {:>8} {:>20} {:>20} {:>12} {:>8}\n", "mm/s", "phi", "p_bed by slabs",

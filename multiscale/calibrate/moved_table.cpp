@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 #include "fluid/solids_table.hpp"
+#include "fluid/solids_table_file.hpp"
 #include "multiscale/calibrate/fit.hpp"
 
 namespace polybed::multiscale {
@@ -20,17 +21,14 @@ std::vector<double> moved_by(const std::vector<double>& values, const std::vecto
 
 /// A table of regime "bed" alone.
 void write_moved_bed(const std::filesystem::path& path, double sigma, const std::filesystem::path& moved) {
-  const core::FileKind kind{"polybed solids table", 1};
-  const core::OutputFile table(path, kind);
-  if (!table.has("p_bed_se"))
-    throw core::CaseError(path.string() + ": no p_bed_se: nothing tells how uncertain p_bed is");
-  const std::vector<double> phi = table.read("phi").values,
-                            pressure = moved_by(table.read("p_bed").values, table.read("p_bed_se").values, sigma);
-  core::OutputFile file(kind);
+  const fluid::BedPressure bed = fluid::read_bed_table(path);
+  if (bed.error.empty()) throw core::CaseError(path.string() + ": no p_bed_se: nothing tells how uncertain p_bed is");
+  const std::vector<double> pressure = moved_by(bed.pressure, bed.error, sigma);
+  core::OutputFile file = fluid::new_table();
   file.set_attribute("/", "regime", std::string("bed"));
-  file.write("phi", {phi.size()}, phi);
+  file.write("phi", {bed.phi.size()}, bed.phi);
   file.write("p_bed", {pressure.size()}, pressure);
-  file.save(moved);
+  fluid::save_table(file, moved);
 }
 
 }  // namespace
@@ -39,7 +37,7 @@ void write_moved_table(const std::filesystem::path& path, double sigma, const st
   if (fluid::regime_of_table(path) == "bed") return write_moved_bed(path, sigma, moved);
   fluid::SolidsTable table = fluid::read_solids_table(path);
   for (fluid::TableQuantity* q : {&table.pressure, &table.viscosity}) q->value = moved_by(q->value, q->error, sigma);
-  table.bed_pressure = moved_by(table.bed_pressure, table.bed_error, sigma);
+  table.bed.pressure = moved_by(table.bed.pressure, table.bed.error, sigma);
   if (const auto falls = falls_of(table); !falls.empty())
     throw core::CaseError(
         fmt::format("{} moved by {:+g} standard errors: its pressure falls {}", path.string(), sigma, falls.front()));

@@ -1,10 +1,15 @@
 #include "multiscale/command_line/command_line.hpp"
 
-#include <cerrno>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstring>
 
+#include "core/print.hpp"
+#include "core/ranks.hpp"
 #include "core/version.hpp"
 #include "multiscale/command_line/commands.hpp"
+#include "multiscale/mpirun.hpp"
 
 namespace polybed::command_line {
 
@@ -18,10 +23,16 @@ Commands add_commands(CLI::App& app) {
   return commands;
 }
 
+/// The command line without what stands before the command.
+std::vector<std::string> words_from_command(const CLI::App& app, int argc, char** argv) {
+  const std::string command = app.get_subcommands().front()->get_name();
+  return {std::find(argv, argv + argc, command), argv + argc};
+}
+
 /// What was printed has to have arrived: a full disk shows only when the buffer is emptied.
 void flush_standard_output() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw core::FileError(fmt::format("standard output: cannot be written ({})", std::strerror(errno)));
+  if (const int reason = core::refusal_of_answer(); reason != 0)
+    throw core::FileError(fmt::format("standard output: cannot be written ({})", std::strerror(reason)));
 }
 
 }  // namespace
@@ -31,22 +42,28 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
   const std::string kind = core::build_kind().empty() ? "" : ", built with " + core::build_kind();
   app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")" + kind);
   app.require_subcommand(1);
+  int ranks = 1;
+  app.add_option("-n", ranks, "before the command: the number of ranks that share it, by mpirun")
+      ->check(CLI::Range(1, 1000000));
   const Commands commands = add_commands(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool asked = error.get_exit_code() == 0;
     app.exit(error);
-    return asked ? core::ExitCode::done : core::ExitCode::wrong_case;
+    if (!asked) return core::ExitCode::wrong_case;
+    flush_standard_output();
+    return core::ExitCode::done;
   }
+  if (ranks > 1) multiscale::become_ranks(ranks, words_from_command(app, argc, argv));
   core::ExitCode code = core::ExitCode::done;
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     const On on = command.on();
-    if (on != On::one_process) mpi.emplace(argc, argv);
+    if (on != On::one_process) mpi.emplace();
     if (on != On::first_rank || mpi->first()) code = command.run();
   }
-  flush_standard_output();
+  core::on_first(mpi ? core::Ranks::of_program().get() : nullptr, flush_standard_output);
   return code;
 }
 

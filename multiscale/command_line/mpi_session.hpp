@@ -1,32 +1,26 @@
 // MPI around what needs it, and how ranks end together.
 #pragma once
 
-#include <fmt/format.h>
 #include <mpi.h>
 
 #include <chrono>
 #include <cstdio>
-#include <string>
 #include <thread>
 
-#include "core/error.hpp"
+#include "core/mpi_start.hpp"
+#include "core/print.hpp"
+#include "multiscale/command_line/process.hpp"
 
 namespace polybed::command_line {
 
-/// How the program ends: its code, and what it says of it.
-struct Ending {
-  int code = 0;
-  std::string message;
-};
-
 class MpiSession {
  public:
-  MpiSession(int& argc, char**& argv) {
-    if (MPI_Init(&argc, &argv) != MPI_SUCCESS) throw core::MpiError("MPI cannot be started");
+  MpiSession() {
+    core::open_mpi();
     MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   }
-  ~MpiSession() { MPI_Finalize(); }
+  ~MpiSession() { core::close_mpi(); }
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
 
@@ -46,7 +40,7 @@ class MpiSession {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    fmt::print(stderr, "rank {}: {}\n", rank_, ending.message);
+    core::print(stderr, "rank {}: {}\n", rank_, ending.message);
     MPI_Abort(MPI_COMM_WORLD, ending.code);
   }
 

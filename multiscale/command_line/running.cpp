@@ -12,7 +12,9 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
   command.add_option("-o,--output", options.output, "run directory; default runs/<case name>-" + model);
   command.add_option("--until", options.until, "simulated time, e.g. \"20 s\"");
   command.add_flag("--resume", options.resume, "go on from the checkpoint in the run directory");
-  command.add_flag("--force", options.force, "replace a run directory that exists");
+  command.add_flag("--force", options.force, "replace the run in the run directory");
+  command.add_flag("--permissive", options.permissive,
+                   "go on where a conservation law is broken more than tenfold, which ends a run otherwise");
   command.add_flag("--quiet", options.quiet, "no progress");
   command.add_flag("!--no-picture", options.picture,
                    "no picture.png (or comparison.html) at the end, which takes a second");

@@ -1,18 +1,8 @@
 // Commands that run many cases to learn something.
-#include <cstdlib>
-
+#include "core/mpi_start.hpp"
 #include "multiscale/command_line/commands.hpp"
 
 namespace polybed::command_line {
-
-namespace {
-
-/// Whether this process is one of mpirun's, by what Open MPI or MPICH say to those that they start.
-bool started_by_mpirun() {
-  return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
-}
-
-}  // namespace
 
 void add_cost(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<multiscale::CostOptions>();
@@ -54,6 +44,7 @@ void add_inversion(CLI::App& app, Commands& commands) {
   command.add_option("--until", options->until, "simulated time of each run, e.g. \"20 s\"");
   command.add_flag("--stress-uncertainty", options->stress_uncertainty,
                    "of a scan by the TFM: again with its stress table at plus and minus one standard error");
+  command.add_flag("--permissive", options->permissive, "runs of a scan go on where a conservation law is broken");
   command.add_flag("--quiet", options->quiet, "no line for each run");
   command.add_flag("!--no-picture", options->picture, "no inversion.png at the end");
   commands.push_back({&command, doing([options] { multiscale::run_inversion(*options); }),
@@ -75,30 +66,18 @@ void add_calibrate(CLI::App& app, Commands& commands) {
   command.add_option("--box", options->box)->group("");
   command.add_flag("--quiet", options->quiet, "no progress");
   const auto on = [options] {
-    options->launched = started_by_mpirun() && options->box.empty();
+    options->launched = core::started_by_launcher() && options->box.empty();
     return options->launched || options->box.starts_with("bed") ? On::all_ranks : On::one_process;
   };
   commands.push_back({&command, doing([options] { multiscale::run_calibrate(*options); }), on});
 }
 
+/// Its options are those of polybed-hard, `polybed stability --help` included.
 void add_stability(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::StabilityOptions>();
   CLI::App& command = *app.add_subcommand("stability", "hard cases against every scheme: what held, cell by cell");
-  command.add_option("--suite", options->suite, "ci: in some minutes | full")->check(CLI::IsMember({"ci", "full"}));
-  command.add_option("--only", options->only, "cases, by commas, e.g. T7,C4");
-  command.add_option("--schemes", options->schemes, "by commas, e.g. implicit/limited");
-  command.add_option("--naive", options->naive, "textbook treatments, by commas, or all: test builds alone");
-  command.add_option("--fuzz", options->draws, "that many scenes drawn from the envelope, in place of the catalogue");
-  command.add_option("--draw", options->draw, "of these scenes those numbers alone, by commas, e.g. 738,965")
-      ->delimiter(',');
-  command.add_option("--seed", options->seed, "of the draws");
-  command.add_option("-j,--jobs", options->jobs, "cells at once")->check(CLI::Range(1, 256));
-  command.add_option("-o,--output", options->output, "default runs/stability");
-  command.add_flag("--json", options->json, "one JSON object on standard output, nothing else there");
-  commands.push_back({&command, doing([options] {
-                        return options->draws > 0 || !options->draw.empty() ? multiscale::run_fuzz(*options)
-                                                                            : multiscale::run_stability(*options);
-                      })});
+  command.prefix_command();
+  command.set_help_flag();
+  commands.push_back({&command, doing([&command] { multiscale::run_stability(command.remaining()); })});
 }
 
 }  // namespace polybed::command_line

@@ -7,6 +7,8 @@
 #include "core/case_file.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/output_directory.hpp"
+#include "core/print.hpp"
 #include "core/progress.hpp"
 #include "core/version.hpp"
 #include "fluid/properties.hpp"
@@ -44,7 +46,7 @@ void run_one(const core::Scene& scene, const fs::path& directory, const std::str
   p.regime = regime;
   p.binary = binary != 0;
   p.pushed = pushed != 0;
-  core::make_directories(directory / "boxes");
+  core::make_folder(directory / "boxes");
   write_box(file_of(directory, scene, p), run_box(scene, p));
 }
 
@@ -53,19 +55,20 @@ std::FILE* people(const CalibrateOptions& options) { return options.json ? stder
 
 void print_plan(const Plan& plan, const Boxes& boxes, const CalibrateOptions& options) {
   std::FILE* out = people(options);
-  fmt::print(out, "regime {}: {}\n", plan.regime.name, plan.regime.reason);
+  core::print(out, "regime {}: {}\n", plan.regime.name, plan.regime.reason);
   for (const fluid::RegimeNumbers& n : plan.regime.numbers)
-    fmt::print(out, "  {}: gamma tau_p {:.2g}, St* {:.2g} to {:.2g}, St_gamma {:.2g} (voidage {:.3f}, {:.3g} 1/s)\n",
-               n.species, n.shear_times_relaxation, n.stokes_least, n.stokes_most, n.stokes_of_shear, n.voidage,
-               n.shear_rate);
+    core::print(out, "  {}: gamma tau_p {:.2g}, St* {:.2g} to {:.2g}, St_gamma {:.2g} (voidage {:.3f}, {:.3g} 1/s)\n",
+                n.species, n.shear_times_relaxation, n.stokes_least, n.stokes_most, n.stokes_of_shear, n.voidage,
+                n.shear_rate);
   if (plan.binary && !plan.pushed())
-    fmt::print(out,
-               "no beta_12: it is measured in dry boxes alone. Here a push would meet drag towards the flow and films, "
-               "whose part the drag law of the two-fluid model has already\n");
-  fmt::print(out, "{} boxes: phi {}, stokes {}, e {}, mu_p {}, x2 {}, seeds {}; {} left, about {} on {} at once\n",
-             plan.boxes.size(), plan.axes.phi.size(), plan.axes.stokes.size(), plan.axes.restitution.size(),
-             plan.axes.friction.size(), plan.axes.share.size(), plan.least_seeds(), boxes.left(),
-             core::duration_text(boxes.expected_left() / boxes.at_once()), boxes.at_once());
+    core::print(
+        out,
+        "no beta_12: it is measured in dry boxes alone. Here a push would meet drag towards the flow and films, "
+        "whose part the drag law of the two-fluid model has already\n");
+  core::print(out, "{} boxes: phi {}, stokes {}, e {}, mu_p {}, x2 {}, seeds {}; {} left, about {} on {} at once\n",
+              plan.boxes.size(), plan.axes.phi.size(), plan.axes.stokes.size(), plan.axes.restitution.size(),
+              plan.axes.friction.size(), plan.axes.share.size(), plan.least_seeds(), boxes.left(),
+              core::duration_text(boxes.expected_left() / boxes.at_once()), boxes.at_once());
 }
 
 fluid::SolidsTable table_of(const core::Scene& scene, const Plan& plan, const std::vector<BoxResult>& boxes) {
@@ -98,7 +101,7 @@ void print_json(const fs::path& directory, const Plan& plan, const Tested& by) {
   json.member("reason", plan.regime.reason).member("boxes", std::uint64_t(plan.boxes.size()));
   json.member("greatest_error", by.error).member("fit_residual", by.residual);
   json.member("left_out_residual", by.left_out).end_object();
-  fmt::print("{}\n", json.text());
+  core::print("{}\n", json.text());
 }
 
 void print_plan_json(const Plan& plan, const Boxes& boxes) {
@@ -106,7 +109,7 @@ void print_plan_json(const Plan& plan, const Boxes& boxes) {
   json.begin_object().member("regime", plan.regime.name).member("reason", plan.regime.reason);
   json.member("boxes", std::uint64_t(plan.boxes.size())).member("left", std::uint64_t(boxes.left()));
   json.member("expected_s", boxes.expected_left() / boxes.at_once()).end_object();
-  fmt::print("{}\n", json.text());
+  core::print("{}\n", json.text());
 }
 
 /// Runs points between the knots of a table and tells how they compare.
@@ -121,7 +124,7 @@ void check_table(const CalibrateOptions& options, const core::Scene& scene, cons
   for (const BoxResult& box : boxes.run()) deviations.push_back(deviation(table, box));
   const std::string lines = deviation_lines(deviations);
   core::on_first(ranks.get(), [&] {
-    fmt::print(people(options), "{}", lines);
+    core::print(people(options), "{}", lines);
     core::write_atomically(directory / "check.txt", lines);
   });
 }
@@ -133,11 +136,11 @@ void finish_bed(const CalibrateOptions& options, const fs::path& directory, cons
   const double weight = std::abs(1 - density / solid) * scene.column.gravity * boxes.front().diameter;
   const BedTable table = bed_table(plan, boxes, weight);
   const std::string lines = bed_lines(boxes) + "\n" + bed_rows(table);
-  fmt::print(people(options), "{}", lines);
+  core::print(people(options), "{}", lines);
   core::write_atomically(directory / "boxes.txt", lines);
   require_usable(table);
   write_bed_table(directory / "table.h5", table, now(), core::text_hash(core::resolved_case(scene)));
-  fmt::print(people(options), "table: {}\n", (directory / "table.h5").string());
+  core::print(people(options), "table: {}\n", (directory / "table.h5").string());
   if (options.json) print_json(directory, plan, {});
 }
 
@@ -148,19 +151,20 @@ void finish_sheared(const CalibrateOptions& options, const fs::path& directory, 
   if (!options.bed.empty()) take_bed(table, options.bed);
   const std::string lines = box_lines(results);
   std::FILE* out = people(options);
-  fmt::print(out, "{}", lines);
+  core::print(out, "{}", lines);
   core::write_atomically(directory / "boxes.txt", lines);
   const Tested by = tested(table, plan);
   const auto percent = [](const std::optional<double>& x) { return x ? fmt::format("{:.2f} %", 100 * *x) : "-"; };
-  fmt::print(out, "standard errors up to {}; with a solids fraction left out {} off, {} beyond two standard errors\n",
-             percent(by.error), percent(by.left_out), percent(by.residual));
+  core::print(out, "standard errors up to {}; with a solids fraction left out {} off, {} beyond two standard errors\n",
+              percent(by.error), percent(by.left_out), percent(by.residual));
   if (const double up_to = falls_in_shear_up_to(table); up_to > 0)
-    fmt::print(out, "at fixed shear rate without a fluid the pressure falls up to phi = {:.3f}, as a dilute gas does\n",
-               up_to);
+    core::print(out,
+                "at fixed shear rate without a fluid the pressure falls up to phi = {:.3f}, as a dilute gas does\n",
+                up_to);
   require_usable(table);
   fluid::write_solids_table(directory / "table.h5", table);
   core::write_atomically(directory / "table.toml", table_toml(table, plan, results));
-  fmt::print(out, "table: {}\n", (directory / "table.h5").string());
+  core::print(out, "table: {}\n", (directory / "table.h5").string());
   if (options.json) print_json(directory, plan, by);
 }
 
@@ -177,6 +181,9 @@ void run_calibrate(const CalibrateOptions& options) {
     throw core::CaseError("-j starts processes of its own: under mpirun the ranks run the boxes, leave it out");
   const std::shared_ptr<const core::Ranks> ranks = options.launched ? core::Ranks::of_program() : nullptr;
   Plan plan = plan_of(scene);
+  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
+  if (!options.plan_only)
+    core::on_first(ranks.get(), [&] { taken = std::make_unique<const core::OutputDirectory>(directory); });
   if (!options.check.empty()) return check_table(options, scene, directory, plan, ranks);
   Boxes boxes(options, scene, directory, plan.boxes, ranks);
   core::on_first(ranks.get(), [&] {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/print.hpp"
 #include "core/progress.hpp"
 #include "multiscale/calibrate/pool.hpp"
 
@@ -54,7 +55,7 @@ double Boxes::expected_left() const {
 std::size_t Boxes::left() const { return std::size_t(std::count(done_.begin(), done_.end(), false)); }
 
 std::vector<BoxResult> Boxes::run() {
-  core::on_first(ranks_.get(), [&] { core::make_directories(directory_ / "boxes"); });
+  core::on_first(ranks_.get(), [&] { core::make_folder(directory_ / "boxes"); });
   std::vector<std::size_t> todo;
   for (std::size_t n = 0; n < points_.size(); ++n)
     if (!done_[n]) todo.push_back(n);
@@ -72,8 +73,8 @@ void Boxes::tell(double begin, double all) {
   for (std::size_t n = 0; n < points_.size(); ++n)
     done_[n] = done_[n] || (ranks_ && read_box(file_of(directory_, scene_, points_[n]), box_hash(scene_, points_[n])));
   const double passed = seconds() - begin, left_now = expected_left();
-  fmt::print(stderr, "{} of {} boxes; about {} left\n", points_.size() - left(), points_.size(),
-             core::duration_text(passed * left_now / std::max(all - left_now, 1e-9)));
+  core::print(stderr, "{} of {} boxes; about {} left\n", points_.size() - left(), points_.size(),
+              core::duration_text(passed * left_now / std::max(all - left_now, 1e-9)));
 }
 
 /// This program again for each box, several at once. Returns those that failed.
@@ -111,7 +112,7 @@ std::vector<std::size_t> Boxes::run_here(std::vector<std::size_t> todo) {
       done_[n] = true;
       if (here == 0) tell(begin, all);
     } catch (const core::NumericsError& error) {
-      fmt::print(stderr, "{}\n", error.what());
+      core::print(stderr, "{}\n", error.what());
       failed[n] = 1;
     }
   }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "core/ranks.hpp"
 #include "core/run.hpp"
 #include "core/timers.hpp"
+#include "fluid/invariants.hpp"
 #include "multiscale/commands/run_directory.hpp"
 #include "multiscale/effects/left_out.hpp"
 #include "multiscale/effects/monitor.hpp"
@@ -61,10 +63,14 @@ class CaseRun {
   /// What the whole run will take, told before it.
   [[nodiscard]] virtual TimeBand predicted() = 0;
 
+  /// With what a row of the history has measured. A run that has broken a conservation law ends after the step, all
+  /// that is due then being written, unless it is permissive. Collective.
+  void judge(std::span<const fluid::WorstInvariant> worst);
+
   /// Writes "prediction". \param actual  CPU s of all ranks
-  void write_prediction_of(core::Json& json, const std::string& state, double actual) const;
+  void write_prediction_of(core::Json& json, const std::string& state, double actual);
   /// The same on standard error.
-  void print_prediction(double actual) const;
+  void print_prediction(double actual);
 
   /// Lets a monitor, if there is one, look at the state after a step; says on the first rank what it has to say.
   /// Collective.
@@ -96,15 +102,37 @@ class CaseRun {
   void say(const std::vector<std::string>& lines) const;
   std::optional<Neglected> promise_;
   std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
-  void predict();
+  [[nodiscard]] TimeBand prediction_of(double end) const;
   void go();
   void write_checkpoint();
-  void record(const std::string& state);
+  bool run_to_end();
+  /// Writes run.json and returns its text. Collective.
+  std::string record(const std::string& state);
+  /// The same of a run that ends with an error, which is to be told whether or not this can be written.
+  void record_if_possible(const std::string& state);
   void finish(const std::string& state);
   [[noreturn]] void fail(const core::NumericsError& error);
 
-  TimeBand prediction_;  ///< of this process's part of the run
+  TimeBand prediction_;                    ///< of the whole run
+  std::optional<std::string> broken_law_;  ///< what to say of it
 };
+
+/// Prints a line for each invariant, on standard error.
+void print_invariants(std::span<const fluid::WorstInvariant> worst);
+
+/// A run that is about to be made.
+struct RunStart {
+  const std::filesystem::path& directory;
+  const core::Scene& scene;
+  std::string model;
+  const core::Ranks* ranks;
+  bool resumes;
+};
+
+/// Calls `start`, which makes the run. If it throws, run.json of a run that begins anew tells why, as far as it can be
+/// written; what was thrown goes on. A case that is wrong leaves no record, and neither does a start that fails before
+/// it has replaced an earlier run.
+void start_run(const RunStart& run, const std::function<void()>& start);
 
 /// Prints the table of time by term.
 void print_timers(const core::Timers& timers);

@@ -9,6 +9,7 @@
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/print.hpp"
 #include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "dem/continuum_scene.hpp"
@@ -18,6 +19,7 @@
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
+#include "multiscale/scene_rules.hpp"
 #include "tfm/model.hpp"
 #include "tfm/particle_scene.hpp"
 #include "tfm/step_estimate.hpp"
@@ -74,6 +76,7 @@ std::vector<Inflow> inflows_of(const core::Scene& scene) {
 Derived derive(const core::Scene& scene, const tfm::Model& model) {
   const tfm::Constants& constants = model.constants();
   Derived derived;
+  derived.notes = scene_warnings(scene);
   derived.fluid = constants.fluid;
   if (scene.fluid.equation_of_state != "incompressible")
     derived.sound = fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, constants.fluid.density),
@@ -135,8 +138,8 @@ void print_state(const char* name, const BedState& bed) {
   std::string text;
   for (const tfm::TimeScale& scale : bed.scales)
     if (std::isfinite(scale.seconds)) text += fmt::format("{} {:.2g} s, ", scale.process, scale.seconds);
-  fmt::print("#   {:8} (solids fraction {:.2f}): {}expected step {:.2g} s\n", name, bed.solids_fraction, text,
-             bed.step);
+  core::print("#   {:8} (solids fraction {:.2f}): {}expected step {:.2g} s\n", name, bed.solids_fraction, text,
+              bed.step);
 }
 
 /// A time of computing as people say it.
@@ -148,34 +151,35 @@ std::string time_text(double seconds) {
 void print_requirements(const core::Scene& scene, const Requirements& need) {
   constexpr double mega = 1e-6;
   const MemoryNeed& m = need.memory;
-  fmt::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, need.integrator, need.reason);
-  fmt::print("# convection of momentum {} ({})\n", need.momentum.name, need.momentum.reason);
-  fmt::print("# memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
-             mega * m.total(), mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
-  fmt::print("# time scales of the bed, from the case alone:\n");
+  core::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, need.integrator, need.reason);
+  core::print("# convection of momentum {} ({})\n", need.momentum.name, need.momentum.reason);
+  core::print("# memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
+              mega * m.total(), mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
+  core::print("# time scales of the bed, from the case alone:\n");
   print_state("at rest", need.rest);
   if (need.expanded.solids_fraction != need.rest.solids_fraction) {
     print_state("lifted", need.lifted);
     print_state("expanded", need.expanded);
   }
   if (!need.time) {
-    fmt::print("# time: not known, the numbers failed in the sample that is measured\n");
+    core::print("# time: not known, the numbers failed in the sample that is measured\n");
     return;
   }
   const TimeNeed& time = *need.time;
-  fmt::print("# computing {:.4g} s takes about {} here, between {} and {}: {:.2g} steps of {:.2g} s\n", scene.run.until,
-             time_text(time.expected), time_text(time.least), time_text(time.most), time.steps, time.seconds_per_step);
+  core::print("# computing {:.4g} s takes about {} here, between {} and {}: {:.2g} steps of {:.2g} s\n",
+              scene.run.until, time_text(time.expected), time_text(time.least), time_text(time.most), time.steps,
+              time.seconds_per_step);
 }
 
 /// The classes of the distributions, with y_j = D_j over the Sauter diameter of the distribution.
 void print_size_classes(const core::Scene& scene) {
   for (const core::SizeClasses& record : scene.size_classes) {
     const double sauter = closures::sauter_diameter(record.share, record.diameter);
-    fmt::print("# {}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species, record.given.kind,
-               record.diameter.size(), sauter, closures::poly_index_mean(record.share, record.diameter));
+    core::print("# {}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species, record.given.kind,
+                record.diameter.size(), sauter, closures::poly_index_mean(record.share, record.diameter));
     for (std::size_t k = 0; k < record.diameter.size(); ++k)
-      fmt::print("#   {}.{}: diameter {:.6g} m, share {:.6g}, y {:.4g}\n", record.species, k + 1, record.diameter[k],
-                 record.share[k], record.diameter[k] / sauter);
+      core::print("#   {}.{}: diameter {:.6g} m, share {:.6g}, y {:.4g}\n", record.species, k + 1, record.diameter[k],
+                  record.share[k], record.diameter[k] / sauter);
   }
 }
 
@@ -183,8 +187,9 @@ void print_size_classes(const core::Scene& scene) {
 void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons, bool as_json) {
   const std::string text = core::resolved_case(scene);
   const ParticleRequirements need = particle_requirements_of(scene);
-  std::vector<std::string> notes = reasons;
-  if (!need.limits.warning.empty()) notes.push_back(need.limits.warning);
+  std::vector<std::string> notes = need.warnings();
+  notes.insert(notes.end(), reasons.begin(), reasons.end());
+  for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
   if (as_json) {
     core::Json json;
     json.begin_object().member("case", text).member("hash", core::text_hash(text));
@@ -193,13 +198,13 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
     json.key("notes").begin_array();
     for (const std::string& note : notes) json.value(note);
     json.end_array().end_object();
-    fmt::print("{}\n", json.text());
+    core::print("{}\n", json.text());
     return;
   }
-  fmt::print("{}\n", text);
+  core::print("{}\n", text);
   print_size_classes(scene);
   print_particle_requirements(scene, need);
-  for (const std::string& note : notes) fmt::print("# {}\n", note);
+  for (const std::string& note : notes) core::print("# {}\n", note);
 }
 
 /// What a case that both models run will need as particles: of one that says how they touch. What keeps it from there
@@ -230,7 +235,8 @@ void run_check(const CaseOptions& options) {
   const Requirements need = requirements_of(scene, timers, part);
   refuse_beyond_memory(scene, need.memory, core::available_memory());
   Derived derived = derive(scene, *part);
-  if (particles && !particles->limits.warning.empty()) derived.notes.push_back(particles->limits.warning);
+  if (particles)
+    for (const std::string& warning : particles->warnings()) derived.notes.push_back(warning);
   derived.notes.insert(derived.notes.end(), hindrances.begin(), hindrances.end());
   const std::string text = core::resolved_case(scene);
   if (options.json) {
@@ -249,24 +255,24 @@ void run_check(const CaseOptions& options) {
     json.key("notes").begin_array();
     for (const std::string& note : derived.notes) json.value(note);
     json.end_array().end_object();
-    fmt::print("{}\n", json.text());
+    core::print("{}\n", json.text());
     return;
   }
-  fmt::print("{}\n", text);
+  core::print("{}\n", text);
   print_size_classes(scene);
-  fmt::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
-  if (derived.sound > 0) fmt::print("# sound in the fluid {:.5g} m/s\n", derived.sound);
+  core::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
+  if (derived.sound > 0) core::print("# sound in the fluid {:.5g} m/s\n", derived.sound);
   for (std::size_t j = 0; j < scene.species.size(); ++j)
-    fmt::print("# {}: terminal velocity {:.4g} m/s, Re of the inlet {:.4g}\n", scene.species[j].name,
-               derived.terminal[j], derived.reynolds[j]);
-  fmt::print("# buoyant weight of the bed {:.5g} Pa per area\n", derived.weight);
-  if (derived.max_packing > 0) fmt::print("# maximum packing {:.4f}\n", derived.max_packing);
+    core::print("# {}: terminal velocity {:.4g} m/s, Re of the inlet {:.4g}\n", scene.species[j].name,
+                derived.terminal[j], derived.reynolds[j]);
+  core::print("# buoyant weight of the bed {:.5g} Pa per area\n", derived.weight);
+  if (derived.max_packing > 0) core::print("# maximum packing {:.4f}\n", derived.max_packing);
   print_requirements(scene, need);
   if (particles) {
-    fmt::print("# as particles, polybed dem:\n");
+    core::print("# as particles, polybed dem:\n");
     print_particle_requirements(scene, *particles);
   }
-  for (const std::string& note : derived.notes) fmt::print("# {}\n", note);
+  for (const std::string& note : derived.notes) core::print("# {}\n", note);
 }
 
 }  // namespace polybed::multiscale

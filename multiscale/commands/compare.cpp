@@ -1,5 +1,6 @@
 // polybed compare: both models on one case, or two runs of it, measured over the same window.
 #include "multiscale/compare.hpp"
+#include "core/print.hpp"
 
 #include <fmt/format.h>
 
@@ -45,7 +46,7 @@ fs::path run_model(const CompareOptions& options, const std::string& model, void
   RunOptions of_model = options;
   of_model.output = run_directory(options, "compare") / model;
   of_model.json = false;
-  of_model.resume = options.resume && fs::exists(checkpoint_path(of_model.output));
+  of_model.resume = options.resume && has_checkpoint(of_model.output);
   run(of_model);
   return of_model.output;
 }
@@ -98,12 +99,11 @@ void compare_runs(const CompareOptions& options, const core::Scene& scene, const
   const fs::path directory = run_directory(options, "compare"), path = directory / "comparison.json";
   const std::string text =
       comparison_json(comparison, tfm, dem, {options.case_path.string(), scene.overrides, directory});
-  core::make_directories(directory);
   core::write_atomically(path, text + "\n");
   if (options.json)
-    fmt::print("{}\n", text);
+    core::print("{}\n", text);
   else
-    fmt::print("{}{}\n", comparison_table(comparison, tfm, dem), path.string());
+    core::print("{}{}\n", comparison_table(comparison, tfm, dem), path.string());
   if (options.picture) draw_and_tell("polybed.comparison", directory, "page", options.json || options.quiet);
 }
 
@@ -113,9 +113,11 @@ void run_compare(const CompareOptions& options) {
   const core::Scene scene = read_scene(options);
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   refuse_before_running(options, scene);
+  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
   core::on_first(ranks.get(), [&] {
     look_at_given(options, scene, options.tfm, "tfm");
     look_at_given(options, scene, options.dem, "dem");
+    taken = std::make_unique<const core::OutputDirectory>(run_directory(options, "compare"));
   });
   const fs::path tfm = options.tfm.empty() ? run_model(options, "tfm", run_tfm) : options.tfm;
   const fs::path dem = options.dem.empty() ? run_model(options, "dem", run_dem) : options.dem;

@@ -4,6 +4,7 @@
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/print.hpp"
 #include "core/units.hpp"
 #include "dem/continuum_scene.hpp"
 #include "multiscale/commands/comma_list.hpp"
@@ -69,7 +70,8 @@ core::ExitCode run_sweep_of(const CostOptions& options) {
   if (options.reference != "auto" && options.reference != "exact" &&
       !fs::exists(fs::path(options.reference) / "profiles.h5"))
     throw core::FileError(fmt::format("--reference {}: no run directory", options.reference));
-  core::make_directories(directory / "runs");
+  const core::OutputDirectory taken(directory);
+  core::make_folder(directory / "runs");
   std::vector<std::string> overrides = scene.overrides;
   for (const std::string& override : common_overrides(scene)) overrides.push_back(override);
   Runner runner(scene, options.case_path, overrides, directory / "runs", options.resume);
@@ -77,10 +79,10 @@ core::ExitCode run_sweep_of(const CostOptions& options) {
   const SweepOf of{fs::absolute(options.case_path).lexically_normal().string(), core::resolved_case(scene), overrides};
   const std::string no_picture = write_sweep(sweep, of, directory, options.picture);
   if (options.json)
-    fmt::print("{}\n", sweep_json(sweep, of));
+    core::print("{}\n", sweep_json(sweep, of));
   else
-    fmt::print("{}\n{}\n", sweep_markdown(sweep, of), (directory / "cost.json").string());
-  if (!no_picture.empty()) fmt::print(stderr, "no picture: {}\n", no_picture);
+    core::print("{}\n{}\n", sweep_markdown(sweep, of), (directory / "cost.json").string());
+  if (!no_picture.empty()) core::print(stderr, "no picture: {}\n", no_picture);
   return sweep.outcome == "done" ? core::ExitCode::done : core::ExitCode::numerics;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/json.hpp"
+#include "core/print.hpp"
+#include "core/schedule.hpp"
 #include "dem/continuum_scene.hpp"
 #include "dem/observers.hpp"
 #include "dem/settling.hpp"
@@ -13,6 +15,7 @@
 #include "multiscale/effects/switching.hpp"
 #include "multiscale/fluid_report.hpp"
 #include "multiscale/run_record.hpp"
+#include "multiscale/scene_rules.hpp"
 
 namespace polybed::multiscale {
 
@@ -26,9 +29,6 @@ struct Course {
   std::vector<Switch> switches;
 };
 
-/// How well the energy ledger must close, as a share of the greatest energy met (V5).
-constexpr double ledger_limit = 1e-3;
-
 class DemRun final : public CaseRun {
  public:
   /// \param begin  of this part of the course, s
@@ -39,25 +39,25 @@ class DemRun final : public CaseRun {
         course_(course),
         next_switch_(multiscale::next_switch(course.switches, begin)) {
     case_ = course_.scene;
-    std::optional<double> initial_energy;
+    std::optional<dem::RunStart> start;
     dem::FluidTotals fluid;
     prepare(
         [&](core::Checkpoint& checkpoint, const fs::path&) {
           model_.resume(checkpoint);
-          std::array<double, 1> energy{first_ ? checkpoint.numbers["initial_energy"] : 0.0};
-          core::take_from_first(ranks_.get(), energy);
-          initial_energy = energy[0];
+          start = dem::read_run_start(checkpoint, model_);
           if (first_) fluid = dem::read_fluid_totals(checkpoint);
         },
         [&](core::Checkpoint& checkpoint, const fs::path&) { model_.start_from(checkpoint); });
-    if (!model_.limits().warning.empty() && first_ && !options_.quiet)
-      fmt::print(stderr, "warning: {}\n", model_.limits().warning);
+    for (const std::string& line : warnings_before())
+      if (first_ && !options_.quiet) core::print(stderr, "warning: {}\n", line);
     if (scene_.bed.start == "settled" && !options_.resume) {
-      if (!options_.quiet) fmt::print(stderr, "the bed settles first\n");
-      model_.start_from(dem::settled(scene_, model_.limits().dt, ranks_));
+      if (!options_.quiet) core::print(stderr, "the bed settles first\n");
+      const core::Checkpoint rest = dem::settled(scene_, model_.limits().dt, ranks_);
+      if (!options_.quiet) core::print(stderr, "at rest after {:.3g} s\n", rest.time("time"));
+      model_.start_from(rest);
     }
     const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
-    observers_.emplace(model_, scene_, directory_, initial_energy, fluid, resume_time);
+    observers_.emplace(model_, scene_, directory_, start, fluid, resume_time);
   }
 
   /// For the part that follows.
@@ -67,7 +67,11 @@ class DemRun final : public CaseRun {
   core::Simulation& simulation() override { return model_; }
 
   std::vector<core::Observer> observers() override {
-    return {{"history", *scene_.output.history_every, [&](double t) { observers_->write_history(t); }},
+    return {{"history", *scene_.output.history_every,
+             [&](double t) {
+               observers_->write_history(t);
+               judge(observers_->invariants().worst());
+             }},
             {"particles", *scene_.output.every, [&](double t) {
                const auto scope = timers_.scope("output");
                observers_->write_particles(t);
@@ -88,11 +92,11 @@ class DemRun final : public CaseRun {
   void plan_switches() {
     for (; planned_ < monitor_->wanted().size(); ++planned_) {
       const std::string& effect = monitor_->wanted()[planned_];
-      const double every = *scene_.output.every, time = every * (std::floor(model_.time() / every * (1 + 1e-12)) + 1);
-      if (!(every > 0)) continue;  // there is no output time before the end
+      const double time = core::next_multiple(*scene_.output.every, model_.time());
+      if (std::isinf(time)) continue;  // there is no output time before the end
       course_.switches.push_back({effect, time});
       if (!options_.quiet)
-        fmt::print(stderr, "{} will be on from t = {:.4g} s (chooser.monitor = \"enable\")\n", effect, time);
+        core::print(stderr, "{} will be on from t = {:.4g} s (chooser.monitor = \"enable\")\n", effect, time);
       next_switch_ = std::min(next_switch_, time);
     }
   }
@@ -102,25 +106,33 @@ class DemRun final : public CaseRun {
   }
 
   core::ProgressLine line() override {
+    const fluid::WorstInvariant* energy = observers_->invariants().energy();
     return {model_.time(),
             scene_.run.until,
             model_.limits().dt,
             model_.limits().limited_by,
             observers_->bed_height(),
-            scene_.dem.ledger ? fmt::format("energy {:.0e} of {:.0e}", observers_->ledger_error(), ledger_limit)
+            energy != nullptr ? fmt::format("energy {:.0e} of {:.0e}", energy->value, energy->limit)
                               : fmt::format("{} contacts", observers_->totals().contacts)};
   }
 
   core::Checkpoint checkpoint() override {
     core::Checkpoint checkpoint = model_.checkpoint();
-    checkpoint.numbers["initial_energy"] = observers_->initial_energy();
+    dem::write(observers_->invariants().start(), checkpoint);
     if (observers_->fluid() != nullptr) dem::write(observers_->fluid()->totals(), checkpoint);
     return checkpoint;
   }
 
   std::string advice() override {
-    return fmt::format("the step was {:.3g} s, limited by {}; try a larger dem.steps_per_contact", model_.limits().dt,
-                       model_.limits().limited_by);
+    return fmt::format("the step was {:.3g} s, limited by {}", model_.limits().dt, model_.limits().limited_by);
+  }
+
+  /// What the case alone tells of the step and of the contacts.
+  [[nodiscard]] std::vector<std::string> warnings_before() const {
+    std::vector<std::string> lines;
+    for (const std::string& line : {model_.limits().warning, model_.overlap_expected().warning})
+      if (!line.empty()) lines.push_back(line);
+    return lines;
   }
 
   std::string record_text(const std::string& state) override {
@@ -140,10 +152,12 @@ class DemRun final : public CaseRun {
     json.member("integrator_reason", model_.limits().integrator_reason);
     write_prediction_of(json, state, cpu_);
     write_step(json);
+    write_overlap(json, model_.overlap_expected());
     write_work(json);
     write_timers(json, timers_);
     if (fluid_) write_fluid(json, *fluid_);
-    const std::vector<fluid::WorstInvariant> watched = invariants();
+    const std::vector<fluid::WorstInvariant> watched =
+        observers_ ? observers_->invariants().worst() : std::vector<fluid::WorstInvariant>{};
     if (!watched.empty()) write_invariants(json, watched);
     if (observers_) write_ledger(json);
     if (model_.outflow() != nullptr) write_outflow(json, *model_.outflow());
@@ -152,17 +166,12 @@ class DemRun final : public CaseRun {
     if (!course_.switches.empty()) write_switches(json);
     json.key("warnings").begin_array();
     for (const std::string& line : exceeded_lines(watched)) json.value(line);
-    if (!model_.limits().warning.empty()) json.value(model_.limits().warning);
+    for (const std::string& line : warnings_before()) json.value(line);
+    for (const std::string& line : scene_warnings(scene_)) json.value(line);
     if (monitor_)
       for (const std::string& line : monitor_->warnings()) json.value(line);
     json.end_array().end_object();
     return json.text();
-  }
-
-  /// The ledger of the energy; nothing without one.
-  [[nodiscard]] std::vector<fluid::WorstInvariant> invariants() const {
-    if (!observers_ || !scene_.dem.ledger) return {};
-    return {{"energy", observers_->ledger_error(), ledger_limit, observers_->ledger_error_time()}};
   }
 
   void write_switches(core::Json& json) const {
@@ -184,7 +193,8 @@ class DemRun final : public CaseRun {
   void write_step(core::Json& json) const {
     json.key("step").begin_object().member("dt_s", model_.limits().dt);
     json.member("limited_by", model_.limits().limited_by);
-    json.member("greatest_speed_expected_m_s", model_.limits().greatest_speed).key("limits").begin_array();
+    json.member("greatest_speed_expected_m_s", model_.expected().greatest);
+    json.key("limits").begin_array();
     for (const dem::StepLimit& limit : model_.limits().all)
       json.begin_object().member("name", limit.name).member("dt_s", limit.dt).end_object();
     json.end_array().end_object();
@@ -194,6 +204,7 @@ class DemRun final : public CaseRun {
     json.key("work").begin_object().member("steps", work_.steps).member("particle_steps", work_.particle_steps);
     json.member("pair_checks", work_.pair_checks).member("contact_steps", work_.contact_steps);
     json.member("rebuilds", work_.rebuilds).member("candidates", work_.candidates);
+    json.member("shortenings", work_.shortenings).member("greatest_speed_m_s", work_.greatest_speed);
     json.member("cuts", work_.cuts).member("imbalance", work_.imbalance).end_object();
   }
 
@@ -212,12 +223,12 @@ class DemRun final : public CaseRun {
     json.key("energy").begin_object().member("kinetic_J", t.kinetic).member("rotational_J", t.rotational);
     json.member("elastic_J", t.elastic).member("potential_J", t.potential);
     if (scene_.dem.ledger && model_.outflow() != nullptr) json.member("carried_out_J", t.carried_out);
-    if (scene_.dem.ledger)
+    if (const fluid::WorstInvariant* energy = observers_->invariants().energy())
       json.member("dissipated_J", t.dissipated)
           .member("work_J", t.work)
-          .member("initial_J", observers_->initial_energy())
-          .member("worst_error", observers_->ledger_error())
-          .member("limit", ledger_limit);
+          .member("initial_J", observers_->invariants().start().energy)
+          .member("worst_error", energy->value)
+          .member("limit", energy->limit);
     json.end_object().key("momentum_kg_m_s").begin_array();
     for (const double p : t.momentum) json.value(p);
     json.end_array().member("contacts", t.contacts).member("max_overlap_m", t.max_overlap);
@@ -226,19 +237,20 @@ class DemRun final : public CaseRun {
   TimeBand predicted() override { return dem_time(scene_, known_machine()); }
 
   void print_summary() override {
-    fmt::print(stderr, "\n{} particles, {} steps, {:.4g} particle-steps per CPU second, list made {} times\n",
-               model_.particle_count(), work_.steps, double(work_.particle_steps) / std::max(cpu_, 1e-9),
-               work_.rebuilds);
-    if (model_.outflow() != nullptr) fmt::print(stderr, "{} particles have left\n", model_.outflow()->all());
-    fmt::print(stderr, "step {:.3g} s, limited by {}; {} integrator ({})\n", model_.limits().dt,
-               model_.limits().limited_by, model_.synchronised() ? "synchronised" : "thesis",
-               model_.limits().integrator_reason);
+    core::print(stderr, "\n{} particles, {} steps, {:.4g} particle-steps per CPU second, list made {} times\n",
+                model_.particle_count(), work_.steps, double(work_.particle_steps) / std::max(cpu_, 1e-9),
+                work_.rebuilds);
+    if (model_.outflow() != nullptr) core::print(stderr, "{} particles have left\n", model_.outflow()->all());
+    core::print(stderr, "step {:.3g} s, limited by {}; {} integrator ({})\n", model_.limits().dt,
+                model_.limits().limited_by, model_.synchronised() ? "synchronised" : "thesis",
+                model_.limits().integrator_reason);
+    core::print(stderr, "greatest speed {:.3g} m/s, expected {:.3g}{}\n", work_.greatest_speed,
+                model_.expected().greatest,
+                work_.shortenings > 0 ? fmt::format("; the step was shortened {} times", work_.shortenings) : "");
     if (fluid_)
-      for (const std::string& line : fluid_lines(*fluid_)) fmt::print(stderr, "{}\n", line);
+      for (const std::string& line : fluid_lines(*fluid_)) core::print(stderr, "{}\n", line);
     print_prediction(cpu_);
-    if (scene_.dem.ledger)
-      fmt::print(stderr, "energy ledger: worst {:.2e}, limit {:.0e}{}\n", observers_->ledger_error(), ledger_limit,
-                 observers_->ledger_error() > ledger_limit ? "  <-- exceeded" : "");
+    print_invariants(observers_->invariants().worst());
     print_promise();
   }
 
@@ -260,7 +272,10 @@ double take_up_course(const fs::path& directory, Course& course, const core::Ran
   core::on_first(ranks, [&] {
     const core::Checkpoint checkpoint = read_checkpoint_of(directory, course.scene);
     if (const auto found = checkpoint.texts.find("switch_on"); found != checkpoint.texts.end()) text = found->second;
-    head = {checkpoint.numbers.at("time"), double(text.size())};
+    for (const Switch& one : switches_of(text))
+      if (!can_be_switched(one.effect) || !(one.time >= 0))
+        core::refuse_checkpoint(fmt::format("it switches {} on at {:g} s", one.effect, one.time));
+    head = {checkpoint.time("time"), double(text.size())};
   });
   core::take_from_first(ranks, head);
   std::vector<double> letters(text.begin(), text.end());
@@ -277,14 +292,17 @@ void run_dem(const RunOptions& options) {
   dem::refuse_continuum_scene(scene);
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
-  core::on_first(ranks.get(), [&] { check_directory(directory, options); });
+  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
+  core::on_first(ranks.get(), [&] { taken = take_directory(directory, options); });
   Course course{std::move(scene), {}};
   RunOptions now = options;
   for (bool ended = false; !ended; now.resume = true) {
     const double begin = now.resume ? take_up_course(directory, course, ranks.get()) : 0;
-    DemRun run(now, course, begin, directory, ranks);
-    ended = run.run();
-    course = run.course();
+    std::optional<DemRun> run;
+    start_run({directory, course.scene, "dem", ranks.get(), now.resume},
+              [&] { run.emplace(now, course, begin, directory, ranks); });
+    ended = run->run();
+    course = run->course();
   }
 }
 

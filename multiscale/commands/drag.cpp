@@ -9,8 +9,10 @@
 
 #include "closures/drag.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/keys.hpp"
+#include "core/print.hpp"
 #include "multiscale/commands/options.hpp"
 
 namespace polybed::multiscale {
@@ -65,13 +67,13 @@ void print_point(const DragOptions& options, const DragLaw& law) {
     core::Json json;
     json.begin_object().member("law", options.law).member("voidage", *options.voidage).member("re", *options.reynolds);
     json.member("f", f).member("n", f / *options.voidage).member("guarded", count.guarded > 0).end_object();
-    fmt::print("{}\n", json.text());
+    core::print("{}\n", json.text());
     return;
   }
-  fmt::print("{}\n", f);
+  core::print("{}\n", f);
   if (count.guarded > 0)
-    fmt::print(stderr, "outside the range of {}: {}\n", options.law,
-               options.guard ? "the guard answered" : "bare formula");
+    core::print(stderr, "outside the range of {}: {}\n", options.law,
+                options.guard ? "the guard answered" : "bare formula");
 }
 
 std::vector<std::string> split(const std::string& line) {
@@ -165,6 +167,7 @@ Row row_of(const std::string& line, std::size_t columns, const std::string& wher
 /// Calls see(header, row) for every row of a file of points.
 template <class See>
 void read_points(const std::string& path, See&& see) {
+  (void)core::bytes_of_file(path, core::longest_file);
   std::ifstream file(path);
   if (!file) throw core::FileError(path + ": cannot be read");
   std::vector<std::string> header;
@@ -188,9 +191,9 @@ void read_points(const std::string& path, See&& see) {
 void print_csv(const DragOptions& options, const DragLaw& law) {
   read_points(options.csv, [&](const std::vector<std::string>& header, const std::optional<Row>& row) {
     if (row)
-      fmt::print("{},{}\n", row->text, fmt::join(answer(law, *row), ","));
+      core::print("{},{}\n", row->text, fmt::join(answer(law, *row), ","));
     else
-      fmt::print("{},{}\n", fmt::join(header, ","), fmt::join(answer_names((header.size() - 2) / 2), ","));
+      core::print("{},{}\n", fmt::join(header, ","), fmt::join(answer_names((header.size() - 2) / 2), ","));
   });
 }
 
@@ -207,7 +210,7 @@ void print_json(const DragOptions& options, const DragLaw& law) {
     json.end_object();
   });
   json.end_array().end_object();
-  fmt::print("{}\n", json.text());
+  core::print("{}\n", json.text());
 }
 
 }  // namespace

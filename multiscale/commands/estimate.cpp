@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/print.hpp"
 #include "core/units.hpp"
 #include "dem/continuum_scene.hpp"
 #include "multiscale/commands/options.hpp"
@@ -20,11 +21,11 @@ constexpr double machine_seconds = 28;  ///< CPU
 void measure_and_keep(bool as_json) {
   const std::filesystem::path path = machine_file();
   if (path.empty()) throw core::FileError("neither XDG_CACHE_HOME nor HOME says where to keep it");
-  if (!as_json) fmt::print(stderr, "measuring for about {:.0f} s\n", machine_seconds);
+  if (!as_json) core::print(stderr, "measuring for about {:.0f} s\n", machine_seconds);
   const std::string text = machine_text(measure_machine(machine_seconds));
   core::make_directories(path.parent_path());
   core::write_atomically(path, text + "\n");
-  fmt::print("{}\n", as_json ? text : path.string());
+  core::print("{}\n", as_json ? text : path.string());
 }
 
 double seconds_of(const std::string& text) {
@@ -62,7 +63,7 @@ void run_estimate(const EstimateOptions& options) {
   core::Json json;
   json.begin_object().member("until_s", scene.run.until);
   write_estimate(json, estimate);
-  fmt::print("{}\n", json.end_object().text());
+  core::print("{}\n", json.end_object().text());
 }
 
 }  // namespace polybed::multiscale

@@ -1,7 +1,6 @@
 // polybed inversion: the inversion point of a binary case, with the bands of its inputs.
+#include "core/print.hpp"
 #include "multiscale/inversion/models.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -65,7 +64,7 @@ void print_json(const std::string& law, const std::string& method, const std::ve
   for (const Band& b : band)
     json.begin_object().member("input", b.input).member("low_m_s", b.low).member("high_m_s", b.high).end_object();
   json.end_array().end_object();
-  fmt::print("{}\n", json.text());
+  core::print("{}\n", json.text());
 }
 
 /// A row of the table of all methods.
@@ -95,7 +94,7 @@ std::vector<MethodRow> all_methods(const BinaryBed& bed) {
 void print_methods(const std::vector<MethodRow>& rows, bool as_json) {
   core::Json json;
   json.begin_object().key("methods").begin_array();
-  if (!as_json) fmt::print("{:16} {:20} {:>8} {:>8}\n", "method", "law", "mm/s", "voidage");
+  if (!as_json) core::print("{:16} {:20} {:>8} {:>8}\n", "method", "law", "mm/s", "voidage");
   for (const MethodRow& row : rows) {
     json.begin_object().member("method", row.method).key("law");
     row.law.empty() ? json.null() : json.value(row.law);
@@ -104,12 +103,12 @@ void print_methods(const std::vector<MethodRow>& rows, bool as_json) {
       json.begin_object().member("velocity_m_s", p.velocity).member("voidage", p.voidage).end_object();
     json.end_array().end_object();
     if (as_json) continue;
-    if (row.points.empty()) fmt::print("{:16} {:20} {:>8} {:>8}\n", row.method, row.law, "-", "-");
+    if (row.points.empty()) core::print("{:16} {:20} {:>8} {:>8}\n", row.method, row.law, "-", "-");
     for (const InversionPoint& p : row.points)
-      fmt::print("{:16} {:20} {:8.2f} {:8.4f}\n", row.method, row.law, 1e3 * p.velocity, p.voidage);
+      core::print("{:16} {:20} {:8.2f} {:8.4f}\n", row.method, row.law, 1e3 * p.velocity, p.voidage);
   }
   json.end_array().end_object();
-  if (as_json) fmt::print("{}\n", json.text());
+  if (as_json) core::print("{}\n", json.text());
 }
 
 void run_without_a_run(const InversionOptions& options) {
@@ -123,11 +122,11 @@ void run_without_a_run(const InversionOptions& options) {
       points.empty() ? std::vector<Band>{} : bands(scene, law, options.method, points.back().voidage);
   if (options.json) return print_json(named->second, options.method, points, band);
   if (points.empty())
-    fmt::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, named->second);
+    core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, named->second);
   for (const InversionPoint& p : points)
-    fmt::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
-               named->second);
-  for (const Band& b : band) fmt::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
+    core::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
+                named->second);
+  for (const Band& b : band) core::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/print.hpp"
 #include "core/ranks.hpp"
 #include "core/units.hpp"
 #include "dem/continuum_scene.hpp"
@@ -69,7 +70,7 @@ class RunsOfModel {
     found.directory = run.output;
     found.reused = finished(run.output);
     if (!found.reused) {
-      run.resume = fs::exists(checkpoint_path(run.output));
+      run.resume = has_checkpoint(run.output);
       run.force = true;  // what a killed run has left without a checkpoint
       model_ == "tfm" ? run_tfm(run) : run_dem(run);
     }
@@ -78,7 +79,7 @@ class RunsOfModel {
     velocities_.push_back(velocity);
     if (core::is_first(ranks_.get()) && !options_.json && !options_.quiet) {
       const std::optional<double> other = from ? std::optional(velocities_[*from]) : std::nullopt;
-      fmt::print("{}", scan_line(name_, {velocity, from, found.mean}, found, other));
+      core::print("{}", scan_line(name_, {velocity, from, found.mean}, found, other));
       std::fflush(stdout);
     }
     return found.mean;
@@ -208,17 +209,19 @@ void run_inversion_scan(const InversionOptions& options) {
                       .until = scene.run.until,
                       .ranks = ranks ? ranks->count() : 1};
   for (const core::Species& species : scene.species) request.species.push_back(species.name);
+  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
+  core::on_first(ranks.get(), [&] { taken = std::make_unique<const core::OutputDirectory>(request.directory); });
   const bool speaks = core::is_first(ranks.get()) && !options.json;
-  if (speaks && !options.quiet) fmt::print("{}", scan_head());
+  if (speaks && !options.quiet) core::print("{}", scan_head());
   std::vector<ScanOfModel> scans;
   for (const std::string& model : models) scans.push_back(scan_of(options, scene, model, request.directory, range));
   core::on_first(ranks.get(), [&] {
     const std::string text = scan_json(scans, request);
     core::write_atomically(request.directory / "inversion.json", text + "\n");
     if (options.json)
-      fmt::print("{}\n", text);
+      core::print("{}\n", text);
     else
-      fmt::print("{}{}\n", scan_findings(scans, request), (request.directory / "inversion.json").string());
+      core::print("{}{}\n", scan_findings(scans, request), (request.directory / "inversion.json").string());
     if (options.picture) draw_and_tell("polybed.scan", request.directory, "picture", options.json || options.quiet);
   });
 }

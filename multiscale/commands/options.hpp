@@ -23,6 +23,7 @@ struct RunOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-<model>
   std::string until;             ///< empty: as the case says
   bool resume = false, force = false, quiet = false;
+  bool permissive = false;          ///< goes on where a conservation law is broken
   bool picture = true;              ///< drawn at the end
   bool stress_uncertainty = false;  ///< of the TFM: again with its stress table at plus and minus one standard error
 };
@@ -73,17 +74,6 @@ struct InversionOptions : RunOptions {
   std::string from, to;  ///< velocities to begin the scan at; empty: about the force balance
 };
 
-/// Options of the matrix of hard cases.
-struct StabilityOptions {
-  std::string suite = "ci";          ///< ci | full
-  std::string only, schemes, naive;  ///< lists by commas; empty: all cases, all schemes, no textbook treatment
-  std::filesystem::path output;      ///< empty: runs/stability
-  int jobs = 1;
-  std::uint64_t draws = 0, seed = 1;  ///< of --fuzz: scenes drawn in the place of the catalogue
-  std::vector<std::uint64_t> draw;    ///< of --draw: these alone, by their numbers
-  bool json = false;
-};
-
 /// Options of the calibration: boxes of particles for a table of the solids stress.
 struct CalibrateOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-calibrate
@@ -113,10 +103,8 @@ void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);
-/// numerics if a cell differs from what is expected: it has been said which.
-core::ExitCode run_stability(const StabilityOptions& options);
-/// Its --fuzz and --draw: numerics if a drawn scene fails.
-core::ExitCode run_fuzz(const StabilityOptions& options);
+/// Becomes polybed-hard, installed beside the program. \param words  its options
+[[noreturn]] void run_stability(std::vector<std::string> words);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
 

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/output_directory.hpp"
 #include "core/units.hpp"
 #include "multiscale/commands/options.hpp"
 #include "multiscale/commands/run_directory.hpp"
@@ -50,7 +52,9 @@ std::vector<std::string> words_of(const PlotOptions& options) {
   if (options.rate > 0) words.insert(words.end(), {"--rate", fmt::format("{}", options.rate)});
   if (options.quiet) words.emplace_back("--quiet");
   if (options.json) words.emplace_back("--json");
-  words.insert(words.end(), {"--", run_of(options.run).string()});
+  const fs::path run = run_of(options.run);
+  core::refuse_link(run / "pictures");
+  words.insert(words.end(), {"--", run.string()});
   return words;
 }
 
@@ -65,9 +69,13 @@ PythonEnd draw(const PlotOptions& options) {
 }  // namespace
 
 core::ExitCode run_plot(const PlotOptions& options) {
+  if (!options.output.empty()) core::mark_directory(options.output);
   const PythonEnd end = draw(options);
   if (!end.not_started.empty())
     throw core::FileError(fmt::format("no pictures: {}; {}", end.not_started, python_packages));
+  if (end.code > 128 && end.code != int(core::ExitCode::stopped))
+    throw core::FileError(fmt::format("{}: no pictures: Python was ended by signal {}; a file in it may be damaged",
+                                      options.run.string(), end.code - 128));
   switch (end.code) {  // the module has said what is wrong
     case 0:
       return core::ExitCode::done;

@@ -5,6 +5,7 @@
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/print.hpp"
 #include "multiscale/effects/choice.hpp"
 
 namespace polybed::multiscale {
@@ -25,7 +26,7 @@ core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
       throw core::FileError(fmt::format("{}; there is no whole one before it: --force begins anew", error.what()));
     }
     fs::rename(previous, path);
-    fmt::print(stderr, "{}\ngoing on from it\n", error.what());
+    core::print(stderr, "{}\ngoing on from it\n", error.what());
     return checkpoint;
   }
 }
@@ -58,17 +59,21 @@ fs::path run_directory(const RunOptions& options, const std::string& model) {
   return options.output.empty() ? default_run_directory(options.case_path, model) : options.output;
 }
 
-void check_directory(const fs::path& directory, const RunOptions& options) {
-  const bool used = fs::exists(directory / "run.json");
-  const fs::path checkpoint = checkpoint_path(directory);
-  if (options.resume && !fs::exists(checkpoint) && !fs::exists(core::previous_checkpoint(checkpoint)))
+std::unique_ptr<const core::OutputDirectory> take_directory(const fs::path& directory, const RunOptions& options) {
+  if (options.resume && !has_checkpoint(directory))
     throw core::FileError(
         fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
-  if (used && !options.resume && !options.force)
+  auto taken = std::make_unique<const core::OutputDirectory>(directory);
+  if (fs::exists(directory / "run.json") && !options.resume && !options.force)
     throw core::CaseError(
         fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
                     directory.string()));
-  core::make_directories(directory);
+  return taken;
+}
+
+bool has_checkpoint(const fs::path& directory) {
+  const fs::path path = checkpoint_path(directory);
+  return fs::exists(path) || fs::exists(core::previous_checkpoint(path));
 }
 
 fs::path checkpoint_path(const fs::path& directory) { return directory / "checkpoint.h5"; }
@@ -85,12 +90,6 @@ core::Checkpoint read_checkpoint_of(const fs::path& directory, const core::Scene
 void add_case(core::Checkpoint& checkpoint, const core::Scene& scene) {
   checkpoint.texts["case"] = core::resolved_case(scene);
   checkpoint.texts["physics_hash"] = physics_hash(scene);
-}
-
-void remove_checkpoints(const fs::path& directory) {
-  const fs::path path = checkpoint_path(directory);
-  fs::remove(path);
-  fs::remove(core::previous_checkpoint(path));
 }
 
 }  // namespace polybed::multiscale

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "core/checkpoint.hpp"
+#include "core/output_directory.hpp"
 #include "core/scene.hpp"
 #include "multiscale/commands/options.hpp"
 
@@ -21,8 +23,13 @@ namespace polybed::multiscale {
 /// Where a run of this model writes: -o DIR, or else the default.
 [[nodiscard]] std::filesystem::path run_directory(const RunOptions& options, const std::string& model);
 
-/// Makes the directory; throws if it holds a run that is neither resumed nor replaced, or nothing to resume from.
-void check_directory(const std::filesystem::path& directory, const RunOptions& options);
+/// Makes and takes the directory of a run for as long as what is returned lives. Throws as core::OutputDirectory does,
+/// and CaseError if there is a run that is neither resumed nor replaced, FileError if there is nothing to resume from.
+[[nodiscard]] std::unique_ptr<const core::OutputDirectory> take_directory(const std::filesystem::path& directory,
+                                                                          const RunOptions& options);
+
+/// Whether a run can go on from what is there.
+[[nodiscard]] bool has_checkpoint(const std::filesystem::path& directory);
 
 [[nodiscard]] std::filesystem::path checkpoint_path(const std::filesystem::path& directory);
 
@@ -32,8 +39,5 @@ void check_directory(const std::filesystem::path& directory, const RunOptions& o
 
 /// Says in a checkpoint of which case it is.
 void add_case(core::Checkpoint& checkpoint, const core::Scene& scene);
-
-/// A run that begins anew and is killed at once must not be resumed from the run it replaces.
-void remove_checkpoints(const std::filesystem::path& directory);
 
 }  // namespace polybed::multiscale

@@ -1,7 +1,5 @@
 #include "multiscale/commands/stress_uncertainty.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -13,6 +11,7 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/output.hpp"
+#include "core/print.hpp"
 #include "core/ranks.hpp"
 #include "fluid/time_mean.hpp"
 #include "multiscale/calibrate/moved_table.hpp"
@@ -49,8 +48,8 @@ void write_band(core::Json& json, const char* name, const char* unit, const std:
   const auto [least, most] = std::minmax({*v[0], *v[1], *v[2]});
   json.key(name).begin_object().member("table", *v[1]).member("minus", *v[0]).member("plus", *v[2]);
   json.member("low", least).member("high", most).end_object();
-  fmt::print(stderr, "{}: {:.5g}{}, {:.5g} to {:.5g} within one standard error of the table\n", name, *v[1], unit,
-             least, most);
+  core::print(stderr, "{}: {:.5g}{}, {:.5g} to {:.5g} within one standard error of the table\n", name, *v[1], unit,
+              least, most);
 }
 
 }  // namespace
@@ -71,10 +70,7 @@ std::string with_moved_table(const core::Scene& scene, const fs::path& directory
                              double sigma) {
   const fs::path table = core::law_of(scene, "solids_stress").substr(word.size());
   const fs::path moved = directory / ("table-" + name + ".h5");
-  core::on_first(core::Ranks::of_program().get(), [&] {
-    core::make_directories(directory);
-    write_moved_table(table, sigma, moved);
-  });
+  core::on_first(core::Ranks::of_program().get(), [&] { write_moved_table(table, sigma, moved); });
   return "effects.solids_stress=\"table:" + moved.string() + "\"";
 }
 
@@ -88,7 +84,7 @@ void run_stress_uncertainty(const RunOptions& options) {
     run.output = directory / name;
     run.overrides.push_back(with_moved_table(scene, directory, name, sigma));
     run.stress_uncertainty = run.json = run.picture = false;
-    run.resume = options.resume && fs::exists(checkpoint_path(run.output));
+    run.resume = options.resume && has_checkpoint(run.output);
     run_tfm(run);
   }
   core::on_first(ranks.get(), [&] {

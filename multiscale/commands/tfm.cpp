@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/print.hpp"
 #include "multiscale/commands/case_run.hpp"
 #include "multiscale/commands/stress_uncertainty.hpp"
 #include "multiscale/requirements.hpp"
@@ -21,13 +22,14 @@ class TfmRun final : public CaseRun {
   TfmRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
       : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks), "tfm"),
         model_(scene_, timers_, ranks_) {
+    model_.go_on_above_packing(options_.permissive);
     if (first_ && !options_.quiet)
-      for (const std::string& line : model_.effects().warnings) fmt::print(stderr, "{}\n", line);
+      for (const std::string& line : model_.effects().warnings) core::print(stderr, "{}\n", line);
     model_.show(model_.time());
     initial_mass_ = tfm::masses(model_);
     prepare(
         [&](core::Checkpoint& checkpoint, const fs::path& path) {
-          if (first_) initial_mass_ = checkpoint.arrays.at("initial_mass");
+          core::on_first(ranks_.get(), [&] { initial_mass_ = initial_mass_of(checkpoint); });
           read_fields(path, checkpoint);
           model_.resume(checkpoint);
           core::take_from_first(ranks_.get(), initial_mass_);
@@ -48,12 +50,24 @@ class TfmRun final : public CaseRun {
     core::on_all(ranks_.get(), [&] { core::read_parts(path, model_.checkpoint_parts(), checkpoint); });
   }
 
+  /// Mass of each species at the start of the run, kg.
+  [[nodiscard]] std::vector<double> initial_mass_of(const core::Checkpoint& checkpoint) const {
+    std::vector<double> mass = checkpoint.array("initial_mass");
+    if (mass.size() != initial_mass_.size() || std::any_of(mass.begin(), mass.end(), [](double m) { return m < 0; }))
+      core::refuse_checkpoint("initial_mass is not the mass of each species");
+    return mass;
+  }
+
   core::Simulation& simulation() override { return model_; }
   std::vector<double> kinks() override { return model_.kinks(); }
   void keep_last_state() override { model_.keep_last_state(); }
 
   std::vector<core::Observer> observers() override {
-    return {{"history", *scene_.output.history_every, [&](double t) { observers_->write_history(t); }},
+    return {{"history", *scene_.output.history_every,
+             [&](double t) {
+               observers_->write_history(t);
+               judge(observers_->invariants().worst());
+             }},
             {"fields", *scene_.output.every, [&](double t) {
                const auto scope = timers_.scope("output");
                observers_->write_fields(t);
@@ -106,19 +120,17 @@ class TfmRun final : public CaseRun {
   void print_summary() override {
     const tfm::Work work = model_.work();
     const double cpu = totals_.cpu_seconds, simulated = model_.time() - begin_;
-    fmt::print(stderr, "\n{} steps ({} rejected), {} right-hand sides, {} pressure iterations, {} Newton, {} Krylov\n",
-               work.steps, work.rejected_steps, work.right_hand_sides, work.pressure_iterations, work.newton_iterations,
-               work.krylov_iterations);
-    fmt::print(stderr, "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
-               simulated, simulated > 0 ? cpu / simulated : 0.0, model_.integrator_name(), model_.integrator_reason());
-    fmt::print(stderr, "convection of momentum: {} ({})\n", model_.momentum().name, model_.momentum().reason);
-    for (const fluid::WorstInvariant& w : observers_->invariants().worst())
-      fmt::print(stderr, "{}: worst {:.2e}, limit {:.0e}{}\n", w.name, w.value, w.limit,
-                 w.value > w.limit ? "  <-- exceeded" : "");
+    core::print(stderr, "\n{} steps ({} rejected), {} right-hand sides, {} pressure iterations, {} Newton, {} Krylov\n",
+                work.steps, work.rejected_steps, work.right_hand_sides, work.pressure_iterations,
+                work.newton_iterations, work.krylov_iterations);
+    core::print(stderr, "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
+                simulated, simulated > 0 ? cpu / simulated : 0.0, model_.integrator_name(), model_.integrator_reason());
+    core::print(stderr, "convection of momentum: {} ({})\n", model_.momentum().name, model_.momentum().reason);
+    print_invariants(observers_->invariants().worst());
     for (const tfm::ClosureUse& use : totals_.closures)
-      fmt::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,
-                 100.0 * double(use.guarded) / double(std::max<std::uint64_t>(use.evaluations, 1)),
-                 double(use.evaluations));
+      core::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,
+                  100.0 * double(use.guarded) / double(std::max<std::uint64_t>(use.evaluations, 1)),
+                  double(use.evaluations));
     print_prediction(cpu);
     print_state_at_end();
   }
@@ -129,12 +141,12 @@ class TfmRun final : public CaseRun {
     for (int axis = 0; axis < model_.constants().grid.dimensions; ++axis)
       place += fmt::format("{}{:.4g}", axis > 0 ? ", " : "", least.cell.place[std::size_t(axis)]);
     if (std::isfinite(least.cell.least))
-      fmt::print(
+      core::print(
           stderr,
           "well-posedness: least dp_s/dphi over its critical {:.2g} Pa is {:.3g}, at ({}) m, t = {:.4g} s; below "
           "1 in {:.3g} % of the bed's cells at the end\n",
           least.cell.critical_slope, least.cell.least, place, least.time, 100 * least.share_below_now);
-    for (const std::string& text : drift_lines(observers_->drifts())) fmt::print(stderr, "{}\n", text);
+    for (const std::string& text : drift_lines(observers_->drifts())) core::print(stderr, "{}\n", text);
     print_promise();
   }
 
@@ -148,15 +160,20 @@ class TfmRun final : public CaseRun {
 }  // namespace
 
 void run_tfm(const RunOptions& options) {
-  core::Scene scene = read_scene(options);
+  const core::Scene scene = read_scene(options);
   const fs::path directory = run_directory(options, "tfm");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
   core::on_first(ranks.get(), [&] {
     require_memory(scene);
-    check_directory(directory, options);
+    taken = take_directory(directory, options);
   });
   if (options.stress_uncertainty) require_table(scene);
-  (void)TfmRun(options, std::move(scene), directory, ranks).run();
+  std::optional<TfmRun> run;
+  start_run({directory, scene, "tfm", ranks.get(), options.resume},
+            [&] { run.emplace(options, scene, directory, ranks); });
+  (void)run->run();
+  run.reset();
   if (options.stress_uncertainty) run_stress_uncertainty(options);
 }
 

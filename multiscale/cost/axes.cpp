@@ -89,7 +89,8 @@ Axis window_axis(const core::Scene& scene) {
 Axis stiffness_axis(const core::Scene& scene) {
   Axis axis{"stiffness", AxisKind::model, {}, 1, {}};
   for (const double factor : {32.0, 1.0})
-    axis.levels.push_back(number_level("dem.youngs_modulus", scene.dem.youngs_modulus / factor));
+    axis.levels.push_back(
+        number_level("dem.youngs_modulus", scene.dem.youngs_modulus.value_or(core::least_modulus) / factor));
   const auto soften = [&](const std::string& name, const std::optional<double>& given) {
     if (given) axis.levels[0].overrides.push_back(key(name, fmt::format("{:.17g}", *given / 32)));
   };
@@ -196,6 +197,13 @@ Level grid_level(const core::Scene& scene, double coarser) {
 std::vector<std::string> axis_names() {
   std::vector<std::string> names;
   for (const Maker& maker : makers()) names.push_back(maker.name);
+  return names;
+}
+
+std::vector<std::string> acting_axes(const core::Scene& scene, const std::string& model) {
+  std::vector<std::string> names;
+  for (const Maker& maker : makers())
+    if (acts(maker, scene, model)) names.push_back(maker.name);
   return names;
 }
 

@@ -38,6 +38,9 @@ using Settings = std::map<std::string, std::size_t>;
 /// The case on cells divided by a factor (2: twice as coarse); no axis has fewer than one.
 [[nodiscard]] Level grid_level(const core::Scene& scene, double coarser);
 
+/// Names of the axes that act in this case by a model.
+[[nodiscard]] std::vector<std::string> acting_axes(const core::Scene& scene, const std::string& model);
+
 /// All names, for messages.
 [[nodiscard]] std::vector<std::string> axis_names();
 

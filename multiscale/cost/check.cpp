@@ -8,6 +8,7 @@
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/print.hpp"
 #include "multiscale/cost/quantities.hpp"
 #include "multiscale/cost/runner.hpp"
 #include "multiscale/effects/choice.hpp"
@@ -127,8 +128,8 @@ bool check_recommendation(const fs::path& directory) {
                       number_or(advised.of("ci"), 0) + rounding};
   const double claimed = advised.of("s_per_sim_s").number();
   const Checked time{claimed, rate_by(clock, outcome), time_allowed * claimed};
-  fmt::print("{}\n{}\n", told(("error of " + id).c_str(), error, ""),
-             told(("time by " + clock).c_str(), time, "s for a simulated second"));
+  core::print("{}\n{}\n", told(("error of " + id).c_str(), error, ""),
+              told(("time by " + clock).c_str(), time, "s for a simulated second"));
   const bool good = error.holds() && time.holds();
   if (good) confirm(directory / "cost.json");
   return good;
@@ -157,11 +158,11 @@ bool print_difference(const fs::path& before, const fs::path& now) {
   const std::vector<Dearer> found = dearer(core::read_json(before, filetype), core::read_json(now, filetype));
   for (const Dearer& d : found)
     if (d.now > 0)
-      fmt::print("error {:.3g}: {:.3g} s for a simulated second, was {:.3g}: {:.2g} times as dear\n", d.error, d.now,
-                 d.before, d.now / d.before);
+      core::print("error {:.3g}: {:.3g} s for a simulated second, was {:.3g}: {:.2g} times as dear\n", d.error, d.now,
+                  d.before, d.now / d.before);
     else
-      fmt::print("error {:.3g}: no run is as accurate; took {:.3g} s for a simulated second\n", d.error, d.before);
-  if (found.empty()) fmt::print("nothing is dearer by more than 10 % at the same error\n");
+      core::print("error {:.3g}: no run is as accurate; took {:.3g} s for a simulated second\n", d.error, d.before);
+  if (found.empty()) core::print("nothing is dearer by more than 10 % at the same error\n");
   return found.empty();
 }
 

@@ -1,6 +1,7 @@
 #include "multiscale/cost/judge.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,11 +161,20 @@ std::vector<std::string> advice(const Sweep& sweep) {
   if (sweep.outcome != "done") return {fmt::format("Refused: {}.", sweep.reason)};
   std::vector<std::string> lines{recommendation_text(sweep)};
   const Share* largest = nullptr;
-  for (const Share& share : sweep.attribution)
+  std::vector<std::string> unknown, axes;
+  for (const Share& share : sweep.attribution) {
     if (share.value && (largest == nullptr || *share.value > *largest->value)) largest = &share;
+    if (!share.axes.empty()) unknown.push_back(share.row);
+    axes.insert(axes.end(), share.axes.begin(), share.axes.end());
+  }
+  if (largest != nullptr && *largest->value > 0)
+    lines.push_back(fmt::format("The largest row {} {} ({}){}.", unknown.empty() ? "is" : "of those measured is",
+                                largest->row, percent(*largest->value),
+                                unknown.empty() ? ": that is what to improve" : ""));
+  if (!unknown.empty())
+    lines.push_back(fmt::format("Not measured, so in none of these errors: {}. --axes {} measures them.",
+                                fmt::join(unknown, ", "), fmt::join(axes, ",")));
   if (largest == nullptr || !(*largest->value > 0)) return lines;
-  lines.push_back(
-      fmt::format("The largest row is {} ({}): that is what to improve.", largest->row, percent(*largest->value)));
   std::string loose;
   for (const Share& share : sweep.attribution)
     if (share.value && 10 * *share.value < *largest->value) loose += (loose.empty() ? "" : ", ") + share.row;

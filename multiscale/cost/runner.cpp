@@ -4,12 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "core/case_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/json_value.hpp"
+#include "core/output_directory.hpp"
 #include "multiscale/child_program.hpp"
 
 namespace polybed::multiscale {
@@ -32,13 +35,8 @@ bool all_held(const core::JsonValue& record) {
   return std::all_of(all.begin(), all.end(), [](const core::JsonValue& one) { return one.of("held").truth(); });
 }
 
-/// What a sweep does not read: fields and checkpoints.
-void remove_bulk(const fs::path& directory) {
-  for (const char* name : {"fields", "particles"}) fs::remove_all(directory / name);
-  for (const char* name :
-       {"fields.h5", "particles.h5", "fields.xdmf", "particles.xdmf", "checkpoint.h5", "checkpoint.previous.h5"})
-    fs::remove(directory / name);
-}
+/// What a sweep reads of a run.
+constexpr std::array<std::string_view, 3> read_later{"history.csv", "steps.csv", "profiles.h5"};
 
 /// Whether a run lies there that came to its own end, not to that of an earlier budget.
 bool ended(const fs::path& directory) {
@@ -65,10 +63,10 @@ std::vector<std::string> Runner::words_of(const RunOrder& order, const fs::path&
 }
 
 void Runner::start(const RunOrder& order, const fs::path& directory, double seconds) const {
-  fs::remove_all(directory);
-  core::make_directories(directory);
+  core::mark_directory(directory);
+  core::remove_results(directory);
   const ChildExit end = run_child({words_of(order, directory), order.ranks, directory / "output.txt"}, seconds);
-  remove_bulk(directory);
+  core::remove_results(directory, read_later);  // neither fields nor checkpoints
   core::Json json;
   json.begin_object().member("code", end.code).member("timed_out", end.timed_out).member("wall_s", end.wall);
   core::write_atomically(directory / "end.json", json.end_object().text() + "\n");

@@ -9,6 +9,7 @@
 
 #include "closures/sphere.hpp"
 #include "core/output_particles.hpp"
+#include "core/print.hpp"
 #include "core/random.hpp"
 #include "fluid/measures.hpp"
 #include "fluid/particle_profile.hpp"
@@ -185,7 +186,7 @@ std::vector<Oracle> pure_oracles() {
 bool print_selftest() {
   bool all = true;
   for (const Oracle& o : pure_oracles()) {
-    fmt::print("{:4} {:6} {}\n            wanted: {}\n", o.id, o.passed ? "passes" : "FAILS", o.found, o.wanted);
+    core::print("{:4} {:6} {}\n            wanted: {}\n", o.id, o.passed ? "passes" : "FAILS", o.found, o.wanted);
     all = all && o.passed;
   }
   return all;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/print.hpp"
 #include "multiscale/cost/judge.hpp"
 #include "multiscale/cost/sweeper.hpp"
 #include "multiscale/cost/timing.hpp"
@@ -70,7 +71,7 @@ Sweep run_sweep(const core::Scene& scene, SweepOptions options, Runner& runner) 
 }
 
 void Sweeper::tell(const std::string& text) const {
-  if (!sweep_.options.quiet) fmt::print(stderr, "{:7.1f} s  {}\n", runner_.spent(), text);
+  if (!sweep_.options.quiet) core::print(stderr, "{:7.1f} s  {}\n", runner_.spent(), text);
 }
 
 void Sweeper::refuse(const std::string& reason) {

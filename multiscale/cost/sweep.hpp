@@ -60,6 +60,7 @@ struct Share {
   std::string row;
   std::optional<double> value;  ///< of the first quantity's error; empty: not run
   std::string note;
+  std::vector<std::string> axes = {};  ///< that would measure it, of a row that no axis run has measured
 };
 
 struct Recommendation {

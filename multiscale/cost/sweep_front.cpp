@@ -211,18 +211,26 @@ void Sweeper::attribute_axis(const std::string& name, const std::vector<std::str
       share.note = axis(a)->levels[row.settings.at(a)].label;
     }
   }
-  if (!share.value) share.note = "not run";
+  if (!share.value) share = not_run(name, axes);
   sweep_.attribution.push_back(share);
+}
+
+Share Sweeper::not_run(const std::string& row, const std::vector<std::string>& axes) const {
+  Share share{row, std::nullopt, "not run"};
+  for (const std::string& name : acting_axes(scene_, sweep_.options.model))
+    if (std::find(axes.begin(), axes.end(), name) != axes.end()) share.axes.push_back(name);
+  return share;
 }
 
 void Sweeper::attribute() {
   const auto of_line = [&](const std::string& row, const std::vector<std::string>& names) {
-    Share share{row, std::nullopt, "not run"};
+    Share share = not_run(row, names);
     for (const std::string& name : names)
       if (axis(name) != nullptr && sweep_.outcome == "done")
         if (const double e = line_error(name, axis(name)->given); std::isfinite(e)) {
           share.value = std::max(e, share.value.value_or(0));
           share.note = name + " " + axis(name)->levels[axis(name)->given].label;
+          share.axes.clear();
         }
     sweep_.attribution.push_back(share);
   };

@@ -44,6 +44,8 @@ class Sweeper {
   void run_inputs();
   void attribute();
   void attribute_axis(const std::string& name, const std::vector<std::string>& axes);
+  /// A row that nothing has measured, with those of some axes that would.
+  [[nodiscard]] Share not_run(const std::string& row, const std::vector<std::string>& axes) const;
   void tell(const std::string& text) const;
 
   const core::Scene& scene_;

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "closures/relevance.hpp"
-#include "core/case_file.hpp"
-#include "multiscale/effects/conflicts.hpp"
 #include "multiscale/effects/situation.hpp"
 #include "multiscale/effects/weigh.hpp"
+#include "multiscale/particle_requirements.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/scene_rules.hpp"
 
 namespace polybed::multiscale {
 
@@ -104,9 +104,9 @@ core::Scene with_choice(core::Scene scene) {
 }
 
 core::Scene read_chosen_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const core::Scene scene = core::read_case(path, overrides, all_roles(), size_classes);
-  refuse_role_conflicts(scene, path);
-  return with_choice(scene);
+  core::Scene chosen = with_choice(read_case(path, overrides));
+  choose_stiffness(chosen);
+  return chosen;
 }
 
 }  // namespace polybed::multiscale

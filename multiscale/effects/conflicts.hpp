@@ -1,21 +1,15 @@
-// Roles that contradict each other, told with the lines of both.
+// Roles that contradict each other.
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/scene.hpp"
+#include "core/scene_rule.hpp"
 
 namespace polybed::multiscale {
 
-/// Two lines for each pair of roles of a scene that cannot both be, whatever the model; empty if there is none.
-/// \param text  of the case file, for the lines  \param name  of the file
-[[nodiscard]] std::vector<core::CaseProblem> role_conflicts(const core::Scene& scene, const std::string& text,
-                                                            const std::string& name);
-
-/// Throws them, if there are any.
-void refuse_role_conflicts(const core::Scene& scene, const std::filesystem::path& path);
+/// Two faults, one at each role, for each pair of roles of a scene that cannot both be, whatever the model; empty if
+/// there is none.
+[[nodiscard]] std::vector<core::SceneFault> role_conflicts(const core::Scene& scene);
 
 }  // namespace polybed::multiscale

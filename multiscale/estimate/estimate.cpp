@@ -44,19 +44,35 @@ double wall_of(double cpu, int ranks) {
   return ranks > 1 ? cpu / (ranks * efficiency) : cpu;
 }
 
-/// Adds what is known within a factor of 2.
-TimeBand beyond(TimeBand band, double more) {
-  return {band.least + more / 2, band.expected + more, band.most + 2 * more};
+/// Adds what is known within a factor of 2. \param before  of that what is before the first step
+TimeBand beyond(TimeBand band, double more, double before) {
+  return {band.least + more / 2, band.expected + more, band.most + 2 * more, before};
 }
 
 double rows(double until, double every) { return every > 0 ? std::floor(until / every * (1 + 1e-9)) + 1 : 2; }
 
-/// CPU seconds of a run that are not those of its steps: the program's start, output, and the particles' places.
-double overhead(const core::Scene& scene, const Machine& machine, double particles) {
+/// CPU seconds of output.
+double output(const core::Scene& scene, const Machine& machine) {
+  return machine.stored_step * rows(scene.run.until, *scene.output.every) +
+         machine.history_row * rows(scene.run.until, *scene.output.history_every);
+}
+
+/// CPU seconds before the first step of particles: the program's start, their places, and until they have settled.
+double before_particles(const core::Scene& scene, const Machine& machine, const ParticleRequirements& need) {
   const bool placed = !scene.bed.start.starts_with("list:") && !scene.bed.start.starts_with("checkpoint:");
-  return machine.start + machine.stored_step * rows(scene.run.until, *scene.output.every) +
-         machine.history_row * rows(scene.run.until, *scene.output.history_every) +
-         (placed ? machine.placed_particle * particles : 0);
+  return machine.start + (placed ? machine.placed_particle * double(need.count()) : 0) + need.before;
+}
+
+/// A run of the two-fluid model by what its steps take.
+TimeBand with_start(const TimeBand& steps, const core::Scene& scene, const Machine& machine) {
+  return beyond(steps, machine.start + output(scene, machine), machine.start);
+}
+
+/// A run of particles, likewise.
+TimeBand with_start(const TimeBand& steps, const core::Scene& scene, const Machine& machine,
+                    const ParticleRequirements& need) {
+  const double before = before_particles(scene, machine, need);
+  return beyond(steps, before + output(scene, machine), before);
 }
 
 /// Bytes of a run's files, as counted from what they hold: docs/file-formats.md.
@@ -100,19 +116,25 @@ TimeBand probed_band(double covered, double until, double spent, double rest) {
 
 }  // namespace
 
+TimeBand TimeBand::part(double share, bool from_start) const {
+  const double before = from_start ? start : 0;
+  return {(least - start / 2) * share + before / 2, (expected - start) * share + before,
+          (most - 2 * start) * share + 2 * before, before};
+}
+
 TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine) {
   const double cells = double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2];
   const double step = tfm_step_seconds(machine, model.integrator_name() != "explicit", cells, scene.species.size(),
                                        scene.column.dimensions);
-  return beyond(band_of(expected_of(scene, model, step).time->expected, tfm_middle(model.integrator_name()),
-                        factor_of(tfm_factor, machine)),
-                overhead(scene, machine, 0));
+  return with_start(band_of(expected_of(scene, model, step).time->expected, tfm_middle(model.integrator_name()),
+                            factor_of(tfm_factor, machine)),
+                    scene, machine);
 }
 
 TimeBand dem_time(const core::Scene& scene, const Machine& machine) {
   const ParticleRequirements need = particle_requirements_of(scene, machine.particles);
-  return beyond(band_of(need.expected, dem_middle, factor_of(dem_factor, machine)),
-                overhead(scene, machine, double(need.count())));
+  return with_start(band_of(need.expected - need.before, dem_middle, factor_of(dem_factor, machine)), scene, machine,
+                    need);
 }
 
 CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks) {
@@ -124,7 +146,7 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
   e.ranks = ranks;
   e.memory = need.memory.total() + (ranks - 1) * need.memory.program;
   if (need.time) {
-    e.time = beyond(band_of(need.time->expected, tfm_middle(need.integrator), tfm_factor), overhead(scene, machine, 0));
+    e.time = with_start(band_of(need.time->expected, tfm_middle(need.integrator), tfm_factor), scene, machine);
     e.steps = need.time->steps;
     e.basis = "time scales of the bed; the cost of a step measured on a part of it";
   } else {
@@ -132,7 +154,7 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
     e.steps = expected_of(scene, *part, 0).time->steps;
     e.basis = basis_of(machine);
   }
-  e.step = need.expanded.step;
+  e.step = scene.run.until / e.steps;
   const auto& scales = need.expanded.scales;
   const auto shortest = std::min_element(scales.begin(), scales.end(),
                                          [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
@@ -143,8 +165,8 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
     const double begin = core::cpu_seconds();
     tfm::Model model(scene, timers);
     const auto [rate, covered] = probed(model, scene.run.until, probe);
-    e.time = beyond(probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until),
-                    overhead(scene, machine, 0));
+    e.time = with_start(probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until),
+                        scene, machine);
     e.basis = fmt::format("a probe of {:.3g} s that reached {:.3g} s", probe, covered);
   }
   e.wall = wall_of(e.time.expected, ranks);
@@ -168,9 +190,11 @@ CostEstimate estimate_dem(const core::Scene& scene, const Machine& machine, doub
     const double begin = core::cpu_seconds();
     core::Timers timers;
     dem::Model model(scene, timers);
+    const double placed = core::cpu_seconds() - begin;
     const auto [rate, covered] = probed(model, scene.run.until, probe);
-    e.time = beyond(probed_band(covered, scene.run.until, core::cpu_seconds() - begin, rate * scene.run.until),
-                    overhead(scene, machine, 0));
+    const double spent = core::cpu_seconds() - begin - placed, before = machine.start + placed + need.before;
+    e.time = beyond(probed_band(covered, scene.run.until, spent, rate * scene.run.until),
+                    before + output(scene, machine), before);
     e.basis = fmt::format("a probe of {:.3g} s that reached {:.3g} s", probe, covered);
   }
   e.wall = wall_of(e.time.expected, ranks);

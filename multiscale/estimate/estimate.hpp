@@ -15,6 +15,10 @@ namespace polybed::multiscale {
 /// CPU seconds that hold the truth in 80 of 100 runs, and their middle.
 struct TimeBand {
   double least = 0, expected = 0, most = 0;
+  double start = 0;  ///< of expected: before the first step, known within a factor of 2
+
+  /// What a part of the run takes. \param share  of its simulated time  \param from_start  and what is before it
+  [[nodiscard]] TimeBand part(double share, bool from_start) const;
 };
 
 /// A way to make a run cheaper, and what it loses.
@@ -28,10 +32,10 @@ struct Way {
 struct CostEstimate {
   std::string model;  ///< tfm | dem
   int ranks = 1;
-  TimeBand time;      ///< of all ranks together
-  double wall = 0;    ///< s
-  std::string basis;  ///< what the time rests on
-  double steps = 0, step = 0;
+  TimeBand time;               ///< of all ranks together
+  double wall = 0;             ///< s
+  std::string basis;           ///< what the time rests on
+  double steps = 0, step = 0;  ///< number of them and their mean, s
   std::string limited_by;
   double memory = 0, disk = 0;  ///< bytes
   std::vector<Way> ways;
@@ -54,7 +58,8 @@ struct CostEstimate {
 void write_estimate(core::Json& json, const CostEstimate& estimate);
 void print_estimate(const core::Scene& scene, const CostEstimate& estimate);
 
-/// What run.json says of the prediction made before the run. \param actual  CPU s; of a run that is done
-void write_prediction(core::Json& json, const TimeBand& predicted, bool done, double actual);
+/// What run.json says of the prediction made before the run. \param predicted  of what has been simulated since
+/// \param ended  or it says nothing of what it took  \param actual  CPU s
+void write_prediction(core::Json& json, const TimeBand& predicted, bool ended, double actual);
 
 }  // namespace polybed::multiscale

@@ -1,6 +1,7 @@
 // What an estimate says, to people and to programs.
 #include <fmt/format.h>
 
+#include "core/print.hpp"
 #include "core/progress.hpp"
 #include "multiscale/estimate/estimate.hpp"
 
@@ -36,22 +37,22 @@ void write_estimate(core::Json& json, const CostEstimate& e) {
 }
 
 void print_estimate(const core::Scene& scene, const CostEstimate& e) {
-  fmt::print("{:.4g} s by {} on {} rank{}: about {} of computing, in 80 % of runs between {} and {}\n", scene.run.until,
-             e.model, e.ranks, e.ranks > 1 ? "s" : "", time_text(e.time.expected), time_text(e.time.least),
-             time_text(e.time.most));
-  fmt::print("  rests on  {}\n", e.basis);
-  if (e.ranks > 1) fmt::print("  wall time {}\n", time_text(e.wall));
-  fmt::print("  steps     {:.3g} of {:.2g} s, limited by {}\n", e.steps, e.step, e.limited_by);
-  fmt::print("  memory    {}\n  disk      {}\n", bytes_text(e.memory), bytes_text(e.disk));
-  fmt::print("to halve the time:\n");
+  core::print("{:.4g} s by {} on {} rank{}: about {} of computing, in 80 % of runs between {} and {}\n",
+              scene.run.until, e.model, e.ranks, e.ranks > 1 ? "s" : "", time_text(e.time.expected),
+              time_text(e.time.least), time_text(e.time.most));
+  core::print("  rests on  {}\n", e.basis);
+  if (e.ranks > 1) core::print("  wall time {}\n", time_text(e.wall));
+  core::print("  steps     {:.3g} of {:.2g} s, limited by {}\n", e.steps, e.step, e.limited_by);
+  core::print("  memory    {}\n  disk      {}\n", bytes_text(e.memory), bytes_text(e.disk));
+  core::print("to halve the time:\n");
   for (const Way& way : e.ways)
-    fmt::print("  {} (x {:.2g}): loses {} [{}]\n", way.change, way.time, way.loss, way.evidence);
+    core::print("  {} (x {:.2g}): loses {} [{}]\n", way.change, way.time, way.loss, way.evidence);
 }
 
-void write_prediction(core::Json& json, const TimeBand& predicted, bool done, double actual) {
+void write_prediction(core::Json& json, const TimeBand& predicted, bool ended, double actual) {
   json.key("prediction").begin_object().member("cpu_s", predicted.expected).member("least_s", predicted.least);
   json.member("most_s", predicted.most).key("actual_s");
-  if (done)
+  if (ended)
     json.value(actual).member("within", actual >= predicted.least && actual <= predicted.most);
   else
     json.null();

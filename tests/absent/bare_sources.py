@@ -28,7 +28,7 @@ def bare_tfm_effects(text):
     text = without(text, r'^#include "tfm/effects/(species_exchange_syamlal|species_exchange_table|solids_viscosity_frictional)\.hpp"\n', 3)
     text = without(text, r"^    if \(constants\.species\(\) > 1\)\n      effects\.species_exchange = .*?;\n", 1)
     text = without(text, r"^    effects\.species_exchange = .*?;\n", 1)
-    return without(text, r"^    effects\.solids_viscosity = .*?;\n", 1)
+    return without(text, r"^  if \(viscosity == [^\n]*\n    effects\.solids_viscosity = .*?;\n  else ", 1)
 
 
 if __name__ == "__main__":

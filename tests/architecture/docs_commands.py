@@ -40,10 +40,8 @@ def blocks(text):
 def shortened(command, program):
     words = shlex.split(command, comments=True)
     words[0] = program if words[0] in ("./polybed", "polybed") else words[0]
-    on_ranks = []
-    if words[0] == program and words[1] == "-n":  # as the launcher does it
-        on_ranks = ["mpirun", "-q", "-n", words[2]]
-        del words[1:3]
+    ranks = words[1:3] if words[0] == program and words[1] == "-n" else []
+    del words[1:1 + len(ranks)]
     if len(words) > 1 and words[1] in ("tfm", "dem", "compare"):
         if "--until" in words:
             at = words.index("--until")
@@ -55,7 +53,7 @@ def shortened(command, program):
     if "--scan" in words:
         words[words.index("--scan") + 1] = "tfm"
         words += SHORT_SCAN
-    return on_ranks + words
+    return words[:1] + ranks + words[1:]
 
 
 def run(command, program, scratch):
@@ -74,7 +72,7 @@ def self_test():
     assert list(blocks("```python\nprint(1)\n```\n")) == [("", [f"{PYTHON} -c 'print(1)\n'"])]
     assert shortened("./polybed tfm x --until '20 s'", "p") == ["p", "tfm", "x", *SHORT, "--force"]
     assert shortened("./polybed dem x --until '20 s'", "p") == ["p", "dem", "x", *SHORT_DEM, "--force"]
-    assert shortened("./polybed -n 2 check x", "p") == ["mpirun", "-q", "-n", "2", "p", "check", "x"]
+    assert shortened("./polybed -n 2 check x", "p") == ["p", "-n", "2", "check", "x"]
     assert shortened("./polybed compare x", "p") == ["p", "compare", "x", *SHORT_DEM, "--force"]
     assert shortened("./polybed inversion x --scan both", "p") == ["p", "inversion", "x", "--scan", "tfm", *SHORT_SCAN]
     assert shortened("./polybed cost x --until '1 s' --json", "p") == ["p", "cost", "x", *SHORT_COST, "--json"]

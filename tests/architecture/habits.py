@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Files stay short, nothing is left over, no machine's paths, sources are formatted, effects and laws have tests and docs."""
+"""Files stay short, nothing is left over, no machine's paths, sources are formatted, messages are printed in one way, effects and laws have
+tests and docs."""
 import re
 import shutil
 import subprocess
@@ -10,6 +11,7 @@ from sources import ROOT, report, tracked
 LONGEST = 400
 ARGUED = "Longer than 400 lines because"
 LEFT_OVER = re.compile(r"\b(TO" + r"DO|FIX" + r"ME|XX" + r"X|HA" + r"CK)\b")
+PRINTED = re.compile(r"\bfmt::print\(|\bstd::(cout|cerr|printf|fprintf|puts|fputs)\b")
 MACHINE = re.compile(r"(^|[^\w./])/(work|root|home|tmp)/")
 
 
@@ -21,6 +23,12 @@ def too_long(name, text):
 def left_over(name, text):
     return [f"{name}:{n}: {line.strip()[:80]}" for n, line in enumerate(text.split("\n"), 1)
             if LEFT_OVER.search(line) or MACHINE.search(line)]
+
+
+def printed_elsewhere(name, text):
+    """What a terminal refuses must not end a run: core/print.hpp alone knows how."""
+    return [f"{name}:{n}: print by core::print" for n, line in enumerate(text.split("\n"), 1)
+            if PRINTED.search(line) and not name.startswith("tests/")]
 
 
 def unformatted(paths):
@@ -43,12 +51,15 @@ def self_test():
     assert too_long("a", "x\n" * 401) and not too_long("a", "x\n" * 400)
     assert left_over("a", "int x;  // TO" + "DO later") and left_over("a", 'open("/ro' + 'ot/x")')
     assert not left_over("a", "a method, and a/work/b")
+    assert printed_elsewhere("core/a.cpp", 'fmt::print(stderr, "a")') and not printed_elsewhere("core/a.cpp", 'core::print("a")')
 
 
 if __name__ == "__main__":
     self_test()
     code = tracked(".hpp", ".cpp")
     problems = []
+    for path in code:
+        problems += printed_elsewhere(str(path.relative_to(ROOT)), path.read_text())
     for path in code + tracked(".py", ".cmake", "CMakeLists.txt"):
         problems += too_long(str(path.relative_to(ROOT)), path.read_text())
     for path in code + tracked(".py", ".md", ".cmake", "CMakeLists.txt", "polybed", ".toml"):

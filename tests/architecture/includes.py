@@ -24,7 +24,7 @@ LIBRARIES = {
     r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
     r"CLI/": r"multiscale/command_line/commands\.hpp",
     r"mpi\.h": r"(core/mpi\.hpp|multiscale/command_line/mpi_session\.hpp)",
-    r"core/mpi\.hpp": r"core/(ranks|blocks|halo|messages|output_blocks|linear_solver|hypre_rows|integrator_vector)\.cpp",
+    r"core/mpi\.hpp": r"core/(ranks|mpi_start|blocks|halo|messages|output_blocks|linear_solver|hypre_rows|integrator_vector)\.cpp",
 }
 CLOSURES_SEE = re.compile(r"^(closures/|Eigen/|[a-z_]+$)")  # ours, Eigen, the standard library
 

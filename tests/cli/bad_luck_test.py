@@ -128,7 +128,8 @@ class FullDisk(Scratch):
         self.assertEqual([p.name for p in directory.rglob("*.temporary")], [])
         for name in ("fields.h5", "profiles.h5", "checkpoint.h5"):
             self.assertTrue(datasets(directory / name), name)
-        strict_json((directory / "run.json").read_text())
+        state = strict_json((directory / "run.json").read_text())["state"]
+        self.assertEqual(state, "failed: " + told.rstrip("\n") if most_bytes else "running", "the record fits, or not")
         with h5py.File(directory / "checkpoint.h5") as checkpoint:
             self.assertGreaterEqual(checkpoint["numbers/time_s"][()], 0.1)
         return told
@@ -155,12 +156,12 @@ class FullDisk(Scratch):
                 self.goes_on(directory, words)
 
     def test_no_room_for_a_run(self):
-        """The disk is full before the first file is complete; /dev/full says so in place of a disk."""
+        """The disk is full before the first file is complete. What is left does not keep the same run from beginning."""
         directory = self.folder / "run"
-        directory.mkdir()
-        os.symlink("/dev/full", directory / "run.json.temporary")
-        done = self.ends(FILE, *WORDS, "--until", "0.1 s", "-o", directory)
-        self.assertIn(f"cannot write {directory}/run.json: No space left", done.stderr)
+        words = [*WORDS, "--until", "0.1 s", "-o", directory]
+        done = self.ends(FILE, *words, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
+        self.assertRegex(done.stderr, f"^cannot write {directory}/.polybed: File too large")
+        self.ends(DONE, *words)
 
 
 if __name__ == "__main__":

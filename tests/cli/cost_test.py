@@ -42,6 +42,14 @@ class Estimate(Scratch):
         self.ends(WRONG_CASE, "estimate", case, "--probe", "5 m")
         self.ends(WRONG_CASE, "estimate")
 
+    def test_steps_and_their_length_are_those_of_the_run(self):
+        """Their product is the time simulated; 5 % for a length of two digits."""
+        case = self.write("case.toml", BED)
+        for words in ((), ("--set", "tfm.integrator=implicit")):
+            text = self.ends(DONE, "estimate", case, *words, "--set", "run.until=30").stdout
+            number, step = re.search(r"steps +([\d.e+-]+) of ([\d.e+-]+) s", text).groups()
+            self.assertAlmostEqual(float(number) * float(step), 30, delta=0.05 * 30)
+
     def test_a_run_tells_what_was_predicted(self):
         case = self.write("case.toml", BED)
         record = strict_json(self.ends(DONE, "tfm", case, "--until", "10 ms", "--json", "-o", self.folder / "run").stdout)
@@ -85,6 +93,8 @@ class Cost(Scratch):
                     self.assertGreaterEqual(run["s_per_sim_s"], chosen["s_per_sim_s"])
         text = (self.sweep_folder / "cost.md").read_text()
         self.assertIn("For 1 % of bed_height take", text)
+        self.assertIn("Not measured, so in none of these errors: space, closure spread, level. --axes grid,drag,effects,level", text)
+        self.assertNotIn("that is what to improve", text)
         with open(self.sweep_folder / "cost.csv") as file:
             rows = list(csv.reader(file))
         self.assertEqual(len(rows), 1 + len(sweep["runs"]))

@@ -122,11 +122,11 @@ class Files(Bed):
     def test_its_pictures_show_both(self):
         self.dem(DONE, "run", "--until", "15 ms")
         done = self.ends(DONE, "plot", self.folder / "run", "--what", "overview,fields,particles,profiles,history", "--format", "svg",
-                         "--out", self.folder, picture=True)
+                         "--out", self.folder / "drawn", picture=True)
         self.assertEqual(len(done.stdout.split()), 5)
         for picture, text in (("fields", "vertical velocity"), ("profiles", "net pressure"), ("profiles", "<!-- fluid -->"),
                               ("history", "pressure drop")):
-            self.assertIn(text, (self.folder / f"{picture}.svg").read_text(), picture)  # texts are comments beside glyphs
+            self.assertIn(text, (self.folder / f"drawn/{picture}.svg").read_text(), picture)  # texts are comments beside glyphs
 
     def test_without_a_fluid_there_is_none_of_it(self):
         dry = BED.replace('name = "water"\ndensity = 999\nviscosity = "1.14e-3 Pa s"', 'name = "none"')

@@ -31,7 +31,7 @@ class Plot(Scratch):
         paths = strict_json(done.stdout)["pictures"]
         film = "animation.mp4" if shutil.which("ffmpeg") else "animation.gif"
         self.assertEqual(paths, [f"{self.folder}/{n}" for n in ("overview.png", "fields.png", "profiles.png", "history.png", film)])
-        self.assertEqual(sorted(os.listdir(self.folder)), sorted(os.path.basename(p) for p in paths))
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted([".polybed", *(os.path.basename(p) for p in paths)]))
         self.assertEqual(done.stderr, "", "no bar in a pipe")
         for path in paths[:4]:
             self.assertEqual(program.pathlib.Path(path).read_bytes()[:8], PNG)
@@ -46,10 +46,10 @@ class Plot(Scratch):
         path = self.folder / "bin"
         path.mkdir()
         environment = dict(program.environment(str(self.folder)), PATH=str(path))
-        done = subprocess.run([program.PROGRAM, "plot", self.directory, "--what", "animation", "--out", self.folder],
+        done = subprocess.run([program.PROGRAM, "plot", self.directory, "--what", "animation", "--out", self.folder / "drawn"],
                               env=environment, capture_output=True, text=True)
         self.assertEqual(done.returncode, DONE, done.stderr)
-        self.assertEqual((self.folder / "animation.gif").read_bytes()[:6], b"GIF89a")
+        self.assertEqual((self.folder / "drawn/animation.gif").read_bytes()[:6], b"GIF89a")
 
     def test_a_bar_on_a_terminal(self):
         leader, follower = pty.openpty()
@@ -92,13 +92,17 @@ class Plot(Scratch):
         self.assertNotIn("Traceback", done.stderr)
 
     def test_a_missing_package_is_told_with_the_line_that_installs_it(self):
-        """A module of that name in front of the search path stands for a machine without it."""
+        """A module of that name beside an installed package stands for a machine without it."""
+        installed = self.folder / "bin/polybed"
+        installed.parent.mkdir()
+        shutil.copy(program.PROGRAM, installed)
+        python = self.folder / "share/polybed/python"
+        shutil.copytree(program.ROOT / "multiscale/python/polybed", python / "polybed")
         environment = program.environment(str(self.folder))
         for package in ("matplotlib", "h5py", "numpy"):
-            stand_in = self.folder / f"{package}.py"
+            stand_in = python / f"{package}.py"
             stand_in.write_text(f"raise ModuleNotFoundError('No module named {package}', name='{package}')")
-            done = subprocess.run([program.PROGRAM, "plot", self.directory], cwd=self.folder, env=environment, capture_output=True,
-                                  text=True)
+            done = subprocess.run([installed, "plot", self.directory], env=environment, capture_output=True, text=True)
             stand_in.unlink()
             self.assertEqual(done.returncode, FILE, done.stderr)
             self.assertIn(f"{package} is missing", done.stderr)
@@ -106,8 +110,10 @@ class Plot(Scratch):
             self.assertNotIn("Traceback", done.stderr)
 
     def test_no_python_at_all(self):
-        """One that does not start stands for it: there is nothing to plot with, but a run is complete without its picture."""
-        environment = dict(program.environment(str(self.folder)), PYTHONHOME="/nowhere")
+        """One that does not start, as a library of its own is broken, stands for it: there is nothing to plot with, but a run is
+        complete without its picture."""
+        self.write("libexpat.so.1", "no library")
+        environment = dict(program.environment(str(self.folder)), LD_LIBRARY_PATH=str(self.folder))
         run_words = ["tfm", CASE, *SMALL, "--until", "0.01 s", "-o", self.folder / "run"]
         for words, code in ((["plot", self.directory], FILE), (run_words, DONE)):
             done = subprocess.run(list(map(str, [program.PROGRAM, *words])), env=environment, capture_output=True, text=True)

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """The Python package as a user's script meets it: runs, sweeps, comparisons, scans and calibrations, the gallery, and the package as
 it is installed. Usage: python_test.py PROGRAM"""
+import contextlib
+import io
 import os
 import pathlib
 import subprocess
@@ -14,6 +16,7 @@ from program import ROOT, WRONG_CASE, Scratch, strict_json
 
 sys.path.insert(0, str(ROOT / "multiscale/python"))
 import polybed  # noqa: E402
+import polybed.program as package  # noqa: E402
 
 CASE = ROOT / "cases/small-binary/case.toml"
 GALLERY = ROOT / "multiscale/python/gallery"
@@ -60,6 +63,75 @@ class Package(Scratch):
         run = polybed.run(CASE, "tfm", SHORT | {"inlet.superficial_velocity": 0.03}, self.folder / "run", UNTIL)
         self.assertGreater(record.stat().st_mtime_ns, made)
         self.assertIn("[[0.0, 0.03]]", run.record["case"])
+
+    def test_runs_of_other_overrides_have_folders_of_their_own(self):
+        with contextlib.chdir(self.folder):
+            one = polybed.run(CASE, "tfm", SHORT, until=UNTIL)
+            before = one.history["bed_height_m"]
+            other = polybed.run(CASE, "tfm", SHORT | {"inlet.superficial_velocity": 0.03}, until=UNTIL)
+            self.assertNotEqual(one.directory, other.directory)
+            np.testing.assert_array_equal(one.history["bed_height_m"], before)
+            for run in (one, other):
+                self.assertEqual(str(run.directory), f"runs/small-binary-tfm-{run.record['case_hash'][:10]}")
+            swept = [polybed.sweep(CASE, "tfm.rtol", [1e-4], overrides=SHORT | {"inlet.superficial_velocity": u}, until=UNTIL)[0].directory
+                     for u in (0.02, 0.03)]
+            self.assertNotEqual(*swept)
+
+    def test_a_run_whose_folder_holds_another_is_no_longer_read(self):
+        one = self.run_short()
+        step = one.particles
+        polybed.run(CASE, "tfm", SHORT | {"inlet.superficial_velocity": 0.03}, self.folder / "run", UNTIL)
+        for read in (lambda: one.history, lambda: one.profiles, lambda: one.voidage[0], lambda: one.record,
+                     lambda: one.quantity("bed_height"), lambda: one.plot("history")):
+            with self.assertRaisesRegex(polybed.ReplacedError, "now holds another.*polybed.read"):
+                read()
+        self.assertEqual(len(step), 0)
+        self.assertEqual(len(polybed.read(self.folder / "run").history["time_s"]), 101)
+
+    def test_overrides_may_be_dictionaries_and_of_numpy(self):
+        table = [[0.0, 0.02], [1.0, 0.03]]
+        plain = {"tfm.rtol": 1e-4, "column.cells": [2, 30], "inlet.superficial_velocity": table, "species.fine.diameter": "1 mm"}
+        rich = {"tfm": {"rtol": np.float64(1e-4)}, "column": {"cells": np.array([2, 30])},
+                "inlet.superficial_velocity": np.array(table), "species": {"fine": {"diameter": "1 mm"}}}
+        self.assertEqual(package.resolved(CASE, rich, np.float64(2)), package.resolved(CASE, plain, 2))
+        self.assertNotEqual(package.resolved(CASE, plain, 2), package.resolved(CASE, {}, 2))
+        jet = {"from": [0.001], "to": [0.002], "superficial_velocity": np.int64(1)}
+        self.assertEqual(package.words({"jet": (jet,)}),
+                         ["--set", 'jet=[{"from" = [0.001], "to" = [0.002], "superficial_velocity" = 1}]'])
+        with self.assertRaisesRegex(TypeError, "tfm.rtol: a value of type NoneType"):
+            polybed.run(CASE, overrides={"tfm": {"rtol": None}})
+
+    def test_a_wrong_model_is_named_with_the_choices(self):
+        for ask in (lambda: polybed.run(CASE, "TFM"), lambda: polybed.sweep(CASE, "tfm.rtol", [1e-4], "lbm")):
+            with self.assertRaisesRegex(ValueError, "there is no model '(TFM|lbm)'; there are tfm, dem"):
+                ask()
+
+    def test_progress_is_shown_while_it_is_made(self):
+        """A program that waits until its first line has been shown: it would fail if its lines came at its end."""
+        seen = self.folder / "seen"
+        script = self.write("program", f"#!/bin/sh\necho t 0.1 >&2\nfor n in $(seq 200); do [ -e {seen} ] && exit 0; sleep 0.1; done\nexit 1\n")
+        script.chmod(0o755)
+
+        class Shown(io.StringIO):
+            def write(self, text):
+                seen.touch()
+                return super().write(text)
+        os.environ["POLYBED"] = str(script)
+        with contextlib.redirect_stderr(Shown()) as shown:
+            package.call("tfm", label="fine: ")
+        self.assertEqual(shown.getvalue(), "fine: t 0.1\n")
+        os.environ["POLYBED"] = program.PROGRAM
+        for quiet in (False, True):
+            with contextlib.redirect_stderr(io.StringIO()) as shown:
+                polybed.run(CASE, "tfm", SHORT, self.folder / str(quiet), UNTIL, quiet=quiet)
+            (self.assertEqual if quiet else self.assertRegex)(shown.getvalue(), "" if quiet else "t 0.01.?.?/0.01 s")
+
+    def test_a_missing_package_is_named_in_one_line(self):
+        (self.folder / "h5py.py").write_text("raise ModuleNotFoundError('No module named h5py', name='h5py')")
+        settings = os.environ | {"PYTHONPATH": f"{self.folder}:{ROOT / 'multiscale/python'}"}
+        done = subprocess.run(["/usr/bin/python3", "-c", "import polybed"], env=settings, capture_output=True, text=True)
+        self.assertRegex(done.stderr.splitlines()[-1], "^ImportError: .*h5py is missing for /usr/bin/python3: apt-get install .*python3-h5py")
+        self.assertNotIn("During handling", done.stderr)
 
     def test_a_sweep_keeps_the_order_of_its_values(self):
         runs = polybed.sweep(CASE, "inlet.superficial_velocity", ["40 mm/s", "20 mm/s"], overrides=SHORT, output=self.folder,

@@ -168,6 +168,24 @@ class Stop(Scratch):
         self.assertEqual(history(whole), history(parts))
         self.assertEqual((whole / "steps.csv").read_text(), (parts / "steps.csv").read_text())
 
+    def test_stops_an_ulp_apart_are_one(self):
+        """IDA starts no step towards a stop that round-off alone keeps apart from the present."""
+        self.assertLess(5 * 0.022, 0.11)
+        self.assertGreater(3 * 0.05, 0.15)
+        words = ["tfm", CASE, *SMALL, "--quiet", "--set", "tfm.integrator=implicit", "--set", "column.cells=[4,30]"]
+        end = self.folder / "end"
+        self.ends(DONE, *words, "--until", "0.11 s", "--set", "output.checkpoint_every=0.022", "-o", end)
+        self.assertEqual(history(end)["time_s"][-2:], [0.1, 0.11])
+        words += ["--set", "inlet.superficial_velocity=[[0,0.02],[0.15,0.03],[0.15,0.02]]"]
+        words += ["--set", "output.checkpoint_every=0.05", "--set", "output.every=0.05"]
+        whole, parts = self.folder / "whole", self.folder / "parts"
+        self.ends(DONE, *words, "--until", "0.2 s", "-o", whole)
+        self.ends(DONE, *words, "--until", "0.15 s", "-o", parts)
+        self.ends(DONE, *words, "--until", "0.2 s", "-o", parts, "--resume")
+        self.assertEqual(same_bits(whole / "fields.h5", parts / "fields.h5"), [])
+        self.assertEqual(history(whole), history(parts))
+        self.assertEqual(history(whole)["time_s"].count(0.15), 1)
+
 
 if __name__ == "__main__":
     program.main()

@@ -5,7 +5,7 @@ import json
 import shutil
 
 import program
-from program import DONE, NUMBERS, ROOT, WRONG_CASE, Scratch, run
+from program import DONE, FILE, NUMBERS, ROOT, WRONG_CASE, Scratch, run
 
 
 class Stability(Scratch):
@@ -28,6 +28,7 @@ class Stability(Scratch):
         for kept in ("bin", "share/polybed/cases/hard"):
             (self.folder / kept).mkdir(parents=True)
         copy = shutil.copy(program.PROGRAM, self.folder / "bin/polybed")
+        shutil.copy(f"{program.PROGRAM}-hard", self.folder / "bin/polybed-hard")
         table = (ROOT / "cases/hard/expected.csv").read_text()
         self.assertIn("I6,input,PASS,\n", table)
         (self.folder / "share/polybed/cases/hard/expected.csv").write_text(
@@ -41,9 +42,22 @@ class Stability(Scratch):
         self.assertIn("I6", ended.stderr)
 
     def test_what_there_is_not_is_refused(self):
-        for words, told in ((["--naive", "all"], "polybed_textbook"), (["--only", "T99"], "T99"),
+        for words, told in ((["--naive", "no_such"], "no_such"), (["--only", "T99"], "T99"),
                             (["--only", "D1", "--schemes", "explicit/limited"], "no cell")):
             self.assertIn(told, self.ends(WRONG_CASE, "stability", *words, "-o", self.folder / "out").stderr)
+
+    def test_its_options_are_those_of_the_program_of_hard_cases(self):
+        self.assertIn("--fuzz", self.ends(DONE, "stability", "--help").stdout)
+
+    def test_without_the_program_of_hard_cases_it_says_what_to_build(self):
+        copy = shutil.copy(program.PROGRAM, self.folder / "polybed")
+        own, program.PROGRAM = program.PROGRAM, copy
+        try:
+            ended = run("stability", "--only", "I6")
+        finally:
+            program.PROGRAM = own
+        self.assertEqual(ended.returncode, FILE, ended.stderr)
+        self.assertIn("polybed-hard", ended.stderr)
 
     def test_drawn_scenes_are_the_same_twice(self):
         first = self.results("--fuzz", "2", "--seed", "1")

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "verification/scenes.hpp"
+#include "scenes/record.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
@@ -33,7 +33,7 @@ namespace {
 
 /// All effects on, every loop with work to do.
 core::Scene everything(int nx, int ny, bool closed) {
-  core::Scene scene = verification::binary_bed(nx, ny, 1.5e-3 * nx, 1.5e-3 * ny);
+  core::Scene scene = scenes::binary_bed(nx, ny, 1.5e-3 * nx, 1.5e-3 * ny);
   scene.effects["fluid_stress"] = "newtonian";
   scene.tfm.max_packing = "yu_standish";
   scene.column.closed = closed;
@@ -129,7 +129,7 @@ TEST(Memory, PerCell) {
     };
     total(50);  // what libraries keep for good
     const double per_cell = (total(400) - total(200)) / (40.0 * 200.0);
-    verification::record(fmt::format("bytes per cell, {}", integrator), per_cell);
+    scenes::record(fmt::format("bytes per cell, {}", integrator), per_cell);
     fmt::print("{}: {:.0f} bytes per cell\n", integrator, per_cell);
     EXPECT_LT(per_cell, most);
   }

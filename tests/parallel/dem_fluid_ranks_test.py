@@ -84,6 +84,17 @@ class FluidOnRanks(Scratch):
                                                err_msg=path)
             self.check_particles(datasets(run / "particles.h5"), ranks)
 
+    def test_a_shared_fluid_goes_on_from_a_checkpoint(self):
+        """The first rank alone knows what the run had done before."""
+        whole, parted = self.folder / "whole", self.folder / "parted"
+        shared = ["--set", "dem.fluid_ranks=shared", "-o"]
+        self.on(2, *shared, whole)
+        self.on(2, *shared, parted, "--until", "5 ms")
+        self.on(2, *shared, parted, "--resume")
+        for name in FILES[:3]:
+            self.assertEqual(same_bits(whole / name, parted / name), [], name)
+        self.assertEqual(self.record(whole), self.record(parted))
+
     def check_particles(self, found, ranks):
         """What each step's pressure lets go wrong with a particle is 1e-8 of what the fluid does to it in that step, so that
         velocities and spins are off by 1e-8 of the greatest, and places by 1e-8 of the longest way. In 10 ms contacts do

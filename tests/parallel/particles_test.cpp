@@ -17,7 +17,7 @@
 #include "dem/model.hpp"
 #include "dem/neighbours.hpp"
 #include "dem/stress.hpp"
-#include "dem_gas.hpp"
+#include "scenes/dem_gas.hpp"
 
 namespace polybed::dem {
 namespace {
@@ -306,8 +306,8 @@ TEST(Exchange, GhostsAreWhereTheirOwnersAre) {
 
 /// The stress of a gas that collides, on all ranks and on one: particles have the same bits, so have its whole units.
 TEST(Stress, IsTheSameOnAnyNumberOfRanks) {
-  const verification::Gas gas{.number = 300, .fraction = 0.3, .restitution = 0.8};
-  const core::Scene scene = verification::scene_of(gas);
+  const scenes::Gas gas{.number = 300, .fraction = 0.3, .restitution = 0.8};
+  const core::Scene scene = scenes::scene_of(gas);
   core::Timers timers, timers_alone;
   Model model(scene, timers, ranks()), alone(scene, timers_alone);
   std::int64_t contacts = 0;

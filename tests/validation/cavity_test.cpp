@@ -1,16 +1,16 @@
 // Lid-driven cavity: convection, viscous stress and pressure of the fluid alone against a published solution.
 #include <gtest/gtest.h>
 
-#include "../verification/scenes.hpp"
 #include "core/operators.hpp"
 #include "fluid/viscous_stress.hpp"
-#include "multiscale/stability/problems/box_equations.hpp"
+#include "scenes/box_equations.hpp"
+#include "scenes/record.hpp"
 
 namespace polybed::validation {
 namespace {
 
-using verification::BoxEquations;
-using verification::uniform_bed;
+using scenes::BoxEquations;
+using scenes::uniform_bed;
 
 constexpr int cells = 64;
 constexpr double lid = 1.0;  // m/s; cavity of 1 m, 1 kg/m3, 0.01 Pa s: Re 100
@@ -107,9 +107,9 @@ TEST(Cavity, HasTheSpeedsOfTheSpectralSolution) {
   Cavity equations(cavity(), tfm::Scheme::limited);
   std::vector<double> y(equations.layout().size(), 0.0);
   const Centrelines before = at_time(equations, y, 20.0), found = at_time(equations, y, 3.0);
-  verification::record("u", -found.back);
-  verification::record("v up", found.up);
-  verification::record("v down", -found.down);
+  scenes::record("u", -found.back);
+  scenes::record("v up", found.up);
+  scenes::record("v down", -found.down);
   EXPECT_NEAR(before.down, found.down, 1e-3 * found.down) << "not steady";
   EXPECT_NEAR(found.back, 0.2140424, 0.01 * 0.2140424);
   EXPECT_NEAR(found.up, 0.1795728, 0.01 * 0.1795728);

@@ -1,10 +1,10 @@
 // A flat hopper: how fast spheres flow out through a round hole in the bottom, against its diameter. Minutes.
 #include <gtest/gtest.h>
 
-#include "../verification/dem_scenes.hpp"
 #include "dem/settling.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double diameter = 1e-3, density = 2500, gravity = 9.81;  // m, kg/m3, m/s2
@@ -96,4 +96,4 @@ TEST(DemHopper, FlowsByThePowerTwoAndAHalf) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -5,9 +5,9 @@
 #include <memory>
 #include <numeric>
 
-#include "../verification/dem_scenes.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double diameter = 1e-3, density = 2500, gravity = 9.81;  // m, kg/m3, m/s2
@@ -172,4 +172,4 @@ TEST(DemJanssen, StressAgainstDepth) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

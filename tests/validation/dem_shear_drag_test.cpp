@@ -1,7 +1,7 @@
 // Simple shear with drag against the figures of another code: a minute of CPU time each.
-#include "../verification/dem_wet_gas.hpp"
+#include "scenes/dem_wet_gas.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 class ShearWithDrag : public testing::TestWithParam<DragRow> {};
@@ -33,4 +33,4 @@ INSTANTIATE_TEST_SUITE_P(DemRows, ShearWithDrag, testing::ValuesIn(drag_rows),
                          [](const auto& info) { return fmt::format("Drag{:.0f}Tenths", 10 * info.param.drag); });
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,8 +1,8 @@
 // Simple shear against the figures of another code, and the pressure of an elastic gas to half a per cent: a minute
 // of CPU time each.
-#include "../verification/dem_gas.hpp"
+#include "scenes/dem_gas.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// What another program found: simple shear of 2048 spheres, e = 0.9, frictionless linear springs, t_c/tau 0.02 to
@@ -84,4 +84,4 @@ TEST(DemElasticGas, CarnahanStarling) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

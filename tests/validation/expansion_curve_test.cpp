@@ -3,12 +3,12 @@
 
 #include "closures/drag.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "tests/verification/scenes.hpp"
+#include "scenes/record.hpp"
 
 namespace polybed::validation {
 namespace {
 
-using verification::record;
+using scenes::record;
 
 constexpr double fluid_density = 998.207, viscosity = 1.00157e-3, solids_density = 2500;  // glass in water at 20 degC
 
@@ -28,7 +28,7 @@ struct RichardsonZaki {
 /// Voidage in the lower part of a bed of 60 mm packed at 0.60 in one column of cells, mean from 5 to 9 s; it starts
 /// near where it should end.
 double voidage(const std::string& law, double diameter, double superficial_velocity, double start) {
-  core::Scene scene = verification::uniform_bed(diameter, solids_density, fluid_density, viscosity, 0.6, 80, 0.48);
+  core::Scene scene = scenes::uniform_bed(diameter, solids_density, fluid_density, viscosity, 0.6, 80, 0.48);
   scene.effects = {{"drag", law}, {"solids_stress", "frictional"}};
   scene.bed.static_height = 0.06;
   scene.bed.start_solids_fraction = 1 - start;
@@ -39,7 +39,7 @@ double voidage(const std::string& law, double diameter, double superficial_veloc
   constexpr int samples = 8, from = 1, cells = 6;
   double mean = 0;
   for (int n = 1; n <= samples; ++n) {
-    verification::advance(model, 5.0 + 0.5 * n);
+    scenes::advance(model, 5.0 + 0.5 * n);
     for (int j = from; j < from + cells; ++j)
       mean += model.fields().fluid.voidage[std::size_t(model.constants().grid.index(0, j))] / (cells * samples);
   }

@@ -1,9 +1,9 @@
 // Laminar flow between walls: the viscous stress of the fluid and the wall.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Fluid alone that enters evenly between walls H apart and has become a parabola three widths further: relative L1
@@ -61,4 +61,4 @@ TEST(Channel, ConvergesToPoiseuillesParabolaInSecondOrder) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

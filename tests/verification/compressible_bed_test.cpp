@@ -1,11 +1,13 @@
 // A compressible fluid with solids: a gas through a packed bed, a fluidised bed, the limit of no compressibility.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "core/operators.hpp"
 #include "fluid/measures.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 double fluid_error(const tfm::Model& model) {
@@ -133,6 +135,53 @@ TEST(CompressibleBed, AGasFluidisedBedExpandsAndKeepsBothMasses) {
   EXPECT_LT(fluid_error(gas), 1e-3);  // the invariant's limit, rtol
 }
 
+/// Solids that are fed through a part of the bottom and a part of the top, and leave beside that through an open top.
+core::Scene crossed_ends(const char* law, const char* integrator) {
+  const bool gas = law == std::string("ideal_gas");
+  core::Scene scene = gas ? uniform_bed(60e-6, 1500, 1.204118, 1.813e-5, 0.3, 16, 0.08)
+                          : uniform_bed(0.2e-3, 2200, 1000, 1e-3, 0.3, 16, 0.08);
+  scene.column.size[0] = 0.02;
+  scene.column.cells[0] = 4;
+  scene.column.sides = "wall";
+  scene.column.outlet = "open";
+  scene.fluid.equation_of_state = law;
+  scene.fluid.tait_stiffness = 1e6;  // Pa: sound of 85 m/s, so that explicit steps are few
+  scene.bed.static_height = 0.06;
+  scene.tfm.max_packing = "0.64";
+  const double velocity = gas ? 1.5 : 0.1;
+  scene.inlet.superficial_velocity = {{0.0, velocity}};
+  scene.feeds.push_back({"solid", "bottom", {{0.0, 0.02 * velocity}}, velocity, {0.0}, {0.01}});
+  scene.feeds.push_back({"solid", "top", {{0.0, 0.01 * velocity}}, velocity, {0.015}, {0.02}});
+  scene.effects = {{"drag", "gidaspow"}, {"solids_stress", "frictional"}};
+  scene.tfm.integrator = integrator;
+  return scene;
+}
+
+using LawAndIntegrator = std::tuple<const char*, const char*>;
+class CrossedEnds : public testing::TestWithParam<LawAndIntegrator> {};
+
+// The account of the fluid counts what the fluid takes through the ends, not what it takes together with the solids:
+// that missed by 0.08 to 0.16 of the mass here.
+TEST_P(CrossedEnds, TheAccountOfTheFluidCloses) {
+  const auto& [law, integrator] = GetParam();
+  const core::Scene scene = crossed_ends(law, integrator);
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  advance(model, law == std::string("ideal_gas") ? 0.06 : 0.4);
+  const fluid::Passed solids = model.passed()[0];
+  const core::Grid& grid = model.constants().grid;
+  const double column = grid.cell_volume() * double(grid.cell_count());
+  record("fluid mass", fluid_error(model));
+  record("solids out over the column", solids.out / column);
+  EXPECT_GT(solids.out, 0.02 * column);
+  EXPECT_GT(solids.in, 0.005 * column);
+  EXPECT_LT(fluid_error(model), scene.tfm.rtol);  // the invariant's limit
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, CrossedEnds,
+                         testing::Combine(testing::Values("tait", "ideal_gas"),
+                                          testing::Values("explicit", "implicit")));
+
 class CompressibleRestart : public testing::TestWithParam<const char*> {};
 
 TEST_P(CompressibleRestart, ResumedRunGivesTheSameBits) {
@@ -166,4 +215,4 @@ TEST(CompressibleBed, BeginsWhereAnIncompressibleFluidStands) {
 INSTANTIATE_TEST_SUITE_P(Integrators, CompressibleRestart, testing::Values("explicit", "implicit"));
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

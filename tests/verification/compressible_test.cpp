@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "core/operators.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// A pipe of fluid alone, one cell wide: no solids, no wall, no drag.
@@ -177,4 +177,4 @@ TEST(Compressible, AnIsothermalAtmosphereIsAtRest) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "fluid/pressure.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 class Conservation : public testing::TestWithParam<const char*> {};
@@ -69,4 +69,4 @@ TEST(Integrators, AgreeAtTightTolerance) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,7 +1,7 @@
 // Bounces, rests, slides and rolls through the engine, against closed forms; set-ups of MFiX among them.
-#include "dem_scenes.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// MFiX: a sphere of 0.1 m, 2600 kg/m3, falls from 0.5 m on a linear floor of 1e4 N/m.
@@ -205,4 +205,4 @@ TEST(DemSlide, DownAnIncline) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,8 +1,8 @@
 // Beds of many particles in a fluid: light ones in a liquid stay bounded, fluidised ones are carried by the pressure.
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double g = 9.81;
@@ -148,4 +148,4 @@ TEST(DemBed, InWaterCarriesItsWeightWhereMomentumIsConserved) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // A sphere in a fluid that sound runs through: where it is slow it moves as in an incompressible one.
-#include "dem_scenes.hpp"
 #include "fluid/compressible.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Where a sphere is, how fast, and by what share the mass of the fluid has changed.
@@ -55,4 +55,4 @@ TEST(DemCompressible, ASphereFallsInAnIdealGasAsInIncompressible) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

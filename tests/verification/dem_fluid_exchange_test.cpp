@@ -4,10 +4,10 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "core/random.hpp"
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Two species at random places, away from each other and from bottom and top, moving at random.
@@ -239,4 +239,4 @@ TEST(DemExchange, KeepsTheMomentumOfTheColumn) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

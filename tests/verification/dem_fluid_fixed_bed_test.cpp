@@ -1,8 +1,8 @@
 // A fixed lattice of spheres: the pressure drop is that of the drag law, -dp/dy = 18 mu u (1 - eps) f/(eps D^2).
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double diameter = 2e-3, spacing = 2.5e-3;
@@ -92,4 +92,4 @@ TEST(DemFixedBed, TakesStepsOfAThousandRelaxationTimes) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,10 +1,10 @@
 // Minimum fluidisation of particles: a settled bed leaves its floor where the pressure carries it.
 #include <numeric>
 
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double diameter = 2e-3, density = 2500, g = 9.81, side = 6.9e-3;
@@ -159,4 +159,4 @@ TEST(DemFluidisation, TheBedLeavesItsFloorAtMinimumFluidisation) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // Models A and B: the pressure's gradient may act on particles and fluid, or on the fluid alone with a drag that is
 // 1/eps times as great.
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double diameter = 2e-3, spacing = 2.5e-3, density = 2500, g = 9.81;
@@ -101,4 +101,4 @@ TEST(DemForms, ASuspensionSpeedsUpAsModelBHasIt) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

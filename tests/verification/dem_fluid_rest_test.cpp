@@ -1,9 +1,9 @@
 // Particles and fluid at rest, and how a sphere begins to move: weight, buoyancy and added mass.
 #include "core/random.hpp"
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double g = 9.81;
@@ -77,4 +77,4 @@ TEST(DemRest, ALightSphereIsReleased) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // A run taken up again has the bits of one that went through, with the fluid between the particles.
 #include "core/random.hpp"
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// A small bed of two sizes in rising water, dropped from a lattice.
@@ -77,4 +77,4 @@ TEST(DemRestart, HasTheSameBitsUnderAKernelAndInACompressibleFluid) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,10 +1,10 @@
 // Lift, spin and history of spheres in the averaged fluid: each against its closed form, what it adds to a run that
 // does without it (nothing), to a run taken up again, and to what the fluid is charged with.
-#include "dem_fluid_sides.hpp"
+#include "scenes/dem_fluid_sides.hpp"
 
 #include <bit>
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 TEST(Lift, HasTheHandValueInALinearShear) {
@@ -347,4 +347,4 @@ TEST(SideForces, TakeFromTheFluidWhatTheyGive) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,10 +1,10 @@
 // One small sphere in a wide box of fluid, against the ordinary differential equation of its motion. It stirs the fluid
 // that it feels: what that changes falls with the square of the cell, and is told by the box that is stirred, not by
 // the step.
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// The sphere in the middle of a box of equal cells, m, high up.
@@ -98,4 +98,4 @@ TEST(DemSphere, StirsLittleInWideCellsOrUnderAWideKernel) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,10 +1,10 @@
 // Particles so small that a gas slips on them and its molecules push them about, against closed forms.
 #include "closures/gas_slip.hpp"
-#include "dem_scenes.hpp"
-#include "multiscale/stability/problems/wet_beads.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
 #include "tfm/model.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Micron spheres of one species far apart in a closed box of gas.
@@ -103,4 +103,4 @@ TEST(DemBrownian, MovesWithTheSpeedOfEquipartition) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,7 +1,7 @@
 // Many spheres without a flow: pressure of an elastic gas, cooling of an inelastic one, conservation.
-#include "dem_gas.hpp"
+#include "scenes/dem_gas.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// p/(rho theta) of a gas against Carnahan-Starling's phi (1 + 4 phi g0) of the hard spheres that soft ones act like:
@@ -68,4 +68,4 @@ TEST(DemGas, EnergyOfElasticCollisions) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // Head-on impacts of spheres through the engine: Chung and Ooi (2011), tests 1 to 3 and the normal part of 5.
 #include <algorithm>
 
-#include "dem_scenes.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// What is seen of an impact on the way.
@@ -162,4 +162,4 @@ TEST(DemImpact, AtAnyStiffness) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // Where the particle model must stop, and the limits of its steps and coefficients: D2, D10, D14, D15 of the hard
 // cases.
 #include "core/error.hpp"
-#include "dem_scenes.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 double limit(const Beads& beads, const std::string& name) {
@@ -91,6 +91,63 @@ TEST(DemLimits, StopsAtAParticleThatIsTooFast) {
   // Expected, it may fly: a hundred steps of 0.01 diameters.
   scene.dem.greatest_speed = 100;
   EXPECT_EQ(message(scene, {{"a", {0.02, 0.02, 0.02}}, {"a", {0.04, 0.04, 0.04}, {0, -100, 0}}}), "did not stop");
+}
+
+/// A bead that falls on the floor of a soft box, 20 times as fast as stated.
+core::Scene faster_than_stated() {
+  core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.02, 0.06, 0.02});
+  scene.column.gravity = 9.81;
+  scene.dem.greatest_speed = 0.05;
+  return scene;
+}
+
+// What is faster than expected shortens the step and goes on: 1 m/s after a fall of 51 mm. The time is that of the
+// fall, and a run taken up in between has the same bits.
+TEST(DemLimits, AParticleFasterThanExpectedShortensTheStep) {
+  Beads beads(faster_than_stated(), {{"a", {0.01, 0.0515, 0.01}}});
+  const double first = beads.dt();
+  beads.run_while([&] { return beads.model.time() < 0.06; });
+  const core::Checkpoint halfway = beads.model.checkpoint();
+  beads.run_while([&] { return beads.place(0).x[1] > 0.6e-3; });
+  compare("time of a fall with steps of several lengths", beads.model.time(), std::sqrt(2 * 0.0509 / 9.81), 1e-3);
+  EXPECT_LT(beads.dt(), 0.6 * first) << "the time of a contact goes with v^(-1/5): 20^(-1/5) = 0.55";
+  const dem::Work work = beads.model.work();
+  EXPECT_GE(work.shortenings, 1u);
+  compare("greatest speed met", work.greatest_speed, std::sqrt(2 * 0.0509 * 9.81), 1e-2);
+  Beads again(faster_than_stated(), {{"a", {0.01, 0.0515, 0.01}}});
+  again.model.resume(halfway);
+  again.run_while([&] { return again.place(0).x[1] > 0.6e-3; });
+  EXPECT_EQ(again.motion(0).v, beads.motion(0).v);
+  EXPECT_EQ(again.model.time(), beads.model.time());
+}
+
+TEST(DemLimits, AStepThatTheCaseGivesStays) {
+  core::Scene scene = faster_than_stated();
+  scene.dem.fixed_step = 1e-5;
+  Beads beads(scene, {{"a", {0.01, 0.0515, 0.01}}});
+  beads.until(0.09);
+  EXPECT_EQ(beads.dt(), 1e-5);
+  EXPECT_EQ(beads.model.work().shortenings, 0u);
+}
+
+// A bead stopped by the floor: the stiffness that the message names keeps the overlap within the limit, 0.7 of it does
+// not (7 % of the depth are the dashpot's, 0.7^(-2/5) = 1.15).
+TEST(DemLimits, TheStiffnessAdvisedIsEnoughAndNotMuchMore) {
+  core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.02, 0.02, 0.02});
+  scene.dem.youngs_modulus = 5e6;
+  scene.species[0].youngs_modulus.reset();
+  scene.dem.restitution = 0.9;
+  scene.dem.greatest_speed = 0.5;  // at which no contact is too soft: the advice is that of this one alone
+  const std::vector<Bead> start{{"a", {0.01, 0.7e-3, 0.01}, {0, -2, 0}}};
+  const std::string text = message(scene, start, 1000), key = "dem.youngs_modulus = \"";
+  ASSERT_THAT(text, testing::HasSubstr(key));
+  const std::size_t at = text.find(key) + key.size();
+  EXPECT_EQ(text.substr(text.find(' ', at), 4), " MPa");
+  const double advised = 1e6 * std::stod(text.substr(at));
+  scene.dem.youngs_modulus = advised;
+  EXPECT_EQ(message(scene, start, 1000), "did not stop");
+  scene.dem.youngs_modulus = 0.7 * advised;
+  EXPECT_NE(message(scene, start, 1000), "did not stop");
 }
 
 // A tenth of a diameter is the limit: 1 % on either side of it.
@@ -188,4 +245,4 @@ TEST(DemLimits, TheLedgerOnlyLooks) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,7 +1,7 @@
 // Oblique impacts through the engine: Chung and Ooi (2011), tests 4 to 8.
-#include "dem_scenes.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Of the rebound of particle 0: along x, and its spin about z.
@@ -174,4 +174,4 @@ TEST(DemOblique, OnAHeavySphere) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

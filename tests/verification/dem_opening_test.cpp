@@ -1,8 +1,8 @@
 // An opening in the bottom: the rim, what falls through, and the accounts of what has left.
 #include "dem/settling.hpp"
-#include "dem_scenes.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double r = 0.5e-3, youngs_modulus = 5e6, poisson_ratio = 0.25, density = 2500;
@@ -138,4 +138,4 @@ TEST(DemOpening, IsShutWhileABedSettles) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

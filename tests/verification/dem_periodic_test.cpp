@@ -1,9 +1,9 @@
 // Periodic boxes: the least depth, translation, places at exactly 0 and L. D11 and D12 of the hard cases.
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "dem_scenes.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double diameter = 1e-3, skin = 0.1e-3, depth = 2 * diameter, side = 5e-3;
@@ -165,4 +165,4 @@ TEST(DemPeriodic, FarFromTheOrigin) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

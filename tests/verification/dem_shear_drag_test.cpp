@@ -1,7 +1,7 @@
 // Drag of a sheared box: one particle against the closed form, many against another program, energy.
-#include "dem_wet_gas.hpp"
+#include "scenes/dem_wet_gas.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 // w = v_x - gamma y of a particle with v_y = v_0 exp(-t/tau): (w_0 - gamma v_0 t) exp(-t/tau). Two half kicks with the
@@ -77,4 +77,4 @@ TEST(DemShearDrag, ABoxWithoutItHasNone) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

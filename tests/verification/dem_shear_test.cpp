@@ -2,9 +2,9 @@
 #include <set>
 
 #include "core/random.hpp"
-#include "dem_gas.hpp"
+#include "scenes/dem_gas.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 double wrapped(double x, double length) { return x - std::floor(x / length) * length; }
@@ -159,4 +159,4 @@ TEST(DemShear, OnePointOfSimpleShear) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,7 +1,7 @@
 // Stress of two spheres by hand.
-#include "dem_gas.hpp"
+#include "scenes/dem_gas.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// A periodic cube of 10 mm with two spheres of 1 mm, 2500 kg/m3 (1.3089969390e-6 kg), springs of 1000 N/m.
@@ -94,4 +94,4 @@ TEST(DemStress, NothingMovesOn) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

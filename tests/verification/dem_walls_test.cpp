@@ -1,7 +1,7 @@
 // Walls, their edges and corners, and the sum of all that touches a particle: D6 and D13 of the hard cases.
-#include "dem_scenes.hpp"
+#include "scenes/dem_scenes.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Forces of the laws of a scene on the first species at one overlap and velocity: against the wall, and against the
@@ -145,4 +145,4 @@ TEST(DemWalls, CoarseUnder500Fines) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -6,9 +6,9 @@
 #include "../unit/core/scratch.hpp"
 #include "core/error.hpp"
 #include "fluid/solids_table.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Ratios of 1 but for the exchange, which is `ratio` at every phi of 0.1 to 0.5.
@@ -172,4 +172,4 @@ TEST(ExchangeTable, AnotherCompositionIsTold) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

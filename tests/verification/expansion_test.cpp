@@ -2,9 +2,9 @@
 // ends that starts too dense.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Velocity of the solids, m/s, in the middle of an even column after 0.1 s, one relaxation time:
@@ -97,4 +97,4 @@ TEST(Expansion, ARippleFromCellToCellDiesOut) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

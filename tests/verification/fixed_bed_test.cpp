@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "closures/drag.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// -dp/dy in the middle of a bed of spheres too heavy to move (1e15 kg/m3), without gravity, after the fluid
@@ -63,4 +63,4 @@ TEST_P(FixedBedLaw, GradientIsDragOverVoidage) {
 INSTANTIATE_TEST_SUITE_P(EveryLaw, FixedBedLaw, testing::ValuesIn(closures::drag_law_names()));
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 #include "tfm/observers.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Glass of two sizes, fluidised by air above the minimum of both, on a coarse grid.
@@ -181,4 +181,4 @@ TEST(GasBed, RefusesWhatCannotAct) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

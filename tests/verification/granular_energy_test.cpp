@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "closures/kinetic_theory.hpp"
-#include "multiscale/stability/problems/box_equations.hpp"
-#include "scenes.hpp"
+#include "scenes/box_equations.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double restitution = 0.9;
@@ -144,4 +144,4 @@ TEST(GranularEnergy, OfTwoSpeciesAndOfUnevenSolidsIsKeptToo) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -5,9 +5,9 @@
 #include <functional>
 #include <numbers>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 using Kind = tfm::StateLayout::Entry::Kind;
@@ -207,4 +207,4 @@ TEST(JohnsonJackson, WallHasTheStressAndEnergyByHand) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

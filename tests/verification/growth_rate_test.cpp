@@ -1,11 +1,11 @@
 // Small waves of a fluidised bed: how fast they grow or decay, and run, against the exact dispersion relation.
 #include <gtest/gtest.h>
 
-#include "multiscale/stability/problems/dispersion.hpp"
-#include "multiscale/stability/problems/waves.hpp"
-#include "scenes.hpp"
+#include "scenes/dispersion.hpp"
+#include "scenes/record.hpp"
+#include "scenes/waves.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 class GrowthRate : public testing::TestWithParam<Wave> {};
@@ -54,4 +54,4 @@ INSTANTIATE_TEST_SUITE_P(Viscosity, GrowthRate,
                                          Wave{10 * 1.1585, -1.99548, 0.035631, 0.2}));
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/operators.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// The greatest flux J on any face, and of each species the greatest |U_j| on faces with more than 1e-9 of
@@ -115,4 +115,4 @@ TEST_P(BedAtRest, OfAnyMassRestsBelowItsTopLayer) {
 INSTANTIATE_TEST_SUITE_P(Integrators, BedAtRest, testing::Values("explicit", "implicit"));
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Steps of one length: an adaptive norm changes with the number of fields.
@@ -97,4 +97,4 @@ TEST_P(Invariance, LeftAndRightAreMirrorImages) {
 INSTANTIATE_TEST_SUITE_P(Momentum, Invariance, testing::Values(std::string("upwind"), std::string("conservative")));
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "fluid/pressure.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Mean vertical flux through level j.
@@ -61,4 +61,4 @@ TEST_P(Jet, ARampEndsWhereItShould) {
 INSTANTIATE_TEST_SUITE_P(Integrators, Jet, testing::Values("explicit", "implicit"));
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

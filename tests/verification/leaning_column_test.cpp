@@ -1,9 +1,9 @@
 // Gravity may point anywhere in a closed column: one that lies on its side is an upright one, turned.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// An uneven suspension of two species in a closed box of 8 x 12 cells, or 12 x 8 and gravity to the left.
@@ -52,4 +52,4 @@ TEST(LeaningColumn, OnItsSideIsAnUprightOneTurned) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

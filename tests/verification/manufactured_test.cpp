@@ -1,11 +1,11 @@
 // Order in space of the whole system by a manufactured solution: two species, every effect on, all sides joined.
 #include <gtest/gtest.h>
 
-#include "multiscale/stability/problems/manufactured_box.hpp"
-#include "scenes.hpp"
+#include "scenes/manufactured_box.hpp"
+#include "scenes/record.hpp"
 #include "tfm/momentum_form.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Slopes of the fractions and of momentum, and the form of its convection.
@@ -102,4 +102,4 @@ TEST(Manufactured, FirstOrderInThreeDimensionsWithUpwindSchemes) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // Minimum fluidisation: the velocity at which the pressure drop of a packed bed reaches its weight.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// 60 mm of 1 mm, 2500 kg/m3, in air of 1.2 kg/m3, 1.8e-5 Pa s, packed at 0.60 by a pressure so stiff that the fraction
@@ -81,4 +81,4 @@ TEST(MinimumFluidisation, TheSolidsPressureYieldsThere) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "core/operators.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 #include "tfm/explicit_problem.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 using core::face_mean;
@@ -95,4 +95,4 @@ TEST(ModelB, NeutralParticlesGoWithTheFluid) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

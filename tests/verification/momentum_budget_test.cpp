@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "multiscale/stability/problems/box_equations.hpp"
-#include "scenes.hpp"
+#include "scenes/box_equations.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// The second species is thin, but nowhere below the floors.
@@ -144,4 +144,4 @@ TEST(MomentumBudget, IsKeptInTimeToTheTolerance) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "closures/drag_cello.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 class Openings : public testing::TestWithParam<const char*> {};
@@ -272,4 +272,4 @@ TEST(OpeningsOfAScreen, CostNothing) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

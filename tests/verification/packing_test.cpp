@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "closures/stress_frictional.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Two sizes of one density, at rest in water: a column that is mixed, or layered with the large ones below.
@@ -57,4 +57,4 @@ TEST(MixturePacking, LayersKeepToThePackingOfTheirSize) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -5,9 +5,9 @@
 // a sediment at 0.62; the frictional stress from 0.615 on packs it to 0.616, which moves no front by half a cell.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr int cells = 100;
@@ -133,4 +133,4 @@ TEST(Sedimentation, ABedAnswersAStepBackWithAFan) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -4,9 +4,9 @@
 #include "../unit/core/scratch.hpp"
 #include "core/error.hpp"
 #include "fluid/solids_table.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 constexpr double viscosity = 1e-3, diameter = 1e-3;
@@ -146,4 +146,4 @@ TEST(ShearTable, CountsWhatLiesOutside) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // Two species and a fluid that relax to one velocity: the exchange, and that it keeps momentum.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 using Kind = tfm::StateLayout::Entry::Kind;
@@ -67,4 +67,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SlipRelaxation,
                          testing::Values(std::string("explicit"), std::string("implicit")));
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

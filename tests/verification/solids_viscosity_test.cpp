@@ -4,9 +4,9 @@
 #include <functional>
 #include <numbers>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 using Kind = tfm::StateLayout::Entry::Kind;
@@ -157,4 +157,4 @@ TEST(ShearOfSolids, StressOfSchaefferIsThatOfItsAngle) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

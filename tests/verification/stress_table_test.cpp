@@ -4,10 +4,10 @@
 #include "../unit/core/scratch.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 #include "tfm/effects/solids_stress_table.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Writes a table of p_bed in units of (rho_p - rho_f) g D; returns its name.
@@ -81,4 +81,4 @@ TEST(StressTable, WrongFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // Three dimensions: the same operators as in two, and no direction that is treated in its own way.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// A small bed of two species in a box of width x height x depth; not uniform along any horizontal axis: the side
@@ -122,4 +122,4 @@ TEST(ThreeDimensions, BothIntegratorsAgreeAndKeepMass) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,9 +1,9 @@
 // Order in time of the whole model: pressure projection, drag and inlet included.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 /// Fractions of the first species after 80 ms of an expanding bed, below the onset of the frictional stress.
@@ -60,4 +60,4 @@ TEST_P(WorkPrecision, TheErrorFollowsTheTolerance) {
 INSTANTIATE_TEST_SUITE_P(Integrators, WorkPrecision, testing::Values(std::string("explicit"), std::string("implicit")));
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

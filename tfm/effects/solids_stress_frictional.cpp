@@ -17,12 +17,17 @@ namespace {
 
 constexpr std::size_t most_species = 15;  ///< as the case file allows
 
+/// Volume of the settled solids per area, m; of a column that begins without solids, as if it were full of them.
+double settled_height(const core::Scene& scene) {
+  return scene.bed.static_height > 0 ? solids_height(scene.bed) : scene.column.size[1] * scene.bed.solids_fraction;
+}
+
 /// The packing at which the settled bed has the case's solids fraction where it carries half its own weight.
 double packing_of_bed(const core::Scene& scene, const Constants& constants) {
   double excess = 0;
   for (std::size_t j = 0; j < constants.species(); ++j)
     excess += constants.bed_share[j] * std::abs(constants.density[j] - constants.fluid.density);
-  const double half_weight = 0.5 * excess * std::max(constants.gravity, 1e-3) * solids_height(scene.bed);
+  const double half_weight = 0.5 * excess * std::max(constants.gravity, 1e-3) * settled_height(scene);
   return closures::max_packing_for(scene.bed.solids_fraction, half_weight, scene.tfm.frictional_pressure,
                                    scene.tfm.frictional_onset);
 }

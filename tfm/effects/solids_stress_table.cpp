@@ -5,20 +5,20 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/output_file.hpp"
+#include "fluid/solids_table.hpp"
 
 namespace polybed::tfm {
 
 using core::Index;
 
 closures::MonotoneCurve read_bed_pressure(const std::string& file) {
-  const core::OutputFile table(file, core::FileKind{"polybed solids table", 1});
-  if (const std::string regime = table.text_attribute("/", "regime"); regime != "bed")
+  if (const std::string regime = fluid::regime_of_table(file); regime != "bed")
     throw core::CaseError(file + ": a table of regime \"" + regime + "\", not of a fluidised bed");
-  return bed_curve(table.read("phi").values, table.read("p_bed").values, file);
+  return bed_curve(fluid::read_bed_table(file), file);
 }
 
-closures::MonotoneCurve bed_curve(std::vector<double> phi, std::vector<double> pressure, const std::string& file) {
+closures::MonotoneCurve bed_curve(const fluid::BedPressure& bed, const std::string& file) {
+  std::vector<double> phi = bed.phi, pressure = bed.pressure;
   if (!phi.empty() && phi.front() > 0) {
     phi.insert(phi.begin(), 0.0);
     pressure.insert(pressure.begin(), 0.0);

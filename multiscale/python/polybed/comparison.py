@@ -9,11 +9,11 @@ import argparse
 import base64
 import html
 import io
-import os
 import shlex
 import sys
 from pathlib import Path
 
+from polybed.in_place import in_place
 from polybed.packages import NO_FILE, needed
 
 with needed(__name__ == "__main__"):
@@ -22,8 +22,9 @@ with needed(__name__ == "__main__"):
     from polybed.drawing import comparison as drawing
     from polybed.drawing.profiles import shown_top
     from polybed.drawing.style import NAMES, STYLE
+    from polybed.files import FAULTS, contents_of, read_json
     from polybed.plot import stored_times
-    from polybed.read import FormatError, nearest, read, read_json
+    from polybed.read import nearest, read
 
 LOOKS = """body{font:15px/1.45 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
 table{border-collapse:collapse;margin:.6rem 0}th,td{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #ddd}
@@ -199,9 +200,10 @@ def page(directory):
 def write_page(directory):
     """Puts DIR/comparison.html in place whole and returns its path."""
     path = Path(directory) / "comparison.html"
-    temporary = path.with_name(path.name + ".temporary")
-    temporary.write_text(page(directory), encoding="utf-8")
-    os.replace(temporary, path)
+    with contents_of(path.with_name("comparison.json")):
+        text = page(directory)
+    with in_place(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
     return path
 
 
@@ -210,7 +212,7 @@ def main(arguments=None):
     parser.add_argument("directory", help="folder of comparison.json")
     try:
         print(write_page(parser.parse_args(arguments).directory))
-    except (OSError, FormatError) as error:
+    except FAULTS as error:
         print(error, file=sys.stderr)
         return NO_FILE
     return 0

@@ -16,16 +16,17 @@ with needed(__name__ == "__main__"):
 
     from polybed.drawing import cost
     from polybed.drawing.style import STYLE
+    from polybed.files import FAULTS, contents_of, read_json
     from polybed.plot import save
-    from polybed.read import FormatError, read_json
 
 
 def pictures(directory, out=None):
     """Draws the sweep in a folder as PNG and SVG and returns their paths."""
     folder = Path(out or directory)
     folder.mkdir(parents=True, exist_ok=True)
-    sweep = read_json(Path(directory) / "cost.json", "polybed cost")
-    with plt.rc_context(STYLE):
+    path = Path(directory) / "cost.json"
+    sweep = read_json(path, "polybed cost")
+    with plt.rc_context(STYLE), contents_of(path):
         return [save(cost.draw(sweep), folder / f"cost.{ending}") for ending in ("png", "svg")]
 
 
@@ -36,7 +37,7 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     try:
         print("\n".join(map(str, pictures(options.directory, options.out))))
-    except (OSError, FormatError, KeyError, ValueError) as error:
+    except FAULTS as error:
         print(error, file=sys.stderr)
         return NO_FILE
     return 0

@@ -8,15 +8,18 @@ NO_FILE = 4  # of polybed's exit codes: a file, or a package, is missing
 
 @contextlib.contextmanager
 def needed(of_program):
-    """Around imports: ends a program that lacks one with its name and what to do, in place of a trace.
+    """Around imports: tells in a line which package the interpreter lacks, and what to do.
 
-    of_program: whether the imports are those of `python3 -m polybed.MODULE`, else the error is the caller's.
+    of_program: whether the imports are those of `python3 -m polybed.MODULE`, which ends there; else ImportError is raised.
     """
     try:
         yield
     except ImportError as missing:
-        if not of_program or (missing.name or "").startswith("polybed"):
+        if (missing.name or "polybed").startswith("polybed"):
             raise
-        print(f"Python's package {missing.name} is missing: apt-get install python3-numpy python3-h5py python3-matplotlib",
-              file=sys.stderr)
+        told = (f"Python's package {missing.name} is missing for {sys.executable}: apt-get install python3-numpy python3-h5py "
+                "python3-matplotlib, and run /usr/bin/python3")
+        if not of_program:
+            raise ImportError(told, name=missing.name) from None
+        print(told, file=sys.stderr)
         sys.exit(NO_FILE)

@@ -7,10 +7,10 @@ Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a p
 
 import argparse
 import json
-import os
 import sys
 from pathlib import Path
 
+from polybed.in_place import in_place
 from polybed.packages import NO_FILE, needed
 
 with needed(__name__ == "__main__"):
@@ -18,7 +18,8 @@ with needed(__name__ == "__main__"):
 
     from polybed.drawing import animation, fields, history, overview, particles, profiles
     from polybed.drawing.style import STYLE
-    from polybed.read import FormatError, nearest, read
+    from polybed.files import FAULTS, contents_of
+    from polybed.read import nearest, read
 
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
 WRONG_COMMAND, STOPPED = 2, 130
@@ -30,11 +31,12 @@ class CommandError(Exception):
 
 def save(figure, path):
     """Puts a picture in place whole."""
-    temporary = path.with_name(path.name + ".temporary")
-    figure.savefig(temporary, format=path.suffix[1:])
-    plt.close(figure)
-    os.replace(temporary, path)
-    return path
+    try:
+        with in_place(path) as temporary:
+            figure.savefig(temporary, format=path.suffix[1:])
+        return path
+    finally:
+        plt.close(figure)
 
 
 def stored_times(run):
@@ -65,7 +67,10 @@ def picture(directory, time=None, output=None):
     """Draws a run at a time (the last one if None) in one picture, and returns its path."""
     run = read(directory)
     with plt.rc_context(STYLE):
-        return save(overview.draw(run, step_of(run, time)), Path(output) if output else run.directory / "picture.png")
+        step = step_of(run, time)
+        with contents_of(run.directory):
+            figure = overview.draw(run, step)
+        return save(figure, Path(output) if output else run.directory / "picture.png")
 
 
 def film_path(folder):
@@ -100,8 +105,10 @@ def pictures(directory, what=None, time=None, out=None, ending="png", rate=None,
     what = kinds_of(run) if what is None else what
     step_of(run, time)
     folder = Path(out) if out else run.directory / "pictures"
+    if folder.is_symlink() and not out:
+        raise FileExistsError(f"{folder} is a link, which polybed does not follow: name the folder with --out")
     folder.mkdir(parents=True, exist_ok=True)
-    with plt.rc_context(STYLE):
+    with plt.rc_context(STYLE), contents_of(run.directory):
         return [draw_one(run, one, time, folder, ending, rate, progress) for one in what]
 
 
@@ -143,8 +150,8 @@ def main(arguments=None):
     except CommandError as error:
         print(error, file=sys.stderr)
         return WRONG_COMMAND
-    except (FormatError, OSError, KeyError, IndexError, ValueError) as error:
-        print(error.args[0] if isinstance(error, (KeyError, IndexError)) else error, file=sys.stderr)
+    except FAULTS as error:
+        print(error, file=sys.stderr)
         return NO_FILE
     except KeyboardInterrupt:
         return STOPPED

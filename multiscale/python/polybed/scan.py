@@ -16,8 +16,8 @@ with needed(__name__ == "__main__"):
     import numpy as np
 
     from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
+    from polybed.files import FAULTS, contents_of, read_json
     from polybed.plot import save
-    from polybed.read import FormatError, read_json
 
 
 def read_scan(directory):
@@ -64,8 +64,9 @@ def draw(found):
 
 def picture(directory, output=None):
     """Draws a scan into its folder as inversion.png, or where one says, and returns the path."""
-    with plt.rc_context(STYLE):
-        return save(draw(read_scan(directory)), Path(output) if output else Path(directory) / "inversion.png")
+    found = read_scan(directory)
+    with plt.rc_context(STYLE), contents_of(Path(directory) / "inversion.json"):
+        return save(draw(found), Path(output) if output else Path(directory) / "inversion.png")
 
 
 def main(arguments=None):
@@ -73,7 +74,7 @@ def main(arguments=None):
     parser.add_argument("directory", help="folder of inversion.json")
     try:
         print(picture(parser.parse_args(arguments).directory))
-    except (OSError, FormatError) as error:
+    except FAULTS as error:
         print(error, file=sys.stderr)
         return NO_FILE
     return 0

@@ -6,9 +6,12 @@
     table.attributes["regime"], table.attributes["reference"]
 """
 
+import zlib
 from pathlib import Path
 
-from polybed.read import check_kind, open_hdf5
+import numpy as np
+
+from polybed.files import DamagedError, open_hdf5
 
 # Units of what is no ratio and no fraction; pressures of a fluidised bed are told over the weight of a layer of one diameter.
 BED = "(rho_p - rho_f) g D"
@@ -16,15 +19,25 @@ UNITS = {"velocity": "m/s", "theta_bed": BED + "/rho_p"}
 AXES = ("phi", "stokes", "e", "mu_p", "x2")  # of sheared particles, in the order of the arrays
 
 
+def checksum(arrays):
+    """CRC-32 of arrays by name, what the attribute crc32 of a table holds: over all numbers as doubles with the low byte first,
+    in the order of the names. A table that you write yourself gets it by file.attrs["crc32"] = checksum(file)."""
+    found = 0
+    for name in sorted(arrays):
+        found = zlib.crc32(np.ascontiguousarray(arrays[name], "<f8").tobytes(), found)
+    return found
+
+
 class SolidsTable:
     """A table.h5, read whole: table[name] is an array, table.unit(name) its unit, "1" of ratios, fractions and seeds."""
 
     def __init__(self, path):
         self.path = Path(path)
-        with open_hdf5(self.path) as file:
-            check_kind(file.attrs, "polybed solids table", self.path)
+        with open_hdf5(self.path, "polybed solids table") as file:
             self.attributes = dict(file.attrs)
             self._arrays = {name: data[...] for name, data in file.items()}
+        if "crc32" in self.attributes and self.attributes["crc32"] != checksum(self._arrays):
+            raise DamagedError(self.path, "its checksum does not hold")
 
     def __getitem__(self, name):
         if name not in self._arrays:

@@ -14,8 +14,8 @@ from polybed.packages import NO_FILE, needed
 
 with needed(__name__ == "__main__"):
     from polybed.drawing import hard_cases
+    from polybed.files import FAULTS, contents_of, read_json
     from polybed.plot import save
-    from polybed.read import FormatError, read_json
 
 
 def main(arguments=None):
@@ -24,9 +24,10 @@ def main(arguments=None):
     directory = parser.parse_args(arguments).directory
     try:
         matrix = read_json(directory / "stability.json", "polybed stability")
-        for ending in ("png", "svg"):
-            print(save(hard_cases.draw(matrix), directory / f"stability.{ending}"))
-    except (OSError, FormatError, KeyError, ValueError) as error:
+        with contents_of(directory / "stability.json"):
+            for ending in ("png", "svg"):
+                print(save(hard_cases.draw(matrix), directory / f"stability.{ending}"))
+    except FAULTS as error:
         print(error, file=sys.stderr)
         return NO_FILE
     return 0

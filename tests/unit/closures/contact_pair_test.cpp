@@ -23,6 +23,21 @@ TEST(ContactPair, ReducedRadiusAndMass) {
   EXPECT_DOUBLE_EQ(reduced_mass(infinite, .2), .2);
 }
 
+TEST(ContactPair, MassOnAContact) {
+  // 8 kg of twice the radius on four others; the same that is the smaller one, all on one; and either way round.
+  EXPECT_DOUBLE_EQ(mass_on_a_contact(8, 2, 1, 1), 2);
+  EXPECT_DOUBLE_EQ(mass_on_a_contact(1, 1, 8, 2), 2);
+  EXPECT_DOUBLE_EQ(mass_on_a_contact(8, 1, 2, 2), 8);
+  EXPECT_DOUBLE_EQ(mass_on_a_contact(3, 1, 3, 1), 3);
+}
+
+TEST(ContactPair, SpeedPassedOn) {
+  EXPECT_DOUBLE_EQ(speed_passed_on(1, 1, 1), 1);    // equal and elastic: they change places
+  EXPECT_DOUBLE_EQ(speed_passed_on(1, 1, 0), 0.5);  // they go on together
+  EXPECT_DOUBLE_EQ(speed_passed_on(3, 1, 0.8), 1.35);
+  EXPECT_NEAR(speed_passed_on(1e15, 1, 1), 2, 2 * 2e-15);
+}
+
 TEST(ContactPair, ReducedModuli) {
   // Glass on glass: E/(2 (1 - 0.04)) = 25 GPa; G = 20 GPa, G/(2 1.8) = 5.5556 GPa.
   const Elastic glass{48e9, .2};

@@ -2,7 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <limits>
 
 #include "core/error.hpp"
@@ -235,6 +239,30 @@ TEST(History, ReadsBackToTheBitAndResumes) {
   { const HistoryWriter writer(scratch.path(), columns, 0.2); }
   EXPECT_THAT(read_history(scratch.path()).of("time_s"), ElementsAre(0.1, 0.2));
   EXPECT_THROW(HistoryWriter(scratch.path(), {"time_s"}, 0.2), FileError);
+}
+
+/// Writes files in memory until that ends, with some bytes more of it than this process has, and ends with code 0.
+[[noreturn]] void write_without_memory(rlim_t more) {
+  std::ifstream status("/proc/self/statm");
+  rlim_t pages = 0;
+  status >> pages;
+  const rlimit limit{pages * rlim_t(sysconf(_SC_PAGESIZE)) + more, RLIM_INFINITY};
+  setrlimit(RLIMIT_AS, &limit);
+  const std::vector<double> values(10'000, 1.0);
+  try {
+    for (std::vector<OutputFile> files;;) {
+      files.emplace_back(FileKind{"polybed test", 1}).write("values", {values.size()}, values, Packing::small);
+    }
+  } catch (const FileError&) {
+  } catch (const std::bad_alloc&) {
+  }
+  std::exit(0);
+}
+
+/// HDF5 alone prints as the program ends ("infinite loop closing library"), or crashes where it makes a file.
+TEST(Output, HdfNeitherPrintsNorCrashesWithoutMemory) {
+  for (rlim_t more = 500'000; more < 20'000'000; more += 500'000)
+    EXPECT_EXIT(write_without_memory(more), testing::ExitedWithCode(0), testing::Eq("")) << more << " bytes";
 }
 
 }  // namespace

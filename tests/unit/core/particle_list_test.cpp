@@ -103,7 +103,7 @@ TEST_F(ListOfParticles, TellsAHundredProblemsAndTheNumberOfTheRest) {
 
 TEST_F(ListOfParticles, ThatCannotBeReadSaysWhy) {
   EXPECT_THAT([&] { (void)read_particle_list(scene_); },
-              testing::ThrowsMessage<FileError>(HasSubstr("beads.csv: cannot be read (No such file")));
+              testing::ThrowsMessage<FileError>(HasSubstr("beads.csv: No such file")));
   scene_.bed.start = "mixed";
   EXPECT_THROW((void)read_particle_list(scene_), CaseError);
 }

@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <string>
 
-#include "multiscale/stability/scratch.hpp"
+#include "scenes/scratch.hpp"
 
 namespace polybed::test {
 
-using stability::Scratch;
+using scenes::Scratch;
 
 /// While it lives no file grows beyond a size: writing fails in the middle of a file, as on a full disk.
 class FullDisk {

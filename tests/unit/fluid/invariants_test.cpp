@@ -34,13 +34,13 @@ class Watch : public testing::Test {
     fluid_.voidage.assign(fluid_.voidage.size(), 0.7);
   }
   InvariantValues see(double rtol = 1e-3) {
-    invariants_ = Invariants({0.3 * 2000 * 24 * grid_.cell_volume()}, rtol);
+    invariants_ = Invariants({0.3 * 2000 * 24 * grid_.cell_volume()}, {"sand"}, rtol);
     return invariants_.see(grid_, solids_, fluid_, above_, 0.1, 0.0, 2.0);
   }
   core::Grid grid_ = small();
   Interphase solids_;
   FluidState fluid_;
-  Invariants invariants_{{1.0}, 1e-3};
+  Invariants invariants_{{1.0}, {"sand"}, 1e-3};
   double above_ = 0;  ///< how far the packing is exceeded, as the solids stress tells
 };
 
@@ -75,6 +75,38 @@ TEST_F(Watch, AFractionOutOfBoundsIsSeen) {
 TEST_F(Watch, AVolumeFluxThatDivergesIsSeen) {
   fluid_.flux[1][std::size_t(grid_.index(2, 3))] = 0.003;  // |div J| h / U = 0.003 / 0.1
   EXPECT_NEAR(see().divergence, 0.03, 1e-12);
+}
+
+// A law is broken beyond ten limits, what only warns never is; of several the one furthest beyond is named.
+TEST(WorstInvariant, ALawIsBrokenTenfoldBeyondItsLimit) {
+  std::vector<WorstInvariant> worst{{.name = "mass", .limit = 1e-3, .judged = true, .remedy = "stop"},
+                                    {.name = "divergence", .limit = 1e-3},
+                                    {.name = "count", .limit = 0, .judged = true}};
+  worst[0].keep(0.0099, 1.5);
+  worst[1].keep(1.0, 1.5);
+  EXPECT_EQ(broken_law(worst), nullptr);
+  worst[0].keep(0.0101, 2.5, "species sand");
+  worst[0].keep(0.005, 3.5);
+  ASSERT_EQ(broken_law(worst), &worst[0]);
+  EXPECT_EQ(worst[0].text(),
+            "t = 2.5 s: a conservation law is broken: mass (species sand) is off by 0.0101, the limit is 0.001; stop");
+  worst[2].keep(1, 2.5);  // nothing is allowed: the furthest beyond that there is
+  EXPECT_EQ(broken_law(worst), &worst[2]);
+}
+
+// Mass that leaks from one of two species: the law names it.
+TEST_F(Watch, TheSpeciesThatLosesMassIsNamed) {
+  solids_ = Interphase(grid_, {2000.0, 1000.0});
+  for (auto& phi : solids_.fraction) phi.assign(phi.size(), 0.3);
+  fluid_.voidage.assign(fluid_.voidage.size(), 0.4);
+  const double volume = 0.3 * 24 * grid_.cell_volume();
+  Invariants invariants({2000 * volume, 1000 * volume}, {"heavy", "light"}, 1e-3);
+  (void)invariants.see(grid_, solids_, fluid_, 0, 0.1, 0.0, 1.0);
+  EXPECT_EQ(broken_law(invariants.worst()), nullptr);
+  solids_.fraction[1][std::size_t(grid_.index(1, 1))] -= 1e-6;
+  (void)invariants.see(grid_, solids_, fluid_, 0, 0.1, 0.0, 2.0);
+  ASSERT_NE(broken_law(invariants.worst()), nullptr);
+  EXPECT_EQ(broken_law(invariants.worst())->place, "species light");
 }
 
 TEST(Properties, AFluidWithoutPropertiesIsRefusedByName) {

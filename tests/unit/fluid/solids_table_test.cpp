@@ -41,9 +41,9 @@ SolidsTable sample() {
 TEST(SolidsTable, RoundTripKeepsEveryBit) {
   const test::Scratch scratch;
   SolidsTable t = sample();
-  t.bed_phi = {0.2, 0.5};
-  t.bed_pressure = {0.1, 0.4};
-  t.bed_error = {0.01, 0.02};
+  t.bed.phi = {0.2, 0.5};
+  t.bed.pressure = {0.1, 0.4};
+  t.bed.error = {0.01, 0.02};
   t.exchange = t.pressure;
   t.exchange_drift = 0.4;
   const auto path = scratch.path() / "table.h5";
@@ -56,7 +56,7 @@ TEST(SolidsTable, RoundTripKeepsEveryBit) {
   EXPECT_EQ(r.viscosity.error, t.viscosity.error);
   EXPECT_EQ(r.temperature.seeds, t.temperature.seeds);
   EXPECT_EQ(r.shear_number, t.shear_number);
-  EXPECT_EQ(r.bed_pressure, t.bed_pressure);
+  EXPECT_EQ(r.bed.pressure, t.bed.pressure);
   EXPECT_EQ(r.exchange.value, t.exchange.value);
   EXPECT_EQ(r.exchange_drift, 0.4);
   EXPECT_EQ(r.inertia, t.inertia);

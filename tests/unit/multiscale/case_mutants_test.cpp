@@ -16,9 +16,9 @@
 #include "dem/continuum_scene.hpp"
 #include "dem/model.hpp"
 #include "multiscale/effects/choice.hpp"
-#include "multiscale/effects/conflicts.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/scene_rules.hpp"
 #include "tfm/model.hpp"
 #include "tfm/particle_scene.hpp"
 
@@ -55,13 +55,9 @@ bool begins(const core::Scene& scene) {
   return true;
 }
 
-/// As the commands do after reading: conflicts of roles, the choice of effects, the model. Refusals are theirs to tell.
-void use(const core::Scene& scene, const std::string& text, const Seed& seed, bool step, Count& count) {
+/// As the commands do after reading: the choice of effects, the model. Refusals are theirs to tell.
+void use(const core::Scene& scene, bool step, Count& count) {
   try {
-    if (!role_conflicts(scene, text, seed.path).empty()) {
-      ++count.refused_later;
-      return;
-    }
     const core::Scene chosen = with_choice(scene);
     ++count.weighed;
     if (step) count.begun += begins(chosen);
@@ -77,11 +73,11 @@ void use(const core::Scene& scene, const std::string& text, const Seed& seed, bo
 void read(const std::string& text, const Seed& seed, bool step, Count& count) {
   try {
     const std::vector<core::Role> roles = all_roles();
-    const core::Scene scene = core::parse_case(text, seed.path, {}, roles, size_classes);
+    const core::Scene scene = core::parse_case(text, seed.path, {}, roles, size_classes, scene_faults);
     ++count.read;
     const std::string whole = core::resolved_case(scene);
     EXPECT_EQ(core::resolved_case(core::parse_case(whole, seed.path, {}, roles, size_classes)), whole) << text;
-    use(scene, text, seed, step, count);
+    use(scene, step, count);
   } catch (const core::CaseError& error) {
     EXPECT_NE(std::string(error.what()), "");
     ++count.refused;

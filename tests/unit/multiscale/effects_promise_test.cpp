@@ -224,14 +224,17 @@ TEST(Switching, PutsEffectsOnFromTheirTimeOn) {
 }
 
 TEST(Conflicts, AreToldWithBothLines) {
-  const core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
-  const auto problems = role_conflicts(scene, text, "case.toml");
-  ASSERT_EQ(problems.size(), 2U);
-  EXPECT_EQ(problems[0].line, 14);
-  EXPECT_EQ(problems[1].line, 13);
-  core::Scene without = scene;
+  try {
+    (void)core::parse_case(text, "case.toml", {}, all_roles(), size_classes, role_conflicts);
+    FAIL() << "taken";
+  } catch (const core::CaseError& error) {
+    ASSERT_EQ(error.problems().size(), 2U);
+    EXPECT_EQ(error.problems()[0].line, 13);
+    EXPECT_EQ(error.problems()[1].line, 14);
+  }
+  core::Scene without = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
   without.effects["contact"] = "hertz_mindlin";
-  EXPECT_TRUE(role_conflicts(without, text, "case.toml").empty());
+  EXPECT_TRUE(role_conflicts(without).empty());
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "tests/verification/scenes.hpp"
+#include "scenes/record.hpp"
 
 namespace polybed::multiscale {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(NarrowPart, KeepsTheCellsAndTheBedAndNarrowsTheSides) {
-  core::Scene scene = verification::binary_bed(400, 300, 0.8, 0.6);
+  core::Scene scene = scenes::binary_bed(400, 300, 0.8, 0.6);
   scene.jets = {{{0.2}, {0.4}, {{0.0, 0.1}}}};
   const core::Scene part = narrow_part(scene, 12000);
   EXPECT_EQ(part.column.cells[0], 40);
@@ -24,11 +24,11 @@ TEST(NarrowPart, KeepsTheCellsAndTheBedAndNarrowsTheSides) {
 }
 
 TEST(NarrowPart, IsSmallInThreeDimensionsAndForAbsurdHeights) {
-  core::Scene scene = verification::binary_bed(100, 300, 0.2, 0.6);
+  core::Scene scene = scenes::binary_bed(100, 300, 0.2, 0.6);
   scene.column.dimensions = 3;
   scene.column.cells[2] = 100;
   EXPECT_LE(narrow_part(scene, 12000).column.cells[0] * narrow_part(scene, 12000).column.cells[2], 48);
-  core::Scene tower = verification::binary_bed(10, 1000000, 0.01, 1000);
+  core::Scene tower = scenes::binary_bed(10, 1000000, 0.01, 1000);
   const core::Scene part = narrow_part(tower, 12000);
   EXPECT_LE(part.column.cells[0] * part.column.cells[1], 12000);
   EXPECT_NEAR(part.bed.static_height / part.column.size[1], 0.4, 1e-12);  // rounding
@@ -37,7 +37,7 @@ TEST(NarrowPart, IsSmallInThreeDimensionsAndForAbsurdHeights) {
 TEST(Requirements, GrowWithTheCase) {
   core::Timers timers;
   std::unique_ptr<tfm::Model> model;
-  core::Scene scene = verification::binary_bed(100, 120, 0.3, 0.36);
+  core::Scene scene = scenes::binary_bed(100, 120, 0.3, 0.36);
   const Requirements one = requirements_of(scene, timers, model);
   scene.column.cells[0] *= 10;
   scene.column.size[0] *= 10;
@@ -51,7 +51,7 @@ TEST(Requirements, GrowWithTheCase) {
 }
 
 TEST(Requirements, ARefusalTellsBothNumbers) {
-  const core::Scene scene = verification::binary_bed(8, 40, 0.03, 0.15);
+  const core::Scene scene = scenes::binary_bed(8, 40, 0.03, 0.15);
   const MemoryNeed need{.state = 3e9, .fields = 1e9, .solver = 0.5e9, .program = 0.5e9};
   EXPECT_NO_THROW(refuse_beyond_memory(scene, need, {6e9, "the test"}));
   try {

@@ -158,8 +158,8 @@ void write_run(const std::filesystem::path& directory, const std::string& kind) 
     write_history(history, particles, time);
   }
   const std::string model = particles ? "dem" : "tfm";
-  write_atomically(directory / "run.json",
-                   R"({"filetype": "polybed run", "version": 1, "model": ")" + model + R"(", "state": "done"})");
+  write_atomically(directory / "run.json", R"({"filetype": "polybed run", "version": 1, "model": ")" + model +
+                                               R"(", "state": "done", "case_hash": "0123456789abcdef"})");
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/verification/scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 using tfm::FirstOrderFallback;
@@ -53,7 +53,7 @@ TEST(FirstOrderFallback, FlagsTheFacesOfACellOutOfBoundsForTwentySteps) {
 
 // The bound is that of the cell's own composition: a mixture packs denser than either of its species.
 TEST(FirstOrderFallback, AsksForThePackingOfTheCellsOwnComposition) {
-  core::Scene scene = verification::binary_bed(4, 10, 0.012, 0.03);
+  core::Scene scene = scenes::binary_bed(4, 10, 0.012, 0.03);
   scene.tfm.max_packing = "yu_standish";
   for (core::Species& species : scene.species) species.max_packing = 0.62;
   core::Timers timers;
@@ -160,4 +160,4 @@ TEST(FirstOrderFallback, IsAbsentWithUpwindFluxes) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "tests/verification/scenes.hpp"
+#include "scenes/record.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::tfm {
@@ -14,7 +14,7 @@ std::string chosen(const core::Scene& scene) {
 
 /// 4 x 20 cells of 2 mm of glass in water at 10 mm/s.
 core::Scene glass(double diameter) {
-  core::Scene scene = verification::uniform_bed(diameter, 2500, 998.207, 1.00157e-3, 0.5, 20, 0.04);
+  core::Scene scene = scenes::uniform_bed(diameter, 2500, 998.207, 1.00157e-3, 0.5, 20, 0.04);
   scene.inlet.superficial_velocity = {{0.0, 0.01}};
   scene.tfm.integrator = "auto";
   scene.tfm.rtol = 1e-3;
@@ -93,7 +93,7 @@ TEST(MomentumForm, OfTheModelIsThatOfTheScene) {
   const auto velocities = [&](const std::string& form) {
     scene.tfm.momentum = form;
     Model model(scene, timers);
-    verification::advance(model, 0.02);
+    scenes::advance(model, 0.02);
     return model.fields().solids.velocity[0][1];
   };
   EXPECT_EQ(velocities("auto"), velocities("conservative"));

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "tests/verification/scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 using testing::HasSubstr;
@@ -23,7 +23,7 @@ std::string said_of(double phi, int species) {
   y[3] = phi;
   try {
     tfm::require_packing(model.constants(), layout, y, 1.5, *model.effects().solids_stress);
-  } catch (const core::NumericsError& error) {
+  } catch (const core::ConservationError& error) {
     return error.what();
   }
   return "";
@@ -61,4 +61,4 @@ TEST(PackingLimit, LeavesTheStateBeforeTheStep) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -7,9 +7,9 @@
 #include <functional>
 
 #include "core/error.hpp"
-#include "tests/verification/scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 using testing::HasSubstr;
@@ -62,4 +62,4 @@ TEST(ParticleScene, IsToldWithAllItsKeysAtOnce) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

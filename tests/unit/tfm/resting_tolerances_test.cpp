@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/verification/scenes.hpp"
+#include "scenes/record.hpp"
 
-namespace polybed::verification {
+namespace polybed::scenes {
 namespace {
 
 using Kind = tfm::StateLayout::Entry::Kind;
@@ -72,4 +72,4 @@ TEST(RestingTolerances, ABedThatIsLetGoIsNotAtRest) {
 }
 
 }  // namespace
-}  // namespace polybed::verification
+}  // namespace polybed::scenes

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/verification/scenes.hpp"
+#include "scenes/record.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::tfm {
@@ -61,7 +61,7 @@ TEST(ExpectedStep, ByHand) {
 // The spheres of StokesByHand on cells of 1 mm at a voidage of 0.7. Drag: b = 18e-3 * 0.7/1e-8 = 1.26e6 kg/(m3 s), of
 // the solids b/2000 = 630/s, of the fluid 0.3 b/700 = 540/s, so 1.4/1170 s; an implicit step 0.5/(5.45 + 70.0357) s.
 TEST(ExplicitStepsPerImplicit, StokesByHand) {
-  core::Scene scene = verification::uniform_bed(1e-4, 2000, 1000, 1e-3, 0.6, 20, 0.02);
+  core::Scene scene = scenes::uniform_bed(1e-4, 2000, 1000, 1e-3, 0.6, 20, 0.02);
   scene.effects = {{"drag", "stokes"}};
   scene.tfm.rtol = 1e-3;
   core::Timers timers;
@@ -76,7 +76,7 @@ TEST(ExplicitStepsPerImplicit, StokesByHand) {
 /// The estimate against the fields of a packed bed at its start, of which it knows no cells: the same formulas for the
 /// same even bed. What is left are walls and the top of the bed, which had no effect on four digits; 0.1 % is allowed.
 TEST(TimeScalesOfBed, AreThoseOfTheFieldsAtTheStart) {
-  core::Scene scene = verification::binary_bed(8, 40, 0.03, 0.15);
+  core::Scene scene = scenes::binary_bed(8, 40, 0.03, 0.15);
   scene.bed.start_solids_fraction = scene.bed.solids_fraction;
   scene.effects["fluid_stress"] = "newtonian";
   core::Timers timers;
@@ -90,7 +90,7 @@ TEST(TimeScalesOfBed, AreThoseOfTheFieldsAtTheStart) {
   EXPECT_EQ(estimated.size(), found.size());
   for (const TimeScale& scale : found) {
     const double ratio = scale_of(estimated, scale.process) / scale.seconds;
-    verification::record(scale.process, ratio);
+    scenes::record(scale.process, ratio);
     EXPECT_GT(ratio, 0.999) << scale.process << " " << scale.seconds;
     EXPECT_LT(ratio, 1.001) << scale.process << " " << scale.seconds;
   }
@@ -119,7 +119,7 @@ TEST(TimeScales, DragOfEverySpeciesActsOnTheFluidInAnyOrder) {
 }
 
 TEST(TimeScalesOfBed, AnAbsentEffectHasNone) {
-  core::Scene scene = verification::binary_bed(4, 20, 0.015, 0.075);
+  core::Scene scene = scenes::binary_bed(4, 20, 0.015, 0.075);
   scene.effects = {{"drag", "cello"}};
   core::Timers timers;
   const Model model(scene, timers);

@@ -1,16 +1,15 @@
 """The volume fractions, or the particles, over the stored times, as MP4 where ffmpeg is there, else as GIF by Pillow."""
 
-import os
-import shutil
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import animation
 
+from polybed import search
 from polybed.drawing.fields import voidages
 from polybed.drawing.maps import Group, draw_maps
 from polybed.drawing.particles import Views
 from polybed.drawing.style import greatest_fraction, in_plane, shown_height, title_of
+from polybed.in_place import in_place
 
 LENGTH = 12  # s, about what a film lasts
 RATES = (2, 25)  # frames per second, least and most
@@ -37,7 +36,7 @@ def digits_of(times):
 
 def has_ffmpeg():
     """Whether MP4 can be made."""
-    return shutil.which("ffmpeg") is not None
+    return search.find("ffmpeg") is not None
 
 
 def particle_frames(run):
@@ -75,17 +74,17 @@ def film(run, path, rate=None, progress=None):
     progress: called with the number of frames done and in all.
     """
     figure, count, show = particle_frames(run) if len(run.particles) else field_frames(run)
-    temporary = path.with_name("unfinished-" + path.name)
+    found = {"animation.ffmpeg_path": search.find("ffmpeg") or "ffmpeg"}
+    # The writer knows the kind of film by the ending.
     try:
-        film_writer = writer(path, rate or rate_of(count))
-        with film_writer.saving(figure, str(temporary), dpi=110):
-            for step in range(count):
-                show(step)
-                film_writer.grab_frame()
-                if progress:
-                    progress(step + 1, count)
-        os.replace(temporary, path)
+        with in_place(path, ".temporary" + path.suffix) as temporary, plt.rc_context(found):
+            film_writer = writer(path, rate or rate_of(count))
+            with film_writer.saving(figure, str(temporary), dpi=110):
+                for step in range(count):
+                    show(step)
+                    film_writer.grab_frame()
+                    if progress:
+                        progress(step + 1, count)
     finally:
         plt.close(figure)
-        temporary.unlink(missing_ok=True)
     return path

@@ -134,7 +134,7 @@ def draw(run, time=None):
     """The figure of the whole history; a line marks a time."""
     history = run.history
     if not history or len(history["time_s"]) == 0:
-        raise IndexError(f"{run.directory} has no history yet")
+        raise FileNotFoundError(f"{run.directory} has no history yet")
     chosen = panels(run)
     figure = plt.figure(figsize=(10.5, 1.2 + 1.15 * sum(height for height, _ in chosen)), constrained_layout=True)
     held = run.record.get("invariants") and len(chosen) > 1

@@ -112,7 +112,7 @@ def draw(run, time):
     """The figure of the profiles stored nearest to a time, above what came before and after."""
     profiles = run.profiles
     if not profiles or len(profiles["time_s"]) == 0:
-        raise IndexError(f"{run.directory} has no stored profiles yet")
+        raise FileNotFoundError(f"{run.directory} has no stored profiles yet")
     factor, unit = length_unit(run)
     row = nearest(profiles["time_s"], time)
     shown = [name for name in run.species if f"phi_{name}" in profiles]

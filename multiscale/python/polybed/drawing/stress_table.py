@@ -17,8 +17,8 @@ with needed(__name__ == "__main__"):
     import numpy as np
 
     from polybed.drawing.style import COLOURS, PALE, STYLE
+    from polybed.files import FAULTS, FormatError, contents_of
     from polybed.plot import save
-    from polybed.read import FormatError
     from polybed.solids_table import AXES, read_table
 
 RATIOS = (("p_ratio", "pressure"), ("mu_ratio", "viscosity"), ("gamma_ratio", "dissipation"))
@@ -52,7 +52,7 @@ def draw_ratios(table, plots):
 def draw(path, picture):
     """Draws a table of sheared particles and returns the path of the picture."""
     table = read_table(path)
-    with plt.rc_context(STYLE):
+    with plt.rc_context(STYLE), contents_of(path):
         figure, plots = plt.subplots(1, len(RATIOS), figsize=(9, 3), layout="constrained", sharex=True)
         draw_ratios(table, plots)
         return save(figure, picture)
@@ -65,7 +65,7 @@ def main(arguments=None):
     words = parser.parse_args(arguments)
     try:
         print(draw(words.table, words.out or words.table.with_suffix(".png")))
-    except (OSError, FormatError, KeyError, ValueError) as error:
+    except FAULTS as error:
         print(error, file=sys.stderr)
         return NO_FILE
     return 0

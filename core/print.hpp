@@ -1,0 +1,30 @@
+// What the program says on its standard streams.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace polybed::core {
+
+/// Writes a text to a stream, and never fails.
+void put(std::FILE* stream, const std::string& text);
+
+/// Why standard output has first refused a part of the answer, as errno; 0: all of it has arrived. Empties its buffer.
+[[nodiscard]] int refusal_of_answer();
+
+/// Prints to standard output or standard error, and never fails: a run must not end because nobody reads what it says.
+template <class... Arguments>
+void print(std::FILE* stream, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  put(stream, fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// The same to standard output.
+template <class... Arguments>
+void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  core::print(stdout, format, std::forward<Arguments>(arguments)...);
+}
+
+}  // namespace polybed::core

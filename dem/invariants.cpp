@@ -1,0 +1,88 @@
+#include "dem/invariants.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/checkpoint.hpp"
+#include "core/messages.hpp"
+#include "core/ranks.hpp"
+
+namespace polybed::dem {
+
+using fluid::WorstInvariant;
+
+std::vector<std::int64_t> numbers_of(const Model& model) {
+  std::vector<std::int64_t> number(model.materials().species().size(), 0);
+  const Particles& particles = model.particles();
+  for (std::size_t i = 0; i < particles.owned; ++i) ++number[std::size_t(particles.species[i])];
+  core::add_over_ranks(model.ranks(), number);
+  return number;
+}
+
+void write(const RunStart& start, core::Checkpoint& checkpoint) {
+  checkpoint.numbers["initial_energy"] = start.energy;
+  checkpoint.arrays["initial_number"].assign(start.number.begin(), start.number.end());
+}
+
+RunStart read_run_start(const core::Checkpoint& checkpoint, const Model& model) {
+  RunStart start{0, numbers_of(model)};
+  if (const Outflow* outflow = model.outflow())
+    for (std::size_t j = 0; j < start.number.size(); ++j) start.number[j] += outflow->number[j];
+  std::vector<double> values(start.number.begin(), start.number.end());
+  values.push_back(0);
+  core::on_first(model.ranks(), [&] {
+    values.back() = checkpoint.number("initial_energy");
+    const auto kept = checkpoint.arrays.find("initial_number");  // checkpoints of older versions have none
+    if (kept == checkpoint.arrays.end()) return;
+    constexpr double most = 1e15;  // a whole number in a double
+    const bool counts = std::all_of(kept->second.begin(), kept->second.end(),
+                                    [](double n) { return n >= 0 && n <= most && n == std::floor(n); });
+    if (kept->second.size() != start.number.size() || !counts)
+      core::refuse_checkpoint("initial_number is not a number of particles for each species");
+    std::copy(kept->second.begin(), kept->second.end(), values.begin());
+  });
+  core::take_from_first(model.ranks(), values);
+  start.energy = values.back();
+  std::transform(values.begin(), values.end() - 1, start.number.begin(), [](double n) { return std::int64_t(n); });
+  return start;
+}
+
+Invariants::Invariants(const Model& model, RunStart start, bool ledger)
+    : model_(model), start_(std::move(start)), ledger_(ledger) {
+  constexpr double ledger_limit = 1e-3;      // of the greatest energy met: V5
+  constexpr double fluid_mass_limit = 1e-4;  // of what was there or came in
+  const char* report = "that is a fault of the program: report it with the case";
+  if (ledger)
+    worst_.push_back({.name = "energy",
+                      .limit = ledger_limit,
+                      .judged = true,
+                      .remedy = "take shorter steps: raise dem.steps_per_contact, or lower dem.fixed_step"});
+  worst_.push_back({.name = "particle count", .limit = 0, .judged = true, .remedy = report});
+  const Coupling* coupling = model.coupling();
+  if (coupling != nullptr && coupling->flow().compressible() != nullptr)
+    worst_.push_back(
+        {.name = "mass of the fluid", .limit = fluid_mass_limit, .judged = true, .remedy = "lower dem.fluid_every"});
+}
+
+/// Of the ledger's differences from the energy at the start against the greatest energy met: V5.
+double Invariants::energy_miss(const Totals& now) {
+  // In a viscous fluid, or at a start with overlaps, little is ever kinetic: it is work of the fluid, or in springs.
+  greatest_energy_ =
+      std::max({greatest_energy_, now.kinetic + now.rotational, now.dissipated, now.elastic, std::abs(now.work)});
+  return greatest_energy_ > 0 ? ledger_miss(now, start_.energy, greatest_energy_) : 0;
+}
+
+void Invariants::see(const Totals& now, const FluidRecord* fluid) {
+  std::size_t which = 0;
+  if (ledger_) worst_[which++].keep(energy_miss(now), model_.time());
+  const std::vector<std::int64_t> number = numbers_of(model_);
+  for (std::size_t j = 0; j < number.size(); ++j) {
+    const std::int64_t left = model_.outflow() != nullptr ? model_.outflow()->number[j] : 0;
+    worst_[which].keep(double(std::abs(number[j] + left - start_.number[j])), model_.time(),
+                       "species " + model_.materials().species()[j].name);
+  }
+  if (++which < worst_.size()) worst_[which].keep(fluid->mass_error(), model_.time());
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,38 @@
+// How deep contacts will be at the speeds to expect, and how stiff they must be to stay within dem.max_overlap.
+#pragma once
+
+#include <string>
+
+#include "core/scene.hpp"
+#include "dem/effects.hpp"
+#include "dem/materials.hpp"
+
+namespace polybed::dem {
+
+/// To two digits, not below the value, which is above 0: what is advised must do.
+[[nodiscard]] double rounded_up(double value);
+
+/// What to write into a case so that a contact between two species, or one and "wall", is `factor` times as stiff, with
+/// the number rounded up to two digits: dem.youngs_modulus = "1.3 MPa".
+[[nodiscard]] std::string stiffer(const core::Scene& scene, const std::string& a, const std::string& b, double factor);
+
+/// How much stiffer a contact must be for its overlap to become `allowed`: (overlap/allowed)^p, where the energy stored
+/// goes with overlap^p, 5/2 after Hertz and 2 of linear springs. No unit.
+[[nodiscard]] double stiffening(const NormalLaw& law, int kind, double overlap, double allowed);
+
+struct OverlapForecast {
+  std::string pair;       ///< of species, or a species and the wall, whose contact is the deepest for its size
+  double overlap = 0;     ///< m
+  double share = 0;       ///< over the smaller diameter
+  double stiffening = 0;  ///< factor on all stiffnesses that brings it to four fifths of dem.max_overlap
+  std::string warning;    ///< what is too soft and what would do; empty: nothing
+};
+
+/// The deepest contact to expect: of each pair the heavier one comes at the speed given and meets the other held by its
+/// neighbours, closures::mass_on_a_contact. Met were 0.4 to 1.04 of it, see docs/particle-cases.md: what is advised
+/// keeps a fifth of dem.max_overlap in reserve.
+/// \param speed  of impacts, m/s
+[[nodiscard]] OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& materials,
+                                               const NormalLaw& law, double speed);
+
+}  // namespace polybed::dem

@@ -1,0 +1,63 @@
+#include "multiscale/mpirun.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/mpi_start.hpp"
+#include "multiscale/child_program.hpp"
+#include "multiscale/installed.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 5> settings{
+    "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "OMPI_MCA_rmaps_base_oversubscribe=1",
+    "OMPI_MCA_hwloc_base_binding_policy=none", "OMPI_MCA_btl_vader_single_copy_mechanism=none"};
+
+}  // namespace
+
+fs::path mpirun() {
+  if (::access(POLYBED_MPIRUN, X_OK) == 0) return POLYBED_MPIRUN;
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path program = fs::path(folder) / "mpirun";
+    if (program.is_absolute() && ::access(program.c_str(), X_OK) == 0) return program;
+  }
+  throw core::MpiError(fmt::format("mpirun is neither {} nor on PATH: install openmpi-bin", POLYBED_MPIRUN));
+}
+
+std::vector<std::string> environment_of_mpirun() {
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
+  for (const std::string_view setting : settings) {
+    const std::string_view name = setting.substr(0, setting.find('=') + 1);
+    if (std::none_of(all.begin(), all.end(), [&](const std::string& entry) { return entry.starts_with(name); }))
+      all.emplace_back(setting);
+  }
+  return all;
+}
+
+void become_ranks(int ranks, std::vector<std::string> words) {
+  if (core::started_by_launcher())
+    throw core::MpiError(fmt::format("-n {}: this is one of the ranks of a launcher already; leave out -n", ranks));
+  std::vector<std::string> all{mpirun(), "-q", "-n", std::to_string(ranks), this_program()};
+  all.insert(all.end(), words.begin(), words.end());
+  std::vector<std::string> variables = environment_of_mpirun();
+  ::execve(all.front().c_str(), pointers_to(all).data(), pointers_to(variables).data());
+  throw core::MpiError(fmt::format("cannot start {}: {}", all.front(), std::system_category().message(errno)));
+}
+
+}  // namespace polybed::multiscale

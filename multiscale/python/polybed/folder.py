@@ -1,0 +1,52 @@
+"""The folder of a run, which may be replaced by another run while somebody reads it."""
+
+from pathlib import Path
+
+from polybed.files import ReplacedError, contents_of, read_json
+
+
+class RunFolder:
+    """A run directory that hands out the paths of its files as long as it holds the run that it held when it was opened: the one
+    of the model and of the resolved case, by its hash, that run.json names."""
+
+    def __init__(self, directory):
+        self.path = Path(directory)
+        if not self.path.is_dir():
+            raise FileNotFoundError(f"{directory} is no run directory")
+        self._record, self._stamp, self._identity = {}, None, None
+        self.record()
+
+    def record(self):
+        """run.json as a dictionary; empty if there is none yet. Raises ReplacedError."""
+        path = self.path / "run.json"
+        if not path.exists():
+            return {}
+        status = path.stat()
+        stamp = (status.st_mtime_ns, status.st_ino, status.st_size)
+        if stamp != self._stamp:
+            self._record, self._stamp = read_record(path), stamp
+        found = (self._record["model"], self._record["case_hash"])
+        self._identity = self._identity or found
+        if found != self._identity:
+            raise ReplacedError(f"{self.path} held a run by {self._identity[0]} of the case {self._identity[1]} and now holds another, "
+                                f"by {found[0]} of {found[1]}: open it again with polybed.read, and give each run a folder of its own")
+        return self._record
+
+    def file(self, *names):
+        """Path of a file of the run, there or not. Raises ReplacedError."""
+        self.record()
+        return self.path.joinpath(*names)
+
+
+def read_record(path):
+    """What a run.json holds, with what every record has: model, state and hash of the case as texts, and what each invariant came to."""
+    record = read_json(path, "polybed run")
+    with contents_of(path):
+        for key in ("model", "state", "case_hash"):
+            if not isinstance(record[key], str):
+                raise TypeError(f"{key} is no text")
+        for entry in record.get("invariants", []):
+            for key, kind in (("name", str), ("worst", (int, float)), ("limit", (int, float))):
+                if not isinstance(entry[key], kind):
+                    raise TypeError(f"{key} of an invariant is {entry[key]!r}")
+    return record

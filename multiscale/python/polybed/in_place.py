@@ -1,0 +1,20 @@
+"""Files that are put in place whole."""
+
+import os
+from contextlib import contextmanager
+
+
+@contextmanager
+def in_place(path, ending=".temporary"):
+    """The path to write under a temporary name in the same folder, `path.name + ending`; renamed if all went well.
+
+    The temporary file is new: a link that has its name, in a folder that others may write, is removed and not followed.
+    """
+    temporary = path.with_name(path.name + ending)
+    temporary.unlink(missing_ok=True)
+    os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666))
+    try:
+        yield temporary
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)

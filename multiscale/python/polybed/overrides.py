@@ -1,0 +1,43 @@
+"""Keys of a case file with their values, as Python has them and as the program takes them."""
+
+import json
+import os
+
+
+def plain(value, key):
+    """A value without numpy: text, number, truth, or a list or a dictionary of such. Raises TypeError with the key."""
+    if hasattr(value, "tolist"):  # arrays and numbers of numpy
+        value = value.tolist()
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, (list, tuple)):
+        return [plain(entry, key) for entry in value]
+    if isinstance(value, dict):
+        return {name: plain(entry, key) for name, entry in value.items()}
+    if isinstance(value, (str, bool, int, float)):
+        return value
+    raise TypeError(f"{key}: a value of type {type(value).__name__} ({value!r}); allowed are texts, numbers, lists, arrays and dictionaries")
+
+
+def toml(value):
+    """A plain value as a case file has it."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(name)} = {toml(entry)}" for name, entry in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False)  # repr: inf and nan are TOML's too
+
+
+def flat(overrides, table=""):
+    """(key, value) with dots in the key for each level of dictionaries: {"tfm": {"rtol": 1e-4}} is tfm.rtol."""
+    for name, value in (overrides or {}).items():
+        key = f"{table}{name}"
+        if isinstance(value, dict):
+            yield from flat(value, key + ".")
+        else:
+            yield key, plain(value, key)
+
+
+def words(overrides):
+    """The options of the command line that say the same."""
+    return [word for key, value in flat(overrides) for word in ("--set", f"{key}={toml(value)}")]

@@ -1,0 +1,152 @@
+#!/usr/bin/python3
+"""Files that never end, nest without end, are long, or hold numbers that cannot be. Usage: hostile_files_test.py PROGRAM"""
+import os
+import pathlib
+import resource
+import shutil
+import sys
+
+import h5py
+import numpy as np
+
+import program
+from program import CASE, DONE, FILE, ROOT, WRONG_CASE, Scratch, run, run_all, small_bed, strict_json
+
+sys.path.insert(0, str(ROOT / "multiscale/python"))
+import polybed.solids_table  # noqa: E402
+
+TABLE_CASE = ROOT / "cases/small-binary/case.toml"
+WET = ["--set", "calibrate.regime=wet"]  # which the table is of
+TABLE = ROOT / "cases/small-binary/table.h5"
+
+
+class Endless(Scratch):
+    """A pipe without a writer and a device without an end, in the place of each file that a user names."""
+
+    def test_only_regular_files_are_read(self):
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        case = self.write("case.toml", small_bed("1 ms"))
+        folder = self.folder / "run"
+        folder.mkdir()
+        os.mkfifo(folder / "run.json")
+        commands = [["compare", case, "--tfm", folder, "--dem", folder], ["effects", "audit", folder]]
+        for file in (pipe, "/dev/zero"):
+            commands += [["check", file], ["tfm", file], ["drag", "--csv", file],
+                         ["check", case, "--set", f"effects.solids_stress=table:{file}"],
+                         ["dem", case, "--set", f"bed.start=checkpoint:{file}", "-o", self.folder / f"started{len(commands)}"],
+                         ["dem", self.listed(file), "-o", self.folder / f"listed{len(commands)}"]]
+        for words, done in zip(commands, run_all(commands)):
+            self.assertEqual(done.returncode, FILE, (words, done.stderr[-300:]))
+            self.assertRegex(done.stderr, "no regular file, but a pipe or a device", words)
+
+    def listed(self, file):
+        bed = 'volume_share = [0.8, 0.2]\nstatic_height = "12 mm"\n'
+        text = small_bed("1 ms").replace(bed, f'start = "list:{file}"\n').replace("start_solids_fraction = 0.4\n", "")
+        return self.write(f"list-{pathlib.Path(file).name}.toml", text)
+
+    def test_a_file_longer_than_any_case_is_not_read(self):
+        long = self.folder / "long.toml"
+        with open(long, "wb") as file:
+            file.truncate(10**12)  # without a block on the disk
+        self.assertIn("too long", self.ends(FILE, "check", long).stderr)
+        done = self.ends(FILE, "check", CASE, "--set", f"effects.solids_stress=table:{long}")
+        self.assertIn("too long", done.stderr)
+
+
+class Deep(Scratch):
+    def test_keys_nested_without_end_have_their_place(self):
+        deep = 60000
+        for text, place in ((".".join(["a"] * deep) + " = 1\n", "1:64"), ("\n[" + ".".join(["a"] * deep) + "]\n", "2:65"),
+                            ("x = " + "[" * deep, "1:37"), ("x = " + "{a=" * deep, "1:101"),
+                            ("x = {" + ".".join(["a"] * deep) + " = 1}", "1:69")):
+            done = self.ends(WRONG_CASE, "check", self.write("case.toml", text))
+            self.assertIn(f"case.toml:{place}: nested more than 32 deep", done.stderr, text[:20])
+        for key in (".".join(["a"] * deep) + "=1", "title={" + ".".join(["a"] * deep) + "=1}"):
+            self.assertIn("nested more than 32 deep", self.ends(WRONG_CASE, "check", CASE, "--set", key).stderr)
+
+    def test_what_is_in_quotes_and_comments_does_not_nest(self):
+        dots = "[." * 1000
+        text = f'title = "{dots}" # {dots}\n' + small_bed("1 ms").replace("[column]", f"# '''{dots}\n[column]")
+        self.ends(DONE, "check", self.write("case.toml", text))
+
+    def test_a_long_table_of_the_inlet_takes_time_in_proportion(self):
+        """300 000 rows: a search through all of them for each took a hundred times the CPU time allowed here."""
+        rows = ", ".join(f"[{n}e-6, 0.01]" for n in range(300000))
+        case = self.write("case.toml", small_bed("1 ms").replace('"20 mm/s"', f"[{rows}]"))
+        seconds = 40 if "sanitizers" in run("--version").stdout else 8
+        done = self.ends(DONE, "check", case, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds)))
+        self.assertIn("computing 0.001 s takes", done.stdout)
+
+
+class Tables(Scratch):
+    def changed(self, name, change, seal=True):
+        """A table with one dataset or attribute changed, and its checksum set right unless it is to be wrong."""
+        path = self.folder / f"{name}.h5"
+        shutil.copy(TABLE, path)
+        with h5py.File(path, "r+") as file:
+            change(file)
+            if seal:
+                file.attrs["crc32"] = polybed.solids_table.checksum(file)
+        return path
+
+    def checked(self, paths):
+        return run_all(["check", TABLE_CASE, *WET, "--set", f"effects.solids_stress=table:{path}"] for path in paths)
+
+    def test_numbers_that_cannot_be_are_refused(self):
+        wrong = {"p_ratio": (-0.5, 0, 1e9, np.nan), "mu_ratio": (-1,), "gamma_ratio": (np.inf,), "p_ratio_se": (-0.1, np.nan),
+                 "p_ratio_n": (-3, 0), "T_ratio_12": (np.nan,), "T_ratio_12_n": (-1,), "phi": (-1, 2, np.nan), "stokes": (-1, np.nan),
+                 "e": (np.nan, 1.5), "mu_p": (np.nan, -1), "x2": (np.nan, 2), "S": (np.nan, -1)}
+        cases = [(name, value) for name, values in wrong.items() for value in values]
+
+        def put(name, value):
+            def change(file):
+                data = file[name][...]
+                data.flat[0] = value
+                file[name][...] = data
+            return change
+        paths = [self.changed(f"{n}", put(*case)) for n, case in enumerate(cases)]
+        for case, done in zip(cases, self.checked(paths)):
+            self.assertEqual(done.returncode, FILE, (case, done.stderr))
+            self.assertRegex(done.stderr, rf"{case[0]}( number \d+ is .* is possible| must rise)", case)
+
+    def test_shapes_that_do_not_fit_are_refused(self):
+        def replaced(name, data):
+            def change(file):
+                del file[name]
+                if data is not None:
+                    file[name] = data
+            return change
+        changes = [replaced(name, data) for name in ("p_ratio", "p_ratio_n", "phi", "e", "S", "T_ratio_12_se")
+                   for data in (None, [], [0.5], np.full(1000, 0.5), np.full((2, 2), 0.5))]
+        changes += [lambda file: file.attrs.__setitem__("lambda", np.nan), lambda file: file.attrs.__setitem__("size_ratio", -1.0),
+                    lambda file: file.attrs.__delitem__("regime")]
+        for n, done in enumerate(self.checked([self.changed(f"{n}", change) for n, change in enumerate(changes)])):
+            if n == 17:  # e = [0.5] is another table
+                continue
+            self.assertIn(done.returncode, (FILE, WRONG_CASE), (n, done.stderr))
+            self.assertEqual(done.stderr.count("\n"), 1, (n, done.stderr))
+
+    def test_a_changed_number_is_noticed_here_and_in_python(self):
+        def change(file):
+            file["p_ratio"][0, 0, 0, 0, 0] *= 1 + 1e-15
+        path = self.changed("changed", change, seal=False)
+        self.assertIn("checksum", self.checked([path])[0].stderr)
+        with self.assertRaisesRegex(polybed.solids_table.DamagedError, "checksum"):
+            polybed.solids_table.read_table(path)
+        self.assertEqual(self.checked([TABLE])[0].returncode, DONE)  # as it is shipped
+        polybed.solids_table.read_table(TABLE)
+
+    def test_a_table_without_a_checksum_is_read_with_a_warning(self):
+        path = self.changed("old", lambda file: file.attrs.__delitem__("crc32"), seal=False)
+        for table, warned in ((path, 1), (TABLE, 0)):
+            directory = self.folder / f"run{warned}"
+            done = self.ends(DONE, "tfm", TABLE_CASE, *WET, "--set", f"effects.solids_stress=table:{table}", "--set", "run.until=1e-4",
+                             "-o", directory)
+            self.assertEqual(done.stderr.count("carries no checksum"), warned)
+            warnings = strict_json((directory / "run.json").read_text())["warnings"]
+            self.assertEqual(len([line for line in warnings if "carries no checksum" in line]), warned)
+
+
+if __name__ == "__main__":
+    program.main()

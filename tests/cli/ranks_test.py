@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+"""The program on ranks, without a network, and its launcher on another user's tree. Usage: ranks_test.py PROGRAM"""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+import program
+from program import DONE, LONGEST, ROOT, WRONG_CASE, Scratch, small_bed, strict_json
+
+MPI = 5
+
+
+def bare(*words, path="/usr/bin:/bin", **more):
+    """The program without any setting of Open MPI."""
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMI", "PATH"))}
+    with tempfile.TemporaryDirectory() as scratch:
+        return subprocess.run([program.PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
+                              timeout=LONGEST, env=kept | {"PATH": path, "TMPDIR": scratch} | more)
+
+
+class Ranks(Scratch):
+    def test_the_program_starts_its_ranks(self):
+        case = self.write("case.toml", small_bed("2 ms"))
+        for ranks in (1, 3):
+            directory = self.folder / f"on{ranks}"
+            done = bare("-n", ranks, "tfm", case, "--quiet", "--no-picture", "-o", directory)
+            self.assertEqual(done.returncode, DONE, done.stderr)
+            self.assertEqual(strict_json((directory / "run.json").read_text())["ranks"], ranks)
+        wrong = bare("-n", 2, "tfm", case, "--set", "run.until=-1", "-o", self.folder / "wrong")
+        self.assertEqual(wrong.returncode, WRONG_CASE, wrong.stderr)
+        self.assertEqual(wrong.stderr.count("is out of range"), 1, wrong.stderr)  # by the first rank alone
+
+    def test_a_number_of_ranks_that_is_none_is_refused(self):
+        for words in (["-n"], ["-n", "0", "list"], ["-n", "two", "list"], ["-n", "2"]):
+            self.assertEqual(bare(*words).returncode, WRONG_CASE, words)
+
+    def test_ranks_do_not_start_ranks(self):
+        done = bare("-n", 2, "list", OMPI_COMM_WORLD_SIZE="2")
+        self.assertEqual(done.returncode, MPI, done.stderr)
+        self.assertIn("leave out -n", done.stderr)
+
+    def test_mpirun_of_the_working_directory_is_not_started(self):
+        trap = self.write("mpirun", "#!/bin/sh\ntouch sprung\n")
+        trap.chmod(0o755)
+        here = os.getcwd()
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, here)
+        bare("-n", 2, "list", path=f".:{self.folder.name}:/usr/bin:/bin")
+        self.assertFalse((self.folder / "sprung").exists())
+
+    def test_one_rank_needs_no_other_program(self):
+        """Open MPI starts a daemon, and looks for ssh for it, unless it is told that nobody else is there."""
+        case = self.write("case.toml", small_bed("1 ms"))
+        for words in (["list"], ["check", case], ["effects", case], ["tfm", case, "--no-picture", "-o", self.folder / "tfm"],
+                      ["dem", case, "--no-picture", "-o", self.folder / "dem"]):
+            done = bare(*words, path="/nowhere")
+            self.assertEqual(done.returncode, DONE, (words, done.stderr[-500:]))
+
+    def test_ranks_that_outnumber_the_cores_yield(self):
+        """Two ranks on one core that spin while they wait need a time slice for each message: minutes in place of seconds."""
+        case = self.write("case.toml", small_bed("1 ms"))
+        before = os.sched_getaffinity(0)
+        os.sched_setaffinity(0, {min(before)})
+        self.addCleanup(os.sched_setaffinity, 0, before)
+        done = bare("-n", 2, "tfm", case, "--quiet", "--no-picture", "-o", self.folder / "run")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+
+
+class Launcher(Scratch):
+    """A built tree that belongs to somebody else, with a stand-in for the program."""
+
+    def tree(self):
+        root = self.folder / "tree"
+        for name in ("cmake", "closures", "core", "fluid", "tfm", "dem", "multiscale", "build"):
+            (root / name).mkdir(parents=True)
+        (root / "CMakeLists.txt").touch()
+        shutil.copy(ROOT / "polybed", root)
+        packages = root / "cmake/packages.txt"
+        packages.write_text("g++\n")
+        shutil.copy(packages, root / "build/packages.ok")
+        built = root / "build/polybed"
+        built.write_text('#!/bin/sh\necho "ran $*"\n')
+        built.chmod(0o755)
+        (root / "build/built-program").touch()
+        later = (root / "build/built-program").stat().st_mtime + 10
+        os.utime(root / "build/built-program", (later, later))
+        (root / "build").chmod(0o555)
+        self.addCleanup((root / "build").chmod, 0o755)
+        self.folder.chmod(0o755)
+        return root
+
+    def as_stranger(self, *words):
+        user = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"] if os.getuid() == 0 else []
+        return subprocess.run([*user, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", cwd="/",
+                              timeout=LONGEST)
+
+    def test_a_built_tree_runs_for_who_cannot_write_it(self):
+        root = self.tree()
+        done = self.as_stranger(root / "polybed", "list")
+        self.assertEqual((done.returncode, done.stdout), (0, "ran list\n"), done.stderr)
+
+    def test_a_tree_that_must_be_built_says_that_it_cannot(self):
+        root = self.tree()
+        later = (root / "build/built-program").stat().st_mtime + 10
+        os.utime(root / "CMakeLists.txt", (later, later))
+        done = self.as_stranger(root / "polybed", "list")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("cannot be written", done.stderr)
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,213 @@
+#include "hard/report.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/version.hpp"
+
+namespace polybed::hard {
+
+namespace {
+
+constexpr std::array<const char*, 5> columns{"implicit/limited", "explicit/limited", "explicit/upwind", "other schemes",
+                                             "textbook"};
+constexpr int case_width = 34, column_width = 29;
+
+std::size_t column_of(const Cell& cell) {
+  if (!cell.treatment.naive.empty()) return 4;
+  const auto found = std::find(columns.begin(), columns.begin() + 3, cell.treatment.name());
+  return std::size_t(found - columns.begin());
+}
+
+/// A share of a limit; beyond a limit of nothing there is no number.
+std::string share_text(const Measured& m) { return m.share() >= 1e290 ? "!" : fmt::format("{:.1g}", m.share()); }
+
+std::string cell_text(const Cell& cell) {
+  const Result& r = cell.result;
+  std::string text = name_of(r.outcome);
+  if (!cell.treatment.naive.empty())
+    text = cell.treatment.naive + " " + text;
+  else if (columns[column_of(cell)] != cell.treatment.name())
+    text = cell.treatment.name() + " " + text;
+  const std::string id = r.worst.id.substr(0, r.worst.id.find(' '));
+  if (!id.empty()) text += fmt::format(" {} {}", id, share_text(r.worst));
+  if (cell.treatment.naive.empty() && r.least_step > 0) text += fmt::format(" dt {:.0e}", r.least_step);
+  if (cell.cost > 0 && cell.treatment.naive.empty()) text += fmt::format(" {:.1f}x", cell.cost);
+  return text + (cell.as_expected() ? "" : " <--");
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : c == '\n' ? " " : std::string(1, c);
+  return out + "\"";
+}
+
+/// A cell of a Markdown table.
+std::string plain(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::replace(text.begin(), text.end(), '|', '/');
+  return text;
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
+}
+
+void write_cell(core::Json& json, const Cell& cell) {
+  const Result& r = cell.result;
+  json.begin_object().member("case", cell.one.id).member("title", cell.one.title);
+  json.member("scheme", cell.treatment.naive.empty() ? cell.treatment.name() : std::string("textbook"));
+  cell.treatment.naive.empty() ? json.key("naive").null() : json.member("naive", cell.treatment.naive);
+  json.member("outcome", name_of(r.outcome)).member("broken", r.broken).member("expected", cell.expected);
+  json.member("as_expected", cell.as_expected()).key("worst").begin_object().member("id", r.worst.id);
+  json.member("value", r.worst.value).member("limit", r.worst.limit).end_object();
+  json.member("dt_min", r.least_step).member("steps", r.work.steps).member("rejected_steps", r.work.rejected_steps);
+  json.member("cpu_s", r.cpu).member("cost", cell.cost).member("cause", r.cause).member("reported", r.reported);
+  json.end_object();
+}
+
+std::string json_text(std::span<const Cell> cells, const std::string& suite) {
+  core::Json json;
+  json.begin_object()
+      .member("filetype", "polybed stability")
+      .member("version", 1)
+      .member("git_commit", core::git_commit());
+  json.member("suite", suite).member("date", today());
+  json.key("cells").begin_array();
+  for (const Cell& cell : cells) write_cell(json, cell);
+  json.end_array().end_object();
+  return json.text() + "\n";
+}
+
+std::string csv_text(std::span<const Cell> cells) {
+  std::string text =
+      "case,treatment,outcome,broken,expected,worst,value,limit,dt_min,steps,rejected,cpu_s,cost,cause,reported\n";
+  for (const Cell& cell : cells) {
+    const Result& r = cell.result;
+    text += fmt::format("{},{},{},{},{},{},{:.3g},{:.3g},{:.3g},{},{},{:.2f},{:.2f},{},{}\n", cell.one.id,
+                        cell.treatment.name(), name_of(r.outcome), quoted(r.broken), quoted(cell.expected),
+                        quoted(r.worst.id), r.worst.value, r.worst.limit, r.least_step, r.work.steps,
+                        r.work.rejected_steps, r.cpu, cell.cost, quoted(r.cause), quoted(r.reported));
+  }
+  return text;
+}
+
+std::string outcomes_text(std::span<const Cell> cells) {
+  std::string text = "case,treatment,outcome,broken\n";
+  for (const Cell& cell : cells)
+    text += fmt::format("{},{},{},{}\n", cell.one.id, cell.treatment.name(), name_of(cell.result.outcome),
+                        cell.result.broken);
+  return text;
+}
+
+std::string product_row(const Cell& cell) {
+  const Result& r = cell.result;
+  const bool nothing_allowed = r.worst.limit <= 0 && r.worst.value > 0;
+  return fmt::format("| {} | {} | {} | {} | {} | {:.2g} | {} | {} | {} | {:.2f} | {} |\n", cell.one.id, cell.one.title,
+                     cell.treatment.name(), name_of(r.outcome), plain(r.worst.id), r.worst.value,
+                     nothing_allowed ? "nothing allowed" : fmt::format("{:.2g}", r.worst.share()),
+                     r.least_step > 0 ? fmt::format("{:.2g} s", r.least_step) : "-",
+                     r.work.steps > 0 ? fmt::format("{} ({})", r.work.steps, r.work.rejected_steps) : "-", r.cpu,
+                     cell.cost > 0 ? fmt::format("{:.2g}", cell.cost) : "-");
+}
+
+std::string textbook_row(const Cell& cell) {
+  const Measured& worst = cell.result.worst;
+  const std::string value = worst.value >= 1e299 ? "not a number" : fmt::format("{:.2g}", worst.value);
+  return fmt::format("| {} | `{}` | {} | {} |\n", cell.one.id, cell.treatment.naive, name_of(cell.result.outcome),
+                     plain(cell.result.cause.empty() ? fmt::format("{}: {}, limit {:.2g}", worst.id, value, worst.limit)
+                                                     : cell.result.cause));
+}
+
+std::string markdown(std::span<const Cell> cells, const std::string& suite) {
+  double cpu = 0;
+  std::string product, textbooks, reported;
+  for (const Cell& cell : cells) {
+    cpu += cell.result.cpu;
+    (cell.treatment.naive.empty() ? product : textbooks) +=
+        cell.treatment.naive.empty() ? product_row(cell) : textbook_row(cell);
+    if (!cell.result.reported.empty())
+      reported += fmt::format("- {}, {}: {}\n", cell.one.id, cell.treatment.name(), cell.result.reported);
+  }
+  std::string text = fmt::format("Suite {}, {}, commit {}, {:.0f} CPU s in all. {}\n\n", suite, today(),
+                                 core::git_commit().substr(0, 10), cpu, summary(cells));
+  text +=
+      "| case | set-up | scheme | outcome | furthest invariant | value | of its limit | least step | steps "
+      "(rejected) | CPU s | over the cheapest that passes |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n" +
+      product;
+  if (!textbooks.empty())
+    text += "\n| case | textbook treatment | outcome | how it fails |\n| --- | --- | --- | --- |\n" + textbooks;
+  if (!reported.empty()) text += "\nReported beside:\n\n" + reported;
+  return text;
+}
+
+}  // namespace
+
+std::string table_header() {
+  std::string text = fmt::format("{:{}}", "case", case_width);
+  for (const char* column : columns) text += fmt::format(" {:{}}", column, column_width);
+  return text;
+}
+
+std::string table_lines(std::span<const Cell> cells) {
+  std::array<std::vector<std::string>, columns.size()> stacks;
+  for (const Cell& cell : cells) stacks[column_of(cell)].push_back(cell_text(cell));
+  std::size_t height = 1;
+  for (const auto& stack : stacks) height = std::max(height, stack.size());
+  std::string text;
+  for (std::size_t line = 0; line < height; ++line) {
+    std::string row = fmt::format(
+        "{:{}}", line > 0 ? "" : (cells[0].one.id + " " + cells[0].one.title).substr(0, case_width), case_width);
+    for (const auto& stack : stacks) row += fmt::format(" {:{}}", line < stack.size() ? stack[line] : "", column_width);
+    while (row.back() == ' ') row.pop_back();
+    text += row + (line + 1 < height ? "\n" : "");
+  }
+  return text;
+}
+
+std::vector<std::string> differences(std::span<const Cell> cells) {
+  std::vector<std::string> lines;
+  for (const Cell& cell : cells) {
+    const std::string where = cell.one.id + ", " + cell.treatment.name() + ": ";
+    const Measured& worst = cell.result.worst;
+    if (!cell.as_expected())
+      lines.push_back(
+          where + cell.found() + "; expected " + (cell.expected.empty() ? "nothing" : cell.expected) +
+          fmt::format(" ({} = {:.3g}, limit {:.3g}) {}", worst.id, worst.value, worst.limit, cell.result.cause));
+    if (!cell.proves_hardness()) lines.push_back(where + "the textbook treatment passes: the case is not hard");
+  }
+  return lines;
+}
+
+std::string summary(std::span<const Cell> cells) {
+  const auto counts = [&](bool naive) {
+    std::string text;
+    for (const Outcome outcome : {Outcome::pass, Outcome::degraded, Outcome::refused, Outcome::fail})
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
+                          std::count_if(cells.begin(), cells.end(),
+                                        [&](const Cell& c) {
+                                          return c.treatment.naive.empty() != naive && c.result.outcome == outcome;
+                                        }),
+                          name_of(outcome));
+    return text;
+  };
+  const bool any = std::any_of(cells.begin(), cells.end(), [](const Cell& c) { return !c.treatment.naive.empty(); });
+  return "Product: " + counts(false) + "." + (any ? " Textbook treatments: " + counts(true) + "." : "");
+}
+
+void write_files(std::span<const Cell> cells, const std::string& suite, const std::filesystem::path& directory) {
+  core::write_atomically(directory / "stability.json", json_text(cells, suite));
+  core::write_atomically(directory / "stability.csv", csv_text(cells));
+  core::write_atomically(directory / "stability.md", markdown(cells, suite));
+  core::write_atomically(directory / "outcomes.csv", outcomes_text(cells));
+}
+
+}  // namespace polybed::hard

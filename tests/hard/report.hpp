@@ -1,0 +1,27 @@
+// The matrix of hard cases as people and programs read it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hard/matrix.hpp"
+
+namespace polybed::hard {
+
+/// Columns of the table on the screen.
+[[nodiscard]] std::string table_header();
+/// The lines of one case: outcome, furthest invariant over its limit, least step, cost over that of the cheapest
+/// scheme.
+[[nodiscard]] std::string table_lines(std::span<const Cell> cells);
+/// Every cell that is not as expected, and every textbook treatment that passes, a line each; empty if there is none.
+[[nodiscard]] std::vector<std::string> differences(std::span<const Cell> cells);
+/// How many cells of the product, and of textbook treatments, have each outcome.
+[[nodiscard]] std::string summary(std::span<const Cell> cells);
+
+/// Writes stability.json, stability.csv, stability.md, and outcomes.csv in the form of the table of what is expected.
+void write_files(std::span<const Cell> cells, const std::string& suite, const std::filesystem::path& directory);
+
+}  // namespace polybed::hard

@@ -1,0 +1,147 @@
+// The loop over events: what an integrator is asked to step to, and that a run which is resumed meets the same events.
+#include "core/run.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/scene.hpp"
+#include "core/schedule.hpp"
+
+namespace polybed::core {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr double ulp = std::numeric_limits<double>::epsilon();
+
+/// Takes steps of one length and refuses, as IDA does, to start towards a stop that round-off alone keeps apart.
+class Steps : public Simulation {
+ public:
+  explicit Steps(double step, double begin = 0) : step_(step), time_(begin) {}
+  [[nodiscard]] double time() const override { return time_; }
+  void step(double stop) override {
+    if (fresh_ && stop - time_ < 4 * ulp * (time_ + stop)) throw NumericsError("IDA_ILL_INPUT");
+    if (stop <= time_) throw NumericsError("a stop that is passed");
+    fresh_ = false;
+    before_ = time_;
+    time_ = time_ + step_ >= stop ? stop : time_ + step_;
+  }
+  void show(double t) override {
+    if (t < before_ || t > time_) throw NumericsError("a time outside the last step is shown");
+  }
+  void restart() override {
+    fresh_ = true;
+    restarts.push_back(time_);
+  }
+
+  std::vector<double> restarts;
+
+ private:
+  double step_, time_, before_ = 0;
+  bool fresh_ = true;
+};
+
+/// What a run did: times of its restarts, checkpoints and rows.
+struct Record {
+  std::vector<double> restarts, checkpoints, rows;
+};
+
+Record record_of(const Stops& stops, double every, double step, double begin = 0) {
+  Steps steps(step, begin);
+  Record record;
+  const Observer rows{"rows", every, [&](double t) { record.rows.push_back(t); }};
+  run(
+      steps, stops, {rows}, begin == 0, [&](double t) { record.checkpoints.push_back(t); }, [] { return true; });
+  record.restarts = steps.restarts;
+  return record;
+}
+
+TEST(Run, MeetsEveryWholeMillisecondWithTheDefaultPeriods) {
+  int apart = 0;
+  for (int ms = 1; ms <= 100'000; ++ms) {
+    const double until = ms / 1000.0, every = until / 20, checkpoint_every = until / 10;
+    apart += 10 * checkpoint_every != until || 20 * every != until;
+    const Record record = record_of({until, checkpoint_every, {}}, every, until / 7);
+    ASSERT_EQ(record.checkpoints.size(), 10U) << until;
+    ASSERT_EQ(record.checkpoints.back(), until);
+    ASSERT_EQ(record.restarts.size(), 10U) << until;
+    ASSERT_EQ(record.rows.size(), 21U) << until;
+    ASSERT_EQ(record.rows.back(), until);
+  }
+  EXPECT_GT(apart, 1000) << "ends that rounding keeps apart from the last multiple are what is tested";
+}
+
+TEST(Run, MeetsBreakpointsAndCheckpointsAsOneEvent) {
+  int apart = 0;
+  for (int n = 1; n <= 1000; ++n)
+    for (const double every : {0.1, 0.01, 0.007, 1.0 / 3}) {
+      const double kink = std::strtod(std::to_string(n * every).c_str(), nullptr);
+      if (!same_time(kink, n * every)) continue;
+      apart += kink != n * every;
+      const Record record = record_of({kink + every / 2, every, {kink}}, every, kink);
+      ASSERT_EQ(std::count(record.restarts.begin(), record.restarts.end(), kink), 1) << kink;
+      ASSERT_EQ(std::count(record.checkpoints.begin(), record.checkpoints.end(), kink), 1) << kink;
+      ASSERT_EQ(std::count(record.rows.begin(), record.rows.end(), kink), 1) << kink;
+      ASSERT_EQ(record.checkpoints.size(), std::size_t(n) + 1) << kink;
+    }
+  EXPECT_GT(apart, 100);
+}
+
+TEST(Run, StopsAtTheKinkWhereAnEndOrACheckpointIsAnUlpAway) {
+  const double checkpoint_every = 0.1, kink = 0.3;
+  ASSERT_GT(3 * checkpoint_every, kink);
+  const Record across = record_of({0.5, checkpoint_every, {kink}}, 0, 1);
+  EXPECT_THAT(across.restarts, ElementsAre(0.1, 0.2, kink, 0.4, 0.5));
+  EXPECT_EQ(across.checkpoints, across.restarts);
+  for (const double until : {kink * (1 - ulp), kink, kink * (1 + ulp)}) {
+    const Record record = record_of({until, checkpoint_every, {kink}}, 0, 1);
+    EXPECT_THAT(record.checkpoints, ElementsAre(0.1, 0.2, kink)) << until - kink;
+    EXPECT_THAT(record.rows, ElementsAre(0, kink));
+  }
+}
+
+/// A run that was killed anywhere takes up its last checkpoint and goes on as if nothing had been.
+TEST(Run, MeetsTheSameEventsAfterAResume) {
+  const Stops stops{1.8, 0.18, {0.3, 0.54, 1.2}};
+  const Record whole = record_of(stops, 0.06, 0.05);
+  for (std::size_t n = 0; n < whole.checkpoints.size(); ++n) {
+    const double begin = whole.checkpoints[n];
+    const auto rest = [&](const std::vector<double>& times) {
+      return std::vector<double>(std::upper_bound(times.begin(), times.end(), begin), times.end());
+    };
+    const Record resumed = record_of(stops, 0.06, 0.05, begin);
+    EXPECT_EQ(resumed.restarts, rest(whole.restarts)) << begin;
+    EXPECT_EQ(resumed.checkpoints, rest(whole.checkpoints)) << begin;
+    EXPECT_EQ(resumed.rows, rest(whole.rows)) << begin;
+  }
+}
+
+TEST(Run, TakesNoStepFromACheckpointAnUlpBeforeTheEnd) {
+  EXPECT_TRUE(record_of({1.8, 0.18, {}}, 0.09, 0.1, 10 * 0.18).restarts.empty());
+}
+
+TEST(Schedule, CountsMultiplesFromATimeThatIsOneUpToRounding) {
+  EXPECT_EQ(next_multiple(0.1, 0), 0.1);
+  EXPECT_EQ(next_multiple(0.1, 0.3), 0.4);  // 3 * 0.1 is later by an ulp
+  EXPECT_EQ(next_multiple(0.18, 1.8), 11 * 0.18);
+  EXPECT_EQ(next_multiple(0.1, 0.3 - 1e-10), 3 * 0.1);
+  EXPECT_EQ(next_multiple(0, 3), std::numeric_limits<double>::infinity());
+}
+
+TEST(Schedule, JoinsTimesOfTablesThatRoundingKeepsApart) {
+  Scene scene;
+  scene.inlet.superficial_velocity = {{0, 1}, {0.3, 1}, {3 * 0.1, 2}, {0.3 + 1e-9, 3}};
+  scene.jets.resize(1);
+  scene.jets[0].superficial_velocity = {{3 * 0.1, 4}, {1, 5}};
+  join_times(scene);
+  const std::vector<std::pair<double, double>> inlet{{0, 1}, {0.3, 1}, {0.3, 2}, {0.3 + 1e-9, 3}},
+      jet{{0.3, 4}, {1, 5}};
+  EXPECT_EQ(scene.inlet.superficial_velocity, inlet);
+  EXPECT_EQ(scene.jets[0].superficial_velocity, jet);
+}
+
+}  // namespace
+}  // namespace polybed::core

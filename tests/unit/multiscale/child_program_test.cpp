@@ -1,0 +1,56 @@
+// This program as another process: here the program of these tests, of which it runs one that is not run otherwise.
+#include "multiscale/child_program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "scenes/scratch.hpp"
+
+namespace polybed::multiscale {
+namespace {
+
+using scenes::Scratch;
+
+const std::vector<std::string> sleeping{"--gtest_also_run_disabled_tests",
+                                        "--gtest_filter=ChildProgram.DISABLED_SleepsForAnHour"};
+
+TEST(ChildProgram, DISABLED_SleepsForAnHour) { std::this_thread::sleep_for(std::chrono::hours(1)); }
+
+TEST(ChildProgram, EndsWithItsCodeAndWhatItPrinted) {
+  const Scratch folder;
+  const std::filesystem::path printed = folder.path() / "out";
+  const ChildExit end = run_child({{"--gtest_list_tests", "--gtest_filter=ChildProgram.*"}, 1, printed});
+  EXPECT_EQ(end.code, 0);
+  EXPECT_THAT(core::read_text(printed), testing::HasSubstr("EndsWithItsCodeAndWhatItPrinted"));
+}
+
+TEST(ChildProgram, IsEndedWhenItsTimeIsOver) {
+  const Scratch folder;
+  const ChildExit end = run_child({sleeping, 1, folder.path() / "out"}, 0.5);
+  EXPECT_TRUE(end.timed_out);
+  EXPECT_EQ(end.code, 128 + SIGTERM);
+  EXPECT_GE(end.wall, 0.5);
+}
+
+TEST(ChildProgram, EndsWithItsObject) {
+  const Scratch folder;
+  pid_t process = 0;
+  {
+    ChildProgram child({sleeping, 1, folder.path() / "out"});
+    process = child.process();
+    EXPECT_FALSE(child.has_ended());
+  }
+  EXPECT_EQ(::kill(process, 0), -1);
+}
+
+TEST(ChildProgram, TellsWhereItCannotWrite) {
+  EXPECT_THROW(ChildProgram({sleeping, 1, "/no/such/folder/out"}), core::FileError);
+}
+
+}  // namespace
+}  // namespace polybed::multiscale

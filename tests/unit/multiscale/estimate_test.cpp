@@ -1,0 +1,24 @@
+// What a prediction says of a part of a run, by hand.
+#include "multiscale/estimate/estimate.hpp"
+
+#include <gtest/gtest.h>
+
+namespace polybed::multiscale {
+namespace {
+
+// 10 s (4 to 22) of which 2 s (1 to 4) are before the first step: the steps take 8 s (3 to 18).
+TEST(TimeBand, OfAPartOfARun) {
+  const TimeBand whole{4, 10, 22, 2};
+  const TimeBand begun = whole.part(0.25, true), resumed = whole.part(0.75, false), all = whole.part(1, true);
+  EXPECT_EQ(begun.expected, 4);
+  EXPECT_EQ(begun.least, 1.75);
+  EXPECT_EQ(begun.most, 8.5);
+  EXPECT_EQ(resumed.expected, 6);
+  EXPECT_EQ(resumed.least, 2.25);
+  EXPECT_EQ(resumed.most, 13.5);
+  EXPECT_EQ(begun.expected + resumed.expected, all.expected);
+  EXPECT_EQ(all.expected, 10);
+}
+
+}  // namespace
+}  // namespace polybed::multiscale
