@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::dem {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/registry.hpp"
-#include "core/scene.hpp"
-#include "core/scene_rule.hpp"
-#include "dem/contact_batch.hpp"
-#include "dem/materials.hpp"
+#include "core/case/registry.hpp"
+#include "core/case/rule.hpp"
+#include "core/case/scene.hpp"
+#include "dem/contacts/batch.hpp"
+#include "dem/contacts/materials.hpp"
 
 namespace polybed::dem {
 

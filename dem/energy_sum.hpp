@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 
 namespace polybed::dem {
 

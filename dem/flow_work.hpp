@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "dem/box.hpp"
-#include "dem/contact_batch.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/batch.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/energy_sum.hpp"
 
 namespace polybed::dem {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/checkpoint.hpp"
-#include "core/messages.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/messages.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/output/checkpoint.hpp"
 
 namespace polybed::dem {
 

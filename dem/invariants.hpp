@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "dem/fluid_record.hpp"
+#include "dem/coupling/fluid_record.hpp"
 #include "dem/measures.hpp"
 #include "fluid/invariants.hpp"
 

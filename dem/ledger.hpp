@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dem/box.hpp"
-#include "dem/contact_batch.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/batch.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/effects.hpp"
 #include "dem/energy_sum.hpp"
 

@@ -8,8 +8,8 @@
 #include <unordered_set>
 
 #include "core/error.hpp"
-#include "dem/gathered.hpp"
 #include "dem/model.hpp"
+#include "dem/parallel/gathered.hpp"
 
 namespace polybed::dem {
 

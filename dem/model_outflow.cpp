@@ -3,7 +3,7 @@
 #include <array>
 #include <numeric>
 
-#include "core/messages.hpp"
+#include "core/numerics/messages.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 

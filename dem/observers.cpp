@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/ranks.hpp"
-#include "dem/gathered.hpp"
+#include "core/numerics/ranks.hpp"
+#include "dem/parallel/gathered.hpp"
 #include "fluid/measures.hpp"
 
 namespace polybed::dem {

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "core/output_history.hpp"
-#include "core/output_particles.hpp"
-#include "core/output_profiles.hpp"
-#include "core/scene.hpp"
-#include "dem/fluid_output.hpp"
-#include "dem/fluid_record.hpp"
+#include "core/case/scene.hpp"
+#include "core/output/history.hpp"
+#include "core/output/particles.hpp"
+#include "core/output/profiles.hpp"
+#include "dem/coupling/fluid_output.hpp"
+#include "dem/coupling/fluid_record.hpp"
 #include "dem/invariants.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "closures/contact_pair.hpp"
-#include "core/contact_properties.hpp"
+#include "core/case/contact_properties.hpp"
 
 namespace polybed::dem {
 

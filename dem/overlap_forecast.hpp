@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "dem/contacts/materials.hpp"
 #include "dem/effects.hpp"
-#include "dem/materials.hpp"
 
 namespace polybed::dem {
 

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "closures/sphere.hpp"
+#include "core/case/particle_list.hpp"
 #include "core/error.hpp"
-#include "core/particle_list.hpp"
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "dem/relaxation.hpp"
 
 namespace polybed::dem {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "dem/box.hpp"
-#include "dem/materials.hpp"
+#include "dem/contacts/materials.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {

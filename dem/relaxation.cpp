@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "dem/neighbours.hpp"
+#include "dem/contacts/neighbours.hpp"
 
 namespace polybed::dem {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dem/box.hpp"
-#include "dem/materials.hpp"
+#include "dem/contacts/materials.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem {

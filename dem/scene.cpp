@@ -9,8 +9,8 @@
 #include "closures/contact_pair.hpp"
 #include "closures/drag_turton_levenspiel.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "core/case/resolve_particles.hpp"
 #include "core/error.hpp"
-#include "core/resolve_particles.hpp"
 #include "dem/packing.hpp"
 #include "fluid/properties.hpp"
 

@@ -1,10 +1,10 @@
 // What the particle model reads from a scene: its box, gravity, units of force, skin and speeds.
 #pragma once
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "dem/box.hpp"
+#include "dem/contacts/materials.hpp"
 #include "dem/effects.hpp"
-#include "dem/materials.hpp"
 
 namespace polybed::dem {
 

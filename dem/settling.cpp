@@ -10,7 +10,7 @@
 #include "closures/terminal_velocity.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "dem/packing.hpp"

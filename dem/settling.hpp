@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "core/checkpoint.hpp"
-#include "core/ranks.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/output/checkpoint.hpp"
 #include "dem/box.hpp"
-#include "dem/materials.hpp"
+#include "dem/contacts/materials.hpp"
 
 namespace polybed::dem {
 

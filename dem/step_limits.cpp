@@ -7,7 +7,7 @@
 
 #include "closures/contact_pair.hpp"
 #include "closures/dem_time_step.hpp"
-#include "core/contact_properties.hpp"
+#include "core/case/contact_properties.hpp"
 
 namespace polybed::dem {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/messages.hpp"
+#include "core/numerics/messages.hpp"
 
 namespace polybed::dem {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "dem/affine_drag.hpp"
 #include "dem/box.hpp"
-#include "dem/fluid_motion.hpp"
+#include "dem/coupling/affine_drag.hpp"
+#include "dem/coupling/fluid_motion.hpp"
 #include "dem/ledger.hpp"
 #include "dem/particles.hpp"
 

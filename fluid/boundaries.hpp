@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/halo.hpp"
+#include "core/numerics/halo.hpp"
 
 namespace polybed::fluid {
 

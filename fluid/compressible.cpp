@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "fluid/density.hpp"
 #include "fluid/pressure.hpp"
 

@@ -13,7 +13,7 @@
 #include <variant>
 
 #include "closures/equation_of_state.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"

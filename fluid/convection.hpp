@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/boundaries.hpp"
 
 namespace polybed::fluid {

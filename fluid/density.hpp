@@ -2,7 +2,7 @@
 // for both, so that the incompressible one has neither a field nor a branch.
 #pragma once
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/fluid_state.hpp"
 
 namespace polybed::fluid {

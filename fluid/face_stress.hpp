@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/field.hpp"
+#include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "core/error.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "fluid/convection.hpp"
 #include "fluid/density.hpp"
 #include "fluid/fluid_mass.hpp"

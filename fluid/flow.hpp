@@ -17,8 +17,8 @@
 
 #include <optional>
 
-#include "core/linear_solver.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/linear_solver.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/compressible.hpp"
 #include "fluid/inlet.hpp"

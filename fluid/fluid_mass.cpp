@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "fluid/density.hpp"
 
 namespace polybed::fluid {

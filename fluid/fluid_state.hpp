@@ -1,7 +1,7 @@
 // The averaged fluid: its fields and its constants.
 #pragma once
 
-#include "core/field.hpp"
+#include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
 

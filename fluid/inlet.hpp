@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/field.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
 

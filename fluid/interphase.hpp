@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/field.hpp"
+#include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
 

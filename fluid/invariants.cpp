@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "fluid/pressure.hpp"
 
 namespace polybed::fluid {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/field.hpp"
+#include "core/numerics/field.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
 #include "fluid/openings.hpp"

@@ -8,7 +8,7 @@
 // J = eps U_f + sum phi_j U_j is the unknown, because its constraint div J = 0 is linear with constant coefficients.
 #pragma once
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"

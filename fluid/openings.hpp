@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "fluid/inlet.hpp"
 #include "fluid/interphase.hpp"
 

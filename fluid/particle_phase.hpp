@@ -2,7 +2,7 @@
 // know of them, as sums over particles on its own faces. Solids that are continua come through interphase.hpp.
 #pragma once
 
-#include "core/field.hpp"
+#include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
 

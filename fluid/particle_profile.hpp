@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/output_particles.hpp"
+#include "core/output/particles.hpp"
 #include "fluid/profile.hpp"
 
 namespace polybed::fluid {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/operators.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/operators.hpp"
+#include "core/numerics/ranks.hpp"
 
 namespace polybed::fluid {
 

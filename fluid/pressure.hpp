@@ -5,7 +5,7 @@
 // w > 0 (Baumgarte) drives what is left of div J, from inexact solves, back to zero.
 #pragma once
 
-#include "core/linear_solver.hpp"
+#include "core/numerics/linear_solver.hpp"
 #include "fluid/momentum.hpp"
 
 namespace polybed::fluid {

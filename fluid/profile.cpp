@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 
 namespace polybed::fluid {
 

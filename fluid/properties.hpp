@@ -1,7 +1,7 @@
 // From the fluid that a case names to its density and viscosity.
 #pragma once
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "fluid/fluid_state.hpp"
 
 namespace polybed::fluid {

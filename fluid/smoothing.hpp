@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "core/field.hpp"
+#include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
 

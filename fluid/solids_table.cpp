@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "core/output_file.hpp"
+#include "core/output/file.hpp"
 #include "fluid/solids_table_file.hpp"
 
 namespace polybed::fluid {

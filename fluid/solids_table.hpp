@@ -7,7 +7,7 @@
 
 #include "closures/stress_ratios.hpp"
 #include "closures/stress_reference.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::fluid {
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/output/files.hpp"
 
 namespace polybed::fluid {
 

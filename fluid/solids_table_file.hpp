@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/output_file.hpp"
+#include "core/output/file.hpp"
 #include "fluid/solids_table.hpp"
 
 namespace polybed::fluid {

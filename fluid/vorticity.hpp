@@ -1,7 +1,7 @@
 // Vorticity of the averaged fluid in cells.
 #pragma once
 
-#include "core/field.hpp"
+#include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/registry.hpp"
+#include "core/case/registry.hpp"
 
 namespace polybed::multiscale {
 

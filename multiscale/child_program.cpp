@@ -13,9 +13,9 @@
 #include <system_error>
 #include <thread>
 
-#include "core/descriptor.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/output/descriptor.hpp"
+#include "core/output/files.hpp"
 #include "multiscale/installed.hpp"
 #include "multiscale/mpirun.hpp"
 

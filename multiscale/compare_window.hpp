@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/output.hpp"
+#include "core/output/output.hpp"
 #include "fluid/profile.hpp"
 #include "fluid/time_mean.hpp"
 

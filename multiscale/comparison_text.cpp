@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/json.hpp"
+#include "core/output/json.hpp"
 #include "core/version.hpp"
 
 namespace polybed::multiscale {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/json.hpp"
-#include "core/scene.hpp"
-#include "dem/coupling.hpp"
-#include "dem/fluid_record.hpp"
+#include "core/case/scene.hpp"
+#include "core/output/json.hpp"
+#include "dem/coupling/coupling.hpp"
+#include "dem/coupling/fluid_record.hpp"
 
 namespace polybed::multiscale {
 

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/mpi_start.hpp"
+#include "core/numerics/mpi_start.hpp"
 #include "multiscale/child_program.hpp"
 #include "multiscale/installed.hpp"
 

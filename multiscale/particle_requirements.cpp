@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/blocks.hpp"
+#include "core/case/resolve_particles.hpp"
 #include "core/memory.hpp"
+#include "core/numerics/blocks.hpp"
 #include "core/print.hpp"
 #include "core/progress.hpp"
-#include "core/resolve_particles.hpp"
 #include "dem/effects/contact_hertz.hpp"
 #include "dem/packing.hpp"
 #include "dem/scene.hpp"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/json.hpp"
-#include "core/scene.hpp"
-#include "dem/kernel.hpp"
+#include "core/case/scene.hpp"
+#include "core/output/json.hpp"
+#include "dem/coupling/kernel.hpp"
 #include "dem/overlap_forecast.hpp"
 #include "dem/step_limits.hpp"
 

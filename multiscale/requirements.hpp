@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/case/scene.hpp"
 #include "core/memory.hpp"
-#include "core/scene.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::multiscale {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/registry.hpp"
-#include "core/size_classes.hpp"
+#include "core/case/registry.hpp"
+#include "core/case/size_classes.hpp"
 
 namespace polybed::multiscale {
 

@@ -6,11 +6,11 @@
 #include <fstream>
 #include <thread>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
 #include "core/version.hpp"
 #include "multiscale/scene_rules.hpp"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/json.hpp"
-#include "core/json_value.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/output/json.hpp"
+#include "core/output/json_value.hpp"
 #include "core/timers.hpp"
 #include "fluid/invariants.hpp"
 #include "multiscale/effects/left_out.hpp"

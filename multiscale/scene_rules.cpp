@@ -9,7 +9,7 @@
 
 #include "closures/max_packing.hpp"
 #include "closures/sphere.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "dem/effects.hpp"
 #include "fluid/gas_slip.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
-#include "core/scene_rule.hpp"
+#include "core/case/rule.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::multiscale {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/grid.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/grid.hpp"
 
 namespace polybed::tfm {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/registry.hpp"
-#include "core/scene.hpp"
-#include "core/scene_rule.hpp"
+#include "core/case/registry.hpp"
+#include "core/case/rule.hpp"
+#include "core/case/scene.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/compressible.hpp"
 #include "tfm/fields.hpp"

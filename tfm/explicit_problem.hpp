@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/integrator.hpp"
+#include "core/numerics/integrator.hpp"
 #include "tfm/pressure_coupling.hpp"
 #include "tfm/right_hand_side.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "tfm/packing_limit.hpp"
 
 namespace polybed::tfm {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 
 namespace polybed::tfm {
 

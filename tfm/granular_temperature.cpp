@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {

@@ -1,6 +1,6 @@
 #include "tfm/implicit_problem.hpp"
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 
 namespace polybed::tfm {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/integrator.hpp"
+#include "core/numerics/integrator.hpp"
 #include "tfm/preconditioner.hpp"
 #include "tfm/pressure_coupling.hpp"
 #include "tfm/right_hand_side.hpp"

@@ -1,7 +1,7 @@
 // The bed at the start of a run.
 #pragma once
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "tfm/effects.hpp"
 
 namespace polybed::tfm {

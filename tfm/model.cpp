@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/blocks.hpp"
 #include "core/error.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/blocks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "fluid/properties.hpp"
 #include "tfm/initial.hpp"
 #include "tfm/packing_limit.hpp"

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/blocks.hpp"
-#include "core/checkpoint.hpp"
-#include "core/run.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/blocks.hpp"
+#include "core/numerics/run.hpp"
+#include "core/output/checkpoint.hpp"
 #include "core/timers.hpp"
 #include "tfm/compressible_problem.hpp"
 #include "tfm/explicit_problem.hpp"

@@ -5,9 +5,9 @@
 #include <array>
 #include <utility>
 
-#include "core/blocks.hpp"
 #include "core/error.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/blocks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::tfm {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/error.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::tfm {

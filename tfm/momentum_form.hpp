@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::tfm {
 

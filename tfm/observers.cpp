@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "core/blocks.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/blocks.hpp"
+#include "core/numerics/ranks.hpp"
 
 namespace polybed::tfm {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/output.hpp"
+#include "core/output/output.hpp"
 #include "fluid/drift.hpp"
 #include "fluid/invariants.hpp"
 #include "fluid/measures.hpp"

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/error.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "tfm/mixture.hpp"
 
 namespace polybed::tfm {

@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-#include "core/linear_solver.hpp"
+#include "core/numerics/linear_solver.hpp"
 #include "fluid/boundaries.hpp"
 #include "tfm/fields.hpp"
 #include "tfm/state_layout.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 
 namespace polybed::tfm {
 

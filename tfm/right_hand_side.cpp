@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "fluid/pressure.hpp"
 #include "tfm/granular_temperature.hpp"
 #include "tfm/mixture.hpp"

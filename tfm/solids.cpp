@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/convection.hpp"
 #include "tfm/fraction_face.hpp"
 

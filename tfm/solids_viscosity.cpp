@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/face_stress.hpp"
 
 namespace polybed::tfm {

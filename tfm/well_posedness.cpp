@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "closures/well_posedness.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 
 namespace polybed::tfm {
 

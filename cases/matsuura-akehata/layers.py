@@ -15,7 +15,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "multiscale/python"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 import polybed
 from polybed.drawing.style import COLOURS, STYLE
 

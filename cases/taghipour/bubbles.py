@@ -18,7 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "multiscale/python"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 import polybed
 
 GRAVITY = 9.81

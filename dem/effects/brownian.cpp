@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "closures/gas_slip.hpp"
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 
 namespace polybed::dem {
 

@@ -5,7 +5,7 @@
 
 #include "closures/contact_hertz.hpp"
 #include "closures/restitution.hpp"
-#include "dem/batch_rows.hpp"
+#include "dem/contacts/rows.hpp"
 
 namespace polybed::dem {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "closures/contact_tangential.hpp"
-#include "dem/batch_rows.hpp"
+#include "dem/contacts/rows.hpp"
 #include "dem/effects/rows.hpp"
 
 namespace polybed::dem {

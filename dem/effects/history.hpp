@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "closures/history_basset.hpp"
-#include "dem/side_forces.hpp"
+#include "dem/effects/side_forces.hpp"
 
 namespace polybed::dem {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dem/side_forces.hpp"
+#include "dem/effects/side_forces.hpp"
 
 namespace polybed::dem {
 

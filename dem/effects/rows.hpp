@@ -3,7 +3,7 @@
 
 #include "closures/contact_tangential.hpp"
 #include "closures/vec3.hpp"
-#include "dem/contact_batch.hpp"
+#include "dem/contacts/batch.hpp"
 
 namespace polybed::dem {
 

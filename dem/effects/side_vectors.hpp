@@ -2,7 +2,7 @@
 #pragma once
 
 #include "closures/vec3.hpp"
-#include "dem/side_forces.hpp"
+#include "dem/effects/side_forces.hpp"
 
 namespace polybed::dem {
 

@@ -8,7 +8,7 @@
 #include "closures/drag.hpp"
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "core/timers.hpp"
 #include "dem/stress.hpp"
 #include "fluid/properties.hpp"

@@ -6,7 +6,7 @@
 
 #include "closures/stress_table.hpp"
 #include "core/error.hpp"
-#include "core/output_file.hpp"
+#include "core/output/file.hpp"
 #include "fluid/solids_table_file.hpp"
 
 namespace polybed::multiscale {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
-#include "core/json_value.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/output/json_value.hpp"
 
 namespace polybed::multiscale {
 

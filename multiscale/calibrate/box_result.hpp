@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "multiscale/calibrate/plan.hpp"
 
 namespace polybed::multiscale {

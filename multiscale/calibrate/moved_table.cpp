@@ -4,7 +4,7 @@
 
 #include "closures/stress_table.hpp"
 #include "core/error.hpp"
-#include "core/output_file.hpp"
+#include "core/output/file.hpp"
 #include "fluid/solids_table.hpp"
 #include "fluid/solids_table_file.hpp"
 #include "multiscale/calibrate/fit.hpp"

@@ -7,7 +7,7 @@
 
 #include "closures/mixture.hpp"
 #include "closures/stress_reference.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "fluid/solids_table.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "fluid/shear_regime.hpp"
 
 namespace polybed::multiscale {

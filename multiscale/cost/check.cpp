@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/output/files.hpp"
 #include "core/print.hpp"
 #include "multiscale/cost/quantities.hpp"
 #include "multiscale/cost/runner.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/json_value.hpp"
+#include "core/output/json_value.hpp"
 
 namespace polybed::multiscale {
 

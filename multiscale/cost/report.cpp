@@ -7,9 +7,9 @@
 #include <cmath>
 #include <thread>
 
-#include "core/case_file.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
+#include "core/case/file.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
 #include "core/version.hpp"
 #include "multiscale/cost/judge.hpp"
 #include "multiscale/cost/timing.hpp"

@@ -7,12 +7,12 @@
 #include <array>
 #include <string_view>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
-#include "core/json_value.hpp"
-#include "core/output_directory.hpp"
+#include "core/output/directory.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/output/json_value.hpp"
 #include "multiscale/child_program.hpp"
 
 namespace polybed::multiscale {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "multiscale/compare_window.hpp"
 #include "multiscale/cost/work.hpp"
 

@@ -8,9 +8,9 @@
 #include <functional>
 
 #include "closures/sphere.hpp"
-#include "core/output_particles.hpp"
+#include "core/numerics/random.hpp"
+#include "core/output/particles.hpp"
 #include "core/print.hpp"
-#include "core/random.hpp"
 #include "fluid/measures.hpp"
 #include "fluid/particle_profile.hpp"
 #include "fluid/time_mean.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/integrator.hpp"
+#include "core/numerics/integrator.hpp"
 #include "multiscale/cost/fit.hpp"
 #include "multiscale/cost/selftest.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <thread>
 
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "multiscale/cost/judge.hpp"
 #include "multiscale/cost/sweeper.hpp"
 #include "multiscale/cost/timing.hpp"

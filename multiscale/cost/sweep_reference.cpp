@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/files.hpp"
+#include "core/output/files.hpp"
 #include "multiscale/cost/judge.hpp"
 #include "multiscale/cost/refinement.hpp"
 #include "multiscale/cost/sweeper.hpp"

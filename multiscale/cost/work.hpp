@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "core/json_value.hpp"
+#include "core/output/json_value.hpp"
 
 namespace polybed::multiscale {
 

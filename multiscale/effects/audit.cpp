@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "core/json_value.hpp"
-#include "core/output_fields.hpp"
-#include "core/output_particles.hpp"
+#include "core/output/fields.hpp"
+#include "core/output/json_value.hpp"
+#include "core/output/particles.hpp"
 #include "multiscale/effects/fluid_map.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"

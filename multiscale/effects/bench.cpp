@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/timers.hpp"
 #include "dem/model.hpp"
 #include "multiscale/roles.hpp"

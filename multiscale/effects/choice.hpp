@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "multiscale/effects/effect_row.hpp"
 #include "multiscale/effects/weigh.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/scene.hpp"
-#include "core/scene_rule.hpp"
+#include "core/case/rule.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::multiscale {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/json.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/output/json.hpp"
 #include "multiscale/effects/choice.hpp"
 
 namespace polybed::multiscale {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/output_fields.hpp"
+#include "core/output/fields.hpp"
 #include "fluid/vorticity.hpp"
 #include "multiscale/effects/fluid_map.hpp"
 #include "multiscale/effects/switching.hpp"

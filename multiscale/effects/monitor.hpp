@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "dem/model.hpp"
 #include "multiscale/effects/neglected.hpp"
 #include "tfm/model.hpp"

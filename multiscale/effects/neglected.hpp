@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "closures/vec3.hpp"
-#include "core/json.hpp"
-#include "core/ranks.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/output/json.hpp"
 #include "multiscale/effects/choice.hpp"
 
 namespace polybed::multiscale {

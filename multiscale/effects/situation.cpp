@@ -10,9 +10,9 @@
 #include "closures/mixture.hpp"
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "core/case/particle_list.hpp"
+#include "core/case/resolve_particles.hpp"
 #include "core/error.hpp"
-#include "core/particle_list.hpp"
-#include "core/resolve_particles.hpp"
 #include "fluid/properties.hpp"
 
 namespace polybed::multiscale {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "closures/drag.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::multiscale {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::multiscale {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "multiscale/effects/effect_row.hpp"
 #include "multiscale/effects/situation.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/json.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/output/json.hpp"
 #include "multiscale/estimate/machine.hpp"
 #include "multiscale/requirements.hpp"
 

@@ -2,11 +2,11 @@
 
 #include <cstdlib>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
-#include "core/json_value.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/output/json_value.hpp"
 #include "core/timers.hpp"
 #include "core/version.hpp"
 #include "dem/model.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "closures/drag.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "fluid/fluid_state.hpp"
 
 namespace polybed::multiscale {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "core/json_value.hpp"
+#include "core/output/json_value.hpp"
 
 namespace polybed::multiscale {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "multiscale/inversion/scan_report.hpp"
 
 namespace polybed::multiscale {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/json.hpp"
+#include "core/output/json.hpp"
 #include "core/version.hpp"
 
 namespace polybed::multiscale {

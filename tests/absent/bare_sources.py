@@ -34,6 +34,6 @@ def bare_tfm_effects(text):
 if __name__ == "__main__":
     root, output = map(pathlib.Path, sys.argv[1:3])
     output.mkdir(parents=True, exist_ok=True)
-    for source, name, bare in (("dem/side_forces", "side_forces", bare_side_forces), ("dem/effects", "effects", bare_effects),
+    for source, name, bare in (("dem/effects/side_forces", "side_forces", bare_side_forces), ("dem/effects", "effects", bare_effects),
                                ("tfm/effects", "tfm_effects", bare_tfm_effects)):
         (output / f"bare_{name}.cpp").write_text(bare((root / f"{source}.cpp").read_text()))

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "absent/control.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/timers.hpp"
 #include "dem/model.hpp"
 #include "tfm/model.hpp"

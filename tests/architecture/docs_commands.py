@@ -58,7 +58,7 @@ def shortened(command, program):
 
 def run(command, program, scratch):
     environment = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
-    environment |= {"PYTHONPATH": str(ROOT / "multiscale/python"), "POLYBED": os.path.abspath(program)}
+    environment |= {"PYTHONPATH": str(ROOT / "python"), "POLYBED": os.path.abspath(program)}
     words = shortened(command, program)
     if words[0] == program and words[1] in ALONE:
         environment |= open_mpi.ONE_PROCESS
@@ -85,7 +85,7 @@ if __name__ == "__main__":
     problems, ran, left = [], 0, 0
     for path in tracked(".md"):
         with tempfile.TemporaryDirectory() as scratch:
-            for name in ("cases", "docs", "multiscale"):
+            for name in ("cases", "docs", "python"):
                 os.symlink(ROOT / name, os.path.join(scratch, name))
             for mark, commands in blocks(path.read_text()):
                 if mark:

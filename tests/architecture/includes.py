@@ -15,16 +15,17 @@ MAY_USE = {
     "tfm": {"tfm", "fluid", "core", "closures"},
     "dem": {"dem", "fluid", "core", "closures"},
     "multiscale": {"multiscale", "tfm", "dem", "fluid", "core", "closures"},
+    "app": {"app", "multiscale", "tfm", "dem", "fluid", "core", "closures"},
 }
 # header -> the only files that may include it
 LIBRARIES = {
-    r"(arkode|ida|nvector|sundials|sunlinsol|sunmatrix)/": r"core/integrator(_\w+)?\.[ch]pp",
-    r"_?HYPRE": r"core/(linear_solver\w*\.cpp|hypre_rows\.[ch]pp)",
-    r"hdf5": r"core/output_((file|blocks)\.cpp|hdf5\.hpp)",
-    r"toml\+\+/": r"core/case_(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
-    r"CLI/": r"multiscale/command_line/commands\.hpp",
-    r"mpi\.h": r"(core/mpi\.hpp|multiscale/command_line/mpi_session\.hpp)",
-    r"core/mpi\.hpp": r"core/(ranks|mpi_start|blocks|halo|messages|output_blocks|linear_solver|hypre_rows|integrator_vector)\.cpp",
+    r"(arkode|ida|nvector|sundials|sunlinsol|sunmatrix)/": r"core/numerics/integrator(_\w+)?\.[ch]pp",
+    r"_?HYPRE": r"core/numerics/(linear_solver\w*\.cpp|hypre_rows\.[ch]pp)",
+    r"hdf5": r"core/output/((file|blocks)\.cpp|hdf5\.hpp)",
+    r"toml\+\+/": r"core/case/(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
+    r"CLI/": r"app/commands\.hpp",
+    r"mpi\.h": r"(core/numerics/mpi\.hpp|app/mpi_session\.hpp)",
+    r"core/numerics/mpi\.hpp": r"core/(output/blocks|numerics/(ranks|mpi_start|blocks|halo|messages|linear_solver|hypre_rows|integrator_vector))\.cpp",
 }
 CLOSURES_SEE = re.compile(r"^(closures/|Eigen/|[a-z_]+$)")  # ours, Eigen, the standard library
 
@@ -100,10 +101,10 @@ def self_test():
     assert problems_of("core/a.hpp", '#include "closures/drag.hpp"')
     assert problems_of("tfm/a.cpp", "#include <hdf5.h>")
     assert problems_of("dem/a.cpp", '#include "tfm/model.hpp"') and problems_of("tfm/a.cpp", '#include "dem/model.hpp"')
-    assert problems_of("core/run.cpp", "#include <ida/ida.h>")
+    assert problems_of("core/numerics/run.cpp", "#include <ida/ida.h>")
     assert not problems_of("tfm/a.cpp", '#include "fluid/pressure.hpp"\n#include <vector>')
     assert not_included("core/a.cpp", "std::vector<int> a;", {"map"})
-    assert not not_included("core/a.cpp", "std::vector<int> a;  // no std::map", {"core/scene.hpp"})
+    assert not not_included("core/a.cpp", "std::vector<int> a;  // no std::map", {"core/case/scene.hpp"})
 
 
 if __name__ == "__main__":

@@ -267,7 +267,7 @@ class Calibration(Scratch):
         self.assertEqual(refused.returncode, program.FILE, refused.stdout)
         self.assertIn("bed", refused.stderr)
         drawn = subprocess.run(["/usr/bin/python3", "-m", "polybed.drawing.stress_table", self.folder / "boxes/table.h5"],
-                               env=dict(os.environ, PYTHONPATH=str(program.ROOT / "multiscale/python")), timeout=60)
+                               env=dict(os.environ, PYTHONPATH=str(program.ROOT / "python")), timeout=60)
         self.assertEqual(drawn.returncode, 0)
         self.assertGreater((self.folder / "boxes/table.png").stat().st_size, 5000)
 

@@ -15,7 +15,7 @@ import numpy as np
 import program
 from program import DONE, FILE, ROOT, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
 
-sys.path.insert(0, str(ROOT / "multiscale/python"))
+sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
 from polybed import comparison as page  # noqa: E402
 from polybed.drawing import comparison as drawing  # noqa: E402

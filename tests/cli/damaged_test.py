@@ -17,7 +17,7 @@ import numpy as np
 import program
 from program import DONE, FILE, ROOT, Scratch
 
-sys.path.insert(0, str(ROOT / "multiscale/python"))
+sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
 import polybed.cost  # noqa: E402
 import polybed.scan  # noqa: E402

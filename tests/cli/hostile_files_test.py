@@ -12,7 +12,7 @@ import numpy as np
 import program
 from program import CASE, DONE, FILE, ROOT, WRONG_CASE, Scratch, run, run_all, small_bed, strict_json
 
-sys.path.insert(0, str(ROOT / "multiscale/python"))
+sys.path.insert(0, str(ROOT / "python"))
 import polybed.solids_table  # noqa: E402
 
 TABLE_CASE = ROOT / "cases/small-binary/case.toml"

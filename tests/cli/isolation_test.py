@@ -77,7 +77,7 @@ class AmongStrangersFiles(Scratch):
         self.assertTrue((self.place / "both/comparison.html").exists())
 
     def test_runs_from_python(self):
-        script = (f"import sys; sys.path.insert(0, {str(ROOT / 'multiscale/python')!r})\nimport polybed\n"
+        script = (f"import sys; sys.path.insert(0, {str(ROOT / 'python')!r})\nimport polybed\n"
                   f"polybed.run({str(self.case)!r}, ranks=2)")
         self.runs_ours_alone("/usr/bin/python3", "-I", "-c", script, POLYBED=program.PROGRAM)
 

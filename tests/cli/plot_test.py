@@ -97,7 +97,7 @@ class Plot(Scratch):
         installed.parent.mkdir()
         shutil.copy(program.PROGRAM, installed)
         python = self.folder / "share/polybed/python"
-        shutil.copytree(program.ROOT / "multiscale/python/polybed", python / "polybed")
+        shutil.copytree(program.ROOT / "python/polybed", python / "polybed")
         environment = program.environment(str(self.folder))
         for package in ("matplotlib", "h5py", "numpy"):
             stand_in = python / f"{package}.py"

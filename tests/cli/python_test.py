@@ -14,12 +14,12 @@ import numpy as np
 import program
 from program import ROOT, WRONG_CASE, Scratch, strict_json
 
-sys.path.insert(0, str(ROOT / "multiscale/python"))
+sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
 import polybed.program as package  # noqa: E402
 
 CASE = ROOT / "cases/small-binary/case.toml"
-GALLERY = ROOT / "multiscale/python/gallery"
+GALLERY = ROOT / "python/gallery"
 SHORT = {"output.every": "1 ms", "output.history_every": "0.1 ms"}
 UNTIL = "10 ms"
 
@@ -128,7 +128,7 @@ class Package(Scratch):
 
     def test_a_missing_package_is_named_in_one_line(self):
         (self.folder / "h5py.py").write_text("raise ModuleNotFoundError('No module named h5py', name='h5py')")
-        settings = os.environ | {"PYTHONPATH": f"{self.folder}:{ROOT / 'multiscale/python'}"}
+        settings = os.environ | {"PYTHONPATH": f"{self.folder}:{ROOT / 'python'}"}
         done = subprocess.run(["/usr/bin/python3", "-c", "import polybed"], env=settings, capture_output=True, text=True)
         self.assertRegex(done.stderr.splitlines()[-1], "^ImportError: .*h5py is missing for /usr/bin/python3: apt-get install .*python3-h5py")
         self.assertNotIn("During handling", done.stderr)
@@ -192,7 +192,7 @@ class Package(Scratch):
 
 class Gallery(Scratch):
     def test_every_script_makes_its_picture(self):
-        settings = dict(os.environ, POLYBED=program.PROGRAM, PYTHONPATH=str(ROOT / "multiscale/python"))
+        settings = dict(os.environ, POLYBED=program.PROGRAM, PYTHONPATH=str(ROOT / "python"))
         scripts = sorted(path for path in GALLERY.glob("*.py") if path.name != "common.py")
         self.assertEqual(len(scripts), 5)
         running = [subprocess.Popen(["/usr/bin/python3", script, "--short", "-o", self.folder], env=settings, text=True,

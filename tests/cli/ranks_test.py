@@ -73,7 +73,7 @@ class Launcher(Scratch):
 
     def tree(self):
         root = self.folder / "tree"
-        for name in ("cmake", "closures", "core", "fluid", "tfm", "dem", "multiscale", "build"):
+        for name in ("cmake", "closures", "core", "fluid", "tfm", "dem", "multiscale", "app", "build"):
             (root / name).mkdir(parents=True)
         (root / "CMakeLists.txt").touch()
         shutil.copy(ROOT / "polybed", root)

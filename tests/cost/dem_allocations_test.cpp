@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "dem/model.hpp"
 #include "fluid/smoothing.hpp"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "hard/dry_spheres.hpp"
 
 namespace polybed::hard {

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <functional>
 
-#include "core/case_file.hpp"
-#include "core/checkpoint.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
+#include "core/output/checkpoint.hpp"
 #include "core/timers.hpp"
 #include "hard/cases.hpp"
 #include "hard/program.hpp"

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "core/random.hpp"
-#include "dem/coupling.hpp"
+#include "core/numerics/random.hpp"
+#include "dem/coupling/coupling.hpp"
 #include "fluid/measures.hpp"
 #include "fluid/particle_profile.hpp"
 #include "fluid/time_mean.hpp"

@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json_value.hpp"
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json_value.hpp"
 #include "hard/cases.hpp"
 #include "hard/program.hpp"
 #include "hard/textbook.hpp"

@@ -4,7 +4,7 @@
 
 #include "closures/lubrication.hpp"
 #include "core/error.hpp"
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "hard/cases.hpp"
 #include "hard/grains.hpp"
 #include "hard/suspension.hpp"

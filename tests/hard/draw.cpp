@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "closures/minimum_fluidisation.hpp"
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 
 namespace polybed::hard {
 

@@ -7,9 +7,9 @@
 #include <map>
 #include <numeric>
 
-#include "core/files.hpp"
-#include "core/json.hpp"
-#include "core/output_directory.hpp"
+#include "core/output/directory.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "core/version.hpp"
 #include "hard/fuzz.hpp"

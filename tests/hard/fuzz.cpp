@@ -8,10 +8,10 @@
 #include <set>
 #include <sstream>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/run.hpp"
+#include "core/numerics/run.hpp"
+#include "core/output/files.hpp"
 #include "dem/model.hpp"
 #include "hard/child.hpp"
 #include "hard/grains.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/schedule.hpp"
+#include "core/numerics/schedule.hpp"
 #include "fluid/invariants.hpp"
 #include "hard/bed_invariants.hpp"
 #include "hard/textbook.hpp"

@@ -1,9 +1,9 @@
 // polybed-hard: hard cases against every scheme and every textbook treatment, and drawn scenes.
 #include <CLI/CLI.hpp>
 
+#include "app/process.hpp"
 #include "core/print.hpp"
 #include "hard/options.hpp"
-#include "multiscale/command_line/process.hpp"
 
 namespace {
 

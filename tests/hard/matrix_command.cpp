@@ -1,14 +1,14 @@
 // polybed-hard: the catalogue of hard cases against every scheme, cell by cell what held.
 #include <cstdio>
 
+#include "app/comma_list.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/output_directory.hpp"
+#include "core/output/directory.hpp"
+#include "core/output/files.hpp"
 #include "core/print.hpp"
 #include "hard/fuzz.hpp"
 #include "hard/options.hpp"
 #include "hard/report.hpp"
-#include "multiscale/commands/comma_list.hpp"
 #include "multiscale/picture.hpp"
 
 namespace polybed::hard {

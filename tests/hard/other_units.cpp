@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/keys.hpp"
+#include "core/case/keys.hpp"
 #include "fluid/properties.hpp"
 
 namespace polybed::hard {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/scene.hpp"
-#include "core/units.hpp"
+#include "core/case/scene.hpp"
+#include "core/case/units.hpp"
 
 namespace polybed::hard {
 

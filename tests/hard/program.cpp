@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/files.hpp"
+#include "core/output/files.hpp"
 #include "multiscale/installed.hpp"
 #include "scenes/scratch.hpp"
 

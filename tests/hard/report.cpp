@@ -7,8 +7,8 @@
 #include <array>
 #include <ctime>
 
-#include "core/files.hpp"
-#include "core/json.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
 #include "core/version.hpp"
 
 namespace polybed::hard {

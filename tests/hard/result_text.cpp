@@ -1,8 +1,8 @@
 #include "hard/result_text.hpp"
 
 #include "core/error.hpp"
-#include "core/json.hpp"
-#include "core/json_value.hpp"
+#include "core/output/json.hpp"
+#include "core/output/json_value.hpp"
 
 namespace polybed::hard {
 

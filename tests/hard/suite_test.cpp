@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/output/files.hpp"
 #include "core/timers.hpp"
 #include "hard/child.hpp"
 #include "hard/fuzz.hpp"

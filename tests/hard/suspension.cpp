@@ -1,6 +1,6 @@
 #include "hard/suspension.hpp"
 
-#include "dem/coupling.hpp"
+#include "dem/coupling/coupling.hpp"
 
 namespace polybed::hard {
 

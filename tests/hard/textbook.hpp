@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "dem/particles.hpp"
 #include "fluid/flow.hpp"
 #include "hard/hard_case.hpp"

@@ -1,5 +1,5 @@
 // Blocks, ghosts and reductions, on as many ranks as mpirun starts: every answer is known from the cell's place.
-#include "core/blocks.hpp"
+#include "core/numerics/blocks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "core/halo.hpp"
-#include "core/linear_solver.hpp"
-#include "core/mpi.hpp"
+#include "core/numerics/halo.hpp"
+#include "core/numerics/linear_solver.hpp"
+#include "core/numerics/mpi.hpp"
 
 namespace polybed::core {
 namespace {

@@ -7,11 +7,11 @@
 #include <limits>
 #include <optional>
 
-#include "core/blocks.hpp"
-#include "core/checkpoint.hpp"
 #include "core/error.hpp"
-#include "core/output_fields.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/blocks.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/output/checkpoint.hpp"
+#include "core/output/fields.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {

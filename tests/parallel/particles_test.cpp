@@ -9,13 +9,13 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/mpi.hpp"
-#include "core/random.hpp"
-#include "dem/exchange.hpp"
-#include "dem/gathered.hpp"
-#include "dem/materials.hpp"
+#include "core/numerics/mpi.hpp"
+#include "core/numerics/random.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/contacts/neighbours.hpp"
 #include "dem/model.hpp"
-#include "dem/neighbours.hpp"
+#include "dem/parallel/exchange.hpp"
+#include "dem/parallel/gathered.hpp"
 #include "dem/stress.hpp"
 #include "scenes/dem_gas.hpp"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "core/timers.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"

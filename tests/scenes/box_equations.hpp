@@ -2,7 +2,7 @@
 // here, between the operator and the pressure, and production code knows nothing of it.
 #pragma once
 
-#include "core/integrator.hpp"
+#include "core/numerics/integrator.hpp"
 #include "scenes/beds.hpp"
 #include "tfm/explicit_problem.hpp"
 

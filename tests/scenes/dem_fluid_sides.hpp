@@ -1,10 +1,10 @@
 // Forces of the fluid beside drag: particles in fields that the test holds, and in a fluid that moves.
 #pragma once
 
-#include "core/blocks.hpp"
 #include "core/error.hpp"
-#include "dem/particle_forces.hpp"
-#include "dem/side_forces.hpp"
+#include "core/numerics/blocks.hpp"
+#include "dem/coupling/particle_forces.hpp"
+#include "dem/effects/side_forces.hpp"
 #include "dem/verlet.hpp"
 #include "fluid/vorticity.hpp"
 #include "scenes/dem_scenes.hpp"

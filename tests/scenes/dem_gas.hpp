@@ -3,7 +3,7 @@
 
 #include "closures/kinetic_theory.hpp"
 #include "closures/restitution.hpp"
-#include "core/messages.hpp"
+#include "core/numerics/messages.hpp"
 #include "dem/stress.hpp"
 #include "scenes/dem_scenes.hpp"
 

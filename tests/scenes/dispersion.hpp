@@ -15,7 +15,7 @@
 #include <complex>
 
 #include "closures/drag.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::scenes {
 

@@ -1,7 +1,7 @@
 // Lid-driven cavity: convection, viscous stress and pressure of the fluid alone against a published solution.
 #include <gtest/gtest.h>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/viscous_stress.hpp"
 #include "scenes/box_equations.hpp"
 #include "scenes/record.hpp"

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "multiscale/python"))
+sys.path.insert(0, str(ROOT / "python"))
 
 
 def finished(directory):

@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/measures.hpp"
 #include "scenes/record.hpp"
 

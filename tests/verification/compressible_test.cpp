@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "scenes/record.hpp"
 
 namespace polybed::scenes {

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "scenes/dem_scenes.hpp"
 #include "scenes/wet_beads.hpp"
 

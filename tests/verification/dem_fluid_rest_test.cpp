@@ -1,5 +1,5 @@
 // Particles and fluid at rest, and how a sphere begins to move: weight, buoyancy and added mass.
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "scenes/dem_scenes.hpp"
 #include "scenes/wet_beads.hpp"
 

@@ -1,5 +1,5 @@
 // A run taken up again has the bits of one that went through, with the fluid between the particles.
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "scenes/dem_scenes.hpp"
 #include "scenes/wet_beads.hpp"
 

@@ -1,6 +1,6 @@
 // Periodic boxes: the least depth, translation, places at exactly 0 and L. D11 and D12 of the hard cases.
 #include "core/error.hpp"
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "scenes/dem_scenes.hpp"
 
 namespace polybed::scenes {

@@ -1,7 +1,7 @@
 // Boxes sheared after Lees and Edwards: kinematics, conservation, the energy ledger, one point of simple shear.
 #include <set>
 
-#include "core/random.hpp"
+#include "core/numerics/random.hpp"
 #include "scenes/dem_gas.hpp"
 
 namespace polybed::scenes {

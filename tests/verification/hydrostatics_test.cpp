@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "scenes/record.hpp"
 
 namespace polybed::scenes {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "scenes/record.hpp"
 #include "tfm/explicit_problem.hpp"
 

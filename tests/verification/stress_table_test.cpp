@@ -3,7 +3,7 @@
 
 #include "../unit/core/scratch.hpp"
 #include "core/error.hpp"
-#include "core/output_file.hpp"
+#include "core/output/file.hpp"
 #include "scenes/record.hpp"
 #include "tfm/effects/solids_stress_table.hpp"
 

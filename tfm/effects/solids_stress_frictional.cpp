@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/ranks.hpp"
+#include "core/numerics/ranks.hpp"
 #include "tfm/bulk_viscosity.hpp"
 #include "tfm/initial.hpp"
 

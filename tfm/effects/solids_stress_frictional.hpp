@@ -3,7 +3,7 @@
 
 #include "closures/max_packing.hpp"
 #include "closures/stress_frictional.hpp"
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "tfm/effects.hpp"
 
 namespace polybed::tfm {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "tfm/granular_temperature.hpp"
 #include "tfm/solids.hpp"
 #include "tfm/solids_viscosity.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 
 namespace polybed::tfm {
 

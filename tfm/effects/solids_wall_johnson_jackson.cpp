@@ -5,7 +5,7 @@
 
 #include "closures/kinetic_theory.hpp"
 #include "core/error.hpp"
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "tfm/solids.hpp"
 
 namespace polybed::tfm {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/integrator.hpp"
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/integrator.hpp"
 #include "fluid/pressure.hpp"
 #include "tfm/model.hpp"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/blocks.hpp"
+#include "core/numerics/blocks.hpp"
 
 namespace polybed::hard::naive {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "dem/fluid_motion.hpp"
-#include "dem/gather.hpp"
-#include "dem/particle_forces.hpp"
-#include "dem/scatter.hpp"
+#include "dem/coupling/fluid_motion.hpp"
+#include "dem/coupling/gather.hpp"
+#include "dem/coupling/particle_forces.hpp"
+#include "dem/coupling/scatter.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/smoothing.hpp"
 #include "hard/textbook.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/scene.hpp"
+#include "core/case/scene.hpp"
 #include "hard/textbook.hpp"
 
 namespace polybed::hard::naive {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 
 namespace polybed::hard::naive {
 

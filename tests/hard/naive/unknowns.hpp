@@ -1,7 +1,7 @@
 // Textbook changes of what is integrated, or of how an implicit step is solved, around a problem of the product.
 #pragma once
 
-#include "core/integrator.hpp"
+#include "core/numerics/integrator.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::hard::naive {

@@ -1,4 +1,4 @@
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@
 #include <random>
 #include <sstream>
 
-#include "core/keys.hpp"
+#include "core/case/keys.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "case_mutator.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "shipped_cases.hpp"
 

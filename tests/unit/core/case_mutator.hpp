@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/keys.hpp"
-#include "core/registry.hpp"
+#include "core/case/keys.hpp"
+#include "core/case/registry.hpp"
 
 namespace polybed::core {
 

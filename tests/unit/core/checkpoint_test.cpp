@@ -1,4 +1,4 @@
-#include "core/checkpoint.hpp"
+#include "core/output/checkpoint.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/output_file.hpp"
+#include "core/output/file.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {

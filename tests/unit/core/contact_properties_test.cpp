@@ -1,5 +1,5 @@
 // Expected values by hand from the rule: pair before species before [dem]; means of friction and restitution.
-#include "core/contact_properties.hpp"
+#include "core/case/contact_properties.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/integrator.hpp"
+#include "core/numerics/integrator.hpp"
 
 #include <gtest/gtest.h>
 

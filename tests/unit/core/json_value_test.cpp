@@ -1,10 +1,10 @@
-#include "core/json_value.hpp"
+#include "core/output/json_value.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {

@@ -1,4 +1,4 @@
-#include "core/linear_solver.hpp"
+#include "core/numerics/linear_solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/direct_solver.hpp"
+#include "core/numerics/direct_solver.hpp"
 
 namespace polybed::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/output_particles.hpp"
+#include "core/output/particles.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/output/files.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {

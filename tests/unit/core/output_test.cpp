@@ -1,4 +1,4 @@
-#include "core/output.hpp"
+#include "core/output/output.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 #include <array>
 #include <fstream>
 
-#include "core/case_file.hpp"
-#include "core/keys.hpp"
+#include "core/case/file.hpp"
+#include "core/case/keys.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {

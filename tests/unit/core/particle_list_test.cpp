@@ -1,4 +1,4 @@
-#include "core/particle_list.hpp"
+#include "core/case/particle_list.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,14 +1,14 @@
 // The loop over events: what an integrator is asked to step to, and that a run which is resumed meets the same events.
-#include "core/run.hpp"
+#include "core/numerics/run.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "core/case/scene.hpp"
 #include "core/error.hpp"
-#include "core/scene.hpp"
-#include "core/schedule.hpp"
+#include "core/numerics/schedule.hpp"
 
 namespace polybed::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/units.hpp"
+#include "core/case/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "dem/contacts/materials.hpp"
+#include "dem/contacts/pair_forces.hpp"
 #include "dem/effects.hpp"
-#include "dem/materials.hpp"
-#include "dem/pair_forces.hpp"
 #include "dem/particles.hpp"
 #include "dem/scene.hpp"
 #include "dem/verlet.hpp"

@@ -6,10 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "core/blocks.hpp"
-#include "core/scene.hpp"
-#include "dem/fluid_motion.hpp"
-#include "dem/materials.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/blocks.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/coupling/fluid_motion.hpp"
 #include "dem/particles.hpp"
 
 namespace polybed::dem::test {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "dem/model.hpp"
 
 namespace polybed::dem {

@@ -1,15 +1,15 @@
 // Parts, ghosts and gathering where one rank has it all. On several ranks: tests/parallel/particles_test.cpp.
-#include "dem/decomposition.hpp"
+#include "dem/parallel/decomposition.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "dem/exchange.hpp"
-#include "dem/gathered.hpp"
-#include "dem/materials.hpp"
-#include "dem/neighbours.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/contacts/neighbours.hpp"
+#include "dem/parallel/exchange.hpp"
+#include "dem/parallel/gathered.hpp"
 #include "dem/verlet.hpp"
 
 namespace polybed::dem {

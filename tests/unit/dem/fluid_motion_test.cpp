@@ -1,5 +1,5 @@
 // A particle in a frozen fluid: its drag is exact for any step, and what it takes is what it gains.
-#include "dem/fluid_motion.hpp"
+#include "dem/coupling/fluid_motion.hpp"
 
 #include <gtest/gtest.h>
 

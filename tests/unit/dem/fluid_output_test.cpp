@@ -1,9 +1,9 @@
 // Mean velocities of particles in cells, by hand.
-#include "dem/fluid_output.hpp"
+#include "dem/coupling/fluid_output.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/blocks.hpp"
+#include "core/numerics/blocks.hpp"
 
 namespace polybed::dem {
 namespace {

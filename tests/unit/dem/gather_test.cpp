@@ -1,12 +1,12 @@
 // What particles see of the fluid's fields, and that giving and taking are each other's transpose.
-#include "dem/gather.hpp"
+#include "dem/coupling/gather.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "cloud.hpp"
-#include "dem/scatter.hpp"
+#include "dem/coupling/scatter.hpp"
 
 namespace polybed::dem::test {
 namespace {

@@ -1,5 +1,5 @@
 // The width over which particles are averaged, and why.
-#include "dem/kernel.hpp"
+#include "dem/coupling/kernel.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

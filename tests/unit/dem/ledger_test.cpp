@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/timers.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"

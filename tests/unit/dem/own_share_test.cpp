@@ -1,11 +1,11 @@
 // What a particle counts for in the averages around it: alone, and among others of an equilibrium mixture.
-#include "dem/own_share.hpp"
+#include "dem/coupling/own_share.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cloud.hpp"
-#include "dem/scatter.hpp"
+#include "dem/coupling/scatter.hpp"
 
 namespace polybed::dem::test {
 namespace {

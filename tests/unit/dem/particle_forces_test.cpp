@@ -1,5 +1,5 @@
 // Drag, pressure and added mass of particles among others, against the formulas by hand and the laws of a cell.
-#include "dem/particle_forces.hpp"
+#include "dem/coupling/particle_forces.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What goes from particles to the fluid is all of what they have, in any order and shared in any way.
-#include "dem/scatter.hpp"
+#include "dem/coupling/scatter.hpp"
 
 #include <gtest/gtest.h>
 

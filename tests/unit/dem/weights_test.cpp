@@ -1,5 +1,5 @@
 // Shares of a particle in cells and faces, T(2.9), against values by hand.
-#include "dem/weights.hpp"
+#include "dem/coupling/weights.hpp"
 
 #include <gtest/gtest.h>
 

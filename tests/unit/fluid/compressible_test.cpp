@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/operators.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/fluid_mass.hpp"
 #include "fluid/properties.hpp"
 

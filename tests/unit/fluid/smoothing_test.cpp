@@ -9,8 +9,8 @@
 #include <numeric>
 #include <random>
 
-#include "core/halo.hpp"
-#include "core/operators.hpp"
+#include "core/numerics/halo.hpp"
+#include "core/numerics/operators.hpp"
 
 namespace polybed::fluid {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "../core/scratch.hpp"
 #include "core/error.hpp"
-#include "core/output_file.hpp"
+#include "core/output/file.hpp"
 
 namespace polybed::fluid {
 namespace {

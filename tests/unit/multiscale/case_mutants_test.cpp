@@ -10,7 +10,7 @@
 
 #include "../core/case_mutator.hpp"
 #include "../core/shipped_cases.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "core/timers.hpp"
 #include "dem/continuum_scene.hpp"

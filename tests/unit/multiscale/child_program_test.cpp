@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/output/files.hpp"
 #include "scenes/scratch.hpp"
 
 namespace polybed::multiscale {

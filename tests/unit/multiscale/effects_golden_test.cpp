@@ -7,7 +7,7 @@
 
 #include "closures/mixture.hpp"
 #include "closures/relevance.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/effects/effect_row.hpp"
 #include "multiscale/effects/situation.hpp"

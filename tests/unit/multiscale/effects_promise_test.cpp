@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "closures/relevance.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/effects/conflicts.hpp"
 #include "multiscale/effects/fluid_map.hpp"

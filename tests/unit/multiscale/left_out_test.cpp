@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "closures/relevance.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 #include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {

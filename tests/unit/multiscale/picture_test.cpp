@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/output.hpp"
+#include "core/output/output.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::multiscale {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "closures/mixture.hpp"
-#include "core/case_file.hpp"
+#include "core/case/file.hpp"
 
 namespace polybed::multiscale {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "core/files.hpp"
-#include "core/output.hpp"
+#include "core/output/files.hpp"
+#include "core/output/output.hpp"
 #include "fluid/particle_profile.hpp"
 
 namespace {

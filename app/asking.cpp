@@ -1,0 +1,103 @@
+// Commands that answer a question without a run.
+#include "app/commands.hpp"
+
+namespace polybed::command_line {
+
+namespace {
+
+On only_first_rank() { return On::first_rank; }
+
+struct EffectsOptions {
+  multiscale::CaseOptions scene;
+  std::string audited;
+  bool audit_json = false, bench_json = false;
+  int bench_rounds = 3;
+};
+
+core::ExitCode run_effects(const EffectsOptions& options, bool audit, bool bench) {
+  if (audit) return multiscale::run_effects_audit(options.audited, options.audit_json);
+  if (bench)
+    multiscale::run_effects_bench(options.bench_rounds, options.bench_json);
+  else if (options.scene.case_path.empty())
+    throw core::CaseError("effects: name a CASE, audit RUN, or bench");
+  else
+    multiscale::run_effects(options.scene);
+  return core::ExitCode::done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::CaseOptions>();
+  CLI::App& command = *app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run");
+  take_case(command, *options);
+  commands.push_back({&command, doing([options] { multiscale::run_check(*options); }), only_first_rank});
+}
+
+void add_effects(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<EffectsOptions>();
+  CLI::App& command =
+      *app.add_subcommand("effects", "which effects the scene calls for, with the number that decides each");
+  take_case(command, options->scene, false);
+  command.require_subcommand(0, 1);
+  CLI::App* audit = command.add_subcommand(
+      "audit", "what a run has left out, evaluated on all that it stored; code 3 if that breaks the promise");
+  audit->add_option("RUN", options->audited, "run directory")->required();
+  audit->add_flag("--json", options->audit_json, "one JSON object");
+  CLI::App* bench =
+      command.add_subcommand("bench", "what each effect costs per particle, contact or cell on this machine");
+  bench->add_option("--rounds", options->bench_rounds, "repetitions; the least times are told")
+      ->check(CLI::Range(1, 1000));
+  bench->add_flag("--json", options->bench_json, "one JSON object");
+  commands.push_back(
+      {&command, [options, audit, bench] { return run_effects(*options, audit->parsed(), bench->parsed()); }});
+}
+
+void add_estimate(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::EstimateOptions>();
+  CLI::App& command = *app.add_subcommand("estimate", "time, memory and disk of a run, and what would make it cheaper");
+  take_case(command, *options, false);
+  command.add_option("--model", options->model, "tfm | dem")->check(CLI::IsMember({"tfm", "dem"}));
+  command.add_option("--ranks", options->ranks, "that will share the case")->check(CLI::Range(1, 1000000));
+  command.add_option("--probe", options->probe, "run the case itself for so long first, e.g. 5s");
+  command.add_flag("--machine", options->machine, "measure this machine (30 s) and keep what was found");
+  commands.push_back({&command, doing([options] { multiscale::run_estimate(*options); }), only_first_rank});
+}
+
+void add_drag(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::DragOptions>();
+  const auto guard = std::make_shared<std::string>("on");
+  CLI::App& command = *app.add_subcommand("drag", "evaluate a drag closure at a point, or for every row of a CSV file");
+  command.add_option("--law", options->law, "see polybed list");
+  command.add_option("--voidage", options->voidage, "eps");
+  command.add_option("--re", options->reynolds, "Reynolds number of the diameter and the superficial slip velocity");
+  command.add_option("--csv", options->csv, "file with columns eps,Re or eps,Re,x1,D1,x2,D2,...");
+  command.add_option("--guard", *guard, "on | off: the bare published formula")->check(CLI::IsMember({"on", "off"}));
+  command.add_flag("--json", options->json, "one JSON object");
+  commands.push_back({&command, doing([options, guard] {
+                        options->guard = *guard == "on";
+                        multiscale::run_drag(*options);
+                      })});
+}
+
+void add_keys(CLI::App& app, Commands& commands) {
+  struct Options {
+    bool json = false, markdown = false;
+    std::string key;
+  };
+  const auto schema = std::make_shared<Options>(), explain = std::make_shared<Options>(),
+             list = std::make_shared<Options>();
+  CLI::App& all = *app.add_subcommand("schema", "all keys of the case file");
+  all.add_flag("--json", schema->json, "as JSON");
+  all.add_flag("--markdown", schema->markdown, "as the page of the documentation");
+  commands.push_back({&all, doing([schema] { multiscale::run_schema(schema->json, schema->markdown); })});
+  CLI::App& one = *app.add_subcommand("explain", "one key with its range, default and equation");
+  one.add_option("KEY", explain->key, "e.g. tfm.rtol")->required();
+  one.add_flag("--json", explain->json, "as JSON");
+  commands.push_back({&one, doing([explain] { multiscale::run_explain(explain->key, explain->json); })});
+  CLI::App& laws = *app.add_subcommand("list", "the effects and their laws");
+  laws.add_flag("--json", list->json, "as JSON");
+  commands.push_back({&laws, doing([list] { multiscale::run_list(list->json); })});
+}
+
+}  // namespace polybed::command_line

@@ -1,0 +1,225 @@
+#include "app/case_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/case/file.hpp"
+#include "core/error.hpp"
+#include "core/output/files.hpp"
+#include "core/print.hpp"
+#include "multiscale/picture.hpp"
+#include "multiscale/run_record.hpp"
+#include "multiscale/scene_rules.hpp"
+
+namespace polybed::multiscale {
+
+CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
+                 std::shared_ptr<const core::Ranks> ranks, const std::string& model)
+    : options_(options),
+      scene_(std::move(scene)),
+      case_(scene_),
+      directory_(std::move(directory)),
+      ranks_(std::move(ranks)),
+      first_(core::is_first(ranks_.get())) {
+  options_.quiet = options_.quiet || !first_;
+  core::on_first(ranks_.get(), [&] { left_out_ = left_out(scene_, model); });
+  for (const std::string& line : scene_warnings(scene_)) say({"warning: " + line});
+}
+
+void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& resume,
+                      const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& start_from) {
+  core::Checkpoint checkpoint;
+  const std::string word = "checkpoint:";
+  if (options_.resume) {
+    core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, case_); });
+    resume(checkpoint, checkpoint_path(directory_));
+  } else if (scene_.bed.start.starts_with(word)) {
+    const std::filesystem::path path = scene_.bed.start.substr(word.size());
+    core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(path); });
+    start_from(checkpoint, path);
+  }
+  begin_ = simulation().time();
+  // A run that begins anew and is killed at once must not be resumed from the run that it replaces.
+  if (!options_.resume) core::on_first(ranks_.get(), [&] { core::remove_results(directory_); });
+}
+
+/// Of what this process has simulated, or, while it runs, will.
+TimeBand CaseRun::prediction_of(double end) const {
+  const double share = scene_.run.until > 0 ? std::clamp((end - begin_) / scene_.run.until, 0.0, 1.0) : 1;
+  return prediction_.part(share, !options_.resume);
+}
+
+void CaseRun::write_prediction_of(core::Json& json, const std::string& state, double actual) {
+  const bool ended = state != "running";
+  write_prediction(json, prediction_of(ended ? simulation().time() : scene_.run.until), ended, actual);
+}
+
+void CaseRun::print_prediction(double actual) {
+  const TimeBand part = prediction_of(simulation().time());
+  core::print(stderr, "predicted {:.3g} s of computing ({:.3g} to {:.3g}), took {:.3g}\n", part.expected, part.least,
+              part.most, actual);
+}
+
+bool CaseRun::run() {
+  try {
+    return run_to_end();
+  } catch (const core::FileError& error) {
+    record_if_possible(fmt::format("failed: {}", error.what()));
+    throw;
+  }
+}
+
+bool CaseRun::run_to_end() {
+  prediction_ = predicted();
+  (void)record("running");
+  try {
+    go();
+  } catch (const core::Stopped&) {
+    if (switches()) return false;
+    finish("stopped by the user");
+    throw;
+  } catch (const core::NumericsError& error) {
+    fail(error);
+  }
+  finish("done");
+  return true;
+}
+
+void CaseRun::go() {
+  core::Progress progress(options_.quiet, simulation().time(), scene_.run.until);
+  core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, kinks()};
+  core::run(
+      simulation(), stops, observers(), !options_.resume, [&](double) { write_checkpoint(); },
+      [&] {
+        if (broken_law_) throw core::ConservationError(*broken_law_);
+        if (progress.due(simulation().time())) progress.show(line());
+        return after_step();
+      });
+}
+
+double CaseRun::wall_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_begin_).count();
+}
+
+bool CaseRun::after_step() { return !core::on_any_rank(ranks_.get(), interrupt_.wanted()); }
+
+void CaseRun::judge(std::span<const fluid::WorstInvariant> worst) {
+  if (options_.permissive) return;
+  const fluid::WorstInvariant* law = fluid::broken_law(worst);
+  if (!core::on_any_rank(ranks_.get(), law != nullptr)) return;
+  const int rank = core::rank_of_greatest(ranks_.get(), law != nullptr ? 1 : 0);
+  broken_law_ = core::said_by(ranks_.get(), rank, law != nullptr ? law->text() : "");
+}
+
+void CaseRun::say(const std::vector<std::string>& lines) const {
+  if (options_.quiet) return;
+  for (const std::string& line : lines) core::print(stderr, "{}\n", line);
+}
+
+std::optional<Neglected> CaseRun::promise_of(const Monitor* monitor) {
+  if (monitor != nullptr) promise_ = monitor->result(ranks_.get());
+  return promise_;
+}
+
+void CaseRun::print_promise() const {
+  for (const std::string& line : left_out_lines(left_out_)) core::print(stderr, "{}\n", line);
+  if (!promise_) return;
+  core::print(stderr, "{}", neglected_table(*promise_));
+  for (const core::Timers::Term& term : timers_.terms())
+    if (term.name == "monitor")
+      core::print(stderr, "watching it took {:.2g} % of the time\n",
+                  100 * term.seconds / std::max(core::cpu_seconds() - cpu_begin_, 1e-9));
+}
+
+void CaseRun::write_checkpoint() {
+  const auto scope = timers_.scope("output");
+  core::Checkpoint state = checkpoint();
+  add_case(state, case_);
+  add_switches(state);
+  core::write_checkpoint(checkpoint_path(directory_), state, ranks_.get());
+  (void)record("running");
+}
+
+void CaseRun::fail(const core::NumericsError& error) {
+  keep_last_state();
+  std::string kept = fmt::format("a checkpoint of t = {:.6g} s is in {}", simulation().time(), directory_.string());
+  try {
+    write_checkpoint();
+  } catch (const core::FileError& file_error) {
+    kept = file_error.what();
+  }
+  record_if_possible(fmt::format("failed: {}", error.what()));
+  const bool law = dynamic_cast<const core::ConservationError*>(&error) != nullptr;
+  throw core::NumericsError(
+      fmt::format("{}\n{}\n{}", error.what(), kept, law ? "to go on all the same: --resume --permissive" : advice()));
+}
+
+void CaseRun::record_if_possible(const std::string& state) {
+  try {
+    (void)record(state);
+  } catch (const core::FileError&) {  // what has ended the run says more
+  }
+}
+
+std::string CaseRun::record(const std::string& state) {
+  const std::string text = record_text(state);
+  core::on_first(ranks_.get(), [&] { core::write_atomically(directory_ / "run.json", text + "\n"); });
+  return text;
+}
+
+void CaseRun::finish(const std::string& state) {
+  const std::string text = record(state);
+  if (!first_) return;
+  std::string message;
+  const bool drawn = options_.picture && draw_picture(directory_, message);
+  if (!options_.quiet) {
+    print_timers(timers_);
+    print_summary();
+    if (drawn) core::print(stderr, "{}\n", message);
+    if (options_.picture && !drawn) core::print(stderr, "no picture: {}\n", message);
+  }
+  if (options_.json) core::print("{}\n", text);
+}
+
+void print_invariants(std::span<const fluid::WorstInvariant> worst) {
+  for (const fluid::WorstInvariant& w : worst)
+    core::print(stderr, "{}: worst {:.2e}, limit {:.0e}{}\n", w.name, w.value, w.limit,
+                w.value <= w.limit ? "" : "  <-- exceeded");
+}
+
+namespace {
+
+/// run.json of a run that has not begun.
+void record_failed_start(const RunStart& run, const std::string& state) {
+  core::Json json;
+  begin_record(json, run.scene, run.model, state, run.ranks == nullptr ? 1 : run.ranks->count());
+  json.member("time_s", 0.0).key("warnings").begin_array().end_array().end_object();
+  try {
+    core::write_atomically(run.directory / "run.json", json.text() + "\n");
+  } catch (const core::FileError&) {  // what has ended the start says more
+  }
+}
+
+}  // namespace
+
+void start_run(const RunStart& run, const std::function<void()>& start) {
+  try {
+    start();
+  } catch (const core::CaseError&) {
+    throw;
+  } catch (const std::exception& error) {
+    const bool stopped = dynamic_cast<const core::Stopped*>(&error) != nullptr;
+    if (core::is_first(run.ranks) && !run.resumes && !has_checkpoint(run.directory))
+      record_failed_start(run, stopped ? "stopped by the user" : fmt::format("failed: {}", error.what()));
+    throw;
+  }
+}
+
+void print_timers(const core::Timers& timers) {
+  core::print(stderr, "\n{:26} {:>9} {:>10}\n", "term", "s", "calls");
+  for (const core::Timers::Term& term : timers.terms())
+    core::print(stderr, "{:26} {:9.3f} {:10}\n", term.name, term.seconds, term.calls);
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,140 @@
+// One run of a case from its scene to its record, by either model. On several ranks all of them compute; the first
+// reads, writes and speaks.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/run_directory.hpp"
+#include "core/interrupt.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/numerics/run.hpp"
+#include "core/progress.hpp"
+#include "core/timers.hpp"
+#include "fluid/invariants.hpp"
+#include "multiscale/effects/left_out.hpp"
+#include "multiscale/effects/monitor.hpp"
+#include "multiscale/estimate/estimate.hpp"
+
+namespace polybed::multiscale {
+
+class CaseRun {
+ public:
+  virtual ~CaseRun() = default;
+  /// Returns false if it has ended to go on as a model with other effects: then it has a checkpoint and no record of
+  /// its end yet.
+  bool run();
+
+ protected:
+  /// \param model  "tfm" or "dem"
+  CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
+          std::shared_ptr<const core::Ranks> ranks, const std::string& model);
+
+  /// Takes up the run that --resume asks for, or the state of bed.start = "checkpoint:FILE", or begins anew.
+  /// Collective. \param resume  with the checkpoint, on the first rank what the file says of all, and the file's path
+  /// \param start_from  likewise
+  void prepare(const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& resume,
+               const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& start_from);
+
+  [[nodiscard]] virtual core::Simulation& simulation() = 0;
+  [[nodiscard]] virtual std::vector<core::Observer> observers() = 0;
+  [[nodiscard]] virtual core::Checkpoint checkpoint() = 0;
+  [[nodiscard]] virtual core::ProgressLine line() = 0;
+  /// run.json. Collective; meant on the first rank.
+  [[nodiscard]] virtual std::string record_text(const std::string& state) = 0;
+  /// Work and invariants, on standard error; on the first rank.
+  virtual void print_summary() = 0;
+  /// What to say of a failure, and what to do about it.
+  [[nodiscard]] virtual std::string advice() = 0;
+  /// After a step has failed: makes checkpoint() that of the last good state.
+  virtual void keep_last_state() {}
+  /// After each step: false if the user wants to stop.
+  [[nodiscard]] virtual bool after_step();
+  /// Whether after_step() was false since an effect has to be switched on.
+  [[nodiscard]] virtual bool switches() const { return false; }
+  /// Says in a checkpoint what has been switched on, or will be.
+  virtual void add_switches(core::Checkpoint&) const {}
+  [[nodiscard]] virtual std::vector<double> kinks() { return {}; }
+  /// What the whole run will take, told before it.
+  [[nodiscard]] virtual TimeBand predicted() = 0;
+
+  /// With what a row of the history has measured. A run that has broken a conservation law ends after the step, all
+  /// that is due then being written, unless it is permissive. Collective.
+  void judge(std::span<const fluid::WorstInvariant> worst);
+
+  /// Writes "prediction". \param actual  CPU s of all ranks
+  void write_prediction_of(core::Json& json, const std::string& state, double actual);
+  /// The same on standard error.
+  void print_prediction(double actual);
+
+  /// Lets a monitor, if there is one, look at the state after a step; says on the first rank what it has to say.
+  /// Collective.
+  template <class Model>
+  void watch(Monitor* monitor, const Model& model) {
+    if (monitor == nullptr || !monitor->due()) return;
+    const auto scope = timers_.scope("monitor");
+    say(monitor->look(model));
+  }
+  /// What a monitor has seen on all ranks, kept for print_promise(); empty without one. Collective.
+  [[nodiscard]] std::optional<Neglected> promise_of(const Monitor* monitor);
+  /// What the run leaves out by its case, and of a monitor the table of bounds against what was seen.
+  void print_promise() const;
+  /// Time by the clock since this process took up the run, s.
+  [[nodiscard]] double wall_seconds() const;
+
+  core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
+  RunOptions options_;
+  core::Scene scene_;  ///< as the model has it
+  core::Scene case_;   ///< as it is written: without what has been switched on meanwhile
+  std::filesystem::path directory_;
+  std::shared_ptr<const core::Ranks> ranks_;
+  bool first_;        ///< this process is the one that reads, writes and speaks
+  LeftOut left_out_;  ///< on the first rank
+  core::Timers timers_;
+  double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
+
+ private:
+  void say(const std::vector<std::string>& lines) const;
+  std::optional<Neglected> promise_;
+  std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
+  [[nodiscard]] TimeBand prediction_of(double end) const;
+  void go();
+  void write_checkpoint();
+  bool run_to_end();
+  /// Writes run.json and returns its text. Collective.
+  std::string record(const std::string& state);
+  /// The same of a run that ends with an error, which is to be told whether or not this can be written.
+  void record_if_possible(const std::string& state);
+  void finish(const std::string& state);
+  [[noreturn]] void fail(const core::NumericsError& error);
+
+  TimeBand prediction_;                    ///< of the whole run
+  std::optional<std::string> broken_law_;  ///< what to say of it
+};
+
+/// Prints a line for each invariant, on standard error.
+void print_invariants(std::span<const fluid::WorstInvariant> worst);
+
+/// A run that is about to be made.
+struct RunStart {
+  const std::filesystem::path& directory;
+  const core::Scene& scene;
+  std::string model;
+  const core::Ranks* ranks;
+  bool resumes;
+};
+
+/// Calls `start`, which makes the run. If it throws, run.json of a run that begins anew tells why, as far as it can be
+/// written; what was thrown goes on. A case that is wrong leaves no record, and neither does a start that fails before
+/// it has replaced an earlier run.
+void start_run(const RunStart& run, const std::function<void()>& start);
+
+/// Prints the table of time by term.
+void print_timers(const core::Timers& timers);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,278 @@
+// polybed check: the case, resolved, and what it will need; nothing is run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/options.hpp"
+#include "closures/drag.hpp"
+#include "closures/mixture.hpp"
+#include "core/case/file.hpp"
+#include "core/error.hpp"
+#include "core/output/json.hpp"
+#include "core/print.hpp"
+#include "core/progress.hpp"
+#include "core/timers.hpp"
+#include "dem/continuum_scene.hpp"
+#include "multiscale/effects/choice.hpp"
+#include "multiscale/particle_requirements.hpp"
+#include "multiscale/requirements.hpp"
+#include "multiscale/roles.hpp"
+#include "multiscale/run_record.hpp"
+#include "multiscale/scene_rules.hpp"
+#include "tfm/model.hpp"
+#include "tfm/particle_scene.hpp"
+#include "tfm/step_estimate.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+/// Numbers that follow from a case.
+struct Derived {
+  fluid::FluidConstants fluid;
+  double weight = 0;  ///< buoyant weight of the solids per area, Pa
+  double max_packing = 0;
+  double sound = 0;  ///< speed in a compressible fluid, m/s
+  std::vector<double> terminal, reynolds;
+  std::vector<std::string> notes;
+};
+
+void note_drag(const core::Scene& scene, Derived& derived) {
+  const auto named = scene.effects.find("drag");
+  if (named == scene.effects.end()) {
+    derived.notes.push_back("drag is off: nothing couples the solids to the fluid");
+    return;
+  }
+  for (const closures::DragLawInfo& law : closures::drag_laws())
+    if (law.name == named->second && !law.obeys_sum_rule && scene.species.size() > 1)
+      derived.notes.push_back("drag = \"" + law.name +
+                              "\" acts on each species by itself and breaks the sum rule of mixtures, "
+                              "T(3.45): the pressure drop is not exact");
+}
+
+/// What flows in: its greatest speed, m/s, and what becomes of particles that fall more slowly.
+struct Inflow {
+  std::string name;
+  double velocity = 0;
+  std::string fate;
+};
+
+std::vector<Inflow> inflows_of(const core::Scene& scene) {
+  const auto greatest = [](const auto& points) {
+    double most = 0;
+    for (const auto& point : points) most = std::max(most, std::abs(point.second));
+    return most;
+  };
+  std::vector<Inflow> inflows{
+      {"the inlet", greatest(scene.inlet.superficial_velocity),
+       std::string("it will be carried to the top") + (scene.column.outlet == "open" ? ", and out" : "")}};
+  for (std::size_t n = 0; n < scene.jets.size(); ++n)
+    inflows.push_back({fmt::format("jet {}", n + 1), greatest(scene.jets[n].superficial_velocity),
+                       "it will be carried up as far as the jet keeps together"});
+  return inflows;
+}
+
+Derived derive(const core::Scene& scene, const tfm::Model& model) {
+  const tfm::Constants& constants = model.constants();
+  Derived derived;
+  derived.notes = scene_warnings(scene);
+  derived.fluid = constants.fluid;
+  if (scene.fluid.equation_of_state != "incompressible")
+    derived.sound = fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, constants.fluid.density),
+                                          scene.fluid.outlet_pressure);
+  if (model.effects().solids_stress) derived.max_packing = model.effects().solids_stress->max_packing();
+  const std::vector<Inflow> inflows = inflows_of(scene);
+  double fastest = 0;
+  for (const Inflow& inflow : inflows) fastest = std::max(fastest, inflow.velocity);
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const double excess = constants.density[j] - constants.fluid.density;
+    derived.weight +=
+        scene.bed.volume_share[j] * scene.bed.static_height * scene.bed.solids_fraction * excess * constants.gravity;
+    derived.terminal.push_back(tfm::terminal_velocity(constants, j));
+    derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] / constants.fluid.viscosity);
+    for (const Inflow& inflow : inflows)
+      if (inflow.velocity > derived.terminal[j])
+        derived.notes.push_back(fmt::format("{}'s {:.4g} m/s is above the terminal velocity of {}, {:.4g} m/s: {}",
+                                            inflow.name, inflow.velocity, constants.name[j], derived.terminal[j],
+                                            inflow.fate));
+  }
+  note_drag(scene, derived);
+  for (const core::Role& role : all_roles())
+    if (scene.effects.contains(role.name) && role.models.find("tfm") == std::string::npos)
+      derived.notes.push_back(role.name + " = \"" + scene.effects.at(role.name) + "\": " + role.absent);
+  return derived;
+}
+
+void write_state(core::Json& json, const char* name, const BedState& bed) {
+  json.key(name).begin_object().member("solids_fraction", bed.solids_fraction);
+  for (const tfm::TimeScale& scale : bed.scales)
+    if (std::isfinite(scale.seconds)) json.member(scale.process + "_s", scale.seconds);
+  json.member("expected_step_s", bed.step).end_object();
+}
+
+void write_requirements(core::Json& json, const Requirements& need) {
+  constexpr double mega = 1e-6;
+  json.member("integrator", need.integrator)
+      .member("momentum", need.momentum.name)
+      .member("unknowns", std::uint64_t(need.unknowns));
+  json.member("cells", std::uint64_t(need.cells)).member("memory_MB", mega * need.memory.total());
+  json.key("memory").begin_object().member("state_MB", mega * need.memory.state);
+  json.member("fields_MB", mega * need.memory.fields).member("solver_MB", mega * need.memory.solver);
+  json.member("program_MB", mega * need.memory.program).end_object();
+  json.key("dt_limits").begin_object();
+  write_state(json, "at_rest", need.rest);
+  write_state(json, "lifted", need.lifted);
+  write_state(json, "expanded", need.expanded);
+  json.end_object();
+  if (!need.time) {
+    json.key("time").null();
+    return;
+  }
+  json.key("time").begin_object().member("steps", need.time->steps).member("s_per_step", need.time->seconds_per_step);
+  json.member("expected_s", need.time->expected).member("least_s", need.time->least);
+  json.member("most_s", need.time->most).end_object();
+}
+
+void print_state(const char* name, const BedState& bed) {
+  std::string text;
+  for (const tfm::TimeScale& scale : bed.scales)
+    if (std::isfinite(scale.seconds)) text += fmt::format("{} {:.2g} s, ", scale.process, scale.seconds);
+  core::print("#   {:8} (solids fraction {:.2f}): {}expected step {:.2g} s\n", name, bed.solids_fraction, text,
+              bed.step);
+}
+
+/// A time of computing as people say it.
+std::string time_text(double seconds) {
+  constexpr double short_time = 9.5;  // what rounds to one digit
+  return seconds < short_time ? fmt::format("{:.1g} s", seconds) : core::duration_text(seconds);
+}
+
+void print_requirements(const core::Scene& scene, const Requirements& need) {
+  constexpr double mega = 1e-6;
+  const MemoryNeed& m = need.memory;
+  core::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, need.integrator, need.reason);
+  core::print("# convection of momentum {} ({})\n", need.momentum.name, need.momentum.reason);
+  core::print("# memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
+              mega * m.total(), mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
+  core::print("# time scales of the bed, from the case alone:\n");
+  print_state("at rest", need.rest);
+  if (need.expanded.solids_fraction != need.rest.solids_fraction) {
+    print_state("lifted", need.lifted);
+    print_state("expanded", need.expanded);
+  }
+  if (!need.time) {
+    core::print("# time: not known, the numbers failed in the sample that is measured\n");
+    return;
+  }
+  const TimeNeed& time = *need.time;
+  core::print("# computing {:.4g} s takes about {} here, between {} and {}: {:.2g} steps of {:.2g} s\n",
+              scene.run.until, time_text(time.expected), time_text(time.least), time_text(time.most), time.steps,
+              time.seconds_per_step);
+}
+
+/// The classes of the distributions, with y_j = D_j over the Sauter diameter of the distribution.
+void print_size_classes(const core::Scene& scene) {
+  for (const core::SizeClasses& record : scene.size_classes) {
+    const double sauter = closures::sauter_diameter(record.share, record.diameter);
+    core::print("# {}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species, record.given.kind,
+                record.diameter.size(), sauter, closures::poly_index_mean(record.share, record.diameter));
+    for (std::size_t k = 0; k < record.diameter.size(); ++k)
+      core::print("#   {}.{}: diameter {:.6g} m, share {:.6g}, y {:.4g}\n", record.species, k + 1, record.diameter[k],
+                  record.share[k], record.diameter[k] / sauter);
+  }
+}
+
+/// A case that only the particle model runs: what it will need there, and what keeps it from the continuum.
+void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons, bool as_json) {
+  const std::string text = core::resolved_case(scene);
+  const ParticleRequirements need = particle_requirements_of(scene);
+  std::vector<std::string> notes = need.warnings();
+  notes.insert(notes.end(), reasons.begin(), reasons.end());
+  for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
+  if (as_json) {
+    core::Json json;
+    json.begin_object().member("case", text).member("hash", core::text_hash(text));
+    write_particle_requirements(json, scene, need);
+    write_size_classes(json, scene);
+    json.key("notes").begin_array();
+    for (const std::string& note : notes) json.value(note);
+    json.end_array().end_object();
+    core::print("{}\n", json.text());
+    return;
+  }
+  core::print("{}\n", text);
+  print_size_classes(scene);
+  print_particle_requirements(scene, need);
+  for (const std::string& note : notes) core::print("# {}\n", note);
+}
+
+/// What a case that both models run will need as particles: of one that says how they touch. What keeps it from there
+/// goes to the notes.
+std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::vector<std::string>& notes) {
+  if (!scene.effects.contains("contact")) return {};
+  std::vector<std::string> reasons = dem::only_for_continuum(scene);
+  try {
+    if (reasons.empty()) return particle_requirements_of(scene);
+  } catch (const core::CaseError& error) {
+    reasons.emplace_back(error.what());
+  }
+  for (const std::string& reason : reasons) notes.push_back("polybed dem cannot run it: " + reason);
+  return {};
+}
+
+}  // namespace
+
+void run_check(const CaseOptions& options) {
+  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
+  if (const auto reasons = tfm::only_for_particles(scene); !reasons.empty())
+    return check_particle_scene(scene, reasons, options.json);
+  std::vector<std::string> hindrances;
+  const std::optional<ParticleRequirements> particles =
+      as_particles(scene, hindrances);  // while memory is the program's
+  core::Timers timers;
+  std::unique_ptr<tfm::Model> part;
+  const Requirements need = requirements_of(scene, timers, part);
+  refuse_beyond_memory(scene, need.memory, core::available_memory());
+  Derived derived = derive(scene, *part);
+  if (particles)
+    for (const std::string& warning : particles->warnings()) derived.notes.push_back(warning);
+  derived.notes.insert(derived.notes.end(), hindrances.begin(), hindrances.end());
+  const std::string text = core::resolved_case(scene);
+  if (options.json) {
+    core::Json json;
+    json.begin_object().member("case", text).member("hash", core::text_hash(text));
+    json.member("fluid_density_kg_m3", derived.fluid.density).member("fluid_viscosity_Pa_s", derived.fluid.viscosity);
+    if (derived.sound > 0) json.member("speed_of_sound_m_s", derived.sound);
+    json.member("buoyant_weight_Pa", derived.weight);
+    write_requirements(json, need);
+    if (particles) {
+      json.key("dem").begin_object();
+      write_particle_requirements(json, scene, *particles);
+      json.end_object();
+    }
+    write_size_classes(json, scene);
+    json.key("notes").begin_array();
+    for (const std::string& note : derived.notes) json.value(note);
+    json.end_array().end_object();
+    core::print("{}\n", json.text());
+    return;
+  }
+  core::print("{}\n", text);
+  print_size_classes(scene);
+  core::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
+  if (derived.sound > 0) core::print("# sound in the fluid {:.5g} m/s\n", derived.sound);
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    core::print("# {}: terminal velocity {:.4g} m/s, Re of the inlet {:.4g}\n", scene.species[j].name,
+                derived.terminal[j], derived.reynolds[j]);
+  core::print("# buoyant weight of the bed {:.5g} Pa per area\n", derived.weight);
+  if (derived.max_packing > 0) core::print("# maximum packing {:.4f}\n", derived.max_packing);
+  print_requirements(scene, need);
+  if (particles) {
+    core::print("# as particles, polybed dem:\n");
+    print_particle_requirements(scene, *particles);
+  }
+  for (const std::string& note : derived.notes) core::print("# {}\n", note);
+}
+
+}  // namespace polybed::multiscale

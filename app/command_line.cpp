@@ -1,0 +1,70 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "app/commands.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/print.hpp"
+#include "core/version.hpp"
+#include "multiscale/mpirun.hpp"
+
+namespace polybed::command_line {
+
+namespace {
+
+Commands add_commands(CLI::App& app) {
+  Commands commands;
+  for (const auto add : {add_tfm, add_dem, add_compare, add_check, add_effects, add_estimate, add_cost, add_drag,
+                         add_inversion, add_calibrate, add_plot, add_stability, add_keys})
+    add(app, commands);
+  return commands;
+}
+
+/// The command line without what stands before the command.
+std::vector<std::string> words_from_command(const CLI::App& app, int argc, char** argv) {
+  const std::string command = app.get_subcommands().front()->get_name();
+  return {std::find(argv, argv + argc, command), argv + argc};
+}
+
+/// What was printed has to have arrived: a full disk shows only when the buffer is emptied.
+void flush_standard_output() {
+  if (const int reason = core::refusal_of_answer(); reason != 0)
+    throw core::FileError(fmt::format("standard output: cannot be written ({})", std::strerror(reason)));
+}
+
+}  // namespace
+
+core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
+  CLI::App app{"polybed: beds of particles of several sizes and densities in a liquid or a gas"};
+  const std::string kind = core::build_kind().empty() ? "" : ", built with " + core::build_kind();
+  app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")" + kind);
+  app.require_subcommand(1);
+  int ranks = 1;
+  app.add_option("-n", ranks, "before the command: the number of ranks that share it, by mpirun")
+      ->check(CLI::Range(1, 1000000));
+  const Commands commands = add_commands(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == 0;
+    app.exit(error);
+    if (!asked) return core::ExitCode::wrong_case;
+    flush_standard_output();
+    return core::ExitCode::done;
+  }
+  if (ranks > 1) multiscale::become_ranks(ranks, words_from_command(app, argc, argv));
+  core::ExitCode code = core::ExitCode::done;
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    const On on = command.on();
+    if (on != On::one_process) mpi.emplace();
+    if (on != On::first_rank || mpi->first()) code = command.run();
+  }
+  core::on_first(mpi ? core::Ranks::of_program().get() : nullptr, flush_standard_output);
+  return code;
+}
+
+}  // namespace polybed::command_line

@@ -1,0 +1,59 @@
+// What each command takes on the command line, and what it does then.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "app/options.hpp"
+#include "core/error.hpp"
+
+namespace polybed::command_line {
+
+/// Which ranks a command is for. Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
+enum class On { one_process, first_rank, all_ranks };
+
+struct Command {
+  const CLI::App* app;
+  std::function<core::ExitCode()> run;
+  std::function<On()> on = [] { return On::one_process; };  ///< once the line is read
+};
+using Commands = std::vector<Command>;
+
+/// \param act  what the command does; one that returns nothing ends with core::ExitCode::done
+template <class Act>
+std::function<core::ExitCode()> doing(Act act) {
+  if constexpr (std::is_void_v<decltype(act())>)
+    return [act] {
+      act();
+      return core::ExitCode::done;
+    };
+  else
+    return act;
+}
+
+void add_tfm(CLI::App& app, Commands& commands);
+void add_dem(CLI::App& app, Commands& commands);
+void add_compare(CLI::App& app, Commands& commands);
+void add_plot(CLI::App& app, Commands& commands);
+
+void add_check(CLI::App& app, Commands& commands);
+void add_effects(CLI::App& app, Commands& commands);
+void add_estimate(CLI::App& app, Commands& commands);
+void add_drag(CLI::App& app, Commands& commands);
+/// schema, explain, list.
+void add_keys(CLI::App& app, Commands& commands);
+
+void add_cost(CLI::App& app, Commands& commands);
+void add_inversion(CLI::App& app, Commands& commands);
+void add_calibrate(CLI::App& app, Commands& commands);
+void add_stability(CLI::App& app, Commands& commands);
+
+/// CASE, --set and --json.
+void take_case(CLI::App& command, multiscale::CaseOptions& options, bool required = true);
+void take_overrides(CLI::App& command, multiscale::CaseOptions& options);
+
+}  // namespace polybed::command_line

@@ -1,0 +1,309 @@
+// polybed dem: runs a case particle by particle and writes its run directory.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/case_run.hpp"
+#include "core/numerics/schedule.hpp"
+#include "core/output/json.hpp"
+#include "core/print.hpp"
+#include "dem/continuum_scene.hpp"
+#include "dem/observers.hpp"
+#include "dem/settling.hpp"
+#include "multiscale/effects/switching.hpp"
+#include "multiscale/fluid_report.hpp"
+#include "multiscale/run_record.hpp"
+#include "multiscale/scene_rules.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What runs of one command hand on where an effect is switched on between them.
+struct Course {
+  core::Scene scene;  ///< the case
+  std::vector<Switch> switches;
+};
+
+class DemRun final : public CaseRun {
+ public:
+  /// \param begin  of this part of the course, s
+  DemRun(const RunOptions& options, const Course& course, double begin, fs::path directory,
+         std::shared_ptr<const core::Ranks> ranks)
+      : CaseRun(options, at_time(course.scene, course.switches, begin), std::move(directory), std::move(ranks), "dem"),
+        model_(scene_, timers_, ranks_),
+        course_(course),
+        next_switch_(multiscale::next_switch(course.switches, begin)) {
+    case_ = course_.scene;
+    std::optional<dem::RunStart> start;
+    dem::FluidTotals fluid;
+    prepare(
+        [&](core::Checkpoint& checkpoint, const fs::path&) {
+          model_.resume(checkpoint);
+          start = dem::read_run_start(checkpoint, model_);
+          if (first_) fluid = dem::read_fluid_totals(checkpoint);
+        },
+        [&](core::Checkpoint& checkpoint, const fs::path&) { model_.start_from(checkpoint); });
+    for (const std::string& line : warnings_before())
+      if (first_ && !options_.quiet) core::print(stderr, "warning: {}\n", line);
+    if (scene_.bed.start == "settled" && !options_.resume) {
+      if (!options_.quiet) core::print(stderr, "the bed settles first\n");
+      const core::Checkpoint rest = dem::settled(scene_, model_.limits().dt, ranks_);
+      if (!options_.quiet) core::print(stderr, "at rest after {:.3g} s\n", rest.time("time"));
+      model_.start_from(rest);
+    }
+    const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
+    observers_.emplace(model_, scene_, directory_, start, fluid, resume_time);
+  }
+
+  /// For the part that follows.
+  [[nodiscard]] const Course& course() const { return course_; }
+
+ private:
+  core::Simulation& simulation() override { return model_; }
+
+  std::vector<core::Observer> observers() override {
+    return {{"history", *scene_.output.history_every,
+             [&](double t) {
+               observers_->write_history(t);
+               judge(observers_->invariants().worst());
+             }},
+            {"particles", *scene_.output.every, [&](double t) {
+               const auto scope = timers_.scope("output");
+               observers_->write_particles(t);
+             }}};
+  }
+
+  /// Steps are short: asking all ranks at each whether the user wants to stop would cost more than some of them.
+  bool after_step() override {
+    observers_->see_step();
+    watch(monitor_.get(), model_);
+    if (monitor_) plan_switches();
+    return !switches() && (model_.steps() % 64 != 0 || CaseRun::after_step());
+  }
+
+  [[nodiscard]] bool switches() const override { return model_.time() >= next_switch_; }
+
+  /// What the monitor wants is on from the next output time on.
+  void plan_switches() {
+    for (; planned_ < monitor_->wanted().size(); ++planned_) {
+      const std::string& effect = monitor_->wanted()[planned_];
+      const double time = core::next_multiple(*scene_.output.every, model_.time());
+      if (std::isinf(time)) continue;  // there is no output time before the end
+      course_.switches.push_back({effect, time});
+      if (!options_.quiet)
+        core::print(stderr, "{} will be on from t = {:.4g} s (chooser.monitor = \"enable\")\n", effect, time);
+      next_switch_ = std::min(next_switch_, time);
+    }
+  }
+
+  void add_switches(core::Checkpoint& checkpoint) const override {
+    if (!course_.switches.empty()) checkpoint.texts["switch_on"] = text_of(course_.switches);
+  }
+
+  core::ProgressLine line() override {
+    const fluid::WorstInvariant* energy = observers_->invariants().energy();
+    return {model_.time(),
+            scene_.run.until,
+            model_.limits().dt,
+            model_.limits().limited_by,
+            observers_->bed_height(),
+            energy != nullptr ? fmt::format("energy {:.0e} of {:.0e}", energy->value, energy->limit)
+                              : fmt::format("{} contacts", observers_->totals().contacts)};
+  }
+
+  core::Checkpoint checkpoint() override {
+    core::Checkpoint checkpoint = model_.checkpoint();
+    dem::write(observers_->invariants().start(), checkpoint);
+    if (observers_->fluid() != nullptr) dem::write(observers_->fluid()->totals(), checkpoint);
+    return checkpoint;
+  }
+
+  std::string advice() override {
+    return fmt::format("the step was {:.3g} s, limited by {}", model_.limits().dt, model_.limits().limited_by);
+  }
+
+  /// What the case alone tells of the step and of the contacts.
+  [[nodiscard]] std::vector<std::string> warnings_before() const {
+    std::vector<std::string> lines;
+    for (const std::string& line : {model_.limits().warning, model_.overlap_expected().warning})
+      if (!line.empty()) lines.push_back(line);
+    return lines;
+  }
+
+  std::string record_text(const std::string& state) override {
+    cpu_ = core::cpu_seconds() - cpu_begin_;
+    std::array<double, 1> cpu{cpu_};
+    core::add_over_ranks(ranks_.get(), cpu);
+    cpu_ = cpu[0];
+    work_ = model_.work();
+    find_fluid();
+    const std::optional<Neglected> promise = promise_of(monitor_.get());
+    const int ranks = ranks_ ? ranks_->count() : 1;
+    core::Json json;
+    begin_record(json, scene_, "dem", state, ranks);
+    json.member("particles", model_.particle_count()).member("time_s", model_.time()).member("cpu_s", cpu_);
+    json.member("wall_s", wall_seconds());
+    json.member("integrator", model_.synchronised() ? "synchronised" : "thesis");
+    json.member("integrator_reason", model_.limits().integrator_reason);
+    write_prediction_of(json, state, cpu_);
+    write_step(json);
+    write_overlap(json, model_.overlap_expected());
+    write_work(json);
+    write_timers(json, timers_);
+    if (fluid_) write_fluid(json, *fluid_);
+    const std::vector<fluid::WorstInvariant> watched =
+        observers_ ? observers_->invariants().worst() : std::vector<fluid::WorstInvariant>{};
+    if (!watched.empty()) write_invariants(json, watched);
+    if (observers_) write_ledger(json);
+    if (model_.outflow() != nullptr) write_outflow(json, *model_.outflow());
+    write_left_out(json, left_out_);
+    if (promise) write_neglected(json, *promise);
+    if (!course_.switches.empty()) write_switches(json);
+    json.key("warnings").begin_array();
+    for (const std::string& line : exceeded_lines(watched)) json.value(line);
+    for (const std::string& line : warnings_before()) json.value(line);
+    for (const std::string& line : scene_warnings(scene_)) json.value(line);
+    if (monitor_)
+      for (const std::string& line : monitor_->warnings()) json.value(line);
+    json.end_array().end_object();
+    return json.text();
+  }
+
+  void write_switches(core::Json& json) const {
+    json.key("switched_on").begin_array();
+    for (const Switch& one : course_.switches)
+      json.begin_object().member("effect", one.effect).member("from_s", one.time).end_object();
+    json.end_array();
+  }
+
+  /// Collective.
+  void find_fluid() {
+    if (!observers_ || observers_->fluid() == nullptr) return;
+    std::array<dem::EnergySum, 1> work{model_.fluid_work()};
+    dem::add_over_ranks(ranks_.get(), work);
+    fluid_ = fluid_report(scene_, *model_.coupling(), observers_->fluid()->totals(), model_.limits().dt,
+                          work[0].units() * model_.energy_unit().unit);
+  }
+
+  void write_step(core::Json& json) const {
+    json.key("step").begin_object().member("dt_s", model_.limits().dt);
+    json.member("limited_by", model_.limits().limited_by);
+    json.member("greatest_speed_expected_m_s", model_.expected().greatest);
+    json.key("limits").begin_array();
+    for (const dem::StepLimit& limit : model_.limits().all)
+      json.begin_object().member("name", limit.name).member("dt_s", limit.dt).end_object();
+    json.end_array().end_object();
+  }
+
+  void write_work(core::Json& json) const {
+    json.key("work").begin_object().member("steps", work_.steps).member("particle_steps", work_.particle_steps);
+    json.member("pair_checks", work_.pair_checks).member("contact_steps", work_.contact_steps);
+    json.member("rebuilds", work_.rebuilds).member("candidates", work_.candidates);
+    json.member("shortenings", work_.shortenings).member("greatest_speed_m_s", work_.greatest_speed);
+    json.member("cuts", work_.cuts).member("imbalance", work_.imbalance).end_object();
+  }
+
+  void write_outflow(core::Json& json, const dem::Outflow& outflow) const {
+    json.key("outflow").begin_object();
+    for (std::size_t j = 0; j < outflow.number.size(); ++j) {
+      const dem::Species& species = model_.materials().species()[j];
+      json.key(species.name).begin_object().member("particles", outflow.number[j]);
+      json.member("mass_kg", double(outflow.number[j]) * species.mass).end_object();
+    }
+    json.end_object();
+  }
+
+  void write_ledger(core::Json& json) const {
+    const dem::Totals& t = observers_->totals();
+    json.key("energy").begin_object().member("kinetic_J", t.kinetic).member("rotational_J", t.rotational);
+    json.member("elastic_J", t.elastic).member("potential_J", t.potential);
+    if (scene_.dem.ledger && model_.outflow() != nullptr) json.member("carried_out_J", t.carried_out);
+    if (const fluid::WorstInvariant* energy = observers_->invariants().energy())
+      json.member("dissipated_J", t.dissipated)
+          .member("work_J", t.work)
+          .member("initial_J", observers_->invariants().start().energy)
+          .member("worst_error", energy->value)
+          .member("limit", energy->limit);
+    json.end_object().key("momentum_kg_m_s").begin_array();
+    for (const double p : t.momentum) json.value(p);
+    json.end_array().member("contacts", t.contacts).member("max_overlap_m", t.max_overlap);
+  }
+
+  TimeBand predicted() override { return dem_time(scene_, known_machine()); }
+
+  void print_summary() override {
+    core::print(stderr, "\n{} particles, {} steps, {:.4g} particle-steps per CPU second, list made {} times\n",
+                model_.particle_count(), work_.steps, double(work_.particle_steps) / std::max(cpu_, 1e-9),
+                work_.rebuilds);
+    if (model_.outflow() != nullptr) core::print(stderr, "{} particles have left\n", model_.outflow()->all());
+    core::print(stderr, "step {:.3g} s, limited by {}; {} integrator ({})\n", model_.limits().dt,
+                model_.limits().limited_by, model_.synchronised() ? "synchronised" : "thesis",
+                model_.limits().integrator_reason);
+    core::print(stderr, "greatest speed {:.3g} m/s, expected {:.3g}{}\n", work_.greatest_speed,
+                model_.expected().greatest,
+                work_.shortenings > 0 ? fmt::format("; the step was shortened {} times", work_.shortenings) : "");
+    if (fluid_)
+      for (const std::string& line : fluid_lines(*fluid_)) core::print(stderr, "{}\n", line);
+    print_prediction(cpu_);
+    print_invariants(observers_->invariants().worst());
+    print_promise();
+  }
+
+  dem::Model model_;
+  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "dem");  ///< null: nothing is watched
+  std::optional<dem::Observers> observers_;
+  dem::Work work_;
+  std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
+  double cpu_ = 0;
+  Course course_;
+  double next_switch_;       ///< s
+  std::size_t planned_ = 0;  ///< of what the monitor wants
+};
+
+/// Of a run that goes on: its time, s, and what its monitor has switched on or is about to.
+double take_up_course(const fs::path& directory, Course& course, const core::Ranks* ranks) {
+  std::string text;
+  std::array<double, 2> head{};
+  core::on_first(ranks, [&] {
+    const core::Checkpoint checkpoint = read_checkpoint_of(directory, course.scene);
+    if (const auto found = checkpoint.texts.find("switch_on"); found != checkpoint.texts.end()) text = found->second;
+    for (const Switch& one : switches_of(text))
+      if (!can_be_switched(one.effect) || !(one.time >= 0))
+        core::refuse_checkpoint(fmt::format("it switches {} on at {:g} s", one.effect, one.time));
+    head = {checkpoint.time("time"), double(text.size())};
+  });
+  core::take_from_first(ranks, head);
+  std::vector<double> letters(text.begin(), text.end());
+  letters.resize(std::size_t(head[1]));
+  core::take_from_first(ranks, letters);
+  course.switches = switches_of(std::string(letters.begin(), letters.end()));
+  return head[0];
+}
+
+}  // namespace
+
+void run_dem(const RunOptions& options) {
+  core::Scene scene = read_scene(options);
+  dem::refuse_continuum_scene(scene);
+  const fs::path directory = run_directory(options, "dem");
+  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
+  core::on_first(ranks.get(), [&] { taken = take_directory(directory, options); });
+  Course course{std::move(scene), {}};
+  RunOptions now = options;
+  for (bool ended = false; !ended; now.resume = true) {
+    const double begin = now.resume ? take_up_course(directory, course, ranks.get()) : 0;
+    std::optional<DemRun> run;
+    start_run({directory, course.scene, "dem", ranks.get(), now.resume},
+              [&] { run.emplace(now, course, begin, directory, ranks); });
+    ended = run->run();
+    course = run->course();
+  }
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,225 @@
+// polybed drag: a drag closure at a point, or for every row of a CSV file.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+#include "app/options.hpp"
+#include "closures/drag.hpp"
+#include "core/case/keys.hpp"
+#include "core/error.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/print.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using closures::DragLaw;
+
+DragLaw law_of(const DragOptions& options) {
+  const auto names = closures::drag_law_names();
+  if (std::find(names.begin(), names.end(), options.law) == names.end()) {
+    const std::string near = core::nearest_name(options.law, names);
+    throw core::CaseError("unknown drag law '" + options.law + "'" +
+                          (near.empty() ? "; see polybed list" : "; did you mean '" + near + "'?"));
+  }
+  return closures::drag_law(options.law, options.guard ? closures::Guard::on : closures::Guard::off);
+}
+
+void check_point(double voidage, double reynolds, const std::string& where) {
+  if (!(voidage > 0 && voidage <= 1))
+    throw core::CaseError(fmt::format("{}voidage {} is outside (0, 1]", where, voidage));
+  if (!(reynolds >= 0 && std::isfinite(reynolds)))
+    throw core::CaseError(fmt::format("{}Reynolds number {} is outside [0, inf)", where, reynolds));
+}
+
+/// A number of the answer; one that overflows is the user's error: the point is too far out.
+double finite(double value, double voidage, double reynolds, const std::string& where) {
+  if (!std::isfinite(value))
+    throw core::CaseError(fmt::format("{}the drag at voidage {} and Reynolds number {} is too large for a number",
+                                      where, voidage, reynolds));
+  return value;
+}
+
+/// The base law at one point; a refusal of a bare formula is the user's error.
+double at_point(const DragLaw& law, double voidage, double reynolds, closures::GuardCount& count,
+                const std::string& where) {
+  double f = 0, slope = 0;
+  try {
+    closures::drag_of_points(law, {&voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
+  } catch (const std::domain_error& error) {
+    throw core::CaseError(where + error.what());
+  }
+  finite(f / voidage, voidage, reynolds, where);
+  return f;
+}
+
+void print_point(const DragOptions& options, const DragLaw& law) {
+  check_point(*options.voidage, *options.reynolds, "");
+  closures::GuardCount count;
+  const double f = at_point(law, *options.voidage, *options.reynolds, count, "");
+  if (options.json) {
+    core::Json json;
+    json.begin_object().member("law", options.law).member("voidage", *options.voidage).member("re", *options.reynolds);
+    json.member("f", f).member("n", f / *options.voidage).member("guarded", count.guarded > 0).end_object();
+    core::print("{}\n", json.text());
+    return;
+  }
+  core::print("{}\n", f);
+  if (count.guarded > 0)
+    core::print(stderr, "outside the range of {}: {}\n", options.law,
+                options.guard ? "the guard answered" : "bare formula");
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  if (!line.empty() && line.back() == ',') cells.emplace_back();
+  return cells;
+}
+
+/// What a row of a table asks: a voidage, a Reynolds number, and of a mixture its shares and diameters.
+struct Row {
+  std::string text;            ///< as the file has it
+  std::string where;           ///< file and line
+  std::vector<double> values;  ///< all of them, in the order of the header
+  std::vector<double> share, diameter;
+};
+
+/// The names of the answers to a row.
+std::vector<std::string> answer_names(std::size_t species) {
+  if (species == 0) return {"f", "n"};
+  std::vector<std::string> names{"f_mean", "n_mean"};
+  for (std::size_t j = 1; j <= species; ++j)
+    for (const char* name : {"f", "n", "alpha", "Omega"}) names.push_back(fmt::format("{}_{}", name, j));
+  return names;
+}
+
+/// f and n; of a mixture their means and, per species, f_j, n_j, alpha_j, Omega_j.
+std::vector<double> answer(const DragLaw& law, const Row& row) {
+  const double eps = row.values[0], re = row.values[1];
+  const std::size_t n = row.share.size();
+  if (n == 0) {
+    closures::GuardCount count;
+    const double f = at_point(law, eps, re, count, row.where);
+    return {f, f / eps};
+  }
+  const double mean = closures::sauter_diameter(row.share, row.diameter);
+  std::vector<double> f(n), slope(n), slip(n, re / mean);  // density and viscosity 1: Re = slip D
+  double f_mean = 0;
+  try {
+    closures::drag_of_mixture(law, eps, row.share, row.diameter, slip, 1, 1, f, slope);
+    f_mean = closures::drag_of_mean(law, eps, re, row.share, row.diameter, f);
+  } catch (const std::domain_error& error) {
+    throw core::CaseError(row.where + error.what());
+  }
+  std::vector<double> values{f_mean, finite(f_mean / eps, eps, re, row.where)};
+  for (std::size_t j = 0; j < n; ++j) {
+    const double y = row.diameter[j] / mean, omega = f[j] / f_mean, net = f[j] + (1 - eps) * y * y * f_mean / eps;
+    const double alpha = closures::alpha_of_omega(eps, omega, y);
+    for (const double value : {f[j], net, alpha, omega}) values.push_back(finite(value, eps, re, row.where));
+  }
+  return values;
+}
+
+double number_in(const std::string& cell, const std::string& where) {
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(cell, &used);
+    if (cell.find_first_not_of(" \r\t", used) == std::string::npos && std::isfinite(value)) return value;
+  } catch (const std::exception&) {
+  }
+  throw core::CaseError(where + "'" + cell + "' is no number");
+}
+
+void check_header(const std::vector<std::string>& columns, const std::string& where) {
+  bool fits = columns.size() >= 2 && columns.size() % 2 == 0 && columns[0] == "eps" && columns[1] == "Re";
+  for (std::size_t j = 1; fits && 2 * j < columns.size(); ++j)
+    fits = columns[2 * j] == fmt::format("x{}", j) && columns[2 * j + 1] == fmt::format("D{}", j);
+  if (!fits) throw core::CaseError(where + "columns must be eps,Re or eps,Re,x1,D1,x2,D2,...");
+}
+
+Row row_of(const std::string& line, std::size_t columns, const std::string& where) {
+  Row row{line, where, {}, {}, {}};
+  const std::vector<std::string> cells = split(line);
+  if (cells.size() != columns)
+    throw core::CaseError(fmt::format("{}{} cells, the header has {}", where, cells.size(), columns));
+  for (const std::string& c : cells) row.values.push_back(number_in(c, where));
+  check_point(row.values[0], row.values[1], where);
+  for (std::size_t c = 2; c < columns; c += 2) {
+    row.share.push_back(row.values[c]);
+    row.diameter.push_back(row.values[c + 1]);
+    if (!(row.share.back() >= 0 && row.diameter.back() > 0))
+      throw core::CaseError(where + "shares must be >= 0, diameters > 0");
+  }
+  const double sum = std::accumulate(row.share.begin(), row.share.end(), 0.0);
+  if (!row.share.empty() && std::abs(sum - 1) > 1e-6)
+    throw core::CaseError(fmt::format("{}shares sum to {}, not to 1", where, sum));
+  return row;
+}
+
+/// Calls see(header, row) for every row of a file of points.
+template <class See>
+void read_points(const std::string& path, See&& see) {
+  (void)core::bytes_of_file(path, core::longest_file);
+  std::ifstream file(path);
+  if (!file) throw core::FileError(path + ": cannot be read");
+  std::vector<std::string> header;
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+    if (line.empty() || line.front() == '#') continue;
+    const std::string where = fmt::format("{}:{}: ", path, number);
+    if (header.empty()) {
+      header = split(line);
+      check_header(header, where);
+      see(header, std::optional<Row>());
+    } else {
+      see(header, std::optional<Row>(row_of(line, header.size(), where)));
+    }
+  }
+  if (file.bad()) throw core::FileError(path + ": cannot be read");
+  if (header.empty()) throw core::CaseError(path + ": no header and no rows");
+}
+
+void print_csv(const DragOptions& options, const DragLaw& law) {
+  read_points(options.csv, [&](const std::vector<std::string>& header, const std::optional<Row>& row) {
+    if (row)
+      core::print("{},{}\n", row->text, fmt::join(answer(law, *row), ","));
+    else
+      core::print("{},{}\n", fmt::join(header, ","), fmt::join(answer_names((header.size() - 2) / 2), ","));
+  });
+}
+
+void print_json(const DragOptions& options, const DragLaw& law) {
+  core::Json json;
+  json.begin_object().member("law", options.law).key("rows").begin_array();
+  read_points(options.csv, [&](const std::vector<std::string>& header, const std::optional<Row>& row) {
+    if (!row) return;
+    json.begin_object();
+    for (std::size_t c = 0; c < header.size(); ++c) json.member(header[c], row->values[c]);
+    const std::vector<std::string> names = answer_names(row->share.size());
+    const std::vector<double> answers = answer(law, *row);
+    for (std::size_t c = 0; c < names.size(); ++c) json.member(names[c], answers[c]);
+    json.end_object();
+  });
+  json.end_array().end_object();
+  core::print("{}\n", json.text());
+}
+
+}  // namespace
+
+void run_drag(const DragOptions& options) {
+  const DragLaw law = law_of(options);
+  if (!options.csv.empty()) return options.json ? print_json(options, law) : print_csv(options, law);
+  if (!options.voidage || !options.reynolds) throw core::CaseError("give --voidage and --re, or --csv FILE");
+  print_point(options, law);
+}
+
+}  // namespace polybed::multiscale

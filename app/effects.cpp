@@ -1,0 +1,51 @@
+// polybed effects: which effects a scene calls for, with the number that decides each; nothing is run.
+
+#include "app/options.hpp"
+#include "core/print.hpp"
+#include "multiscale/effects/audit.hpp"
+#include "multiscale/effects/bench.hpp"
+#include "multiscale/effects/effects_text.hpp"
+#include "multiscale/scene_rules.hpp"
+
+namespace polybed::multiscale {
+
+void run_effects(const CaseOptions& options) {
+  const core::Scene scene = read_case(options.case_path, options.overrides);
+  const Choice choice = choose(scene);
+  if (!options.json) return core::print("{}", effects_table(scene, choice));
+  core::Json json;
+  json.begin_object();
+  write_effects(json, scene, choice);
+  json.end_object();
+  core::print("{}\n", json.text());
+}
+
+void run_effects_bench(int rounds, bool as_json) {
+  const std::vector<EffectCost> costs = bench_effects(rounds);
+  if (!as_json) return core::print("{}", bench_table(costs));
+  core::Json json;
+  json.begin_object();
+  write_bench(json, costs);
+  json.end_object();
+  core::print("{}\n", json.text());
+}
+
+core::ExitCode run_effects_audit(const std::filesystem::path& run, bool as_json) {
+  const Neglected neglected = audit_run(run);
+  if (as_json) {
+    core::Json json;
+    json.begin_object().member("run", run.string());
+    write_neglected(json, neglected);
+    json.end_object();
+    core::print("{}\n", json.text());
+  } else {
+    const char* said = !neglected.kept()   ? "not to be told: all that was met is beyond the laws' range"
+                       : *neglected.kept() ? "kept"
+                                           : "broken";
+    core::print("{}the promise, {:.2g} of the weight for 99 of 100 particles, is {}\n", neglected_table(neglected),
+                neglected.tolerance(), said);
+  }
+  return neglected.kept().value_or(false) ? core::ExitCode::done : core::ExitCode::numerics;
+}
+
+}  // namespace polybed::multiscale

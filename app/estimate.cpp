@@ -1,0 +1,69 @@
+// polybed estimate: what a run will take, before it.
+#include <fmt/format.h>
+
+#include "app/options.hpp"
+#include "core/case/units.hpp"
+#include "core/error.hpp"
+#include "core/output/files.hpp"
+#include "core/print.hpp"
+#include "dem/continuum_scene.hpp"
+#include "multiscale/effects/choice.hpp"
+#include "multiscale/estimate/estimate.hpp"
+#include "multiscale/roles.hpp"
+#include "tfm/particle_scene.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+constexpr double machine_seconds = 28;  ///< CPU
+
+void measure_and_keep(bool as_json) {
+  const std::filesystem::path path = machine_file();
+  if (path.empty()) throw core::FileError("neither XDG_CACHE_HOME nor HOME says where to keep it");
+  if (!as_json) core::print(stderr, "measuring for about {:.0f} s\n", machine_seconds);
+  const std::string text = machine_text(measure_machine(machine_seconds));
+  core::make_directories(path.parent_path());
+  core::write_atomically(path, text + "\n");
+  core::print("{}\n", as_json ? text : path.string());
+}
+
+double seconds_of(const std::string& text) {
+  const auto time = core::parse_quantity(text);
+  if (!time || (time->has_unit && !(time->dimension == core::dimension::time)) || !(time->value > 0))
+    throw core::CaseError(fmt::format("--probe {}: expected a time, e.g. 5s", text));
+  return time->value;
+}
+
+/// The model asked for; else the two-fluid model where it runs the case.
+std::string model_of(const EstimateOptions& options, const core::Scene& scene) {
+  const bool particles = options.model == "dem" || (options.model.empty() && !tfm::only_for_particles(scene).empty());
+  if (particles)
+    dem::refuse_continuum_scene(scene);
+  else
+    tfm::refuse_particle_scene(scene);
+  return particles ? "dem" : "tfm";
+}
+
+}  // namespace
+
+void run_estimate(const EstimateOptions& options) {
+  if (options.machine) measure_and_keep(options.json);
+  if (options.case_path.empty()) {
+    if (!options.machine)
+      throw core::CaseError("CASE is missing: polybed estimate CASE, or polybed estimate --machine");
+    return;
+  }
+  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
+  const double probe = options.probe.empty() ? 0 : seconds_of(options.probe);
+  const Machine machine = known_machine();
+  const CostEstimate estimate = model_of(options, scene) == "dem" ? estimate_dem(scene, machine, probe, options.ranks)
+                                                                  : estimate_tfm(scene, machine, probe, options.ranks);
+  if (!options.json) return print_estimate(scene, estimate);
+  core::Json json;
+  json.begin_object().member("until_s", scene.run.until);
+  write_estimate(json, estimate);
+  core::print("{}\n", json.end_object().text());
+}
+
+}  // namespace polybed::multiscale

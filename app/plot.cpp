@@ -1,0 +1,91 @@
+// polybed plot: pictures of a finished or a running run, drawn by the Python package.
+#include <fmt/format.h>
+
+#include "app/options.hpp"
+#include "app/run_directory.hpp"
+#include "core/case/units.hpp"
+#include "core/error.hpp"
+#include "core/output/directory.hpp"
+#include "core/output/files.hpp"
+#include "multiscale/python_module.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_run(const fs::path& directory) {
+  return fs::exists(directory / "run.json") || fs::exists(directory / "fields.h5") ||
+         fs::exists(directory / "particles.h5");
+}
+
+/// The run that a path stands for: a run directory, or the run of a case file or a case's folder in runs/, that of the
+/// continuum if there are two.
+fs::path run_of(const fs::path& given) {
+  if (!fs::exists(given)) throw core::FileError(fmt::format("{}: no such run directory or case", given.string()));
+  if (is_run(given)) return given;
+  const bool folder = fs::is_directory(given), with_case = folder && fs::exists(given / "case.toml");
+  if (folder && !with_case)
+    throw core::FileError(fmt::format(
+        "{}: not a run directory (it has neither run.json nor fields.h5 nor particles.h5)", given.string()));
+  if (!folder && given.extension() != ".toml")
+    throw core::FileError(fmt::format("{}: neither a run directory nor a case file", given.string()));
+  const fs::path file = folder ? given / "case.toml" : given, run = default_run_directory(file, "tfm");
+  for (const fs::path& directory : {run, default_run_directory(file, "dem")})
+    if (is_run(directory)) return directory;
+  throw core::FileError(
+      fmt::format("{}: no run of it in {}; polybed tfm {} makes one", given.string(), run.string(), file.string()));
+}
+
+double seconds_of(const std::string& text) {
+  const auto time = core::parse_quantity(text);
+  if (!time || (time->has_unit && !(time->dimension == core::dimension::time)))
+    throw core::CaseError(fmt::format("--time {}: expected a time, e.g. 5 or \"5 s\"", text));
+  return time->value;
+}
+
+std::vector<std::string> words_of(const PlotOptions& options) {
+  std::vector<std::string> words{"--what", options.what, "--format", options.format};
+  if (!options.time.empty()) words.insert(words.end(), {"--time", fmt::format("{:.17g}", seconds_of(options.time))});
+  if (!options.output.empty()) words.insert(words.end(), {"--out", options.output.string()});
+  if (options.rate > 0) words.insert(words.end(), {"--rate", fmt::format("{}", options.rate)});
+  if (options.quiet) words.emplace_back("--quiet");
+  if (options.json) words.emplace_back("--json");
+  const fs::path run = run_of(options.run);
+  core::refuse_link(run / "pictures");
+  words.insert(words.end(), {"--", run.string()});
+  return words;
+}
+
+/// A folder of polybed cost has pictures of its own.
+PythonEnd draw(const PlotOptions& options) {
+  if (!fs::exists(options.run / "cost.json")) return run_python("polybed.plot", words_of(options), PythonOutput::show);
+  std::vector<std::string> words{"--", options.run.string()};
+  if (!options.output.empty()) words.insert(words.begin(), {"--out", options.output.string()});
+  return run_python("polybed.cost", words, PythonOutput::show);
+}
+
+}  // namespace
+
+core::ExitCode run_plot(const PlotOptions& options) {
+  if (!options.output.empty()) core::mark_directory(options.output);
+  const PythonEnd end = draw(options);
+  if (!end.not_started.empty())
+    throw core::FileError(fmt::format("no pictures: {}; {}", end.not_started, python_packages));
+  if (end.code > 128 && end.code != int(core::ExitCode::stopped))
+    throw core::FileError(fmt::format("{}: no pictures: Python was ended by signal {}; a file in it may be damaged",
+                                      options.run.string(), end.code - 128));
+  switch (end.code) {  // the module has said what is wrong
+    case 0:
+      return core::ExitCode::done;
+    case int(core::ExitCode::wrong_case):
+      return core::ExitCode::wrong_case;
+    case int(core::ExitCode::stopped):
+      return core::ExitCode::stopped;
+    default:
+      return core::ExitCode::file;
+  }
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,95 @@
+#include "app/run_directory.hpp"
+
+#include <fmt/format.h>
+
+#include "core/case/file.hpp"
+#include "core/error.hpp"
+#include "core/output/files.hpp"
+#include "core/print.hpp"
+#include "multiscale/effects/choice.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
+  const fs::path path = checkpoint_path(directory), previous = core::previous_checkpoint(path);
+  try {
+    return core::read_checkpoint(path);
+  } catch (const core::FileError& error) {
+    core::Checkpoint checkpoint;
+    try {
+      checkpoint = core::read_checkpoint(previous);
+    } catch (const core::FileError&) {
+      throw core::FileError(fmt::format("{}; there is no whole one before it: --force begins anew", error.what()));
+    }
+    fs::rename(previous, path);
+    core::print(stderr, "{}\ngoing on from it\n", error.what());
+    return checkpoint;
+  }
+}
+
+/// What must be the same for a checkpoint to fit: the case without its end and its output times.
+std::string physics_hash(core::Scene scene) {
+  scene.run.until = 1;
+  scene.output = {};
+  return core::text_hash(core::resolved_case(scene));
+}
+
+}  // namespace
+
+core::Scene read_scene(const RunOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.until.empty()) {
+    const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
+    overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
+  }
+  return read_chosen_case(options.case_path, overrides);
+}
+
+fs::path default_run_directory(const fs::path& case_path, const std::string& model) {
+  const fs::path path = fs::absolute(case_path);
+  const std::string name = path.stem() == "case" ? path.parent_path().filename().string() : path.stem().string();
+  return fs::path("runs") / (name + "-" + model);
+}
+
+fs::path run_directory(const RunOptions& options, const std::string& model) {
+  return options.output.empty() ? default_run_directory(options.case_path, model) : options.output;
+}
+
+std::unique_ptr<const core::OutputDirectory> take_directory(const fs::path& directory, const RunOptions& options) {
+  if (options.resume && !has_checkpoint(directory))
+    throw core::FileError(
+        fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
+  auto taken = std::make_unique<const core::OutputDirectory>(directory);
+  if (fs::exists(directory / "run.json") && !options.resume && !options.force)
+    throw core::CaseError(
+        fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
+                    directory.string()));
+  return taken;
+}
+
+bool has_checkpoint(const fs::path& directory) {
+  const fs::path path = checkpoint_path(directory);
+  return fs::exists(path) || fs::exists(core::previous_checkpoint(path));
+}
+
+fs::path checkpoint_path(const fs::path& directory) { return directory / "checkpoint.h5"; }
+
+core::Checkpoint read_checkpoint_of(const fs::path& directory, const core::Scene& scene) {
+  core::Checkpoint checkpoint = read_newest_checkpoint(directory);
+  const auto hash = checkpoint.texts.find("physics_hash");
+  if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene))
+    throw core::CaseError(
+        fmt::format("{}: the checkpoint is of another case; only run and output times may change", directory.string()));
+  return checkpoint;
+}
+
+void add_case(core::Checkpoint& checkpoint, const core::Scene& scene) {
+  checkpoint.texts["case"] = core::resolved_case(scene);
+  checkpoint.texts["physics_hash"] = physics_hash(scene);
+}
+
+}  // namespace polybed::multiscale

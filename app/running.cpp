@@ -1,0 +1,81 @@
+// Commands that run a case, or draw what was run.
+#include "app/commands.hpp"
+
+namespace polybed::command_line {
+
+namespace {
+
+/// A command that runs a case, by a model of that name or by both.
+CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& help, multiscale::RunOptions& options) {
+  CLI::App& command = *app.add_subcommand(model, help);
+  take_case(command, options);
+  command.add_option("-o,--output", options.output, "run directory; default runs/<case name>-" + model);
+  command.add_option("--until", options.until, "simulated time, e.g. \"20 s\"");
+  command.add_flag("--resume", options.resume, "go on from the checkpoint in the run directory");
+  command.add_flag("--force", options.force, "replace the run in the run directory");
+  command.add_flag("--permissive", options.permissive,
+                   "go on where a conservation law is broken more than tenfold, which ends a run otherwise");
+  command.add_flag("--quiet", options.quiet, "no progress");
+  command.add_flag("!--no-picture", options.picture,
+                   "no picture.png (or comparison.html) at the end, which takes a second");
+  return command;
+}
+
+On always_on_ranks() { return On::all_ranks; }
+
+}  // namespace
+
+void take_overrides(CLI::App& command, multiscale::CaseOptions& options) {
+  command.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void take_case(CLI::App& command, multiscale::CaseOptions& options, bool required) {
+  command.add_option("CASE", options.case_path, "the case file")->required(required);
+  take_overrides(command, options);
+  command.add_flag("--json", options.json, "one JSON object on standard output, nothing else there");
+}
+
+void add_tfm(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::RunOptions>();
+  CLI::App& command = add_run(app, "tfm", "run the case as a continuum (two-fluid model)", *options);
+  command.add_flag("--stress-uncertainty", options->stress_uncertainty,
+                   "again with the stress table at plus and minus one standard error: the band of the bed height");
+  commands.push_back({&command, doing([options] { multiscale::run_tfm(*options); }), always_on_ranks});
+}
+
+void add_dem(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::RunOptions>();
+  CLI::App& command = add_run(app, "dem", "run the case particle by particle", *options);
+  commands.push_back({&command, doing([options] { multiscale::run_dem(*options); }), always_on_ranks});
+}
+
+void add_compare(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::CompareOptions>();
+  CLI::App& command =
+      add_run(app, "compare", "run the case by both models, or take runs of it: how far they agree", *options);
+  command.add_option("--tfm", options->tfm, "directory of a run of polybed tfm, finished or not");
+  command.add_option("--dem", options->dem, "directory of a run of polybed dem, finished or not");
+  command.add_option("--inversion", options->inversion,
+                     "folder of polybed inversion --scan both; default that of the case in runs/");
+  commands.push_back({&command, doing([options] { multiscale::run_compare(*options); }), always_on_ranks});
+}
+
+void add_plot(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::PlotOptions>();
+  CLI::App& command = *app.add_subcommand("plot", "pictures of a finished or a running run");
+  command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
+  command.add_option("--what", options->what,
+                     "overview | fields | particles | profiles | history | animation, several by commas; default all");
+  command.add_option("--time", options->time, "the stored time nearest to it, e.g. \"5 s\"; default the last");
+  command.add_option("-o,--out,--output", options->output, "folder of the pictures; default RUN/pictures");
+  command.add_option("--format", options->format, "png | svg")->check(CLI::IsMember({"png", "svg"}));
+  command.add_option("--rate", options->rate, "frames per second of the animation; default: it lasts about 12 s")
+      ->check(CLI::Range(0.1, 120.0));
+  command.add_flag("--quiet", options->quiet, "no progress");
+  command.add_flag("--json", options->json, "one JSON object: the files written");
+  commands.push_back({&command, doing([options] { return multiscale::run_plot(*options); })});
+}
+
+}  // namespace polybed::command_line

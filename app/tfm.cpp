@@ -1,0 +1,180 @@
+// polybed tfm: runs a case as a continuum and writes its run directory.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/case_run.hpp"
+#include "app/stress_uncertainty.hpp"
+#include "core/print.hpp"
+#include "multiscale/requirements.hpp"
+#include "multiscale/run_record.hpp"
+#include "tfm/observers.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class TfmRun final : public CaseRun {
+ public:
+  TfmRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
+      : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks), "tfm"),
+        model_(scene_, timers_, ranks_) {
+    model_.go_on_above_packing(options_.permissive);
+    if (first_ && !options_.quiet)
+      for (const std::string& line : model_.effects().warnings) core::print(stderr, "{}\n", line);
+    model_.show(model_.time());
+    initial_mass_ = tfm::masses(model_);
+    prepare(
+        [&](core::Checkpoint& checkpoint, const fs::path& path) {
+          core::on_first(ranks_.get(), [&] { initial_mass_ = initial_mass_of(checkpoint); });
+          read_fields(path, checkpoint);
+          model_.resume(checkpoint);
+          core::take_from_first(ranks_.get(), initial_mass_);
+        },
+        [&](core::Checkpoint& checkpoint, const fs::path& path) {
+          read_fields(path, checkpoint);
+          model_.start_from(checkpoint);
+          model_.show(0);
+          initial_mass_ = tfm::masses(model_);
+        });
+    const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
+    observers_.emplace(model_, directory_, scene_.tfm.rtol, initial_mass_, resume_time);
+  }
+
+ private:
+  /// Every rank reads its block.
+  void read_fields(const fs::path& path, core::Checkpoint& checkpoint) const {
+    core::on_all(ranks_.get(), [&] { core::read_parts(path, model_.checkpoint_parts(), checkpoint); });
+  }
+
+  /// Mass of each species at the start of the run, kg.
+  [[nodiscard]] std::vector<double> initial_mass_of(const core::Checkpoint& checkpoint) const {
+    std::vector<double> mass = checkpoint.array("initial_mass");
+    if (mass.size() != initial_mass_.size() || std::any_of(mass.begin(), mass.end(), [](double m) { return m < 0; }))
+      core::refuse_checkpoint("initial_mass is not the mass of each species");
+    return mass;
+  }
+
+  core::Simulation& simulation() override { return model_; }
+  std::vector<double> kinks() override { return model_.kinks(); }
+  void keep_last_state() override { model_.keep_last_state(); }
+
+  std::vector<core::Observer> observers() override {
+    return {{"history", *scene_.output.history_every,
+             [&](double t) {
+               observers_->write_history(t);
+               judge(observers_->invariants().worst());
+             }},
+            {"fields", *scene_.output.every, [&](double t) {
+               const auto scope = timers_.scope("output");
+               observers_->write_fields(t);
+             }}};
+  }
+
+  bool after_step() override {
+    observers_->log_step();
+    watch(monitor_.get(), model_);
+    return CaseRun::after_step();
+  }
+
+  core::ProgressLine line() override {
+    const fluid::WorstInvariant& worst = observers_->invariants().nearest();
+    const tfm::StepLine& step = model_.last_step();
+    return {model_.time(),
+            scene_.run.until,
+            step.step,
+            step.limited_by,
+            observers_->bed_height(),
+            fmt::format("{} {:.0e} of {:.0e}", worst.name, worst.value, worst.limit)};
+  }
+
+  core::Checkpoint checkpoint() override {
+    core::Checkpoint checkpoint = model_.checkpoint();
+    checkpoint.arrays["initial_mass"] = initial_mass_;
+    return checkpoint;
+  }
+
+  std::string advice() override {
+    std::string steps;
+    for (const tfm::StepLine& step : observers_->last_steps())
+      steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
+    return fmt::format(
+        "the last steps: time, s; length, s; what limited it; steps.csv has all of them\n{}"
+        "try a smaller tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)",
+        steps);
+  }
+
+  std::string record_text(const std::string& state) override {
+    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
+    const std::optional<Neglected> promise = promise_of(monitor_.get());
+    return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
+                            promise ? &*promise : nullptr, monitor_ ? monitor_->warnings() : std::vector<std::string>{},
+                            [&](core::Json& json) { write_prediction_of(json, state, totals_.cpu_seconds); }});
+  }
+
+  TimeBand predicted() override { return tfm_time(scene_, model_, known_machine()); }
+
+  void print_summary() override {
+    const tfm::Work work = model_.work();
+    const double cpu = totals_.cpu_seconds, simulated = model_.time() - begin_;
+    core::print(stderr, "\n{} steps ({} rejected), {} right-hand sides, {} pressure iterations, {} Newton, {} Krylov\n",
+                work.steps, work.rejected_steps, work.right_hand_sides, work.pressure_iterations,
+                work.newton_iterations, work.krylov_iterations);
+    core::print(stderr, "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
+                simulated, simulated > 0 ? cpu / simulated : 0.0, model_.integrator_name(), model_.integrator_reason());
+    core::print(stderr, "convection of momentum: {} ({})\n", model_.momentum().name, model_.momentum().reason);
+    print_invariants(observers_->invariants().worst());
+    for (const tfm::ClosureUse& use : totals_.closures)
+      core::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,
+                  100.0 * double(use.guarded) / double(std::max<std::uint64_t>(use.evaluations, 1)),
+                  double(use.evaluations));
+    print_prediction(cpu);
+    print_state_at_end();
+  }
+
+  void print_state_at_end() const {
+    const tfm::LeastWellPosed& least = observers_->least_well_posed();
+    std::string place;
+    for (int axis = 0; axis < model_.constants().grid.dimensions; ++axis)
+      place += fmt::format("{}{:.4g}", axis > 0 ? ", " : "", least.cell.place[std::size_t(axis)]);
+    if (std::isfinite(least.cell.least))
+      core::print(
+          stderr,
+          "well-posedness: least dp_s/dphi over its critical {:.2g} Pa is {:.3g}, at ({}) m, t = {:.4g} s; below "
+          "1 in {:.3g} % of the bed's cells at the end\n",
+          least.cell.critical_slope, least.cell.least, place, least.time, 100 * least.share_below_now);
+    for (const std::string& text : drift_lines(observers_->drifts())) core::print(stderr, "{}\n", text);
+    print_promise();
+  }
+
+  tfm::Model model_;
+  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: nothing is watched
+  std::vector<double> initial_mass_;
+  std::optional<tfm::Observers> observers_;
+  RunTotals totals_;
+};
+
+}  // namespace
+
+void run_tfm(const RunOptions& options) {
+  const core::Scene scene = read_scene(options);
+  const fs::path directory = run_directory(options, "tfm");
+  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
+  core::on_first(ranks.get(), [&] {
+    require_memory(scene);
+    taken = take_directory(directory, options);
+  });
+  if (options.stress_uncertainty) require_table(scene);
+  std::optional<TfmRun> run;
+  start_run({directory, scene, "tfm", ranks.get(), options.resume},
+            [&] { run.emplace(options, scene, directory, ranks); });
+  (void)run->run();
+  run.reset();
+  if (options.stress_uncertainty) run_stress_uncertainty(options);
+}
+
+}  // namespace polybed::multiscale

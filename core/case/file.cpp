@@ -1,0 +1,324 @@
+#include "core/case/file.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+
+#include "core/case/depth.hpp"
+#include "core/case/keys.hpp"
+#include "core/case/override.hpp"
+#include "core/case/resolve_particles.hpp"
+#include "core/case/values.hpp"
+#include "core/output/files.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+/// One reading of a case: the scene as it grows, and the problems found so far.
+class CaseReader {
+ public:
+  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, const SceneRule& rule)
+      : name_(std::move(name)), roles_(roles), classes_(classes), rule_(rule), values_(name_) {}
+
+  void read(toml::table& root, std::span<const std::string> overrides);
+  Scene finish();
+
+ private:
+  void read_table(const toml::table& table, std::string_view name, std::size_t index);
+  void read_entry(std::string_view table, const toml::key& name, const toml::node& node);
+  void read_effects(const toml::node& node);
+  void read_key(const Key& key, std::size_t index, const toml::node& node);
+  void check_given();
+  void check_amount();
+  void check_fluid();
+  void check_sizes(const toml::table& species);
+  void check_scene();
+  void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message);
+  void wrong_key(const toml::key& key, std::string_view table);
+
+  std::string name_;
+  std::span<const Role> roles_;
+  const ClassRule& classes_;
+  const SceneRule& rule_;
+  CaseValues values_;
+  Scene scene_;
+  std::map<std::string, toml::source_region> given_;  ///< the keys that the case sets, by path, and where
+  WrongKeys wrong_;
+};
+
+/// A name as people write it: [table] or [[array]].
+std::string bracketed(std::string_view table) {
+  return is_array_of_tables(table) ? fmt::format("[[{}]]", table) : fmt::format("[{}]", table);
+}
+
+void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& node) {
+  given_.emplace(key.path(), node.source());
+  const std::size_t problems = values_.problems().size();
+  const auto store = [&]<class T>(T& place, const auto& value) {
+    if (value) place = static_cast<T>(*value);
+  };
+  std::visit(
+      [&](auto at) {
+        auto& place = at(scene_, index);
+        using T = std::remove_reference_t<decltype(place)>;
+        if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>)
+          store(place, values_.number(key, node));
+        else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::uint64_t>)
+          store(place, values_.count(key, node));
+        else if constexpr (std::is_same_v<T, bool>)
+          store(place, values_.truth(key, node));
+        else if constexpr (std::is_same_v<T, std::string>)
+          store(place, values_.text(key, node));
+        else if constexpr (std::is_same_v<T, std::vector<double>>)
+          store(place, values_.numbers(key, node));
+        else if constexpr (std::is_same_v<T, std::vector<std::int64_t>>)
+          store(place, values_.counts(key, node));
+        else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+          store(place, values_.texts(key, node));
+        else
+          store(place, key.by_size ? values_.sieves(key, node) : values_.points(key, node));
+      },
+      key.place);
+  if (values_.problems().size() > problems) wrong_.add(key.path());
+}
+
+/// A table that cannot be read: none of its keys has a value.
+void CaseReader::wrong_table(std::string_view table, const toml::source_region& place, const std::string& message) {
+  values_.add(place, message);
+  for (const Key& key : keys())
+    if (key.table == table) wrong_.add(key.path());
+}
+
+void CaseReader::wrong_key(const toml::key& key, std::string_view table) {
+  std::vector<std::string> names;
+  for (const Key& k : keys())
+    if (k.table == table) names.emplace_back(k.name);
+  if (table == "effects")
+    for (const Role& role : roles_) names.push_back(role.name);
+  if (table.empty())
+    for (const Key& k : keys()) names.emplace_back(k.table.empty() ? k.name : k.table);
+  const std::string near = nearest_name(key.str(), names);
+  values_.add(key.source(),
+              fmt::format("unknown key '{}'{}{}", key.str(), table.empty() ? "" : " in " + bracketed(table),
+                          near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+void CaseReader::read_table(const toml::table& table, std::string_view name, std::size_t index) {
+  for (const auto& [key, node] : table) {
+    const auto found = std::find_if(keys().begin(), keys().end(),
+                                    [&](const Key& k) { return k.table == name && k.name == key.str(); });
+    if (found == keys().end())
+      wrong_key(key, name);
+    else
+      read_key(*found, index, node);
+  }
+  for (const Key& key : keys())
+    if (key.required && key.table == name && !table.contains(key.name)) {
+      values_.add(table.source(), fmt::format("{} is missing: {}", key.path(), key.help));
+      wrong_.add(key.path());
+    }
+  const std::size_t problems = values_.problems().size();
+  if (name == "species") check_sizes(table);
+  if (values_.problems().size() > problems) wrong_.add("species.diameter");
+}
+
+/// A species has one diameter or a distribution, and a distribution what its kind needs and nothing else.
+void CaseReader::check_sizes(const toml::table& species) {
+  const auto has = [&](const char* key) { return species.contains(key); };
+  const std::string kind = species["distribution"].value_or(std::string());
+  if (!has("diameter") && !has("distribution"))
+    values_.add(species.source(), "species.diameter is missing: D_j of its spheres (or give species.distribution)");
+  if (has("diameter") && has("distribution"))
+    values_.add(species.get("diameter")->source(),
+                "species.diameter and species.distribution both say how large: give one");
+  if (has("distribution") && kind != "lognormal" && kind != "sieves") return;  // told as any wrong word
+  const auto only = [&](const char* key, const std::string& of) {
+    const bool acts = of.empty() ? !kind.empty() : kind == of;
+    if (has(key) && !acts)
+      values_.add(species.get(key)->source(), fmt::format("species.{} says nothing without species.distribution{}", key,
+                                                          of.empty() ? "" : " = \"" + of + "\""));
+  };
+  for (const char* key : {"median", "mean", "deviation"}) only(key, "lognormal");
+  only("sieves", "sieves");
+  only("classes", "");
+  const auto missing = [&](const std::string& what) {
+    values_.add(species.get("distribution")->source(),
+                fmt::format("species.distribution = \"{}\" needs {}", kind, what));
+  };
+  if (kind == "lognormal" && !has("deviation")) missing("species.deviation");
+  if (kind == "lognormal" && has("median") == has("mean")) missing("either species.median or species.mean");
+  if (kind == "sieves" && !has("sieves")) missing("species.sieves");
+}
+
+void CaseReader::read_effects(const toml::node& node) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) {
+    if (node.value_exact<std::string>() != automatic)
+      values_.add(node.source(), "effects: a table [effects] that names roles, or effects = \"auto\" at the top");
+    else
+      for (const Role& role : roles_) scene_.effects[role.name] = automatic;
+    return;
+  }
+  for (const auto& [name, value] : *table) {
+    given_.emplace(fmt::format("effects.{}", name.str()), name.source());
+    const auto role = std::find_if(roles_.begin(), roles_.end(), [&](const Role& r) { return r.name == name.str(); });
+    if (role == roles_.end()) {
+      wrong_key(name, "effects");
+      continue;
+    }
+    const auto law = value.value_exact<std::string>();
+    std::vector<std::string> laws{"none", automatic};
+    for (const Law& l : role->laws) laws.push_back(l.name);
+    if (!law || std::none_of(laws.begin(), laws.end(), [&](const auto& l) { return fits_word(l, *law); })) {
+      const std::string near = law ? nearest_name(*law, laws) : "";
+      values_.add(value.source(),
+                  fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value), fmt::join(laws, " | "),
+                              near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+      wrong_.add("effects." + role->name);
+      continue;
+    }
+    if (*law != "none") scene_.effects[role->name] = *law;
+  }
+}
+
+void CaseReader::read_entry(std::string_view table, const toml::key& name, const toml::node& node) {
+  const bool known = std::any_of(keys().begin(), keys().end(), [&](const Key& k) { return k.table == table; });
+  if (!known) return wrong_key(name, "");
+  if (is_array_of_tables(table)) {
+    const toml::array* entries = node.as_array();
+    if (entries == nullptr || !entries->is_homogeneous<toml::table>())
+      return wrong_table(table, node.source(), fmt::format("{} is an array of tables: write [[{}]]", table, table));
+    if (table == "species") scene_.species.resize(entries->size());
+    if (table == "contact_pair") scene_.contact_pairs.resize(entries->size());
+    if (table == "jet") scene_.jets.resize(entries->size());
+    if (table == "feed") scene_.feeds.resize(entries->size());
+    for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), table, n);
+    return;
+  }
+  if (!node.is_table())
+    return wrong_table(table, node.source(), fmt::format("{} is a table: write [{}]", table, table));
+  read_table(*node.as_table(), table, 0);
+}
+
+void CaseReader::read(toml::table& root, std::span<const std::string> overrides) {
+  for (const std::string& given : overrides) apply_override(root, given, values_);
+  scene_.overrides.assign(overrides.begin(), overrides.end());
+  for (const auto& [name, node] : root) {
+    if (name.str() == "effects")
+      read_effects(node);
+    else if (const auto top = std::find_if(keys().begin(), keys().end(),
+                                           [&](const Key& k) { return k.table.empty() && k.name == name.str(); });
+             top != keys().end())
+      read_key(*top, 0, node);
+    else
+      read_entry(name.str(), name, node);
+  }
+  for (std::string_view table : {"column", "fluid", "species", "bed", "run"})
+    if (!root.contains(table)) wrong_table(table, {}, fmt::format("{} is missing", bracketed(table)));
+}
+
+/// How much there is in the bed: said once.
+void CaseReader::check_amount() {
+  const auto given = [&](const std::string& path) { return given_.contains(path); };
+  const bool by_particles = given("bed.particles"), list = is_list(scene_.bed);
+  for (const char* key : {"bed.volume_share", "bed.static_height"}) {
+    if (by_particles && given(key))
+      values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
+    if (by_particles || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
+    values_.add(fmt::format("{} is missing (or give bed.particles)", key));
+    wrong_.add(key);
+  }
+  // A feed is held against the packing of the settled bed, whatever the bed begins as.
+  const bool anywhere = scene_.bed.start == "random" && by_particles;
+  if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
+  if ((list || anywhere) && scene_.feeds.empty()) return;
+  values_.add("bed.solids_fraction is missing: of the settled bed");
+  wrong_.add("bed.solids_fraction");
+}
+
+/// A fluid with density and viscosity needs no name.
+void CaseReader::check_fluid() {
+  const auto given = [&](const char* path) { return given_.contains(path); };
+  if (given("fluid.name") || !wrong_.sound("fluid.name")) return;
+  if (given("fluid.density") && given("fluid.viscosity")) return;
+  values_.add(
+      "fluid.name is missing: \"water\" or \"air\" with fluid.temperature, \"none\" for particles without a fluid, or "
+      "give fluid.density and fluid.viscosity");
+  wrong_.add("fluid.name");
+}
+
+/// What must be given together, or not together.
+void CaseReader::check_given() {
+  check_amount();
+  check_fluid();
+  const bool inlet = given_.contains("inlet.superficial_velocity");
+  const bool flows = scene_.fluid.name != "none" && scene_.dem.shear_rate == 0;
+  if (!scene_.column.closed && !inlet && flows && wrong_.sound({"column.closed", "fluid.name", "dem.shear_rate"}))
+    values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");
+  if (scene_.column.closed && inlet) values_.add("inlet.superficial_velocity cannot act: column.closed = true");
+}
+
+/// What the keys say of each other, as far as they are sound.
+void CaseReader::check_scene() {
+  std::vector<CaseProblem>& problems = values_.problems();
+  const auto take = [&](const std::vector<CaseProblem>& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+    return !more.empty();
+  };
+  const bool one_size = std::all_of(scene_.species.begin(), scene_.species.end(),
+                                    [](const Species& species) { return species.sizes.kind.empty(); });
+  const bool readable = wrong_.sound({"species.", "bed.volume_share"});
+  // Without its classes a distribution has no diameter.
+  if (!wrong_.sound("species.distribution") ||
+      (!one_size && (!readable || take(expand_size_classes(scene_, classes_, name_)))))
+    wrong_.add("species.diameter");
+  take(resolve(scene_, name_, given_.contains("bed.particles"), wrong_));
+  if (!rule_) return;
+  for (const SceneFault& fault : rule_(scene_)) {
+    const auto sound = [&](const std::string& key) { return wrong_.sound(key); };
+    if (!sound(fault.key) || !std::all_of(fault.rests_on.begin(), fault.rests_on.end(), sound)) continue;
+    const auto place = given_.find(fault.key);
+    place == given_.end() ? values_.add(fault.message) : values_.add(place->second, fault.message);
+  }
+}
+
+Scene CaseReader::finish() {
+  check_given();
+  check_scene();
+  std::vector<CaseProblem>& problems = values_.problems();
+  std::stable_sort(problems.begin(), problems.end(), [](const CaseProblem& a, const CaseProblem& b) {
+    return std::pair(a.line == 0, a.line) < std::pair(b.line == 0, b.line);
+  });
+  if (!problems.empty()) throw CaseError(problems);
+  return scene_;
+}
+
+}  // namespace
+
+Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
+                 std::span<const Role> roles, const ClassRule& classes, const SceneRule& rule) {
+  if (const auto problem = too_deep(text, name)) throw CaseError(std::vector{*problem});
+  toml::table root;
+  try {
+    root = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    std::vector<CaseProblem> problem;
+    problem.push_back({name, int(at.line), int(at.column), std::string(error.description())});
+    throw CaseError(problem);
+  }
+  CaseReader reader(name, roles, classes, rule);
+  reader.read(root, overrides);
+  return reader.finish();
+}
+
+Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides, std::span<const Role> roles,
+                const ClassRule& classes, const SceneRule& rule) {
+  constexpr std::size_t largest = 10'000'000;
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw FileError(path.string() + " is a folder: name its case.toml");
+  return parse_case(read_text(path, largest), path.string(), overrides, roles, classes, rule);
+}
+
+}  // namespace polybed::core

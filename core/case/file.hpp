@@ -1,0 +1,45 @@
+// Reads a case file, or a case resolved before, into a scene; finds everything that is wrong with it at once.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/case/registry.hpp"
+#include "core/case/rule.hpp"
+#include "core/case/scene.hpp"
+#include "core/case/size_classes.hpp"
+#include "core/error.hpp"
+
+namespace polybed::core {
+
+/// Reads a case file. Throws CaseError with all problems (place, key, value, range, suggestion), FileError if
+/// the file cannot be read.
+/// \param overrides  "key=value" each, e.g. "inlet.superficial_velocity=37 mm/s",
+/// "species.fine.diameter=1 mm"
+/// \param roles      what [effects] may name
+/// \param classes    how a distribution of sizes becomes species; without it a case may have none
+/// \param rule       what the laws ask of a scene; its faults are reported together with all others
+[[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
+                              std::span<const Role> roles, const ClassRule& classes = {}, const SceneRule& rule = {});
+
+/// The same from text; `name` stands for the file in messages.
+[[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
+                               std::span<const Role> roles, const ClassRule& classes = {}, const SceneRule& rule = {});
+
+/// What the keys say of each other: sums, sizes, conflicts, a bed that does not fit. Fills in what follows
+/// from them (axes of the column, depth, shares, defaults of output). Problems have no line.
+/// \param wrong  keys with problems of their own: what rests on them is not checked
+[[nodiscard]] std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool bed_given_by_particles,
+                                               WrongKeys wrong = {});
+
+/// The whole case in SI as TOML; reads back to the same scene.
+[[nodiscard]] std::string resolved_case(const Scene& scene);
+
+/// FNV-1a hash of a text, 64 bits, as 16 hexadecimal digits.
+[[nodiscard]] std::string text_hash(std::string_view text);
+
+}  // namespace polybed::core

@@ -1,0 +1,72 @@
+#include "core/case/override.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "core/case/depth.hpp"
+#include "core/output/json.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+/// A value of the command line: TOML if it reads as such, else a text.
+toml::table parse_override(const std::string& value, const std::string& source) {
+  try {
+    toml::table parsed = toml::parse("value = " + value, source);
+    if (parsed.size() == 1) return parsed;  // a line end and a second key would go unread
+  } catch (const toml::parse_error&) {
+  }
+  return toml::parse("value = " + Json().value(value).text(), source);
+}
+
+}  // namespace
+
+void apply_override(toml::table& root, const std::string& given, CaseValues& values) {
+  const std::size_t sign = given.find('=');
+  const std::string path = given.substr(0, sign), source = "--set " + path;
+  if (sign == std::string::npos || sign == 0)
+    return values.problems().push_back({"--set " + given, 0, 0, "expected KEY=VALUE"});
+  const std::string value = given.substr(sign + 1);
+  for (const std::string& text : {path, value})
+    if (auto problem = too_deep(text, source)) {
+      problem->line = 0;
+      return values.problems().push_back(*problem);
+    }
+  toml::table parsed;
+  try {
+    parsed = parse_override(value, source);
+  } catch (const toml::parse_error& error) {
+    return values.problems().push_back({source, 0, 0, std::string(error.description())});
+  }
+  const toml::source_region here = parsed.get("value")->source();
+  std::vector<std::string> parts;
+  std::stringstream stream(path);
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  toml::node* at = &root;
+  for (std::size_t n = 0; n + 1 < parts.size(); ++n) {
+    if (toml::array* array = at->as_array()) {
+      toml::node* chosen = nullptr;
+      for (std::size_t m = 0; m < array->size(); ++m) {
+        toml::table* entry = array->get(m)->as_table();
+        if (std::to_string(m) == parts[n] || (entry && (*entry)["name"].value_or(std::string()) == parts[n]))
+          chosen = entry;
+      }
+      if (chosen == nullptr)
+        return values.problems().push_back({source, 0, 0, fmt::format("no '{}' in [[{}]]", parts[n], parts[n - 1])});
+      at = chosen;
+      continue;
+    }
+    toml::table* table = at->as_table();
+    if (table == nullptr) return values.problems().push_back({source, 0, 0, "no such key"});
+    if (!table->contains(parts[n])) table->insert(toml::key(parts[n], here), toml::table{});
+    at = table->get(parts[n]);
+  }
+  toml::table* last = at->as_table();
+  if (last == nullptr) return values.problems().push_back({source, 0, 0, "no such key"});
+  last->erase(parts.back());
+  last->insert(toml::key(parts.back(), here), std::move(*parsed.get("value")));
+}
+
+}  // namespace polybed::core

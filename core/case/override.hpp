@@ -1,0 +1,17 @@
+// Values of the command line put into a case: --set inlet.superficial_velocity="37 mm/s", species.fine.diameter=1.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+#include "core/case/values.hpp"
+
+namespace polybed::core {
+
+/// Puts one "KEY=VALUE" into the tree in place of what the file says; notes a problem if there is no such place.
+/// \param given  KEY by its path; an entry of an array of tables by its name or its number from 0.
+///               VALUE as TOML if it reads as such, else a text, so that units need no inner quotes.
+void apply_override(toml::table& root, const std::string& given, CaseValues& values);
+
+}  // namespace polybed::core

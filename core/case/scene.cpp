@@ -1,0 +1,12 @@
+#include "core/case/scene.hpp"
+
+namespace polybed::core {
+
+Scene::Scene() = default;
+Scene::Scene(const Scene& other) = default;
+Scene::Scene(Scene&& other) noexcept = default;
+Scene& Scene::operator=(const Scene& other) = default;
+Scene& Scene::operator=(Scene&& other) noexcept = default;
+Scene::~Scene() = default;
+
+}  // namespace polybed::core

@@ -1,0 +1,120 @@
+#include "core/case/size_classes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/case/resolve_particles.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+constexpr double least_diameter = 1e-8, greatest_diameter = 1;  // m, as of species.diameter
+
+/// The species that stand for one of the case, with their shares of its volume.
+struct Expanded {
+  std::vector<Species> species;
+  std::vector<double> share;
+};
+
+Expanded expanded(const Species& given, const ClassRule& rule, std::vector<SizeClasses>& records) {
+  if (given.sizes.kind.empty()) return {{given}, {1.0}};
+  Expanded result;
+  SizeClasses record{given.name, given.sizes, {}, {}};
+  for (const auto& [diameter, share] : rule(given.sizes)) {
+    Species one = given;
+    one.name = fmt::format("{}.{}", given.name, result.species.size() + 1);
+    one.diameter = diameter;
+    one.sizes = {};
+    result.species.push_back(one);
+    result.share.push_back(share);
+    record.diameter.push_back(diameter);
+    record.share.push_back(share);
+  }
+  records.push_back(std::move(record));
+  return result;
+}
+
+auto record_of(const std::string& name, const std::vector<SizeClasses>& records) {
+  return std::find_if(records.begin(), records.end(), [&](const auto& r) { return r.species == name; });
+}
+
+/// The names that a name of the case stands for.
+std::vector<std::string> names_of(const std::string& name, const std::vector<SizeClasses>& records) {
+  const auto record = record_of(name, records);
+  if (record == records.end()) return {name};
+  std::vector<std::string> names;
+  for (std::size_t n = 1; n <= record->diameter.size(); ++n) names.push_back(fmt::format("{}.{}", name, n));
+  return names;
+}
+
+/// A pair that names a distribution is a pair of each of its classes.
+std::vector<ContactPair> expanded_pairs(const std::vector<ContactPair>& pairs,
+                                        const std::vector<SizeClasses>& records) {
+  std::vector<ContactPair> result;
+  for (const ContactPair& pair : pairs) {
+    if (pair.between.size() != 2) return pairs;  // told by resolve()
+    for (const std::string& a : names_of(pair.between[0], records))
+      for (const std::string& b : names_of(pair.between[1], records)) {
+        if (pair.between[0] == pair.between[1] && b < a) continue;
+        result.push_back(pair);
+        result.back().between = {a, b};
+      }
+  }
+  return result;
+}
+
+/// A feed of a distribution is a feed of each of its classes, by their shares.
+std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vector<SizeClasses>& records) {
+  std::vector<Feed> result;
+  for (const Feed& feed : feeds) {
+    const auto record = record_of(feed.species, records);
+    if (record == records.end()) {
+      result.push_back(feed);
+      continue;
+    }
+    for (std::size_t n = 0; n < record->share.size(); ++n) {
+      result.push_back(feed);
+      result.back().species = fmt::format("{}.{}", feed.species, n + 1);
+      for (auto& point : result.back().superficial_velocity) point.second *= record->share[n];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule, const std::string& case_name) {
+  std::vector<CaseProblem> problems;
+  const auto add = [&](std::string message) { problems.push_back({case_name, 0, 0, std::move(message)}); };
+  if (std::none_of(scene.species.begin(), scene.species.end(), [](const auto& s) { return !s.sizes.kind.empty(); }))
+    return problems;
+  if (!rule) return {{case_name, 0, 0, "species.distribution: this program knows no classes"}};
+  if (!scene.bed.particles.empty())
+    add("bed.particles counts spheres of one size: with a species.distribution give bed.volume_share and "
+        "bed.static_height");
+  Bed& bed = scene.bed;
+  const bool shares_fit = bed.volume_share.size() == scene.species.size();  // else told by resolve()
+  std::vector<Species> species;
+  std::vector<double> shares;
+  for (std::size_t n = 0; n < scene.species.size(); ++n) {
+    const Expanded classes = expanded(scene.species[n], rule, scene.size_classes);
+    for (std::size_t k = 0; k < classes.species.size(); ++k) {
+      const double diameter = classes.species[k].diameter;
+      if (!(diameter >= least_diameter && diameter <= greatest_diameter))
+        add(fmt::format("{} would have a diameter of {:.3g} m: fewer species.classes, or a smaller species.deviation",
+                        classes.species[k].name, diameter));
+      species.push_back(classes.species[k]);
+      if (shares_fit) shares.push_back(bed.volume_share[n] * classes.share[k]);
+    }
+  }
+  if (!shares_fit && !is_list(bed)) return problems;
+  scene.feeds = expanded_feeds(scene.feeds, scene.size_classes);
+  scene.contact_pairs = expanded_pairs(scene.contact_pairs, scene.size_classes);
+  scene.species = std::move(species);
+  if (shares_fit) bed.volume_share = std::move(shares);
+  return problems;
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,25 @@
+// Species with a distribution of sizes give way to their classes when a case is resolved: beyond this step a scene has
+// species of one diameter each, and nothing else need know.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/case/scene.hpp"
+#include "core/error.hpp"
+
+namespace polybed::core {
+
+/// The classes of a distribution, (diameter m, share of its volume), from fine to coarse. The closures know the rule;
+/// the case file is given it, as it is given the roles.
+using ClassRule = std::function<std::vector<std::pair<double, double>>(const SizeDistribution&)>;
+
+/// Puts `name.1`, `name.2`, ... in the place of each species with a distribution: with its properties, its share of
+/// bed.volume_share divided among them, and in
+/// the contact pairs and the feeds that name it. Fills scene.size_classes.
+[[nodiscard]] std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule,
+                                                           const std::string& case_name);
+
+}  // namespace polybed::core

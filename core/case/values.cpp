@@ -1,0 +1,187 @@
+#include "core/case/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace polybed::core {
+
+std::string shown(const toml::node& node) {
+  std::ostringstream out;
+  node.visit([&](const auto& value) { out << value; });
+  std::string text = out.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  constexpr std::size_t longest = 60;
+  return text.size() > longest ? text.substr(0, longest) + "..." : text;
+}
+
+namespace {
+
+template <class T, class Read>
+std::optional<std::vector<T>> list(CaseValues& values, const Key& key, const toml::node& node, Read&& read) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) {
+    values.add(node.source(), fmt::format("{} = {}: expected a list in [ ]", key.path(), shown(node)));
+    return std::nullopt;
+  }
+  std::vector<T> entries;
+  for (const toml::node& entry : *array) {
+    const auto value = read(entry);
+    if (!value) return std::nullopt;
+    entries.push_back(*value);
+  }
+  return entries;
+}
+
+}  // namespace
+
+void CaseValues::add(const toml::source_region& place, std::string message) {
+  CaseProblem problem{file_, 0, 0, std::move(message)};
+  if (place.path && *place.path != file_) {
+    problem.file = *place.path;  // from the command line, where a line and a column say nothing
+  } else if (place.begin.line > 0) {
+    problem.line = int(place.begin.line);
+    problem.column = int(place.begin.column);
+  }
+  problems_.push_back(std::move(problem));
+}
+
+void CaseValues::expected(const Key& key, const toml::node& node, std::string_view what) {
+  add(node.source(), fmt::format("{} = {}: expected {}", key.path(), shown(node), what));
+}
+
+std::optional<double> CaseValues::number(const Key& key, const toml::node& node) {
+  Quantity q;
+  if (node.is_number()) {
+    q.value = *node.value<double>();
+  } else if (const auto text = node.value<std::string_view>()) {
+    const auto parsed = parse_quantity(*text);
+    if (!parsed) {
+      expected(key, node, fmt::format("a number with a unit such as \"1 {}\"", unit_name(key.dimension)));
+      return std::nullopt;
+    }
+    q = *parsed;
+    if (q.has_unit && !(q.dimension == key.dimension)) {
+      expected(key, node,
+               fmt::format("a value in {}, this one is in {}", unit_name(key.dimension), unit_name(q.dimension)));
+      return std::nullopt;
+    }
+  } else {
+    expected(key, node, "a number, or a text with a unit");
+    return std::nullopt;
+  }
+  const bool low = key.above_least ? !(q.value > key.least) : !(q.value >= key.least);
+  if (!std::isfinite(q.value) || low || q.value > key.most) {
+    std::string hint;
+    if (key.dimension == dimension::length && !q.has_unit && q.value * 1e-3 <= key.most && q.value > key.most)
+      hint = fmt::format("; did you mean \"{:g} mm\"?", q.value);
+    add(node.source(), fmt::format("{} = {} is out of range: {}{}", key.path(), shown(node), range_text(key), hint));
+    return std::nullopt;
+  }
+  if (key.table == "species" && key.dimension == dimension::length && !q.has_unit && q.value > 0.05) {
+    add(node.source(), fmt::format("{} = {:g} m is larger than any particle here: did you mean \"{:g} mm\"?",
+                                   key.path(), q.value, q.value));
+    return std::nullopt;
+  }
+  return q.value;
+}
+
+std::optional<std::int64_t> CaseValues::count(const Key& key, const toml::node& node) {
+  const auto value = node.value_exact<std::int64_t>();
+  if (!value) {
+    expected(key, node, "a whole number");
+    return std::nullopt;
+  }
+  if (double(*value) < key.least || double(*value) > key.most) {
+    add(node.source(), fmt::format("{} = {} is out of range: {}", key.path(), *value, range_text(key)));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<bool> CaseValues::truth(const Key& key, const toml::node& node) {
+  const auto value = node.value_exact<bool>();
+  if (!value) expected(key, node, "true or false");
+  return value;
+}
+
+std::optional<std::string> CaseValues::text(const Key& key, const toml::node& node) {
+  if (key.or_number && node.is_number()) {
+    const auto value = number(key, node);
+    return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
+  }
+  const auto value = node.value_exact<std::string>();
+  if (!value) {
+    expected(key, node, key.or_number ? "a number, or a text in quotes" : "a text in quotes");
+    return std::nullopt;
+  }
+  if (!key.words.empty() && !is_word(key, *value)) {
+    const std::string near = nearest_name(*value, {key.words.begin(), key.words.end()});
+    add(node.source(), fmt::format("{} = \"{}\": allowed are {}{}", key.path(), *value, range_text(key),
+                                   near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<std::vector<double>> CaseValues::numbers(const Key& key, const toml::node& node) {
+  return list<double>(*this, key, node, [&](const toml::node& n) { return number(key, n); });
+}
+
+std::optional<std::vector<std::int64_t>> CaseValues::counts(const Key& key, const toml::node& node) {
+  return list<std::int64_t>(*this, key, node, [&](const toml::node& n) { return count(key, n); });
+}
+
+std::optional<std::vector<std::string>> CaseValues::texts(const Key& key, const toml::node& node) {
+  return list<std::string>(*this, key, node, [&](const toml::node& n) { return text(key, n); });
+}
+
+std::optional<Points> CaseValues::points(const Key& key, const toml::node& node) {
+  const toml::array* rows = node.as_array();
+  if (rows == nullptr && key.by_size) {
+    expected(key, node, "a table of pairs [opening, share]");
+    return std::nullopt;
+  }
+  if (rows == nullptr) {
+    const auto value = number(key, node);
+    return value ? std::optional(Points{{0.0, *value}}) : std::nullopt;
+  }
+  const Key first = key.by_size ? Key{key.table, key.name, key.place, "", dimension::length, 1e-8, 1}
+                                : Key{key.table, key.name, key.place, "", dimension::time, 0, 1e9};
+  const std::string pair_name = key.by_size ? "a pair [opening, share]" : "a pair [time, velocity]";
+  Points table;
+  for (const toml::node& row : *rows) {
+    const toml::array* pair = row.as_array();
+    if (pair == nullptr || pair->size() != 2) {
+      expected(key, row, pair_name);
+      return std::nullopt;
+    }
+    const auto t = number(first, *pair->get(0)), v = number(key, *pair->get(1));
+    if (!t || !v) return std::nullopt;
+    const bool falls = !table.empty() && *t < table.back().first;
+    if (falls || (key.by_size && !table.empty() && *t == table.back().first)) {
+      add(row.source(), fmt::format("{}: {}", key.path(), key.by_size ? "openings must rise" : "times must not fall"));
+      return std::nullopt;
+    }
+    table.emplace_back(*t, *v);
+  }
+  if (table.empty()) expected(key, node, "at least one: " + pair_name);
+  return table;
+}
+
+std::optional<Points> CaseValues::sieves(const Key& key, const toml::node& node) {
+  const auto table = points(key, node);
+  if (!table) return std::nullopt;
+  double sum = 0;
+  for (const auto& [opening, share] : *table) sum += share;
+  if (table->size() < 2 || table->back().second != 0)
+    add(node.source(),
+        fmt::format("{}: at least two sieves, the last with a share of 0: what everything passes", key.path()));
+  else if (!(std::abs(sum - 1) <= 1e-9))
+    add(node.source(), fmt::format("{}: the shares sum to {:.9g}, not to 1", key.path(), sum));
+  return table;
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,50 @@
+// Values of a case file: one TOML node read as what its key asks for, or a problem with its place and a suggestion.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/case/keys.hpp"
+#include "core/error.hpp"
+
+namespace polybed::core {
+
+/// A node's text for messages, one line, cut when long.
+[[nodiscard]] std::string shown(const toml::node& node);
+
+/// Reads values and collects what is wrong with them. Each reader returns nothing after it has noted a problem.
+class CaseValues {
+ public:
+  explicit CaseValues(std::string file) : file_(std::move(file)) {}
+
+  std::optional<double> number(const Key& key, const toml::node& node);
+  std::optional<std::int64_t> count(const Key& key, const toml::node& node);
+  std::optional<bool> truth(const Key& key, const toml::node& node);
+  std::optional<std::string> text(const Key& key, const toml::node& node);
+  std::optional<std::vector<double>> numbers(const Key& key, const toml::node& node);
+  std::optional<std::vector<std::int64_t>> counts(const Key& key, const toml::node& node);
+  std::optional<std::vector<std::string>> texts(const Key& key, const toml::node& node);
+  /// A table in time: a number (for all times), or pairs [time, value] with times that do not fall.
+  std::optional<Points> points(const Key& key, const toml::node& node);
+
+  /// A sieve analysis: pairs [opening, share] with rising openings; shares sum to 1, the last is 0.
+  std::optional<Points> sieves(const Key& key, const toml::node& node);
+
+  /// Notes a problem at a place; a region without a line (a command line's value) has none.
+  void add(const toml::source_region& place, std::string message);
+  /// Notes a problem of the file as a whole.
+  void add(std::string message) { add(toml::source_region{}, std::move(message)); }
+  [[nodiscard]] std::vector<CaseProblem>& problems() { return problems_; }
+
+ private:
+  void expected(const Key& key, const toml::node& node, std::string_view what);
+  std::string file_;
+  std::vector<CaseProblem> problems_;
+};
+
+}  // namespace polybed::core

@@ -1,0 +1,32 @@
+// The same elliptic equations solved directly: reference for the tests, and rescue where multigrid fails.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/numerics/halo.hpp"
+
+namespace polybed::core {
+
+/// Norm of source - (shift p - div(B grad p)) over the norm of the source, both over the column; 0 if both vanish.
+/// Arguments as in PoissonSolver::solve. Sets the ghost cells of p beside the owned ones. Collective.
+[[nodiscard]] double relative_residual(const Grid& grid, const Halo& halo,
+                                       const std::array<std::span<const double>, 3>& coefficient,
+                                       std::span<const double> shift, const Field& source, Field& p);
+
+/// Whether the equation leaves a constant open: no shift, and no coefficient on any boundary face. Collective.
+[[nodiscard]] bool leaves_constant_open(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                                        std::span<const double> shift);
+
+/// Where a constant is left open, multigrid would meet a singular coarsest matrix: a diagonal of the usual size, to be
+/// added in the column's first cell, makes the unknown vanish there and changes nothing else, as sources sum to zero.
+/// 0 where nothing is open and on the other ranks. Collective.
+[[nodiscard]] double pin_of_first_cell(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                                       std::span<const double> shift);
+
+/// Solves by a sparse factorisation (Eigen's LDLT); false if the matrix is not positive definite. Where a
+/// constant is left open the first cell is pinned to 0. For a column on one rank.
+bool solve_directly(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                    std::span<const double> shift, const Field& source, Field& p);
+
+}  // namespace polybed::core

@@ -1,0 +1,63 @@
+// A matrix given row by row, with hypre's algebraic multigrid: what its solvers on such matrices share.
+#pragma once
+
+#include <HYPRE.h>
+#include <HYPRE_IJ_mv.h>
+#include <HYPRE_parcsr_ls.h>
+
+#include <span>
+#include <vector>
+
+#include "core/numerics/field.hpp"
+
+namespace polybed::core {
+
+/// Rows are filled in order, then assembled; vectors are of the same length. Each rank fills those of its cells.
+class HypreRows {
+ public:
+  /// \param unknowns  rows for each owned cell; the rows of cell n (core/numerics/blocks.hpp) are n unknowns, n unknowns + 1 ...
+  HypreRows(const Grid& grid, int unknowns);
+  ~HypreRows();
+  HypreRows(const HypreRows&) = delete;
+  HypreRows& operator=(const HypreRows&) = delete;
+
+  void begin();
+  void begin_row() { first_ = value_.size(); }
+  /// Adds to an entry of the present row; across periodic sides of one or two cells both neighbours are one.
+  void add(HYPRE_Int column, double value);
+  void end_row() { row_size_.push_back(HYPRE_Int(value_.size() - first_)); }
+
+  /// First row of a cell, owned or next to an owned one; below 0 beyond the column's ends.
+  [[nodiscard]] HYPRE_Int row_of(Index cell) const { return HYPRE_Int(numbers_[std::size_t(cell)]) * unknowns_; }
+
+  /// The matrix, and its hierarchy of BoomerAMG: HMIS coarsening, extended+i interpolation.
+  /// \param functions  unknowns that take turns in the rows
+  /// \param symmetric  a smoother that conjugate gradients may use
+  void assemble(int functions, bool symmetric);
+
+  /// Right-hand side and solution, in the order of the rows.
+  void set_right(std::span<const double> values);
+  void set_solution(std::span<const double> values);
+  void get_solution(std::span<double> values);
+
+  /// A fixed number of cycles from a zero first guess.
+  void cycles(int count);
+  /// Conjugate gradients with one cycle as preconditioner, from the solution set; returns the iterations.
+  int conjugate_gradients(double tolerance, int most_iterations);
+
+ private:
+  void clear();
+  [[nodiscard]] HYPRE_ParCSRMatrix parcsr() const;
+
+  MPI_Comm all_;
+  HYPRE_Int unknowns_, rows_;
+  Field numbers_;  ///< of the cells
+  HYPRE_IJMatrix matrix_ = nullptr;
+  HYPRE_IJVector right_ = nullptr, solution_ = nullptr;
+  HYPRE_Solver multigrid_ = nullptr;
+  std::vector<HYPRE_Int> row_, row_size_, column_;
+  std::vector<double> value_;
+  std::size_t first_ = 0;  ///< of the row that is being filled
+};
+
+}  // namespace polybed::core

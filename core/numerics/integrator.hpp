@@ -1,0 +1,93 @@
+// Time integration with error control, by SUNDIALS: explicit Runge-Kutta (ARKODE) and implicit BDF (IDA).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/numerics/error_weights.hpp"
+#include "core/numerics/ranks.hpp"
+
+namespace polybed::core {
+
+/// What an evaluation says: fine, or try again with a smaller step. Exceptions thrown by a problem pass
+/// through Integrator::step unharmed.
+enum class Rate { ok, recoverable };
+
+/// dy/dt = f(t, y).
+class OdeProblem {
+ public:
+  virtual ~OdeProblem() = default;
+  virtual Rate rates(double t, std::span<const double> y, std::span<double> dydt) = 0;
+};
+
+/// 0 = F(t, y, dy/dt), with an approximate inverse of dF/dy + cj dF/d(dy/dt).
+class DaeProblem {
+ public:
+  virtual ~DaeProblem() = default;
+  virtual Rate residual(double t, std::span<const double> y, std::span<const double> dydt, std::span<double> r) = 0;
+  virtual Rate setup(double t, std::span<const double> y, std::span<const double> dydt, std::span<const double> r,
+                     double cj) = 0;
+  virtual Rate precondition(double t, std::span<const double> r, std::span<double> z, double cj, double delta) = 0;
+};
+
+/// One accepted step.
+struct StepReport {
+  double time = 0, step = 0, next_step = 0;  ///< s
+  double error_norm = 0;                     ///< weighted root mean square of the local error; accepted below 1
+  std::size_t worst_entry = 0;               ///< where this rank's weighted local error is largest
+  double worst_error = 0;                    ///< that error over its weight
+  int order = 0;
+};
+
+/// Counts since the integrator was made; they repeat exactly.
+struct IntegratorStatistics {
+  std::uint64_t steps = 0, error_failures = 0, recoverable_failures = 0, newton_iterations = 0, newton_failures = 0,
+                linear_iterations = 0, preconditioner_setups = 0;
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// Takes one accepted step from the present time, not beyond t_stop, and lands on t_stop exactly.
+  /// Throws NumericsError with the library's reason when no step can be taken.
+  virtual StepReport step(double t_stop) = 0;
+  /// The solution at a time inside the last step.
+  virtual void interpolate(double t, std::span<double> y) const = 0;
+  [[nodiscard]] virtual std::span<const double> state() const = 0;
+  [[nodiscard]] virtual std::span<const double> derivative() const = 0;  ///< implicit only; else empty
+  /// Starts anew from (t, y): what comes after depends on the arguments alone, to the bit.
+  /// \param dydt  consistent rates (implicit only)  \param h0  first step, s; 0: the integrator chooses
+  virtual void restart(double t, std::span<const double> y, std::span<const double> dydt, double h0) = 0;
+  [[nodiscard]] virtual IntegratorStatistics statistics() const = 0;
+  /// Memory of its vectors, bytes, without those of the linear solver.
+  [[nodiscard]] virtual std::size_t workspace() const = 0;
+};
+
+struct ExplicitOptions {
+  double rtol = 1e-4;
+  std::vector<double> atol;                      ///< per entry
+  double fixed_step = 0;                         ///< s; > 0: steps of one length, no error control
+  std::shared_ptr<const Ranks> ranks = nullptr;  ///< that hold parts of the state; null: it is all here
+  TolerancesAt atol_at = {};                     ///< in place of atol, which gives the size alone; empty: atol
+};
+
+struct ImplicitOptions {
+  double rtol = 1e-4;
+  std::vector<double> atol;                      ///< per entry
+  std::vector<double> id;                        ///< 1: differential, 0: algebraic (left out of the error test)
+  std::shared_ptr<const Ranks> ranks = nullptr;  ///< that hold parts of the state; null: it is all here
+  int max_order = 2;
+  double linear_tolerance = 0.02;  ///< of the linear solve, relative to that of Newton
+  int krylov_vectors = 30;
+  TolerancesAt atol_at = {};  ///< in place of atol, which gives the size alone; empty: atol
+};
+
+/// Bogacki and Shampine's method of order 3 with its embedded error estimate (ARKODE).
+std::unique_ptr<Integrator> make_explicit(OdeProblem& problem, ExplicitOptions options);
+
+/// Backward differences of variable order with Newton and preconditioned GMRES (IDA).
+std::unique_ptr<Integrator> make_implicit(DaeProblem& problem, ImplicitOptions options);
+
+}  // namespace polybed::core

@@ -1,0 +1,166 @@
+// Backward differences with Newton and GMRES, by IDA.
+#include <fmt/format.h>
+#include <ida/ida.h>
+#include <sunlinsol/sunlinsol_spgmr.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/numerics/integrator.hpp"
+#include "core/numerics/integrator_sundials.hpp"
+#include "core/numerics/integrator_vector.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+class ImplicitIntegrator : public Integrator {
+ public:
+  ImplicitIntegrator(DaeProblem& problem, ImplicitOptions options)
+      : problem_(problem),
+        options_(std::move(options)),
+        y_(options_.atol.size(), options_.ranks.get(), context_),
+        dydt_(options_.atol.size(), options_.ranks.get(), context_),
+        atol_(options_.atol.size(), options_.ranks.get(), context_),
+        id_(options_.atol.size(), options_.ranks.get(), context_),
+        error_(options_.atol.size(), options_.ranks.get(), context_),
+        weight_(options_.atol.size(), options_.ranks.get(), context_) {
+    atol_.assign(options_.atol);
+    id_.assign(options_.id);
+  }
+  ~ImplicitIntegrator() override { close(); }
+
+  void restart(double t, std::span<const double> y, std::span<const double> dydt, double h0) override {
+    close();
+    y_.assign(y);
+    dydt_.assign(dydt);
+    time_ = t;
+    memory_ = IDACreate(context_);
+    if (memory_ == nullptr) throw NumericsError("IDACreate failed");
+    require_success(IDAInit(memory_, residual, t, y_, dydt_), "IDAInit");
+    require_success(IDASetErrHandlerFn(memory_, keep_silent, nullptr), "IDASetErrHandlerFn");
+    require_success(IDASetUserData(memory_, this), "IDASetUserData");
+    if (options_.atol_at)
+      require_success(IDAWFtolerances(memory_, weigh), "IDAWFtolerances");
+    else
+      require_success(IDASVtolerances(memory_, options_.rtol, atol_), "IDASVtolerances");
+    require_success(IDASetMaxOrd(memory_, options_.max_order), "IDASetMaxOrd");
+    require_success(IDASetId(memory_, id_), "IDASetId");
+    require_success(IDASetSuppressAlg(memory_, SUNTRUE), "IDASetSuppressAlg");
+    if (h0 > 0) require_success(IDASetInitStep(memory_, h0), "IDASetInitStep");
+    solver_ = SUNLinSol_SPGMR(y_, SUN_PREC_LEFT, options_.krylov_vectors, context_);
+    require_success(IDASetLinearSolver(memory_, solver_, nullptr), "IDASetLinearSolver");
+    require_success(IDASetPreconditioner(memory_, setup, precondition), "IDASetPreconditioner");
+    require_success(IDASetEpsLin(memory_, options_.linear_tolerance), "IDASetEpsLin");
+  }
+
+  StepReport step(double t_stop) override {
+    require_success(IDASetStopTime(memory_, t_stop), "IDASetStopTime");
+    double t = time_;
+    const int flag = IDASolve(memory_, t_stop, &t, y_, dydt_, IDA_ONE_STEP);
+    if (kept_) std::rethrow_exception(std::exchange(kept_, nullptr));
+    if (flag < 0)
+      throw NumericsError(fmt::format("t = {:.9g} s: the implicit integrator cannot go on ({}), last step {:.3g} s",
+                                      time_, flag_name(IDAGetReturnFlagName, flag), last_step_));
+    // The library goes on with steps that are lost in the round-off of time.
+    if (t <= time_)
+      throw NumericsError(fmt::format(
+          "t = {:.9g} s: the implicit integrator stands still, its steps have shrunk to {:.3g} s", time_, last_step_));
+    StepReport r;
+    r.time = time_ = t;
+    IDAGetLastStep(memory_, &r.step);
+    IDAGetCurrentStep(memory_, &r.next_step);
+    IDAGetLastOrder(memory_, &r.order);
+    last_step_ = r.step;
+    ++closed_.steps;
+    require_success(IDAGetEstLocalErrors(memory_, error_), "IDAGetEstLocalErrors");
+    require_success(IDAGetErrWeights(memory_, weight_), "IDAGetErrWeights");
+    const auto error = error_.span(), id = id_.span();
+    for (std::size_t n = 0; n < error.size(); ++n) error[n] *= id[n];
+    report_error(error, weight_.span(), options_.ranks.get(), r);
+    return r;
+  }
+
+  void interpolate(double t, std::span<double> y) const override {
+    require_success(IDAGetDky(memory_, t, 0, error_), "IDAGetDky");
+    std::copy(error_.span().begin(), error_.span().end(), y.begin());
+  }
+  [[nodiscard]] std::span<const double> state() const override { return y_.span(); }
+  [[nodiscard]] std::span<const double> derivative() const override { return dydt_.span(); }
+
+  [[nodiscard]] IntegratorStatistics statistics() const override {
+    IntegratorStatistics s = closed_;
+    if (memory_ != nullptr) add_counts(s);
+    return s;
+  }
+
+  [[nodiscard]] std::size_t workspace() const override {
+    long reals = 0, integers = 0;
+    if (memory_ != nullptr) require_success(IDAGetWorkSpace(memory_, &reals, &integers), "IDAGetWorkSpace");
+    return (std::size_t(reals) + own_vectors * atol_.span().size()) * sizeof(double);
+  }
+
+ private:
+  static ImplicitIntegrator& me(void* self) { return *static_cast<ImplicitIntegrator*>(self); }
+  static int residual(double t, N_Vector y, N_Vector dydt, N_Vector r, void* self) {
+    return guarded(me(self).kept_,
+                   [&] { return me(self).problem_.residual(t, entries(y), entries(dydt), entries(r)); });
+  }
+  static int weigh(N_Vector y, N_Vector weight, void* self) {
+    return guarded(me(self).kept_, [&] {
+      const ImplicitOptions& options = me(self).options_;
+      weigh_errors(options.rtol, options.atol_at, entries(y), me(self).dydt_.span(), entries(weight));
+      return Rate::ok;
+    });
+  }
+  static int setup(double t, N_Vector y, N_Vector dydt, N_Vector r, double cj, void* self) {
+    return guarded(me(self).kept_,
+                   [&] { return me(self).problem_.setup(t, entries(y), entries(dydt), entries(r), cj); });
+  }
+  static int precondition(double t, N_Vector, N_Vector, N_Vector, N_Vector r, N_Vector z, double cj, double delta,
+                          void* self) {
+    return guarded(me(self).kept_,
+                   [&] { return me(self).problem_.precondition(t, entries(r), entries(z), cj, delta); });
+  }
+
+  void add_counts(IntegratorStatistics& s) const {
+    const auto add = [&](std::uint64_t& sum, int (*get)(void*, long*)) {
+      long count = 0;
+      get(memory_, &count);
+      sum += std::uint64_t(count);
+    };
+    add(s.error_failures, IDAGetNumErrTestFails);
+    add(s.newton_iterations, IDAGetNumNonlinSolvIters);
+    add(s.newton_failures, IDAGetNumNonlinSolvConvFails);
+    add(s.linear_iterations, IDAGetNumLinIters);
+    add(s.preconditioner_setups, IDAGetNumPrecEvals);
+  }
+
+  void close() {
+    if (memory_ == nullptr) return;
+    add_counts(closed_);
+    IDAFree(&memory_);
+    SUNLinSolFree(solver_);
+  }
+
+  DaeProblem& problem_;
+  ImplicitOptions options_;
+  Context context_;
+  Vector y_, dydt_, atol_, id_, error_, weight_;
+  static constexpr std::size_t own_vectors = 8;  // these, and two of the options
+  void* memory_ = nullptr;
+  SUNLinearSolver solver_ = nullptr;
+  double time_ = 0, last_step_ = 0;
+  IntegratorStatistics closed_;
+  std::exception_ptr kept_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_implicit(DaeProblem& problem, ImplicitOptions options) {
+  return std::make_unique<ImplicitIntegrator>(problem, std::move(options));
+}
+
+}  // namespace polybed::core

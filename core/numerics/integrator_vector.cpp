@@ -1,0 +1,109 @@
+#include "core/numerics/integrator_vector.hpp"
+
+#include <nvector/nvector_parallel.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/numerics/mpi.hpp"
+
+// Loops over entries, compiled for wider vectors as well, the widest that the processor has being chosen when the
+// program starts; without fused multiply-adds (-ffp-contract=off) all give the same bits.
+#if defined(__x86_64__) && defined(__gnu_linux__)
+#define POLYBED_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define POLYBED_WIDE
+#endif
+
+namespace polybed::core {
+
+namespace {
+
+POLYBED_WIDE void linear_sum_of(double a, const double* x, double b, const double* y, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = a * x[i] + b * y[i];
+}
+
+POLYBED_WIDE void scale_of(double c, const double* x, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = c * x[i];
+}
+
+/// sum of (x w)^2 in eight interleaved partial sums: the order of additions is fixed, whatever the width.
+POLYBED_WIDE double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
+  constexpr std::size_t lanes = 8;
+  std::array<double, lanes> part{};
+  std::size_t i = 0;
+  for (; i + lanes <= n; i += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) part[k] += (x[i + k] * w[i + k]) * (x[i + k] * w[i + k]);
+  for (std::size_t k = 0; i < n; ++i, ++k) part[k] += (x[i] * w[i]) * (x[i] * w[i]);
+  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
+  const std::span<double> to = entries(z);
+  linear_sum_of(a, entries(x).data(), b, entries(y).data(), to.data(), to.size());
+}
+
+void scale(double c, N_Vector x, N_Vector z) { scale_of(c, entries(x).data(), entries(z).data(), entries(z).size()); }
+
+/// z = sum c_k x_k, where z may be x_0: two terms a pass, in blocks that stay in the cache.
+int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
+  constexpr std::size_t block = 2048;
+  const std::span<double> to = entries(z);
+  for (std::size_t begin = 0; begin < to.size(); begin += block) {
+    const std::size_t n = std::min(block, to.size() - begin);
+    double* out = to.data() + begin;
+    const auto term = [&](int k) { return entries(x[k]).data() + begin; };
+    if (count == 1) {
+      scale_of(c[0], term(0), out, n);
+      continue;
+    }
+    linear_sum_of(c[0], term(0), c[1], term(1), out, n);
+    for (int k = 2; k < count; ++k) linear_sum_of(1.0, out, c[k], term(k), out, n);
+  }
+  return 0;
+}
+
+double wrms_norm(N_Vector x, N_Vector w) {
+  const std::span<double> values = entries(x);
+  return std::sqrt(weighted_square_sum_of(values.data(), entries(w).data(), values.size()) / double(values.size()));
+}
+
+double wrms_norm_of_ranks(N_Vector x, N_Vector w) {
+  const std::span<double> values = entries(x);
+  const double part = weighted_square_sum_of(values.data(), entries(w).data(), values.size());
+  double sum = 0;
+  check_mpi(MPI_Allreduce(&part, &sum, 1, MPI_DOUBLE, MPI_SUM, NV_COMM_P(x)), "MPI_Allreduce");
+  return std::sqrt(sum / double(NV_GLOBLENGTH_P(x)));
+}
+
+N_Vector new_vector(std::size_t size, const Ranks* ranks, SUNContext context) {
+  if (ranks == nullptr) return N_VNew_Serial(sunindextype(size), context);
+  const MPI_Comm all = communicator(ranks);
+  long long part = static_cast<long long>(size), sum = 0;
+  check_mpi(MPI_Allreduce(&part, &sum, 1, MPI_LONG_LONG, MPI_SUM, all), "MPI_Allreduce");
+  return N_VNew_Parallel(all, sunindextype(size), sunindextype(sum), context);
+}
+
+}  // namespace
+
+Vector::Vector(std::size_t size, const Ranks* ranks, SUNContext context) : vector_(new_vector(size, ranks, context)) {
+  if (vector_ == nullptr) throw NumericsError("no memory for the state");
+  vector_->ops->nvlinearsum = linear_sum;
+  vector_->ops->nvscale = scale;
+  vector_->ops->nvlinearcombination = linear_combination;
+  vector_->ops->nvwrmsnorm = ranks == nullptr ? wrms_norm : wrms_norm_of_ranks;
+  N_VConst(0, vector_);
+}
+
+std::span<double> Vector::span() const { return entries(vector_); }
+
+void Vector::assign(std::span<const double> values) const { std::copy(values.begin(), values.end(), span().begin()); }
+
+std::span<double> entries(N_Vector v) {
+  const bool parallel = N_VGetVectorID(v) == SUNDIALS_NVEC_PARALLEL;
+  return {N_VGetArrayPointer(v), std::size_t(parallel ? NV_LOCLENGTH_P(v) : N_VGetLength(v))};
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,272 @@
+#include "core/numerics/linear_solver.hpp"
+
+#include <HYPRE.h>
+#include <HYPRE_struct_ls.h>
+#include <algorithm>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/numerics/direct_solver.hpp"
+#include "core/numerics/linear_solver_algebraic.hpp"
+#include "core/numerics/mpi.hpp"
+#include "core/numerics/mpi_start.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+/// Beyond, the algebraic multigrid needs fewer.
+constexpr int most_iterations = 60;
+
+/// Beyond, a factorisation takes longer than the run may wait, above all in three dimensions.
+constexpr std::size_t most_cells_of_factorisation = 20'000;
+
+/// Cells longer than 3 to 1: at 5 to 1 the structured multigrid takes 93 iterations, the algebraic one 10.
+bool long_cells(const Grid& grid) {
+  const auto [least, most] = std::minmax_element(grid.spacing.begin(), grid.spacing.begin() + grid.dimensions);
+  return *most > 3 * *least;
+}
+
+}  // namespace
+
+void open_linear_solvers() {
+  static const int opened = [] {
+    open_mpi();
+    return HYPRE_Init();
+  }();
+  if (opened != 0) throw NumericsError("hypre cannot be started");
+}
+
+struct PoissonSolver::Hypre {
+  int dimensions;
+  MPI_Comm all;
+  std::array<HYPRE_Int, 3> lower{0, 0, 0}, upper{0, 0, 0};
+  HYPRE_StructGrid grid = nullptr;
+  HYPRE_StructStencil stencil = nullptr;
+  HYPRE_StructMatrix matrix = nullptr;
+  HYPRE_StructVector source = nullptr, solution = nullptr;
+  HYPRE_StructSolver cg = nullptr, multigrid = nullptr;  ///< null: to be set up anew
+  int solves = 0, best = 0, spent = 0;  ///< since then; iterations of the first, and those that the rest took beyond
+  std::vector<double> entries, packed;
+  Field balanced;  ///< the source without its mean, where a constant is left open
+  Field pinned;    ///< and the diagonal that holds it
+
+  explicit Hypre(const Grid& g) : dimensions(g.dimensions), all(communicator(g)) {
+    open_linear_solvers();
+    std::array<HYPRE_Int, 3> period{0, 0, 0};
+    for (std::size_t d = 0; d < 3; ++d) {
+      lower[d] = g.before[d];
+      upper[d] = g.before[d] + g.cells[d] - 1;
+      if (g.periodic[d]) period[d] = g.column_cells(int(d));
+    }
+    HYPRE_StructGridCreate(all, dimensions, &grid);
+    HYPRE_StructGridSetExtents(grid, lower.data(), upper.data());
+    HYPRE_StructGridSetPeriodic(grid, period.data());
+    HYPRE_StructGridAssemble(grid);
+    HYPRE_StructStencilCreate(dimensions, dimensions + 1, &stencil);
+    std::array<HYPRE_Int, 3> offset{0, 0, 0};
+    HYPRE_StructStencilSetElement(stencil, 0, offset.data());
+    for (int d = 0; d < dimensions; ++d) {
+      offset = {0, 0, 0};
+      offset[std::size_t(d)] = 1;
+      HYPRE_StructStencilSetElement(stencil, d + 1, offset.data());
+    }
+    HYPRE_StructMatrixCreate(all, grid, stencil, &matrix);
+    HYPRE_StructMatrixSetSymmetric(matrix, 1);
+    HYPRE_StructMatrixInitialize(matrix);
+    for (HYPRE_StructVector* v : {&source, &solution}) {
+      HYPRE_StructVectorCreate(all, grid, v);
+      HYPRE_StructVectorInitialize(*v);
+    }
+    entries.resize(g.cell_count() * std::size_t(dimensions + 1));
+    packed.resize(g.cell_count());
+  }
+  ~Hypre() {
+    forget();
+    HYPRE_StructVectorDestroy(solution);
+    HYPRE_StructVectorDestroy(source);
+    HYPRE_StructMatrixDestroy(matrix);
+    HYPRE_StructStencilDestroy(stencil);
+    HYPRE_StructGridDestroy(grid);
+  }
+  Hypre(const Hypre&) = delete;
+  Hypre& operator=(const Hypre&) = delete;
+
+  void set_matrix(const Grid& g, const FaceSpans& coefficient, std::span<const double> shift) {
+    std::array<double, 3> weight{};
+    for (std::size_t d = 0; d < std::size_t(dimensions); ++d) weight[d] = 1 / (g.spacing[d] * g.spacing[d]);
+    double* to = entries.data();
+    for_each_row(g, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) {
+        double* diagonal = to++;
+        *diagonal = shift.empty() ? 0.0 : shift[std::size_t(c)];
+        for (int d = 0; d < dimensions; ++d) {
+          const auto a = std::size_t(d);
+          const double low = weight[a] * coefficient[a][std::size_t(c)];
+          const double high = weight[a] * coefficient[a][std::size_t(c + g.stride(d))];
+          *diagonal += low + high;
+          *to++ = -high;
+        }
+      }
+    });
+    drop_outward(g);
+    std::array<HYPRE_Int, 4> which{0, 1, 2, 3};
+    HYPRE_StructMatrixSetBoxValues(matrix, lower.data(), upper.data(), dimensions + 1, which.data(), entries.data());
+    HYPRE_StructMatrixAssemble(matrix);
+  }
+
+  /// Entries that reach beyond the column must be zero; their part of the diagonal stays (Dirichlet) by itself.
+  void drop_outward(const Grid& g) {
+    const auto n = g.cells;
+    for (int d = 0; d < dimensions; ++d) {
+      if (!g.ends(d, 1)) continue;
+      Box last = owned_cells(g);
+      last.lo[std::size_t(d)] = n[std::size_t(d)] - 1;
+      for (int k = last.lo[2]; k < last.hi[2]; ++k)
+        for (int j = last.lo[1]; j < last.hi[1]; ++j)
+          for (int i = last.lo[0]; i < last.hi[0]; ++i) {
+            const auto cell = std::size_t(i + n[0] * (j + n[1] * k));
+            entries[cell * std::size_t(dimensions + 1) + std::size_t(d + 1)] = 0;
+          }
+    }
+  }
+
+  void set(HYPRE_StructVector v, const Grid& g, const Field& field) {
+    double* to = packed.data();
+    for_each_row(g, [&](Index begin, Index end) { to = std::copy(field.begin() + begin, field.begin() + end, to); });
+    HYPRE_StructVectorSetBoxValues(v, lower.data(), upper.data(), packed.data());
+    HYPRE_StructVectorAssemble(v);
+  }
+  void get(const Grid& g, Field& field) {
+    HYPRE_StructVectorGetBoxValues(solution, lower.data(), upper.data(), packed.data());
+    const double* from = packed.data();
+    for_each_row(g, [&](Index begin, Index end) {
+      std::copy(from, from + (end - begin), field.begin() + begin);
+      from += end - begin;
+    });
+  }
+
+  /// Conjugate gradients with one PFMG cycle as preconditioner; returns the iterations. The hierarchy may be that of
+  /// earlier coefficients: it is only a preconditioner, and is renewed when the iterations it costs outweigh it.
+  int solve(const Grid& g, const FaceSpans& coefficient, std::span<const double> shift, const Field& right, Field& p,
+            double tolerance) {
+    set_matrix(g, coefficient, shift);
+    set(source, g, right);
+    set(solution, g, p);
+    if (cg == nullptr) renew();
+    HYPRE_StructPCGSetTol(cg, tolerance);
+    HYPRE_StructPCGSolve(cg, matrix, source, solution);
+    HYPRE_Int iterations = 0;
+    HYPRE_StructPCGGetNumIterations(cg, &iterations);
+    get(g, p);
+    return int(iterations);
+  }
+
+  void forget() {
+    if (multigrid != nullptr) HYPRE_StructPFMGDestroy(multigrid);
+    if (cg != nullptr) HYPRE_StructPCGDestroy(cg);
+    multigrid = cg = nullptr;
+  }
+
+  /// Sets the hierarchy up for the present matrix.
+  void renew() {
+    forget();
+    HYPRE_StructPCGCreate(all, &cg);
+    HYPRE_StructPCGSetMaxIter(cg, most_iterations);
+    HYPRE_StructPCGSetTwoNorm(cg, 1);
+    HYPRE_StructPFMGCreate(all, &multigrid);
+    HYPRE_StructPFMGSetMaxIter(multigrid, 1);
+    HYPRE_StructPFMGSetTol(multigrid, 0);
+    HYPRE_StructPFMGSetZeroGuess(multigrid);
+    HYPRE_StructPFMGSetRelaxType(multigrid, 2);  // red-black Gauss-Seidel: a quarter fewer iterations than Jacobi
+    HYPRE_StructPFMGSetRAPType(multigrid, 0);
+    HYPRE_StructPCGSetPrecond(cg, HYPRE_StructPFMGSolve, HYPRE_StructPFMGSetup, multigrid);
+    HYPRE_StructPCGSetup(cg, matrix, source, solution);
+    solves = spent = 0;
+  }
+
+  /// A solve took so many iterations. Setting up costs as much as about four; the mean of the solves since then must
+  /// not rise beyond what a set-up for each would cost.
+  void age(int iterations) {
+    if (solves == 0) best = iterations;
+    ++solves;
+    spent += std::max(iterations - best, 0);
+    constexpr int cost_of_set_up = 4;
+    if (spent >= cost_of_set_up) forget();
+  }
+};
+
+PoissonSolver::PoissonSolver(const Grid& grid) : grid_(grid), halo_(grid), hypre_(std::make_unique<Hypre>(grid)) {}
+PoissonSolver::~PoissonSolver() = default;
+PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
+PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
+
+namespace {
+
+void subtract(const Grid& grid, double constant, Field& field) {
+  for_each_row(grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) field[std::size_t(c)] -= constant;
+  });
+}
+
+/// Takes the mean over the column out of a field.
+void remove_mean(const Grid& grid, Field& field) {
+  double sum = 0;
+  for_each_row(grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) sum += field[std::size_t(c)];
+  });
+  subtract(grid, sum_of_ranks(grid, sum) / double(grid.column_cell_count()), field);
+}
+
+}  // namespace
+
+PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const double> shift,
+                                   const Field& given_source, Field& p, double tolerance) {
+  Field &balanced = hypre_->balanced, &pinned = hypre_->pinned;
+  const bool constant_open = leaves_constant_open(grid_, coefficient, shift);
+  if (constant_open) {
+    balanced = given_source;
+    remove_mean(grid_, balanced);
+    pinned.assign(grid_.padded_size(), 0.0);
+    double& first = pinned[std::size_t(grid_.index(0, 0))];
+    first = pin_of_first_cell(grid_, coefficient, shift);
+    subtract(grid_, sum_of_ranks(grid_, first > 0 ? p[std::size_t(grid_.index(0, 0))] : 0), p);
+  }
+  const std::span<const double> diagonal = constant_open ? std::span<const double>(pinned) : shift;
+  const Field& source = constant_open ? balanced : given_source;
+  PoissonResult result;
+  // The residual that the iteration carries along and the true one drift apart by round-off: twice is granted.
+  const auto judge = [&](const char* solver, bool fine) {
+    result.solver = solver;
+    result.residual = relative_residual(grid_, halo_, coefficient, shift, source, p);
+    result.converged = fine && result.residual <= 2 * tolerance;
+  };
+  const auto solve_with_multigrid = [&] {
+    const int iterations = hypre_->solve(grid_, coefficient, diagonal, source, p, tolerance);
+    const bool error = HYPRE_GetError() != 0;
+    HYPRE_ClearAllErrors();
+    result.iterations += iterations;
+    judge("PCG + PFMG", on_all_ranks(grid_, !error));
+    if (result.converged)
+      hypre_->age(iterations);
+    else
+      hypre_->forget();
+  };
+  if (!long_cells(grid_)) {
+    const bool aged = hypre_->solves > 0;
+    solve_with_multigrid();
+    if (!result.converged && aged) solve_with_multigrid();
+  }
+  if (!result.converged) {
+    result.iterations += solve_algebraically(grid_, coefficient, diagonal, source, p, tolerance);
+    judge("PCG + BoomerAMG", true);
+  }
+  if (!result.converged && !grid_.ranks && grid_.cell_count() <= most_cells_of_factorisation)
+    judge("direct", solve_directly(grid_, coefficient, shift, source, p));
+  if (constant_open) remove_mean(grid_, p);
+  return result;
+}
+
+void PoissonSolver::forget() { hypre_->forget(); }
+
+}  // namespace polybed::core

@@ -1,0 +1,73 @@
+// Elliptic equations on the cells of a grid, by hypre: the pressure's Poisson equation, and the coupled
+// system of the implicit integrator's preconditioner.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+
+#include "core/numerics/halo.hpp"
+
+namespace polybed::core {
+
+/// Starts MPI, if nobody has, and hypre; once per process. Throws NumericsError.
+void open_linear_solvers();
+
+using FaceSpans = std::array<std::span<const double>, 3>;  ///< one padded array per active axis
+
+struct PoissonResult {
+  bool converged = false;
+  int iterations = 0;
+  double residual = 0;      ///< true relative residual, recomputed after the solve
+  const char* solver = "";  ///< which one gave the answer
+};
+
+/// Solves shift p - div(B grad p) = source on the cells of the column. Collective.
+/// The coefficient on a boundary face says what holds there: 0, no flux; else p = 0 in the centre of the
+/// ghost cell. The multigrid hierarchy is kept while it serves; the residual is always the true one, recomputed.
+class PoissonSolver {
+ public:
+  explicit PoissonSolver(const Grid& grid);
+  ~PoissonSolver();
+  PoissonSolver(PoissonSolver&&) noexcept;
+  PoissonSolver& operator=(PoissonSolver&&) noexcept;
+
+  /// \param coefficient  B on faces, >= 0  \param shift  on cells, >= 0; may be empty
+  /// \param source       on cells          \param p      the first guess, then the solution (owned cells)
+  /// \param tolerance    of the residual relative to the source's norm
+  PoissonResult solve(const FaceSpans& coefficient, std::span<const double> shift, const Field& source, Field& p,
+                      double tolerance);
+  /// Begins anew: what comes next does not depend on earlier solves.
+  void forget();
+
+ private:
+  struct Hypre;
+  Grid grid_;
+  Halo halo_;
+  std::unique_ptr<Hypre> hypre_;
+};
+
+/// A fixed number of multigrid cycles for two coupled unknowns per cell,
+///   diagonal_p p - div(C11 grad p + C12 grad(L s)) = r1,    c s - div(C21 grad p + C22 grad(L s)) = r2.
+/// Boundary faces: p as in PoissonSolver by C11; no flux of s.
+class BlockSolver {
+ public:
+  explicit BlockSolver(const Grid& grid);
+  ~BlockSolver();
+  BlockSolver(BlockSolver&&) noexcept;
+  BlockSolver& operator=(BlockSolver&&) noexcept;
+
+  /// Builds the matrix and its multigrid hierarchy; false if the library refuses. Ghosts of the slope must be filled.
+  /// \param diagonal_p  on cells, >= 0; empty: 0
+  [[nodiscard]] bool setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
+                           const Field& slope, const Field& diagonal_p, double c);
+  /// p, s start from zero; owned cells.
+  void apply(const Field& r1, const Field& r2, Field& p, Field& s, int cycles);
+
+ private:
+  struct Hypre;
+  Grid grid_;
+  std::unique_ptr<Hypre> hypre_;
+};
+
+}  // namespace polybed::core

@@ -1,0 +1,20 @@
+// MPI for the files of core that speak it.
+#pragma once
+
+#include <mpi.h>
+
+#include "core/numerics/grid.hpp"
+#include "core/numerics/ranks.hpp"
+
+namespace polybed::core {
+
+/// The communicator of the ranks that share a column; this process alone for none.
+[[nodiscard]] inline MPI_Comm communicator(const Ranks* ranks) {
+  return ranks == nullptr ? MPI_COMM_SELF : MPI_Comm_f2c(ranks->handle());
+}
+[[nodiscard]] inline MPI_Comm communicator(const Grid& grid) { return communicator(grid.ranks.get()); }
+
+/// Turns what an MPI call returns into an MpiError.
+void check_mpi(int code, const char* call);
+
+}  // namespace polybed::core

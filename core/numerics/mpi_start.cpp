@@ -1,0 +1,78 @@
+#include "core/numerics/mpi_start.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/numerics/mpi.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+/// Variables of this process while it lives: Open MPI reads its settings when it starts, and processes that this one
+/// starts must not find them. A variable that the user has set stands.
+class Settings {
+ public:
+  void set(const char* name, const char* value) {
+    if (std::getenv(name) != nullptr || ::setenv(name, value, 1) != 0) return;
+    names_.emplace_back(name);
+  }
+  Settings() = default;
+  Settings(const Settings&) = delete;
+  Settings& operator=(const Settings&) = delete;
+  ~Settings() {
+    for (const std::string& name : names_) ::unsetenv(name.c_str());
+  }
+
+ private:
+  std::vector<std::string> names_;
+};
+
+/// Whether more ranks share this machine than it lets them have cores.
+bool oversubscribed() {
+  const char* ranks = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  cpu_set_t cores;
+  return ranks != nullptr && ::sched_getaffinity(0, sizeof(cores), &cores) == 0 && std::atoi(ranks) > CPU_COUNT(&cores);
+}
+
+}  // namespace
+
+void check_mpi(int code, const char* call) {
+  if (code != MPI_SUCCESS) throw MpiError(std::string(call) + " failed");
+}
+
+bool started_by_launcher() {
+  constexpr std::array names{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"};
+  return std::any_of(names.begin(), names.end(), [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+void open_mpi() {
+  int started = 0;
+  MPI_Initialized(&started);
+  if (started != 0) return;
+  Settings settings;
+  if (!started_by_launcher()) {
+    settings.set("OMPI_MCA_ess_singleton_isolated", "1");
+    settings.set("OMPI_MCA_orte_create_session_dirs", "0");
+    settings.set("OMPI_MCA_pml", "ob1");
+    settings.set("OMPI_MCA_btl", "self");
+  } else if (oversubscribed()) {
+    settings.set("OMPI_MCA_mpi_yield_when_idle", "1");
+  }
+  check_mpi(MPI_Init(nullptr, nullptr), "MPI_Init");
+}
+
+void close_mpi() {
+  int started = 0, ended = 0;
+  MPI_Initialized(&started);
+  MPI_Finalized(&ended);
+  if (started != 0 && ended == 0) MPI_Finalize();
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,19 @@
+#include "core/numerics/operators.hpp"
+
+namespace polybed::core {
+
+void divergence(const Grid& grid, const FaceField& faces, Field& out) {
+  for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a) {
+    const Index s = grid.stride(int(a));
+    const double per_length = 1 / grid.spacing[a];
+    const double* f = faces[a].data();
+    for_each_row(grid, [&](Index begin, Index end) {
+      if (a == 0)
+        for (Index c = begin; c < end; ++c) out[std::size_t(c)] = per_length * (f[c + s] - f[c]);
+      else
+        for (Index c = begin; c < end; ++c) out[std::size_t(c)] += per_length * (f[c + s] - f[c]);
+    });
+  }
+}
+
+}  // namespace polybed::core

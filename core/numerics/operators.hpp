@@ -1,0 +1,97 @@
+// The discrete operators of the staggered grid, and the slope limiter. Nothing else assumes equal spacing.
+#pragma once
+
+#include "core/numerics/field.hpp"
+
+namespace polybed::core {
+
+/// Slope of van Albada (1982) from the differences a, b on either side; 0 at an extremum. Without the usual
+/// small number below the fraction line, so that it scales with its arguments: a species may be cut in two.
+/// Where the product is above 0 the denominator is, too.
+[[nodiscard]] inline double limited_slope(double a, double b) {
+  const double product = a * b;
+  return product > 0 ? product * (a + b) / (a * a + b * b) : 0.0;
+}
+
+/// Difference over one cell of the quantity q at entry c, taken against a velocity of sign `u`: first order.
+struct UpwindDifference {
+  static double at(const double* q, Index c, Index s, double u) { return u > 0 ? q[c] - q[c - s] : q[c + s] - q[c]; }
+};
+
+/// The same with limited linear reconstructions on both sides of the entry: second order where q is smooth.
+struct LimitedDifference {
+  static double at(const double* q, Index c, Index s, double u) {
+    const double below = q[c - s] - q[c - 2 * s], here = q[c] - q[c - s], above = q[c + s] - q[c],
+                 beyond = q[c + 2 * s] - q[c + s];
+    return u > 0 ? here + 0.5 * (limited_slope(here, above) - limited_slope(below, here))
+                 : above - 0.5 * (limited_slope(above, beyond) - limited_slope(here, above));
+  }
+};
+
+/// Value of q at the face between c - s and c, taken from the side that the velocity u comes from: first order.
+struct UpwindFace {
+  static double at(const double* q, Index c, Index s, double u) { return u > 0 ? q[c - s] : q[c]; }
+};
+
+/// The same with half a limited slope (TVD): second order where q is smooth, bounded everywhere.
+struct LimitedFace {
+  static double at(const double* q, Index c, Index s, double u) {
+    const double below = q[c - s] - q[c - 2 * s], here = q[c] - q[c - s], above = q[c + s] - q[c];
+    return u > 0 ? q[c - s] + 0.5 * limited_slope(below, here) : q[c] - 0.5 * limited_slope(here, above);
+  }
+};
+
+/// Mean of a cell field on the face c of an axis with stride s.
+[[nodiscard]] inline double face_mean(const double* q, Index c, Index s) { return 0.5 * (q[c - s] + q[c]); }
+
+/// Divergence of a face field in all owned cells: out[c] = sum over axes (f[c + s] - f[c]) / h.
+void divergence(const Grid& grid, const FaceField& faces, Field& out);
+
+/// Adds -(U.grad)U of a velocity to its acceleration on the faces of one axis within a box.
+/// Difference: UpwindDifference or LimitedDifference. Ghosts of the velocity must be filled.
+template <class Difference>
+void subtract_convection(const Grid& grid, const FaceField& velocity, int axis, const Box& box, Field& rate) {
+  const double* u = velocity[std::size_t(axis)].data();
+  const Index s = grid.stride(axis);
+  const double per_length = 1 / grid.spacing[std::size_t(axis)];
+  for_each_row(grid, box, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) rate[std::size_t(c)] -= u[c] * per_length * Difference::at(u, c, s, u[c]);
+  });
+  for (int across = 0; across < grid.dimensions; ++across) {
+    if (across == axis) continue;
+    const double* v = velocity[std::size_t(across)].data();
+    const Index t = grid.stride(across);
+    const double per_width = 1 / grid.spacing[std::size_t(across)];
+    for_each_row(grid, box, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) {
+        const double transverse = 0.25 * ((v[c] + v[c - s]) + (v[c + t] + v[c - s + t]));
+        rate[std::size_t(c)] -= transverse * per_width * Difference::at(u, c, t, transverse);
+      }
+    });
+  }
+}
+
+/// Adds -[div(F U) - U div F] of the velocity U on the faces of one axis within a box, where F, on the faces of all
+/// axes, carries it: between two cells of U, each half of two cells of the grid, F is the mean of what passes both, so
+/// that the sum over cells of U times the mean of dphi/dt = -div F, and of this, telescopes. Face: UpwindFace or
+/// LimitedFace. Ghosts of U must be filled, and those of F where other cells own them.
+template <class Face>
+void subtract_carried(const Grid& grid, const FaceField& flux, const Field& velocity, int axis, const Box& box,
+                      Field& rate) {
+  const double* u = velocity.data();
+  const Index s = grid.stride(axis);
+  for (int along = 0; along < grid.dimensions; ++along) {
+    const double* f = flux[std::size_t(along)].data();
+    const Index t = grid.stride(along);
+    const double per_length = 1 / grid.spacing[std::size_t(along)];
+    for_each_row(grid, box, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) {
+        const double in = 0.5 * (f[c - s] + f[c]), out = 0.5 * (f[c + t - s] + f[c + t]);
+        rate[std::size_t(c)] -=
+            per_length * (out * (Face::at(u, c + t, t, out) - u[c]) - in * (Face::at(u, c, t, in) - u[c]));
+      }
+    });
+  }
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,101 @@
+#include "core/output/blocks.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <system_error>
+
+#include "core/numerics/mpi.hpp"
+#include "core/output/hdf5.hpp"
+
+namespace polybed::core {
+
+using namespace hdf5;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Room for an index of chunks and for what packing can add to numbers that do not pack.
+constexpr std::size_t spare_bytes = 1 << 16;
+
+std::size_t bytes_of(const BlockData& data) {
+  const std::size_t numbers = product(data.slab.shape) * sizeof(double);
+  return numbers + numbers / 64 + spare_bytes;
+}
+
+/// The file as the ranks find it: everything but the blocks' numbers, and room for these.
+void build(const fs::path& path, OutputFile& file, std::span<const BlockData> data) {
+  std::size_t room = 0;
+  for (const BlockData& d : data) {
+    file.make(d.name, d.slab.shape, d.packing, d.chunk.empty() ? d.slab.shape : d.chunk);
+    room += bytes_of(d);
+  }
+  const Bytes bytes = file.bytes();
+  claim_file(path, bytes, bytes.size() + room);
+}
+
+std::vector<double> values_of(const BlockData& data) {
+  std::vector<double> values = data.values();
+  if (values.size() != product(data.slab.count))
+    throw FileError(fmt::format("{}: {} numbers do not fill its part", data.name, values.size()));
+  return values;
+}
+
+void write_one(hid_t file, hid_t transfer, const BlockData& data, const std::vector<double>& values) {
+  const Handle set(data.name, [&] { return H5Dopen2(file, data.name.c_str(), H5P_DEFAULT); });
+  const Handle source = simple_space({values.size()}), place = place_of(data.slab, data.name);
+  if (values.empty()) checked(data.name, [&] { return H5Sselect_none(source); });
+  if (data.packing == Packing::small_single) {  // HDF5 does not convert numbers in a collective call
+    const std::vector<float> single(values.begin(), values.end());
+    checked(data.name, [&] { return H5Dwrite(set, H5T_NATIVE_FLOAT, source, place, transfer, single.data()); });
+  } else {
+    checked(data.name, [&] { return H5Dwrite(set, H5T_NATIVE_DOUBLE, source, place, transfer, values.data()); });
+  }
+}
+
+void write_all(const fs::path& path, std::span<const BlockData> data, const Ranks& ranks) {
+  const std::string name = path.string();
+  const Handle access(name, [] { return H5Pcreate(H5P_FILE_ACCESS); });
+  checked(name, [&] { return H5Pset_fapl_mpio(access, communicator(&ranks), MPI_INFO_NULL); });
+  checked(name, [&] { return H5Pset_coll_metadata_write(access, true); });
+  const Handle transfer(name, [] { return H5Pcreate(H5P_DATASET_XFER); });
+  checked(name, [&] { return H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE); });
+  std::optional<Handle> file;
+  on_all(&ranks, [&] { file.emplace(name, [&] { return H5Fopen(name.c_str(), H5F_ACC_RDWR, access); }); });
+  for (const BlockData& d : data) {
+    std::vector<double> values;
+    on_all(&ranks, [&] { values = values_of(d); });
+    on_all(&ranks, [&] { write_one(*file, transfer, d, values); });
+  }
+  on_all(&ranks, [&] { checked(name, [&] { return H5Fflush(*file, H5F_SCOPE_GLOBAL); }); });
+  on_all(&ranks, [&] { file->close(name); });
+}
+
+}  // namespace
+
+void write_blocks(OutputFile& file, std::span<const BlockData> data) {
+  for (const BlockData& d : data) file.write(d.name, d.slab.shape, d.values(), d.packing);
+}
+
+void write_blocks(const fs::path& path, OutputFile* file, std::span<const BlockData> data, const Ranks& ranks) {
+  on_first(&ranks, [&] { build(path, *file, data); });
+  try {
+    write_all(path, data, ranks);
+  } catch (...) {
+    std::error_code ignored;  // the error that is under way says more
+    if (is_first(&ranks)) fs::remove(path, ignored);
+    throw;
+  }
+}
+
+std::vector<std::size_t> greatest_block(const Grid& grid) {
+  std::vector<std::size_t> extents;
+  for (int axis = grid.dimensions - 1; axis >= 0; --axis) {
+    const int blocks = grid.blocks[std::size_t(axis)];
+    extents.push_back(std::size_t((grid.column_cells(axis) + blocks - 1) / blocks));
+  }
+  return extents;
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,212 @@
+#include "core/output/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/numerics/blocks.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/output/blocks.hpp"
+#include "core/output/xdmf.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const FileKind index_kind{"polybed fields", 1};
+const FileKind step_kind{"polybed fields step", 1};
+constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
+
+std::vector<double> face_positions(const Grid& grid, int axis) {
+  std::vector<double> faces;
+  for (int i = 0; i <= grid.cells[std::size_t(axis)]; ++i) faces.push_back(i * grid.spacing[std::size_t(axis)]);
+  return faces;
+}
+
+/// A cell field of the column in the file, with as many components if there are any, and the block's place in it.
+Slab cell_slab(const Grid& grid, int components) {
+  Slab slab;
+  for (int axis = grid.dimensions - 1; axis >= 0; --axis) {
+    slab.shape.push_back(std::size_t(grid.column_cells(axis)));
+    slab.start.push_back(std::size_t(grid.before[std::size_t(axis)]));
+    slab.count.push_back(std::size_t(grid.cells[std::size_t(axis)]));
+  }
+  if (components == 0) return slab;
+  slab.shape.push_back(std::size_t(components));
+  slab.start.push_back(0);
+  slab.count.push_back(std::size_t(components));
+  return slab;
+}
+
+[[noreturn]] void refuse(const std::string& name, int component, std::array<int, 3> cell, double value, double time) {
+  throw NumericsError(fmt::format("{} (component {}) is {} in cell ({}, {}, {}) at t = {} s: not written", name,
+                                  component, value, cell[0], cell[1], cell[2], time));
+}
+
+/// Throws NumericsError if a value of an owned cell is not finite.
+void check_finite(const Grid& grid, const FieldName& field, const FieldValues& values, double time) {
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        for (std::size_t a = 0; a < values.size(); ++a) {
+          const double value = values[a][std::size_t(grid.index(i, j, k))];
+          if (!std::isfinite(value))
+            refuse(field.name, int(a), {i + grid.before[0], j + grid.before[1], k + grid.before[2]}, value, time);
+        }
+}
+
+/// The owned cells of padded components, component fastest; `components` of them, those missing are zero.
+std::vector<double> packed(const Grid& grid, const FieldValues& values, int components) {
+  std::vector<double> out;
+  out.reserve(grid.cell_count() * std::size_t(components));
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        for (int a = 0; a < components; ++a) {
+          const bool given = std::size_t(a) < values.size();
+          out.push_back(given ? values[std::size_t(a)][std::size_t(grid.index(i, j, k))] : 0);
+        }
+  return out;
+}
+
+BlockData cell_data(const Grid& grid, const std::string& name, const FieldValues& values, int components,
+                    Packing packing) {
+  BlockData data{name, cell_slab(grid, components), packing,
+                 [&grid, &values, components] { return packed(grid, values, std::max(components, 1)); },
+                 greatest_block(grid)};
+  if (components > 0) data.chunk.push_back(std::size_t(components));
+  return data;
+}
+
+void check_sizes(const Grid& grid, const FieldName& field, const FieldValues& values) {
+  const std::size_t components = field.vector ? std::size_t(grid.dimensions) : 1;
+  const bool fits = values.size() == components &&
+                    std::all_of(values.begin(), values.end(), [&](auto v) { return v.size() == grid.padded_size(); });
+  if (!fits) throw std::invalid_argument("the values of " + field.name + " do not fit the grid");
+}
+
+std::vector<BlockData> step_data(const Grid& grid, std::span<const FieldName> names,
+                                 std::span<const FieldValues> values) {
+  std::vector<BlockData> data;
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    const FieldName& field = names[n];
+    data.push_back(
+        cell_data(grid, "step/" + field.name, values[n], field.vector ? grid.dimensions : 0, Packing::small));
+    if (field.vector && grid.dimensions == 2)
+      data.push_back(cell_data(grid, "paraview/" + field.name, values[n], 3, Packing::small_single));
+  }
+  return data;
+}
+
+void write_grid(const Grid& grid, OutputFile& file) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double> faces = face_positions(grid, axis);
+    file.write(std::string("grid/") + axis_names[std::size_t(axis)], {faces.size()}, faces);
+  }
+}
+
+bool has_grid(const Grid& grid, const OutputFile& file) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (file.read(std::string("grid/") + axis_names[std::size_t(axis)]).values != face_positions(grid, axis))
+      return false;
+  return true;
+}
+
+StepSeries fields_series(const Grid& grid, const std::vector<FieldName>& names) {
+  return {"fields",
+          index_kind,
+          [grid](OutputFile& file) { write_grid(grid, file); },
+          [grid](const OutputFile& file) { return has_grid(grid, file); },
+          "grid",
+          "",
+          [grid, names](const StepTimes& steps) { return fields_xdmf(grid, names, steps.time); }};
+}
+
+}  // namespace
+
+FaceField cell_means(const Grid& grid, const FaceField& faces) {
+  FaceField means = make_face_field(grid);
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const int count = grid.cells[std::size_t(axis)];
+    const bool joined = grid.periodic[std::size_t(axis)] && !grid.divided(axis);
+    for (int k = 0; k < grid.cells[2]; ++k)
+      for (int j = 0; j < grid.cells[1]; ++j)
+        for (int i = 0; i < grid.cells[0]; ++i) {
+          std::array<int, 3> high{i, j, k};
+          int& along = high[std::size_t(axis)];
+          along = joined && along + 1 == count ? 0 : along + 1;
+          const auto& f = faces[std::size_t(axis)];
+          const auto here = std::size_t(grid.index(i, j, k));
+          means[std::size_t(axis)][here] = 0.5 * (f[here] + f[std::size_t(grid.index(high[0], high[1], high[2]))]);
+        }
+  }
+  return means;
+}
+
+FieldWriter::FieldWriter(const fs::path& run_directory, const Grid& grid, std::vector<FieldName> names,
+                         std::optional<double> resume_time)
+    : directory_(run_directory), grid_(grid), names_(std::move(names)) {
+  on_first(grid_.ranks.get(), [&] {
+    steps_.emplace(run_directory, fields_series(whole_column(grid_), names_), resume_time);
+    times_ = steps_->times();
+  });
+  double steps = double(times_.size());
+  take_from_first(grid_.ranks.get(), std::span(&steps, 1));
+  times_.resize(std::size_t(steps));
+  take_from_first(grid_.ranks.get(), times_);
+}
+
+void FieldWriter::write_step(double time_s, std::span<const FieldValues> values) {
+  if (values.size() != names_.size())
+    throw std::invalid_argument(fmt::format("{} fields for {} names", values.size(), names_.size()));
+  on_all(grid_.ranks.get(), [&] {
+    for (std::size_t n = 0; n < names_.size(); ++n) {
+      check_sizes(grid_, names_[n], values[n]);
+      check_finite(grid_, names_[n], values[n], time_s);
+    }
+  });
+  write_file(step_path(directory_, "fields", times_.size()), time_s, values);
+  times_.push_back(time_s);
+  on_first(grid_.ranks.get(), [&] { steps_->add_written(time_s); });
+}
+
+void FieldWriter::write_file(const fs::path& path, double time_s, std::span<const FieldValues> values) const {
+  const std::vector<BlockData> data = step_data(grid_, names_, values);
+  std::optional<OutputFile> file;
+  on_first(grid_.ranks.get(), [&] {
+    file.emplace(step_kind);
+    file->make_group("step");
+    file->set_attribute("step", "time_s", time_s);
+  });
+  if (!grid_.ranks) {
+    write_blocks(*file, data);
+    file->save(path);
+    return;
+  }
+  const fs::path temporary = path.string() + ".temporary";
+  write_blocks(temporary, file ? &*file : nullptr, data, *grid_.ranks);
+  on_first(grid_.ranks.get(), [&] { put_in_place(temporary, path); });
+}
+
+FieldReader::FieldReader(fs::path run_directory)
+    : directory_(std::move(run_directory)),
+      index_(directory_ / "fields.h5", index_kind),
+      times_(index_.read("time_s").values) {}
+
+std::vector<double> FieldReader::faces(int axis) const {
+  return index_.read(std::string("grid/") + axis_names.at(std::size_t(axis))).values;
+}
+
+OutputFile FieldReader::open(std::size_t step) const {
+  return open_step(directory_, "fields", step, times_.size(), step_kind);
+}
+
+std::vector<std::string> FieldReader::names(std::size_t step) const { return open(step).names("step"); }
+
+DataSet FieldReader::field(std::size_t step, const std::string& name) const { return open(step).read("step/" + name); }
+
+}  // namespace polybed::core

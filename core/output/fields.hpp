@@ -1,0 +1,78 @@
+// fields.h5 and fields.xdmf: what every cell holds, at each output time. How the files are kept whole:
+// core/output/steps.hpp.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/numerics/field.hpp"
+#include "core/numerics/grid.hpp"
+#include "core/output/file.hpp"
+#include "core/output/steps.hpp"
+
+namespace polybed::core {
+
+/// A cell field to be stored.
+struct FieldName {
+  std::string name;     ///< "voidage", "phi_fine", "u_fluid"
+  bool vector = false;  ///< one component per dimension of the grid
+};
+
+/// The values of one field: a padded field per component, as core/numerics/grid.hpp lays it out.
+using FieldValues = std::vector<std::span<const double>>;
+
+/// Means of a face field over the two faces of each owned cell: a velocity at cell centres, padded, ghosts
+/// zero. Across joined sides the first face stands for the last one; a block's last face must have been fetched.
+[[nodiscard]] FaceField cell_means(const Grid& grid, const FaceField& faces);
+
+/// On a grid that is a block of a column every rank has one and every function is collective: each writes its block.
+class FieldWriter {
+ public:
+  /// Starts fields.h5 in a run directory that exists, or goes on with it.
+  /// \param resume_time  empty: what an earlier run left is removed. Else s: steps later than that are
+  /// removed. Throws FileError, also if the file that it goes on with has another grid.
+  FieldWriter(const std::filesystem::path& run_directory, const Grid& grid, std::vector<FieldName> names,
+              std::optional<double> resume_time = std::nullopt);
+
+  /// Stores all fields at a time, in the order of the names; complete on the disk when it returns.
+  /// Throws NumericsError, and writes nothing, if a value is not finite: field and cell of the column are in the text.
+  void write_step(double time_s, std::span<const FieldValues> values);
+
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+
+ private:
+  void write_file(const std::filesystem::path& path, double time_s, std::span<const FieldValues> values) const;
+
+  std::filesystem::path directory_;
+  Grid grid_;
+  std::vector<FieldName> names_;
+  std::optional<StepWriter> steps_;  ///< the first rank's
+  std::vector<double> times_;
+};
+
+/// Reads fields.h5 back.
+class FieldReader {
+ public:
+  explicit FieldReader(std::filesystem::path run_directory);
+  /// Time of each step, s, increasing.
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  /// Positions of the faces along an axis, m.
+  [[nodiscard]] std::vector<double> faces(int axis) const;
+  /// Names of the fields of a step, counted from 0.
+  [[nodiscard]] std::vector<std::string> names(std::size_t step) const;
+  /// A field of a step: [z][y][x] (2-D: [y][x]), a vector with its components behind.
+  [[nodiscard]] DataSet field(std::size_t step, const std::string& name) const;
+
+ private:
+  [[nodiscard]] OutputFile open(std::size_t step) const;
+
+  std::filesystem::path directory_;
+  OutputFile index_;
+  std::vector<double> times_;
+};
+
+}  // namespace polybed::core

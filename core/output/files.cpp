@@ -1,0 +1,214 @@
+#include "core/output/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/output/descriptor.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& deed, const fs::path& path, int reason) {
+  throw FileError(fmt::format("cannot {} {}: {}", deed, path.string(), std::system_category().message(reason)));
+}
+
+/// Throws for what has no length of its own, and may have no end.
+void require_regular(const fs::path& path, const struct stat& status) {
+  if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
+  if (!S_ISREG(status.st_mode))
+    throw FileError(fmt::format("cannot read {}: it is no regular file, but a pipe or a device", path.string()));
+}
+
+/// 0 or the reason why not all bytes were taken.
+int write_all(const Descriptor& file, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes = bytes.subspan(std::size_t(written));
+  }
+  return 0;
+}
+
+/// 0 or the reason why not all bytes reached the disk.
+int write_and_flush(Descriptor& file, std::span<const std::byte> bytes) {
+  if (const int reason = write_all(file, bytes); reason != 0) return reason;
+  if (::fsync(file.number()) != 0) return errno;
+  return file.close();
+}
+
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+Descriptor opened_to_append(const fs::path& path) {
+  const int number = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+  if (number < 0) fail("write", path, errno);
+  return Descriptor(number);
+}
+
+Descriptor begun(const fs::path& path, std::string_view text) {
+  write_atomically(path, text);
+  return opened_to_append(path);
+}
+
+/// Makes a rename survive a power cut. Some file systems cannot flush a directory, which costs nothing but that.
+void flush_directory(const fs::path& directory) {
+  const Descriptor handle(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (handle.number() >= 0) ::fsync(handle.number());
+}
+
+/// Of a reflected polynomial: what each byte does to the remainder.
+template <class Sum>
+constexpr std::array<Sum, 256> crc_table(Sum polynomial) {
+  std::array<Sum, 256> table{};
+  for (Sum n = 0; n < table.size(); ++n) {
+    Sum crc = n;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? polynomial : 0);
+    table[n] = crc;
+  }
+  return table;
+}
+
+template <class Sum>
+Sum crc(const std::array<Sum, 256>& table, std::span<const std::byte> bytes, Sum before) {
+  Sum sum = ~before;
+  for (const std::byte b : bytes) sum = table[(sum ^ Sum(b)) & 0xFF] ^ (sum >> 8);
+  return ~sum;
+}
+
+}  // namespace
+
+Descriptor new_file(const fs::path& path) {
+  ::unlink(path.c_str());
+  const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (number < 0) fail("write", path, errno);
+  return Descriptor(number);
+}
+
+LineFile::LineFile(fs::path path, std::string_view text) : path_(std::move(path)), file_(begun(path_, text)) {}
+
+void LineFile::append(std::string_view line) {
+  if (const int reason = write_all(file_, bytes_of(line)); reason != 0) fail("write", path_, reason);
+}
+
+void write_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+  const fs::path temporary = path.string() + ".temporary";
+  Descriptor file = new_file(temporary);
+  int reason = write_and_flush(file, bytes);
+  if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
+  if (reason != 0) {
+    ::unlink(temporary.c_str());
+    fail("write", path, reason);
+  }
+  flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void write_atomically(const fs::path& path, std::string_view text) { write_atomically(path, bytes_of(text)); }
+
+void put_in_place(const fs::path& written, const fs::path& path) {
+  Descriptor file(::open(written.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC));
+  int reason = file.number() < 0 || ::fsync(file.number()) != 0 ? errno : file.close();
+  if (reason == 0 && std::rename(written.c_str(), path.c_str()) != 0) reason = errno;
+  if (reason != 0) {
+    ::unlink(written.c_str());
+    fail("write", path, reason);
+  }
+  flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void claim_file(const fs::path& path, std::span<const std::byte> bytes, std::size_t size) {
+  Descriptor file = new_file(path);
+  int reason = ::posix_fallocate(file.number(), 0, off_t(std::max(size, bytes.size())));
+  if (reason == 0) reason = write_and_flush(file, bytes);
+  if (reason == 0) return;
+  ::unlink(path.c_str());
+  fail("write", path, reason);
+}
+
+void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {
+  Descriptor file = opened_to_append(path);
+  if (const int reason = write_and_flush(file, bytes); reason != 0) fail("write", path, reason);
+}
+
+std::size_t bytes_of_file(const fs::path& path, std::size_t most) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) fail("read", path, errno);
+  require_regular(path, status);
+  const auto size = std::size_t(status.st_size);
+  if (size > most)
+    throw FileError(fmt::format("{}: {} bytes is too long, at most {} are read", path.string(), size, most));
+  return size;
+}
+
+void read_pieces(const fs::path& path, std::size_t begin, std::size_t end,
+                 const std::function<void(std::span<const std::byte>)>& see) {
+  constexpr std::size_t piece = 1 << 20;
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe would wait for a writer
+  struct stat status {};
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) fail("read", path, errno);
+  require_regular(path, status);
+  Bytes bytes(std::min(piece, end - begin));
+  while (begin < end) {
+    const ssize_t count = ::pread(file.number(), bytes.data(), std::min(piece, end - begin), off_t(begin));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("read", path, errno);
+    if (count == 0) return;
+    see(std::span(bytes).first(std::size_t(count)));
+    begin += std::size_t(count);
+  }
+}
+
+Bytes read_whole_file(const fs::path& path, std::size_t most) {
+  Bytes bytes;
+  const std::size_t size = bytes_of_file(path, most);
+  bytes.reserve(size);
+  read_pieces(path, 0, size, [&](auto piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
+  return bytes;
+}
+
+std::string read_text(const fs::path& path, std::size_t most) {
+  const Bytes bytes = read_whole_file(path, most);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void make_directories(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) fail("make the directory", path, error.value());
+}
+
+void refuse_link(const fs::path& path) {
+  std::error_code none;  // of what is not there
+  if (fs::is_symlink(fs::symlink_status(path, none)))
+    throw FileError(fmt::format("cannot write into {}: it is a link, which could lead anywhere", path.string()));
+}
+
+void make_folder(const fs::path& path) {
+  refuse_link(path);
+  make_directories(path);
+}
+
+std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before) {
+  static constexpr auto table = crc_table<std::uint64_t>(0xC96C5795D7870F42);
+  return crc(table, bytes, before);
+}
+
+std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before) {
+  static constexpr auto table = crc_table<std::uint32_t>(0xEDB88320);
+  return crc(table, bytes, before);
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,88 @@
+// Files as bytes: read whole, or replaced whole. Every failure is a FileError with path and reason.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/output/descriptor.hpp"
+
+namespace polybed::core {
+
+using Bytes = std::vector<std::byte>;
+
+/// Replaces the file `path` by `bytes`: written under a temporary name in the same directory, flushed to the
+/// disk, renamed. Whatever interrupts it, `path` holds either all of the old or all of the new content; on
+/// failure (disk full, no permission) the temporary file is removed and FileError thrown.
+void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// Puts a file that lies complete under another name of the same directory in place: flushed to the disk, renamed. On
+/// failure the other name is removed and FileError thrown.
+void put_in_place(const std::filesystem::path& written, const std::filesystem::path& path);
+
+/// A new, empty file, open for writing. What had its name is removed first, and no link is ever followed: in a
+/// directory that others may write, such a link could lead to any file of the user. Throws FileError.
+[[nodiscard]] Descriptor new_file(const std::filesystem::path& path);
+
+/// A file of lines that grows. Each line goes to the operating system at once and whole: a killed program loses none.
+class LineFile {
+ public:
+  /// Replaces the file by `text` and goes on behind it. Throws FileError.
+  LineFile(std::filesystem::path path, std::string_view text);
+  /// Throws FileError.
+  void append(std::string_view line);
+
+ private:
+  std::filesystem::path path_;
+  Descriptor file_;
+};
+
+/// Makes a file of a size, its blocks on the disk claimed, that begins with `bytes`; the rest is zero. Throws
+/// FileError.
+void claim_file(const std::filesystem::path& path, std::span<const std::byte> bytes, std::size_t size);
+
+/// Appends to a file; throws FileError.
+void append_to_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// Longest file that is read whole unless a reader says otherwise.
+inline constexpr std::size_t longest_file = 4'000'000'000;
+
+/// Bytes of a file. Throws FileError if there is none, if it is a pipe or a device, which may never end, or if it is
+/// longer than `most`. Whoever opens a file that a user names asks this before.
+[[nodiscard]] std::size_t bytes_of_file(const std::filesystem::path& path, std::size_t most = SIZE_MAX);
+
+/// Calls `see` with the bytes of a file from `begin` to `end`, piece by piece: no memory for the whole is needed.
+void read_pieces(const std::filesystem::path& path, std::size_t begin, std::size_t end,
+                 const std::function<void(std::span<const std::byte>)>& see);
+
+/// All bytes of a file; throws FileError if it cannot be read, as bytes_of_file() does.
+[[nodiscard]] Bytes read_whole_file(const std::filesystem::path& path, std::size_t most = longest_file);
+
+/// The same as text.
+[[nodiscard]] std::string read_text(const std::filesystem::path& path, std::size_t most = longest_file);
+
+/// Makes a directory and those above it; throws FileError.
+void make_directories(const std::filesystem::path& path);
+
+/// Makes a folder in a directory that the program writes, if there is none. Throws FileError if it cannot, also if a
+/// link has its name: files written through it would land elsewhere.
+void make_folder(const std::filesystem::path& path);
+
+/// Throws FileError if a symbolic link has this name.
+void refuse_link(const std::filesystem::path& path);
+
+/// CRC-64 (ECMA-182 polynomial, reflected, as in xz): differs for any two inputs of one length that differ in
+/// one run of up to 64 bits, and for others with probability 1 - 2^-64.
+/// \param before  the sum of what stands before these bytes
+[[nodiscard]] std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before = 0);
+
+/// CRC-32 as zlib, and so Python, has it, for files that others write too. \param before  as of crc64()
+[[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
+
+}  // namespace polybed::core

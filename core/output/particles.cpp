@@ -1,0 +1,190 @@
+#include "core/output/particles.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Vectors = std::span<const std::array<double, 3>>;
+
+const FileKind index_kind{"polybed particles", 1};
+const FileKind step_kind{"polybed particles step", 1};
+
+void write_scene(const ParticleScene& scene, OutputFile& file) {
+  const std::array<std::int32_t, 3> periodic{scene.periodic[0], scene.periodic[1], scene.periodic[2]};
+  file.write("column/size", {3}, scene.size);
+  file.write("column/periodic", {3}, std::span<const std::int32_t>(periodic));
+  file.set_attribute("/", "species_names", scene.species);
+}
+
+ParticleScene read_scene(const OutputFile& file) {
+  ParticleScene scene;
+  const DataSet size = file.read("column/size");
+  const std::vector<std::int64_t> periodic = file.read_integers("column/periodic");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    scene.size[axis] = size.values.at(axis);
+    scene.periodic[axis] = periodic.at(axis) != 0;
+  }
+  scene.species = file.texts_attribute("/", "species_names");
+  return scene;
+}
+
+void check_shape(const ParticleSnapshot& p, std::size_t species) {
+  const std::size_t n = p.id.size();
+  for (std::size_t length : {p.species.size(), p.radius.size(), p.position.size(), p.velocity.size(), p.spin.size()})
+    if (length != n)
+      throw std::invalid_argument(fmt::format("{} particles, but {} entries of another kind", n, length));
+  for (std::size_t i = 1; i < n; ++i)
+    if (p.id[i] <= p.id[i - 1])
+      throw std::invalid_argument(
+          fmt::format("particles are not in the order of ids: {} before {}", p.id[i - 1], p.id[i]));
+  for (std::size_t i = 0; i < n; ++i)
+    if (p.species[i] < 0 || std::size_t(p.species[i]) >= species)
+      throw std::invalid_argument(fmt::format("particle {} is of species {}, of {}", p.id[i], p.species[i], species));
+}
+
+[[noreturn]] void refuse(const char* quantity, std::int64_t id, double value, double time) {
+  throw NumericsError(fmt::format("{} of particle {} is {} at t = {} s: not written", quantity, id, value, time));
+}
+
+void check_finite(const ParticleSnapshot& p, double time) {
+  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  const std::array<std::pair<const char*, Vectors>, 3> vectors{
+      {{"position", p.position}, {"velocity", p.velocity}, {"spin", p.spin}}};
+  for (std::size_t i = 0; i < p.id.size(); ++i) {
+    if (!std::isfinite(p.radius[i])) refuse("radius", p.id[i], p.radius[i], time);
+    for (const auto& [name, values] : vectors)
+      for (std::size_t a = 0; a < 3; ++a)
+        if (!std::isfinite(values[i][a]))
+          refuse(fmt::format("{} {}", name, axes[a]).c_str(), p.id[i], values[i][a], time);
+  }
+}
+
+void write_vectors(OutputFile& file, const std::string& name, Vectors values) {
+  std::vector<double> flat;
+  flat.reserve(3 * values.size());
+  for (const auto& value : values) flat.insert(flat.end(), value.begin(), value.end());
+  file.write(name, {values.size(), 3}, flat, Packing::small);
+}
+
+/// ParaView shows points only where a list says which points are shown: all of them.
+void write_connectivity(OutputFile& file, std::size_t count) {
+  std::vector<std::int64_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  file.write("paraview/connectivity", {count}, numbers, Packing::small);
+}
+
+OutputFile step_content(const ParticleScene& scene, const ParticleSnapshot& p, double time) {
+  OutputFile file(step_kind);
+  file.make_group("step");
+  file.set_attribute("step", "time_s", time);
+  file.set_attribute("step", "species_names", scene.species);
+  const std::vector<std::size_t> shape{p.id.size()};
+  file.write("step/id", shape, p.id, Packing::small);
+  file.write("step/species", shape, p.species, Packing::small);
+  file.write("step/radius", shape, p.radius, Packing::small);
+  write_vectors(file, "step/position", p.position);
+  write_vectors(file, "step/velocity", p.velocity);
+  write_vectors(file, "step/spin", p.spin);
+  write_connectivity(file, p.id.size());
+  return file;
+}
+
+struct XdmfData {
+  const char *name, *type;  ///< type: "Scalar" or "Vector"; null for what is no attribute
+  const char *number, *precision, *place;
+};
+
+std::string data_item(const XdmfData& data, const std::string& file, std::size_t count) {
+  const bool vector = data.type != nullptr && data.type == std::string_view("Vector");
+  return fmt::format(R"(<DataItem Dimensions="{}{}" NumberType="{}" Precision="{}" Format="HDF">{}:/{}</DataItem>)",
+                     count, vector ? " 3" : "", data.number, data.precision, file, data.place);
+}
+
+std::string step_xdmf(std::size_t step, double time, std::size_t count) {
+  static constexpr std::array<XdmfData, 5> attributes{{{"id", "Scalar", "Int", "8", "step/id"},
+                                                       {"species", "Scalar", "Int", "4", "step/species"},
+                                                       {"radius", "Scalar", "Float", "8", "step/radius"},
+                                                       {"velocity", "Vector", "Float", "8", "step/velocity"},
+                                                       {"spin", "Vector", "Float", "8", "step/spin"}}};
+  const std::string file = fmt::format("particles/{}.h5", step_name(step));
+  std::string text = fmt::format(
+      "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n"
+      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">\n          {}\n"
+      "        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n          {}\n        </Geometry>\n",
+      step_name(step), time, count, data_item({"", nullptr, "Int", "8", "paraview/connectivity"}, file, count),
+      data_item({"", "Vector", "Float", "8", "step/position"}, file, count));
+  for (const XdmfData& data : attributes)
+    text += fmt::format(
+        "        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n          {}\n        </Attribute>\n",
+        data.name, data.type, data_item(data, file, count));
+  return text + "      </Grid>\n";
+}
+
+std::string particles_xdmf(const StepTimes& steps) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
+      "    <Grid Name=\"particles\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (std::size_t step = 0; step < steps.time.size(); ++step)
+    text += step_xdmf(step, steps.time[step], std::size_t(steps.count[step]));
+  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+}
+
+StepSeries particles_series(const ParticleScene& scene) {
+  return {"particles",
+          index_kind,
+          [scene](OutputFile& file) { write_scene(scene, file); },
+          [scene](const OutputFile& file) { return read_scene(file) == scene; },
+          "column or other species",
+          "particles",
+          particles_xdmf};
+}
+
+std::vector<std::array<double, 3>> read_vectors(const OutputFile& file, const std::string& name) {
+  const DataSet data = file.read(name);
+  std::vector<std::array<double, 3>> values(data.values.size() / 3);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t a = 0; a < 3; ++a) values[i][a] = data.values[3 * i + a];
+  return values;
+}
+
+}  // namespace
+
+ParticleWriter::ParticleWriter(const fs::path& run_directory, ParticleScene scene, std::optional<double> resume_time)
+    : scene_(std::move(scene)), steps_(run_directory, particles_series(scene_), resume_time) {}
+
+void ParticleWriter::write_step(double time_s, const ParticleSnapshot& particles) {
+  check_shape(particles, scene_.species.size());
+  check_finite(particles, time_s);
+  steps_.add(step_content(scene_, particles, time_s), time_s, particles.id.size());
+}
+
+ParticleReader::ParticleReader(fs::path run_directory) : directory_(std::move(run_directory)) {
+  const OutputFile index(directory_ / "particles.h5", index_kind);
+  scene_ = read_scene(index);
+  times_ = index.read("time_s").values;
+}
+
+ParticleStep ParticleReader::step(std::size_t number) const {
+  const OutputFile file = open_step(directory_, "particles", number, times_.size(), step_kind);
+  ParticleStep step;
+  step.id = file.read_integers("step/id");
+  for (std::int64_t species : file.read_integers("step/species")) step.species.push_back(std::int32_t(species));
+  step.radius = file.read("step/radius").values;
+  step.position = read_vectors(file, "step/position");
+  step.velocity = read_vectors(file, "step/velocity");
+  step.spin = read_vectors(file, "step/spin");
+  return step;
+}
+
+}  // namespace polybed::core

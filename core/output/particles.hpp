@@ -1,0 +1,80 @@
+// particles.h5 and particles.xdmf: every particle at each output time, in the order of their ids. How the files are
+// kept whole: core/output/steps.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/output/file.hpp"
+#include "core/output/steps.hpp"
+
+namespace polybed::core {
+
+/// The particles at one time; all spans have the same length. Vectors are along x, y (upward), z.
+struct ParticleSnapshot {
+  std::span<const std::int64_t> id;                 ///< rising
+  std::span<const std::int32_t> species;            ///< number in the order of the case, from 0
+  std::span<const double> radius;                   ///< m
+  std::span<const std::array<double, 3>> position;  ///< of the centre, m
+  std::span<const std::array<double, 3>> velocity;  ///< m/s
+  std::span<const std::array<double, 3>> spin;      ///< angular velocity, rad/s
+};
+
+/// The same, read back: it owns its numbers.
+struct ParticleStep {
+  std::vector<std::int64_t> id;
+  std::vector<std::int32_t> species;
+  std::vector<double> radius;
+  std::vector<std::array<double, 3>> position, velocity, spin;
+};
+
+/// What the particles are in, and what they are called.
+struct ParticleScene {
+  std::array<double, 3> size{};      ///< of the column along x, y, z, m
+  std::array<bool, 3> periodic{};    ///< sides joined
+  std::vector<std::string> species;  ///< names, in the order of the case
+  bool operator==(const ParticleScene&) const = default;
+};
+
+class ParticleWriter {
+ public:
+  /// Starts particles.h5 in a run directory that exists, or goes on with it.
+  /// \param resume_time  empty: what an earlier run left is removed. Else s: steps later than that are
+  /// removed. Throws FileError, also if the file that it goes on with has another scene.
+  ParticleWriter(const std::filesystem::path& run_directory, ParticleScene scene,
+                 std::optional<double> resume_time = std::nullopt);
+
+  /// Stores the particles at a time, any number of them; complete on the disk when it returns.
+  /// Throws NumericsError, and writes nothing, if a value is not finite: quantity and id are in the text.
+  /// Throws std::invalid_argument if lengths differ, ids do not rise, or a species has no name.
+  void write_step(double time_s, const ParticleSnapshot& particles);
+
+  [[nodiscard]] const std::vector<double>& times() const { return steps_.times(); }
+
+ private:
+  ParticleScene scene_;
+  StepWriter steps_;
+};
+
+/// Reads particles.h5 back.
+class ParticleReader {
+ public:
+  explicit ParticleReader(std::filesystem::path run_directory);
+  /// Time of each step, s, increasing.
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  [[nodiscard]] const ParticleScene& scene() const { return scene_; }
+  /// The particles of a step, counted from 0.
+  [[nodiscard]] ParticleStep step(std::size_t number) const;
+
+ private:
+  std::filesystem::path directory_;
+  ParticleScene scene_;
+  std::vector<double> times_;
+};
+
+}  // namespace polybed::core

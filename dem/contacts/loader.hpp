@@ -1,0 +1,57 @@
+// Finds what touches and fills batches with what the laws of contact need.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/box.hpp"
+#include "dem/contacts/batch.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+class ContactLoader {
+ public:
+  /// \param reach  of the longest pair effect beyond contact, m
+  ContactLoader(const Box& box, const Materials& materials, double reach);
+
+  /// Fills a batch with pairs nearer than their reach, from place p of the list on and before another. Returns where to
+  /// go on.
+  std::int32_t find_pairs(const Particles& particles, const Contacts& contacts, const Images& images, std::int32_t p,
+                          std::int32_t end, ContactBatch& batch) const;
+  std::int32_t find_walls(const Particles& particles, const Contacts& contacts, std::int32_t p,
+                          ContactBatch& batch) const;
+
+  /// The rest of what contacts need, once the batch has their pairs and, of particles, their distances.
+  void load_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
+                  ContactBatch& batch) const;
+  void load_walls(const Particles& particles, const Contacts& contacts, ContactBatch& batch) const;
+
+  /// All of that for the pairs that touched at the last force, from one of them on, as for those who only look.
+  void load_touching_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
+                           std::size_t begin, ContactBatch& batch) const;
+  void load_touching_walls(const Particles& particles, const Contacts& contacts, std::size_t begin,
+                           ContactBatch& batch) const;
+
+ private:
+  struct Kind {
+    double first, second;  ///< radii, m
+    double near;           ///< square of the distance at which they begin to act, m2
+  };
+  /// Distance of a centre from a flat wall, positive inside the box, m.
+  [[nodiscard]] double height_over(std::int32_t wall, const Place& place) const;
+  /// The same where the bottom has an opening: of it the distance from what is left, never negative.
+  [[nodiscard]] double distance_from(std::int32_t wall, const Place& place) const;
+  template <class Distance>
+  [[nodiscard]] std::int32_t find_walls_by(const Distance& distance, const Particles& particles,
+                                           const Contacts& contacts, std::int32_t p, ContactBatch& batch) const;
+  void turn_to_plate(const Particles& particles, ContactBatch& batch) const;
+
+  const Box& box_;
+  double reach_;
+  std::vector<Kind> kinds_;
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,52 @@
+// What particles and walls are made of, and what each pair of them is in a contact.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/case/scene.hpp"
+
+namespace polybed::dem {
+
+struct Species {
+  std::string name;
+  double radius = 0, mass = 0, inertia = 0;  ///< m, kg, kg m2
+  double density = 0;                        ///< kg/m3
+};
+
+/// A pair of materials in contact.
+struct PairMaterial {
+  double radius = 0, mass = 0;                   ///< reduced: R*, m*
+  double youngs_modulus = 0, shear_modulus = 0;  ///< reduced: E*, G*, Pa
+  double restitution = 0, friction = 0;
+  double least_radius = 0;     ///< of the two, m
+  double rolling_inertia = 0;  ///< of rolling about the contact, kg m2
+};
+
+class Materials {
+ public:
+  explicit Materials(const core::Scene& scene);
+
+  [[nodiscard]] const std::vector<Species>& species() const { return species_; }
+  [[nodiscard]] const std::vector<PairMaterial>& kinds() const { return kinds_; }
+  /// Place in kinds() of two species; the same either way round.
+  [[nodiscard]] std::int32_t kind(std::int32_t a, std::int32_t b) const { return a * stride_ + b; }
+  /// Likewise of a species and the walls.
+  [[nodiscard]] std::int32_t wall_kind(std::int32_t a) const { return a * stride_ + stride_ - 1; }
+  /// The same with one restitution for all pairs.
+  [[nodiscard]] Materials with_restitution(double restitution) const {
+    Materials changed = *this;
+    for (PairMaterial& pair : changed.kinds_) pair.restitution = restitution;
+    return changed;
+  }
+  [[nodiscard]] double least_diameter() const;
+  [[nodiscard]] double greatest_diameter() const;
+
+ private:
+  std::int32_t stride_;
+  std::vector<Species> species_;
+  std::vector<PairMaterial> kinds_;  ///< [species][species, then wall]
+};
+
+}  // namespace polybed::dem

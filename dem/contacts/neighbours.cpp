@@ -1,0 +1,251 @@
+#include "dem/contacts/neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace polybed::dem {
+
+namespace {
+
+/// Cells on both sides of one: all there are at most once, none beyond an end that does not wrap.
+struct Span {
+  std::array<int, 3> cell{}, offset{};
+  int count = 0;
+  void add(int c, int from) {
+    if (std::find(cell.begin(), cell.begin() + count, c) != cell.begin() + count) return;
+    offset[std::size_t(count)] = from;
+    cell[std::size_t(count++)] = c;
+  }
+};
+
+Span around(int c, int count, bool wraps) {
+  Span span;
+  for (int k = -1; k <= 1; ++k) {
+    if (wraps)
+      span.add(c + k < 0 ? c + k + count : (c + k >= count ? c + k - count : c + k), k);
+    else if (c + k >= 0 && c + k < count)
+      span.add(c + k, k);
+  }
+  return span;
+}
+
+std::uint64_t spread_bits(std::uint64_t x) {
+  x = (x | x << 32) & 0x1f00000000ffffULL;
+  x = (x | x << 16) & 0x1f0000ff0000ffULL;
+  x = (x | x << 8) & 0x100f00f00f00f00fULL;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+  return (x | x << 2) & 0x1249249249249249ULL;
+}
+
+/// Halves the number of cells along the longest direction until there are not many more than particles: a few small
+/// ones in a box for large ones would else have more cells than memory.
+void widen_cells(std::array<int, 3>& count, std::size_t particles) {
+  const double most = 1e5 + 64 * double(particles);
+  while (double(count[0]) * count[1] * count[2] > most) {
+    int& longest = *std::max_element(count.begin(), count.end());
+    longest = (longest + 1) / 2;
+  }
+}
+
+}  // namespace
+
+int NeighbourSearch::Level::place(double x, std::size_t axis) const {
+  const int c = int(std::floor((x - low[axis]) * inverse[axis])), n = count[axis];
+  if (!wraps[axis] || (c >= 0 && c < n)) return c;
+  return ((c % n) + n) % n;
+}
+
+NeighbourSearch::NeighbourSearch(const Box& box, const Materials& materials, double reach)
+    : box_(box), materials_(materials), reach_(reach) {
+  std::vector<double> diameters;
+  for (const Species& species : materials.species()) diameters.push_back(2 * species.radius);
+  std::sort(diameters.begin(), diameters.end());
+  // From the largest downwards: a level more pays where its cells have less than half the volume.
+  constexpr double worth_a_level = 1.25;
+  for (auto d = diameters.rbegin(); d != diameters.rend(); ++d)
+    if (levels_.empty() || worth_a_level * (*d + reach) < levels_.back().cell) levels_.emplace_back().cell = *d + reach;
+  std::reverse(levels_.begin(), levels_.end());
+  for (std::size_t k = 0; k < 3; ++k)
+    if (box.periodic[k]) narrowest_ = std::min(narrowest_, box.size[k]);
+}
+
+std::size_t NeighbourSearch::level_of(double radius) const {
+  std::size_t level = 0;
+  while (level + 1 < levels_.size() && levels_[level].cell < 2 * radius + reach_) ++level;
+  return level;
+}
+
+void NeighbourSearch::lay_out(const std::array<bool, 3>& whole) {
+  for (Level& level : levels_) {
+    std::array<double, 3> extents{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      level.wraps[k] = box_.periodic[k] && whole[k];
+      double low = 0, extent = box_.size[k];
+      if (!level.wraps[k]) {
+        double high = low = near_.empty() ? 0 : near_[0][k];
+        for (const Vector& x : near_) {
+          low = std::min(low, x[k]);
+          high = std::max(high, x[k]);
+        }
+        extent = high - low;
+      }
+      // A wider cell is as right as a narrower one is wrong: wrapping ones are stretched to fill the box.
+      const double most = double(std::cbrt(4.0 * double(near_.size()) + 64)) * 64;
+      level.count[k] = std::max(1, int(std::min(std::floor(extent / level.cell), most)));
+      level.low[k] = low;
+      extents[k] = extent;
+    }
+    widen_cells(level.count, near_.size());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double extent = extents[k];
+      if (level.wraps[k]) {
+        level.inverse[k] = level.count[k] / extent;
+      } else {
+        level.count[k] += 1;
+        const double cell = std::max(level.cell, extent / level.count[k] * (1 + 1e-12));
+        level.inverse[k] = 1 / cell;
+      }
+    }
+  }
+  // With so few rows of a sheared box that one is met directly and as an image, all cells of a row are near.
+  for (Level& level : levels_)
+    if (box_.shear_rate != 0 && level.count[1] < 4) {
+      level.count[0] = 1;
+      level.inverse[0] = 1 / box_.size[0];
+    }
+}
+
+void NeighbourSearch::sort_in(const Particles& particles) {
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    const auto cells = std::size_t(level.count[0]) * std::size_t(level.count[1]) * std::size_t(level.count[2]);
+    level.start.assign(cells + 1, 0);
+    std::vector<std::int32_t> at(particles.size(), -1);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (level_of(particles.place[i].radius) != l) continue;
+      const Vector& x = near_[i];
+      at[i] = (level.place(x[2], 2) * level.count[1] + level.place(x[1], 1)) * level.count[0] + level.place(x[0], 0);
+      ++level.start[std::size_t(at[i]) + 1];
+    }
+    std::partial_sum(level.start.begin(), level.start.end(), level.start.begin());
+    level.member.resize(std::size_t(level.start.back()));
+    level.place_of_member.resize(level.member.size());
+    std::vector<std::int32_t> next(level.start.begin(), level.start.end() - 1);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (at[i] < 0) continue;
+      const auto m = std::size_t(next[std::size_t(at[i])]++);
+      level.member[m] = std::int32_t(i);
+      level.place_of_member[m] = particles.place[i];
+    }
+  }
+}
+
+/// Pairs of particle i with those of a level: of coarser ones all, of its own each once: those in half of the cells
+/// around, and in its cell those with a higher number; with so few cells that one lies on both sides, by the ids.
+void NeighbourSearch::search(const Particles& particles, std::size_t i, std::size_t l, const Images& images,
+                             std::vector<Contacts::Pair>& pairs) {
+  const Level& level = levels_[l];
+  const bool own = level_of(particles.place[i].radius) == l, half = own && level.roomy();
+  const Vector& x = near_[i];
+  const int at_y = level.place(x[1], 1);
+  const Span depth = around(level.place(x[2], 2), level.count[2], level.wraps[2]);
+  const Span height = around(at_y, level.count[1], level.wraps[1]);
+  for (int row = 0; row < height.count; ++row) {
+    const int cy = height.cell[std::size_t(row)], oy = height.offset[std::size_t(row)];
+    // Across the joined faces of a sheared box the cells beside are those beside the image.
+    const int boxes = cy - at_y > 1 ? -1 : (cy - at_y < -1 ? 1 : 0);
+    const double shifted = box_.shear_rate == 0 ? x[0] : x[0] - boxes * images.shift[Images::here + 3][0];
+    const Span width = around(level.place(shifted, 0), level.count[0], level.wraps[0]);
+    for (int k = 0; k < depth.count; ++k)
+      for (int n = 0; n < width.count; ++n) {
+        const int oz = depth.offset[std::size_t(k)], ox = width.offset[std::size_t(n)];
+        if (half && (oz < 0 || (oz == 0 && (oy < 0 || (oy == 0 && ox < 0))))) continue;
+        const bool same = oz == 0 && oy == 0 && ox == 0;
+        const auto cell = std::size_t((depth.cell[std::size_t(k)] * level.count[1] + cy) * level.count[0] +
+                                      width.cell[std::size_t(n)]);
+        for (std::int32_t m = level.start[cell]; m < level.start[cell + 1]; ++m) {
+          const auto j = std::size_t(level.member[std::size_t(m)]);
+          ++candidates_;
+          if (half ? same && j <= i : own && particles.id[j] <= particles.id[i]) continue;
+          add_if_near(particles, i, j, level.place_of_member[std::size_t(m)], images, pairs);
+        }
+      }
+  }
+}
+
+void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Place& there,
+                                  const Images& images, std::vector<Contacts::Pair>& pairs) const {
+  if (i >= particles.owned && j >= particles.owned) return;
+  const Place& here = particles.place[i];
+  const Vector d{here.x[0] - there.x[0], here.x[1] - there.x[1], here.x[2] - there.x[2]};
+  const double near = here.radius + there.radius + reach_;
+  const auto add = [&](int image) {
+    const Vector seen = images.seen(d, image);
+    if (seen[0] * seen[0] + seen[1] * seen[1] + seen[2] * seen[2] >= near * near) return;
+    const auto a = std::int32_t(i), b = std::int32_t(j);
+    const std::int32_t si = particles.species[i], sj = particles.species[j];
+    if (particles.id[i] < particles.id[j])
+      pairs.push_back({a, b, image, materials_.kind(si, sj)});
+    else
+      pairs.push_back({b, a, Images::opposite(image), materials_.kind(sj, si)});
+  };
+  const int nearest = images.nearest(d);
+  add(nearest);
+  if (2 * near > narrowest_) images.each_other(d, nearest, add);
+}
+
+void NeighbourSearch::find_pairs(const Particles& particles, double time, const Vector& centre,
+                                 const std::array<bool, 3>& whole, Contacts& contacts) {
+  std::vector<Contacts::Pair>& pairs = contacts.pairs;
+  pairs.clear();
+  candidates_ = 0;
+  near_.resize(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = particles.place[i].x[k];
+      near_[i][k] = box_.periodic[k] && !whole[k] ? x - box_.size[k] * std::round((x - centre[k]) / box_.size[k]) : x;
+    }
+  lay_out(whole);
+  sort_in(particles);
+  const Images images(box_, time, 0);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    for (std::size_t l = level_of(particles.place[i].radius); l < levels_.size(); ++l)
+      search(particles, i, l, images, pairs);
+  const auto here = std::int32_t(particles.owned);
+  const auto outer = std::stable_partition(
+      pairs.begin(), pairs.end(), [&](const Contacts::Pair& pair) { return pair.first < here && pair.second < here; });
+  contacts.inner = std::size_t(outer - pairs.begin());
+}
+
+void NeighbourSearch::find_walls(const Particles& particles, std::vector<Contacts::Pair>& pairs) const {
+  pairs.clear();
+  for (std::size_t i = 0; i < particles.owned; ++i)
+    for (std::size_t w = 0; w < box_.walls.size(); ++w) {
+      const Wall& wall = box_.walls[w];
+      const double s = particles.place[i].x[std::size_t(wall.axis)] - wall.place;
+      if ((wall.side == 0 ? s : -s) < particles.place[i].radius + reach_)
+        pairs.push_back({std::int32_t(i), std::int32_t(w), Images::here, materials_.wall_kind(particles.species[i])});
+    }
+}
+
+std::vector<std::int32_t> NeighbourSearch::order(const Particles& particles) const {
+  std::vector<std::uint64_t> key(particles.owned);
+  const double cell = levels_.front().cell;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    key[i] = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double place = particles.place[i].x[k] / cell + 1024;
+      key[i] |= spread_bits(std::uint64_t(std::clamp(place, 0.0, 2.0e6))) << k;
+    }
+  }
+  std::vector<std::int32_t> order(particles.owned);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    const auto ka = key[std::size_t(a)], kb = key[std::size_t(b)];
+    return ka != kb ? ka < kb : particles.id[std::size_t(a)] < particles.id[std::size_t(b)];
+  });
+  return order;
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,72 @@
+// Which pairs may touch before a list is made again: a search in cells by levels of size, so that its cost hardly
+// depends on how different the particles are.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "dem/box.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+class NeighbourSearch {
+ public:
+  /// \param reach  skin and the longest pair effect, m: pairs nearer than this are listed
+  NeighbourSearch(const Box& box, const Materials& materials, double reach);
+
+  /// Pairs with at least one owned particle whose surfaces are nearer than the reach; the first has the lower id.
+  /// Pairs that need no ghost come first. In a box of less than twice that distance across, a pair may be listed with
+  /// several images of the second, of which the nearest comes first and the others next.
+  /// \param centre  of the space of these particles: of directions in which they do not fill the box, images are
+  ///                taken near it   \param whole  directions in which they do
+  void find_pairs(const Particles& particles, double time, const Vector& centre, const std::array<bool, 3>& whole,
+                  Contacts& contacts);
+  /// Owned particles and walls likewise.
+  void find_walls(const Particles& particles, std::vector<Contacts::Pair>& pairs) const;
+
+  /// Pairs looked at in the last search.
+  [[nodiscard]] std::uint64_t candidates() const { return candidates_; }
+  /// The particles in an order in which near ones are near.
+  [[nodiscard]] std::vector<std::int32_t> order(const Particles& particles) const;
+
+ private:
+  /// Cells of one size and in them the particles that are no larger, but too large for a finer level.
+  struct Level {
+    double cell = 0;  ///< m, at least
+    Vector low{}, inverse{};
+    std::array<int, 3> count{};
+    std::array<bool, 3> wraps{};
+    std::vector<std::int32_t> start, member;
+    std::vector<Place> place_of_member;  ///< side by side, as cells are read
+
+    [[nodiscard]] int place(double x, std::size_t axis) const;
+    /// Whether no cell lies on both sides of another.
+    [[nodiscard]] bool roomy() const {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (wraps[k] && count[k] < 3) return false;
+      return true;
+    }
+  };
+  [[nodiscard]] std::size_t level_of(double radius) const;
+  void lay_out(const std::array<bool, 3>& whole);
+  void sort_in(const Particles& particles);
+  void search(const Particles& particles, std::size_t i, std::size_t level, const Images& images,
+              std::vector<Contacts::Pair>& pairs);
+
+  void add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Place& there, const Images& images,
+                   std::vector<Contacts::Pair>& pairs) const;
+
+  const Box& box_;
+  const Materials& materials_;
+  double reach_;
+  double narrowest_ = std::numeric_limits<double>::infinity();  ///< extent of the box where it is joined, m
+  std::vector<Level> levels_;                                   ///< from the smallest particles' to the largest's
+  std::vector<Vector> near_;                                    ///< positions with images taken near the centre
+  std::uint64_t candidates_ = 0;
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,187 @@
+#include "dem/contacts/pair_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dem/contacts/rows.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+/// F = F_n n + F_t and n x F_t on both lever arms, in units.
+POLYBED_ALL_VECTOR_WIDTHS void count_units(ContactBatch& b, double per_force, double per_torque) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c) {
+    const double nx = b.distance[0][c], ny = b.distance[1][c], nz = b.distance[2][c];
+    const double tx = b.tangential[0][c], ty = b.tangential[1][c], tz = b.tangential[2][c];
+    b.force[0][c] = (b.normal[c] * nx + tx) * per_force;
+    b.force[1][c] = (b.normal[c] * ny + ty) * per_force;
+    b.force[2][c] = (b.normal[c] * nz + tz) * per_force;
+    const double qx = ny * tz - nz * ty, qy = nz * tx - nx * tz, qz = nx * ty - ny * tx;
+    const double li = -b.arm_i[c] * per_torque, lj = -b.arm_j[c] * per_torque;
+    b.torque_i[0][c] = li * qx;
+    b.torque_i[1][c] = li * qy;
+    b.torque_i[2][c] = li * qz;
+    b.torque_j[0][c] = lj * qx;
+    b.torque_j[1][c] = lj * qy;
+    b.torque_j[2][c] = lj * qz;
+  }
+}
+
+POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
+  const int n = b.padded();
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < n; ++c) {
+      const double units = b.moment[k][c] * per_torque;
+      b.torque_i[k][c] += units;
+      b.torque_j[k][c] -= units;
+    }
+}
+
+/// Empties the first rows of the memory of pairs within the reach of cohesion that do not touch: a new contact has
+/// none.
+POLYBED_ALL_VECTOR_WIDTHS void forget_open(ContactBatch& b, int rows) {
+  const int n = b.padded();
+  for (int m = 0; m < rows; ++m)
+    for (int c = 0; c < n; ++c) b.memory[m][c] = b.overlap[c] > 0 ? b.memory[m][c] : 0;
+}
+
+/// Whether a contact is deeper than allowed, or its overlap is not a number.
+POLYBED_ALL_VECTOR_WIDTHS bool any_deeper(const ContactBatch& b, double max_overlap) {
+  int deeper = 0;
+  for (int c = 0; c < b.count; ++c) {
+    const double least = b.radius_i[c] < b.radius_j[c] ? b.radius_i[c] : b.radius_j[c];
+    deeper |= b.overlap[c] <= 2 * max_overlap * least ? 0 : 1;
+  }
+  return deeper != 0;
+}
+
+POLYBED_ALL_VECTOR_WIDTHS void store_memory(double* memory, int size, const ContactBatch& b) {
+  int m = 0;
+  const int fours = b.count & ~3;
+  for (; m + 4 <= size; m += 4) {
+    for (int c = 0; c < fours; c += 4) {
+      Four kept[4];
+      for (int k = 0; k < 4; ++k) get_four(b.memory[m + k] + c, kept[k]);
+      transpose(kept);
+      for (int k = 0; k < 4; ++k) put_four(kept[k], memory + std::ptrdiff_t(b.pair[c + k]) * size + m);
+    }
+    for (int c = fours; c < b.count; ++c)
+      for (int k = m; k < m + 4; ++k) memory[std::ptrdiff_t(b.pair[c]) * size + k] = b.memory[k][c];
+  }
+  for (; m < size; ++m)
+    for (int c = 0; c < b.count; ++c) memory[std::ptrdiff_t(b.pair[c]) * size + m] = b.memory[m][c];
+}
+
+void add_load(Load& load, const ContactBatch::Row* force, int sign, const ContactBatch::Row* torque, int c) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    load.force[k] += sign * std::int64_t(force[k][c]);
+    load.torque[k] += std::int64_t(torque[k][c]);
+  }
+}
+
+}  // namespace
+
+PairForces::PairForces(const Box& box, const Materials& materials, const PairLaws& laws, FixedPoint force,
+                       FixedPoint torque, double max_overlap)
+    : loader_(box, materials, laws.reach()), laws_(laws), force_(force), torque_(torque), max_overlap_(max_overlap) {
+  // Beyond the last contact of a batch its loops run over a pair that does nothing.
+  std::fill_n(batch_.distance[0], ContactBatch::width, 1.0);
+  std::fill_n(batch_.radius_i, ContactBatch::width, 0.25);
+  std::fill_n(batch_.radius_j, ContactBatch::width, 0.25);
+}
+
+void PairForces::act(double dt) {
+  laws_.normal->act(batch_);
+  if (laws_.tangential) laws_.tangential->act(batch_, dt);
+  if (laws_.rolling) laws_.rolling->act(batch_, dt);
+  if (laws_.reach() > 0) forget_open(batch_, laws_.contact_memory());
+  if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
+  if (laws_.cohesion) laws_.cohesion->act(batch_);
+  if (laws_.film) add_film(dt);
+  count_units(batch_, force_.per_unit, torque_.per_unit);
+  if (laws_.rolling) add_moment(batch_, torque_.per_unit);
+  contact_steps_ += std::uint64_t(batch_.count);
+}
+
+void PairForces::add_film(double dt) {
+  alignas(64) ContactBatch::Row force;
+  laws_.film->act(batch_, force);
+  if (ledger_ != nullptr) ledger_->act_film(batch_, force, counted_, dt);
+  for (int c = 0; c < batch_.padded(); ++c) batch_.normal[c] += force[c];
+}
+
+/// A pair across ranks is computed on both, and counted where its first particle is at home.
+void PairForces::mark_counted(std::size_t owned) {
+  for (int c = 0; c < batch_.count; ++c) counted_[c] = std::size_t(batch_.first[c]) < owned ? 1 : 0;
+}
+
+void PairForces::watch_overlap(bool wall) {
+  if (!any_deeper(batch_, max_overlap_)) return;
+  for (int c = 0; c < batch_.count; ++c) {
+    const double excess = batch_.overlap[c] - 2 * max_overlap_ * std::min(batch_.radius_i[c], batch_.radius_j[c]);
+    // Turned round, so that the distance of two centres at one place, whose n is not a number, is too small as well.
+    if (!(excess <= trouble_.excess))
+      trouble_ = {std::isnan(batch_.speed[c]) ? std::numeric_limits<double>::infinity() : excess, batch_.pair[c], wall};
+  }
+}
+
+/// What is done with a batch once it is full: laws, and the memory of its contacts. Of a batch in trouble nothing is
+/// taken over: the run stops, and numbers that are none must not reach the state that it leaves behind.
+void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall, double dt) {
+  watch_overlap(wall);
+  if (trouble_.pair >= 0) {
+    batch_.count = 0;
+    return;
+  }
+  if (ledger_ != nullptr) mark_counted(particles.owned);
+  act(dt);
+  store_memory(contacts.memory.data(), contacts.memory_size, batch_);
+  contacts.touching.insert(contacts.touching.end(), batch_.pair, batch_.pair + batch_.count);
+}
+
+void PairForces::add_inner_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
+  contacts.begin_touching();
+  add_pairs(particles, contacts, images, 0, contacts.inner, dt);
+}
+
+void PairForces::add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt) {
+  add_pairs(particles, contacts, images, contacts.inner, contacts.pairs.size(), dt);
+  if (ledger_ != nullptr) ledger_->part(contacts, particles.owned);
+  contacts.forget_parted();
+  pair_checks_ += contacts.pairs.size();
+}
+
+void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t begin,
+                           std::size_t end, double dt) {
+  for (auto p = std::int32_t(begin); p < std::int32_t(end);) {
+    p = loader_.find_pairs(particles, contacts, images, p, std::int32_t(end), batch_);
+    loader_.load_pairs(particles, contacts, images, batch_);
+    treat(particles, contacts, false, dt);
+    if (flow_work_ != nullptr) flow_work_->act(batch_, counted_, contacts, images);
+    for (int c = 0; c < batch_.count; ++c) {
+      add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
+      add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
+    }
+  }
+}
+
+void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) {
+  const auto end = std::int32_t(contacts.pairs.size());
+  contacts.begin_touching();
+  for (std::int32_t p = 0; p < end;) {
+    p = loader_.find_walls(particles, contacts, p, batch_);
+    loader_.load_walls(particles, contacts, batch_);
+    treat(particles, contacts, true, dt);
+    for (int c = 0; c < batch_.count; ++c)
+      add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
+  }
+  if (ledger_ != nullptr) ledger_->part(contacts, particles.owned);
+  contacts.forget_parted();
+  pair_checks_ += contacts.pairs.size();
+}
+
+}  // namespace polybed::dem

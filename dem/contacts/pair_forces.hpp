@@ -1,0 +1,72 @@
+// Forces between touching particles and on walls: find what touches, gather a batch, let each law act on it, scatter.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/box.hpp"
+#include "dem/contacts/batch.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/loader.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/effects.hpp"
+#include "dem/flow_work.hpp"
+#include "dem/ledger.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+/// What went wrong with a pair, if anything: found after the loop, so that the loop has no branch for it.
+struct PairTrouble {
+  double excess = 0;       ///< m, of the deepest overlap over the one allowed; beyond 0 the run must stop
+  std::int32_t pair = -1;  ///< in its list
+  bool wall = false;
+};
+
+class PairForces {
+ public:
+  /// \param max_overlap  greatest overlap allowed, as a share of the smaller diameter
+  PairForces(const Box& box, const Materials& materials, const PairLaws& laws, FixedPoint force, FixedPoint torque,
+             double max_overlap);
+  /// Counts energies in a ledger from now on, which must stay.
+  void keep(Ledger& ledger) { ledger_ = &ledger; }
+  /// Likewise the work of a sheared box, beside a ledger.
+  void keep(FlowWork& work) { flow_work_ = &work; }
+
+  // Forces and torques of all pairs of a list are added to the loads of its particles, and its memory moves on: first
+  // of the pairs that need no ghost, then, once the ghosts are there, of the others.
+  /// \param images  now, by the numbers that the list gives  \param dt  s, since the last call
+  void add_inner_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt);
+  void add_outer_pairs(Particles& particles, Contacts& contacts, const Images& images, double dt);
+  /// The same with the walls.
+  void add_walls(Particles& particles, Contacts& contacts, double dt);
+
+  [[nodiscard]] const PairTrouble& trouble() const { return trouble_; }
+  [[nodiscard]] std::uint64_t pair_checks() const { return pair_checks_; }
+  [[nodiscard]] std::uint64_t contact_steps() const { return contact_steps_; }
+
+  /// Who fills batches; for those who look at single contacts.
+  [[nodiscard]] const ContactLoader& loader() const { return loader_; }
+
+ private:
+  void add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t begin, std::size_t end,
+                 double dt);
+  void act(double dt);
+  void add_film(double dt);
+  void treat(const Particles& particles, Contacts& contacts, bool wall, double dt);
+  void mark_counted(std::size_t owned);
+  void watch_overlap(bool wall);
+
+  ContactLoader loader_;
+  const PairLaws& laws_;
+  FixedPoint force_, torque_;
+  double max_overlap_;
+  Ledger* ledger_ = nullptr;       ///< absent: energies are not counted
+  FlowWork* flow_work_ = nullptr;  ///< absent: the box is not sheared, or energies are not counted
+  ContactBatch batch_;
+  alignas(64) ContactBatch::Row counted_ = {};  ///< by the ledger: 1, or 0 of pairs that another rank counts
+  PairTrouble trouble_;
+  std::uint64_t pair_checks_ = 0, contact_steps_ = 0;
+};
+
+}  // namespace polybed::dem

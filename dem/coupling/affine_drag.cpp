@@ -1,0 +1,25 @@
+#include "dem/coupling/affine_drag.hpp"
+
+#include <utility>
+
+#include "closures/drag.hpp"
+#include "closures/relevance.hpp"
+#include "fluid/properties.hpp"
+
+namespace polybed::dem {
+
+AffineDrag::AffineDrag(const core::Scene& scene, const Materials& materials, std::vector<double> share, double voidage,
+                       FixedPoint force, FixedPoint energy)
+    : shear_rate_(scene.dem.shear_rate), force_(force), energy_(energy) {
+  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const closures::DragLaw law = closures::drag_law(core::law_of(scene, "drag"), closures::Guard::on);
+  std::vector<double> diameter;
+  for (const Species& s : materials.species()) diameter.push_back(2 * s.radius);
+  const std::vector<double> slip(diameter.size(), 0.0);
+  std::vector<double> f(diameter.size()), slope(diameter.size());
+  closures::drag_of_mixture(law, voidage, share, diameter, slip, fluid.density, fluid.viscosity, f, slope);
+  for (std::size_t j = 0; j < diameter.size(); ++j)
+    drag_.push_back(closures::drag_per_slip(diameter[j], fluid.viscosity, voidage, f[j]));
+}
+
+}  // namespace polybed::dem

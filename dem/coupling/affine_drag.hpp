@@ -1,0 +1,70 @@
+// Drag of a sheared box: of a fluid that moves with the box's own flow, everywhere, whatever the particles do.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/case/scene.hpp"
+#include "dem/box.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/coupling/fluid_motion.hpp"
+#include "dem/energy_sum.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+/// Drag k_j (gamma y e_x - U) on each particle, k_j = 3 pi mu D_j eps f_j with f_j of the whole box's composition and
+/// voidage at no slip: the part of the wet stress boxes that stands for the fluid they have not. With k constant the
+/// motion under it is known: it is integrated exactly, so that no step is too long for it. A box without it holds none.
+class AffineDrag {
+ public:
+  /// \param share  of each species in the volume of all  \param voidage  of the box  \param force, energy  units of
+  /// the forces and of the work
+  AffineDrag(const core::Scene& scene, const Materials& materials, std::vector<double> share, double voidage,
+             FixedPoint force, FixedPoint energy);
+
+  /// k_j of a species, kg/s.
+  [[nodiscard]] double coefficient(std::size_t species) const { return drag_[species]; }
+
+  struct Kick {
+    Vector dv, free;  ///< change of the velocity, and what it would be without drag, m/s
+  };
+  /// U <- u + (U - u) exp(-x) + free (1 - exp(-x))/x, x = k h/m, u = gamma y e_x. \param h  s
+  [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
+    const Motion& m = particles.motion[i];
+    const double x = drag_[std::size_t(particles.species[i])] * m.inverse_mass * h, mean = mean_decay(x);
+    const double linear = m.inverse_mass * force_.unit * h;
+    const Vector flow{shear_rate_ * particles.place[i].x[1], 0, 0};
+    Kick kick;
+    for (std::size_t k = 0; k < 3; ++k) {
+      kick.free[k] = double(particles.load[i].force[k]) * linear;
+      kick.dv[k] = mean * (kick.free[k] + x * (flow[k] - m.v[k]));
+    }
+    return kick;
+  }
+  /// Keeps the work of the drag in a kick, before the velocity changes.
+  void account(const Particles& particles, std::size_t i, const Kick& kick, double, WorkShare share) {
+    const Motion& m = particles.motion[i];
+    double work = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      work += (m.v[k] + 0.5 * kick.dv[k]) * kick.dv[k] - (m.v[k] + share.load * kick.dv[k]) * kick.free[k];
+    work_.add(work / m.inverse_mass * energy_.per_unit);
+  }
+
+  /// Work on this rank's particles since the start, at rest with the bottom of the box.
+  [[nodiscard]] const EnergySum& work() const { return work_; }
+  void set_work(const EnergySum& work) { work_ = work; }
+
+ private:
+  std::vector<double> drag_;  ///< k_j, kg/s
+  double shear_rate_;
+  FixedPoint force_, energy_;
+  EnergySum work_;
+};
+
+/// Whether the drag of a scene is that of a sheared box.
+[[nodiscard]] inline bool has_affine_drag(const core::Scene& scene) {
+  return scene.dem.shear_rate != 0 && core::law_of(scene, "drag") != "none";
+}
+
+}  // namespace polybed::dem

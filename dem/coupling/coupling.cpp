@@ -1,0 +1,183 @@
+#include "dem/coupling/coupling.hpp"
+
+#include <fmt/format.h>
+
+#include "closures/sphere.hpp"
+#include "core/error.hpp"
+#include "core/numerics/blocks.hpp"
+#include "dem/coupling/kernel.hpp"
+#include "dem/scene.hpp"
+#include "fluid/properties.hpp"
+
+namespace polybed::dem {
+
+using core::Field;
+using core::Index;
+
+namespace {
+
+/// Relative residual of the pressure: what it leaves of div J in a step of the fluid.
+constexpr double pressure_tolerance = 1e-8;
+
+std::vector<double> diameters(const Materials& materials) {
+  std::vector<double> d;
+  for (const Species& s : materials.species()) d.push_back(2 * s.radius);
+  return d;
+}
+
+/// Full width of the kernel, m.
+double width_of(const core::Scene& scene, const Materials& materials, std::int64_t count) {
+  const double cell = core::grid_of(scene.column, nullptr).smallest_spacing();
+  return kernel_of(scene, cell, materials.greatest_diameter(), count).width;
+}
+
+/// Whether each rank solves for a block of the fluid. The kernel's smoothing wants the whole column.
+bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int64_t count) {
+  constexpr std::size_t worth_sharing = 20'000;  // cells: below, messages cost more than they save
+  const std::string& wish = scene.dem.fluid_ranks;
+  const bool wide = width_of(scene, materials, count) > 0;
+  if (wish == "shared" && wide)
+    throw core::CaseError(
+        "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
+        "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"");
+  if (wide || wish == "each") return false;
+  return wish == "shared" || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
+}
+
+}  // namespace
+
+Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
+                   core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count)
+    : ranks_(ranks),
+      timers_(timers),
+      flow_(scene, core::grid_of(scene.column, shares_fluid(scene, materials, count) ? ranks : nullptr),
+            pressure_tolerance),
+      fraction_(materials.species().size(), core::make_field(flow_.grid())),
+      at_ends_(core::make_field(flow_.grid())),
+      width_(width_of(scene, materials, count)),
+      smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
+      forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
+      sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, scene.dem.fluid_every * dt),
+      phase_(flow_.grid(), has_inertia()),
+      scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
+      gather_(core::whole_column(flow_.grid()), diameters(materials)),
+      motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy),
+      every_(scene.dem.fluid_every),
+      held_(scene.dem.held),
+      dt_(dt) {
+  if (scene.dem.own_share == "removed")
+    own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials));
+  for (Field& component : vorticity_)
+    if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
+  if (!flow_.grid().ranks) return;
+  const core::Grid column = core::whole_column(flow_.grid());
+  exchange_.emplace(column, flow_.grid(), ranks_);
+  fraction_here_.assign(fraction_.size(), core::make_field(column));
+  velocity_here_ = gradient_here_ = core::make_face_field(column);
+}
+
+Coupling::~Coupling() = default;
+
+void Coupling::begin(const Particles& particles) {
+  motion_.load.assign(particles.owned, FluidLoad{});
+  take_fields();
+  collect(particles);
+  flow_.begin(0, phase_);
+  take_fields();
+  forces_.find(particles, gather_, motion_.load, own());
+  sides_.begin(particles, gather_, motion_.load);
+}
+
+void Coupling::find_forces(const Particles& particles) {
+  forces_.find(particles, gather_, motion_.load, own());
+  sides_.find(particles, gather_, motion_.load);
+}
+
+void Coupling::hold(const Particles& particles) {
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    FluidLoad& f = motion_.load[i];
+    for (std::size_t k = 0; k < 3; ++k) f.impulse[k] += f.drag * dt_ * f.velocity[k];
+  }
+  sides_.hold(motion_.load);
+}
+
+void Coupling::advance(Particles& particles, double t) {
+  const double dt = interval();
+  {
+    const auto scope = timers_.scope("fluid: particles' sums");
+    collect(particles);
+  }
+  {
+    const auto scope = timers_.scope("fluid");
+    last_ = flow_.advance(t - dt, dt, phase_);
+    weigh();
+  }
+  ++steps_;
+  const auto scope = timers_.scope("fluid: particles' answer");
+  if (!held_) answer(particles);
+  for (FluidLoad& load : motion_.load) load.impulse = {};
+  take_fields();
+  forces_.find(particles, gather_, motion_.load, own());
+  sides_.refresh(particles, gather_, motion_.load);
+}
+
+void Coupling::collect(const Particles& particles) {
+  if (held_)
+    scatter_.collect_held(ranks_.get(), particles, motion_.load, interval());
+  else
+    scatter_.collect(particles, motion_.load, interval());
+  if (exchange_) exchange_->choose(particles);
+  scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
+  if (smoothing_.present()) smooth_sums();
+  require_voidage();
+}
+
+/// \pre the voidage is that of now
+void Coupling::require_voidage() const {
+  const core::Grid& grid = flow_.grid();
+  double least = 1;
+  std::array<int, 3> at{};
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        if (const double eps = phase_.voidage[std::size_t(grid.index(i, j, k))]; eps < least) {
+          least = eps;
+          at = {i, j, k};
+        }
+  const int worst = core::rank_of_greatest(grid, -least);
+  if (core::least_of_ranks(grid, least) > fluid::voidage_floor) return;
+  const char* remedy =
+      smoothing_.present() ? "a wider dem.kernel_width" : "dem.kernel = \"diffusion\", or larger cells";
+  const auto centre = [&](std::size_t a) { return grid.centre(int(a), at[a]); };
+  const std::string text = fmt::format(
+      "the cell near ({:.6g}, {:.6g}, {:.6g}) m has a voidage of {:.3g}: its particles do not fit into it; use {}",
+      centre(0), centre(1), centre(2), least, remedy);
+  throw core::NumericsError(core::said_by(grid, worst, text));
+}
+
+/// What the change of the fluid would have done to the particles meanwhile: see fluid::ParticlePhase.
+void Coupling::answer(Particles& particles) {
+  const double dt = interval();
+  core::FaceField change = flow_.velocity_change(), push = flow_.gradient_change(), carried;
+  if (phase_.added_mass()) carried = flow_.convected();
+  for (core::FaceField* field : {&change, &push, &carried}) smooth(*field);
+  if (exchange_) here({&change, &push, &carried});
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const FluidLoad& f = motion_.load[i];
+    Motion& m = particles.motion[i];
+    const double volume = closures::sphere_volume(particles.place[i].radius);
+    const double inertia = 1 / m.inverse_mass + f.added, x = f.drag * dt / inertia, s = mean_decay(x);
+    const Lines lines = gather_.lines(particles.place[i].x);
+    const Vector du = gather_.vector(lines, change), dg = gather_.vector(lines, push);
+    Vector dv;
+    for (std::size_t k = 0; k < 3; ++k) dv[k] = x * s * du[k] - volume / inertia * s * dt * dg[k];
+    if (phase_.added_mass()) {
+      const Vector c = gather_.vector(lines, carried);
+      for (std::size_t k = 0; k < 3; ++k) dv[k] += f.added / inertia * s * (du[k] + c[k]);
+    }
+    motion_.account_answer(m, dv);
+    for (std::size_t k = 0; k < 3; ++k) m.v[k] += dv[k];
+  }
+}
+
+}  // namespace polybed::dem

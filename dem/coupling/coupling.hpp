@@ -1,0 +1,130 @@
+// Particles and fluid together: what each hears of the other, and when.
+//
+// Between two steps of the fluid its fields are frozen, and every particle moves through them, with its drag integrated
+// exactly; the impulse that it takes is kept. Then the particles' volumes and impulses go to the fluid, the fluid takes
+// its step, and each particle gets by one kick what the change of the fluid would have done to it meanwhile: that is in
+// the fluid's equations, so that the momentum of both together is kept whatever the length of the steps.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/numerics/ranks.hpp"
+#include "core/output/checkpoint.hpp"
+#include "core/timers.hpp"
+#include "dem/coupling/fluid_motion.hpp"
+#include "dem/coupling/gather.hpp"
+#include "dem/coupling/particle_forces.hpp"
+#include "dem/coupling/scatter.hpp"
+#include "dem/effects/side_forces.hpp"
+#include "fluid/flow.hpp"
+#include "fluid/smoothing.hpp"
+
+namespace polybed::dem {
+
+class Coupling {
+ public:
+  struct Units {
+    FixedPoint force, energy;  ///< N, J
+  };
+  /// \param ranks  that share the box; null: it is all here  \param units  of the loads and of the fluid's work
+  /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume, count  of all particles, m3
+  Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
+           core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count);
+  ~Coupling();
+
+  /// The fluid between the particles at the start of a run. Collective, as are advance and write.
+  void begin(const Particles& particles);
+  /// Collective: the particles have changed ranks.
+  void settle_in(const Particles& particles);
+  /// Loads of the particles where they are now.
+  void find_forces(const Particles& particles);
+  /// What the fluid does to their spins in a step.
+  void turn(Particles& particles) { sides_.turn(particles, motion_); }
+  /// Whether the fluid takes its step after so many of the particles.
+  [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
+  /// Step of the particles from now on, s; only between steps of the fluid, and without side forces, which know theirs.
+  void set_dt(double dt) { dt_ = dt; }
+  /// The fluid's step that ends at time t, s, and the particles' answer to it.
+  void advance(Particles& particles, double t);
+  /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
+  void hold(const Particles& particles);
+
+  [[nodiscard]] FluidMotion& motion() { return motion_; }
+  [[nodiscard]] const FluidMotion& motion() const { return motion_; }
+  [[nodiscard]] const fluid::Flow& flow() const { return flow_; }
+  [[nodiscard]] const fluid::FlowStep& last_step() const { return last_; }
+  [[nodiscard]] const std::vector<core::Field>& fraction() const { return fraction_; }
+  [[nodiscard]] const ParticleForces& forces() const { return forces_; }
+  [[nodiscard]] SideForces& sides() { return sides_; }
+  [[nodiscard]] const SideForces& sides() const { return sides_; }
+  [[nodiscard]] int every() const { return every_; }
+  /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
+  [[nodiscard]] double kernel_width() const { return width_; }
+  /// Mean net pressure on the distributor, less that at the outlet, Pa. Collective.
+  [[nodiscard]] double pressure_drop() const;
+  /// Largest solids fraction of a cell. Collective.
+  [[nodiscard]] double most_solids() const;
+  /// The fluid of the whole column, on every rank. Collective.
+  struct Column {
+    core::Grid grid;
+    std::vector<core::Field> fraction;    ///< phi_j
+    core::FaceField velocity;             ///< U_f, m/s
+    core::Field pressure;                 ///< net, Pa
+    core::Field total_pressure, density;  ///< of a compressible fluid, Pa, kg/m3; else empty
+  };
+  [[nodiscard]] Column column() const;
+  /// Steps of the fluid since the start.
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+
+  /// What comes next does not depend on earlier solves.
+  void restart() { flow_.forget(); }
+  void write(core::Checkpoint& checkpoint) const;
+  void read(const core::Checkpoint& checkpoint);
+
+ private:
+  void collect(const Particles& particles);
+  void require_voidage() const;
+  void smooth(core::FaceField& field) const;
+  void smooth_sums();
+  void answer(Particles& particles);
+  void take_fields();
+  void here(std::initializer_list<core::FaceField*> fields) const;
+  void fetch();
+  void weigh();
+  [[nodiscard]] core::Field of_column(const core::Field& own) const;
+  void take_own(const core::Field& column, core::Field& own) const;
+  void find_vorticity(core::FaceField velocity);
+  [[nodiscard]] const OwnShare* own() const { return own_ ? &*own_ : nullptr; }
+  [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
+  /// Step of the fluid, s.
+  [[nodiscard]] double interval() const { return every_ * dt_; }
+
+  std::shared_ptr<const core::Ranks> ranks_;
+  core::Timers& timers_;
+  fluid::Flow flow_;
+  std::vector<core::Field> fraction_;     ///< phi_j, [species][cell]
+  core::Field at_ends_;                   ///< on the faces of bottom and top: force on particles per volume, N/m3
+  std::optional<GridExchange> exchange_;  ///< absent: every rank has the whole fluid
+  /// On what this rank's particles touch; empty without an exchange.
+  std::vector<core::Field> fraction_here_;
+  core::FaceField velocity_here_, gradient_here_;
+  std::array<core::Field, 3> vorticity_, vorticity_here_;  ///< empty where no effect asks for it
+  double width_;
+  fluid::Smoothing smoothing_;
+  ParticleForces forces_;
+  SideForces sides_;
+  fluid::ParticlePhase phase_;
+  Scatter scatter_;
+  Gather gather_;
+  std::optional<OwnShare> own_;  ///< absent: a particle is part of what it sees
+  FluidMotion motion_;
+  int every_;
+  bool held_;
+  double dt_;  ///< of the particles, s
+  fluid::FlowStep last_;
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace polybed::dem

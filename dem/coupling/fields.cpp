@@ -1,0 +1,91 @@
+// What particles give to the fluid and see of it as fields: averaged by the kernel, and sent where they are needed.
+#include <algorithm>
+
+#include "dem/coupling/coupling.hpp"
+#include "fluid/vorticity.hpp"
+
+namespace polybed::dem {
+
+using core::Field;
+
+/// Nothing without a kernel of diffusion, or of an empty field.
+void Coupling::smooth(core::FaceField& field) const {
+  for (int axis = 0; axis < flow_.grid().dimensions && smoothing_.present(); ++axis)
+    if (Field& component = field[std::size_t(axis)]; !component.empty()) smoothing_.smooth_faces(component, axis);
+}
+
+void Coupling::smooth_sums() {
+  std::fill(phase_.voidage.begin(), phase_.voidage.end(), 1.0);
+  for (Field& phi : fraction_) {
+    smoothing_.smooth_cells(phi);
+    for (std::size_t c = 0; c < phi.size(); ++c) phase_.voidage[c] -= phi[c];
+  }
+  for (core::FaceField* field : {&phase_.voidage_on, &phase_.flux, &phase_.impulse, &phase_.drag, &phase_.follow,
+                                 &phase_.slide, &phase_.yield, &phase_.carry, &phase_.carry_flux})
+    smooth(*field);
+}
+
+/// The fields as particles see them.
+void Coupling::take_fields() {
+  if (exchange_) {  // never with a kernel of diffusion
+    if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity);
+    return fetch();
+  }
+  core::FaceField velocity = flow_.state().velocity, gradient = flow_.gradient();
+  smooth(velocity);
+  smooth(gradient);
+  if (sides_.needs_vorticity()) find_vorticity(velocity);
+  gather_.take(fraction_, velocity, gradient);
+  if (own_) own_->take(fraction_);
+  if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
+}
+
+/// Of the velocity as particles see it, which holds at the walls.
+void Coupling::find_vorticity(core::FaceField velocity) {
+  flow_.boundaries().fill_velocity(velocity, fluid::WallSlip::no_slip);
+  fluid::find_vorticity(flow_.grid(), velocity, vorticity_);
+}
+
+void Coupling::settle_in(const Particles& particles) {
+  if (!exchange_) return;
+  exchange_->choose(particles);
+  fetch();
+}
+
+/// What this rank's particles see of the fluid.
+void Coupling::fetch() {
+  std::vector<std::pair<const Field*, Field*>> fields;
+  for (std::size_t j = 0; j < fraction_.size(); ++j) fields.push_back({&fraction_[j], &fraction_here_[j]});
+  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a) {
+    fields.push_back({&flow_.state().velocity[a], &velocity_here_[a]});
+    fields.push_back({&flow_.gradient()[a], &gradient_here_[a]});
+  }
+  for (std::size_t k = 0; k < 3 && sides_.needs_vorticity(); ++k) {
+    vorticity_here_[k].resize(velocity_here_[0].size());
+    fields.push_back({&vorticity_[k], &vorticity_here_[k]});
+  }
+  exchange_->fetch(fields);
+  gather_.take(fraction_here_, velocity_here_, gradient_here_);
+  if (own_) own_->take(fraction_here_);
+  if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_here_);
+}
+
+/// Fields on faces of the block become those on what this rank's particles touch.
+void Coupling::here(std::initializer_list<core::FaceField*> fields) const {
+  std::vector<std::pair<const Field*, Field*>> list;
+  std::vector<core::FaceField> column(fields.size());
+  std::size_t n = 0;
+  for (core::FaceField* field : fields) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if ((*field)[a].empty()) continue;
+      column[n][a].resize(velocity_here_[a].size());
+      list.push_back({&(*field)[a], &column[n][a]});
+    }
+    ++n;
+  }
+  exchange_->fetch(list);
+  n = 0;
+  for (core::FaceField* field : fields) *field = std::move(column[n++]);
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,113 @@
+// What the fluid does to the particles, and how they move under it: the drag of a frozen fluid is integrated exactly,
+// so that no step is too long for it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "dem/box.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/energy_sum.hpp"
+#include "dem/particles.hpp"
+
+namespace polybed::dem {
+
+/// What a particle feels of the fluid until its place or the fluid changes, and what it has given to it meanwhile.
+struct FluidLoad {
+  Vector velocity{};  ///< U_f where it is, m/s
+  double drag = 0;    ///< k: pure drag over the slip U_f - U_p, kg/s
+  Vector force{};     ///< what else the fluid does: -V grad p, N
+  double added = 0;   ///< added mass, kg
+  Vector impulse{};   ///< that drag and added mass have given it since the fluid's last step, kg m/s
+};
+
+/// With which velocity the work of other forces in a kick is counted: v + share dv, v before the kick and dv its
+/// change. A weight does work along the drift beside the kick. So does a contact's force, by the thesis scheme; by the
+/// synchronised one it has the velocity at the time of the force (see Ledger). The fluid's work is what the kinetic
+/// energy changes by less theirs: with a slip that relaxes far within a step the mean of v and v + dv is neither.
+struct WorkShare {
+  double weight, load;
+
+  static constexpr WorkShare before_drift(bool synchronised) { return {1, synchronised ? 0.0 : 1.0}; }
+  static constexpr WorkShare after_drift(bool synchronised) { return {0, synchronised ? 1.0 : 0.0}; }
+};
+
+/// (1 - exp(-x))/x, 1 at 0; x >= 0.
+[[nodiscard]] inline double mean_decay(double x) {
+  constexpr double small = 0.02;  // below it the next term of the series is under 1e-16
+  if (x < small) {                // in pairs, as each product waits for the one before
+    const double xx = x * x;
+    return ((1 - x * (1.0 / 2)) + xx * (1.0 / 6 - x * (1.0 / 24))) +
+           xx * xx * ((1.0 / 120 - x * (1.0 / 720)) + xx * (1.0 / 5040));
+  }
+  return -std::expm1(-x) / x;
+}
+
+class FluidMotion {
+ public:
+  /// \param fluid_density  kg/m3  \param gravity  m/s2  \param force, energy  units of loads and of the work
+  FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force, FixedPoint energy);
+
+  /// What happens to a particle in a time h under a load, the fluid, and its weight less the displaced fluid's.
+  struct Kick {
+    Vector dv;    ///< change of its velocity, m/s
+    Vector free;  ///< what it would be without drag, m/s
+  };
+  /// U_f is frozen: U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa, kappa = k/M, M the mass with the
+  /// added one, a the acceleration by everything but drag. \param h  s
+  [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
+    const Motion& m = particles.motion[i];
+    const Load& given = particles.load[i];
+    const FluidLoad& f = load[i];
+    const Vector& weight = net_gravity_[std::size_t(particles.species[i])];
+    const double share = 1 / (1 + f.added * m.inverse_mass), per_inertia = m.inverse_mass * share;
+    const double x = f.drag * per_inertia * h, mean = mean_decay(x);
+    Kick kick;
+    for (std::size_t k = 0; k < 3; ++k) {
+      kick.free[k] = h * ((double(given.force[k]) * force_.unit + f.force[k]) * per_inertia + weight[k] * share);
+      kick.dv[k] = mean * (kick.free[k] + x * (f.velocity[k] - m.v[k]));
+    }
+    return kick;
+  }
+  /// Keeps what a kick takes from the fluid, before the velocity changes.
+  void account(const Particles& particles, std::size_t i, const Kick& kick, double h, WorkShare share) {
+    const Motion& m = particles.motion[i];
+    FluidLoad& f = load[i];
+    const double mass = mass_[std::size_t(particles.species[i])], inertia = mass + f.added;
+    const double unit = force_.unit * h;
+    double work = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      f.impulse[k] += inertia * (kick.dv[k] - kick.free[k]) - f.added * kick.dv[k];
+      const double v = m.v[k], dv = kick.dv[k], contacts = double(particles.load[i].force[k]) * unit;
+      work += (v + 0.5 * dv) * mass * dv - (v + share.weight * dv) * mass * (gravity_[k] * h) -
+              (v + share.load * dv) * contacts;
+    }
+    work_.add(work * energy_.per_unit);
+  }
+  /// A change of velocity that the fluid alone has made.
+  void account_answer(const Motion& m, const Vector& dv) {
+    double work = 0;
+    for (std::size_t k = 0; k < 3; ++k) work += (m.v[k] + 0.5 * dv[k]) * dv[k];
+    work_.add(work / m.inverse_mass * energy_.per_unit);
+  }
+
+  /// Other work of the fluid, J.
+  void account_work(double work) { work_.add(work * energy_.per_unit); }
+
+  /// Work of the fluid on this rank's particles since the start, its buoyancy included.
+  [[nodiscard]] const EnergySum& work() const { return work_; }
+  void set_work(const EnergySum& work) { work_ = work; }
+  [[nodiscard]] const Vector& net_gravity(std::int32_t species) const { return net_gravity_[std::size_t(species)]; }
+
+  std::vector<FluidLoad> load;  ///< of the owned particles
+
+ private:
+  Vector gravity_;
+  std::vector<double> mass_;         ///< of each species, kg
+  std::vector<Vector> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
+  FixedPoint force_, energy_;
+  EnergySum work_;
+};
+
+}  // namespace polybed::dem

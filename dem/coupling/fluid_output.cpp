@@ -1,0 +1,95 @@
+#include "dem/coupling/fluid_output.hpp"
+
+#include <algorithm>
+
+#include "closures/sphere.hpp"
+#include "core/numerics/blocks.hpp"
+#include "fluid/profile.hpp"
+
+namespace polybed::dem {
+
+using core::Field;
+using core::Index;
+
+namespace {
+
+std::vector<core::FieldName> field_names(const std::vector<std::string>& species, bool compressible) {
+  std::vector<core::FieldName> names{{"voidage"}, {"pressure"}, {"u_fluid", true}};
+  for (const std::string& name : species) {
+    names.push_back({"phi_" + name});
+    names.push_back({"u_" + name, true});
+  }
+  if (compressible) names.insert(names.end(), {{"total_pressure"}, {"density_fluid"}});
+  return names;
+}
+
+core::FieldValues components(const core::Grid& grid, const core::FaceField& u) {
+  return {u.begin(), u.begin() + grid.dimensions};
+}
+
+/// Share of a cell below which a species counts as absent from it: what a smoothing kernel has left there.
+constexpr double no_particles = 1e-12;
+
+/// 1 - sum phi_j: of a run taken up again, too, before the fluid's next step.
+Field voidage_of(const core::Grid& grid, const std::vector<Field>& fraction) {
+  Field eps = core::make_field(grid, 1);
+  for (const Field& phi : fraction)
+    for (std::size_t c = 0; c < eps.size(); ++c) eps[c] -= phi[c];
+  return eps;
+}
+
+}  // namespace
+
+std::vector<core::FaceField> mean_velocities(const core::Grid& grid, const fluid::Smoothing& smoothing,
+                                             const core::ParticleSnapshot& particles, std::size_t species) {
+  std::vector<core::FaceField> mean(species, core::make_face_field(grid));
+  std::vector<Field> volume(species, core::make_field(grid));
+  const Weights weights(grid);
+  const double least = no_particles * grid.cell_volume();
+  for (std::size_t i = 0; i < particles.id.size(); ++i) {
+    const double v = closures::sphere_volume(particles.radius[i]);
+    const auto j = std::size_t(particles.species[i]);
+    for_each_cell(grid.dimensions, weights(particles.position[i]), [&](std::size_t at, double w) {
+      volume[j][at] += w * v;
+      for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a) mean[j][a][at] += w * v * particles.velocity[i][a];
+    });
+  }
+  for (std::size_t j = 0; j < species; ++j) {
+    if (smoothing.present()) smoothing.smooth_cells(volume[j]);
+    for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a) {
+      if (smoothing.present()) smoothing.smooth_cells(mean[j][a]);
+      for (std::size_t c = 0; c < volume[j].size(); ++c)
+        mean[j][a][c] = volume[j][c] > least ? mean[j][a][c] / volume[j][c] : 0;
+    }
+  }
+  return mean;
+}
+
+FluidOutput::FluidOutput(const Coupling& coupling, std::vector<std::string> species,
+                         const std::filesystem::path& directory, std::optional<double> resume_time)
+    : species_(species.size()),
+      smoothing_(core::whole_column(coupling.flow().grid()), coupling.kernel_width(),
+                 coupling.flow().boundaries().closed()),
+      fields_(directory, core::whole_column(coupling.flow().grid()),
+              field_names(species, coupling.flow().compressible() != nullptr), resume_time) {}
+
+std::vector<std::vector<double>> FluidOutput::profiles(const Coupling::Column& column) {
+  return {fluid::lateral_mean(column.grid, column.pressure),
+          fluid::lateral_mean(column.grid, core::cell_means(column.grid, column.velocity)[1])};
+}
+
+void FluidOutput::write(double time, const Coupling::Column& column, const core::ParticleSnapshot& particles) {
+  const core::Grid& grid = column.grid;
+  const Field voidage = voidage_of(grid, column.fraction);
+  const core::FaceField velocity = core::cell_means(grid, column.velocity);
+  const std::vector<core::FaceField> means = mean_velocities(grid, smoothing_, particles, species_);
+  std::vector<core::FieldValues> values{{voidage}, {column.pressure}, components(grid, velocity)};
+  for (std::size_t j = 0; j < species_; ++j) {
+    values.push_back({column.fraction[j]});
+    values.push_back(components(grid, means[j]));
+  }
+  if (!column.density.empty()) values.insert(values.end(), {{column.total_pressure}, {column.density}});
+  fields_.write_step(time, values);
+}
+
+}  // namespace polybed::dem

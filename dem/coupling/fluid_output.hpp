@@ -1,0 +1,43 @@
+// What a run of particles in a fluid stores of both as averages: fields.h5, and its part of profiles.h5. The names are
+// those of the continuum model, which computes the same quantities.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/output/fields.hpp"
+#include "core/output/particles.hpp"
+#include "dem/coupling/coupling.hpp"
+#include "dem/coupling/weights.hpp"
+#include "fluid/smoothing.hpp"
+
+namespace polybed::dem {
+
+/// Mean velocity, m/s, of each species' particles in cells, [species][axis][cell]: sum w V U over sum w V, with the
+/// weights by which the fluid feels them, and smoothed as it feels them; 0 where there are none.
+[[nodiscard]] std::vector<core::FaceField> mean_velocities(const core::Grid& grid, const fluid::Smoothing& smoothing,
+                                                           const core::ParticleSnapshot& particles,
+                                                           std::size_t species);
+
+/// On the first rank alone.
+class FluidOutput {
+ public:
+  /// Starts fields.h5 in a run directory, or goes on with it from a time, s.
+  FluidOutput(const Coupling& coupling, std::vector<std::string> species, const std::filesystem::path& directory,
+              std::optional<double> resume_time);
+
+  /// Names of its profiles, and their rows: "p", and "u_fluid", the vertical velocity of the fluid itself.
+  [[nodiscard]] static std::vector<std::string> profile_names() { return {"p", "u_fluid"}; }
+  [[nodiscard]] static std::vector<std::vector<double>> profiles(const Coupling::Column& column);
+  /// The fields as they are after the fluid's last step, and the particles' velocities now.
+  void write(double time, const Coupling::Column& column, const core::ParticleSnapshot& particles);
+
+ private:
+  std::size_t species_;
+  fluid::Smoothing smoothing_;
+  core::FieldWriter fields_;
+};
+
+}  // namespace polybed::dem

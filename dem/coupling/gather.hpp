@@ -1,0 +1,86 @@
+// From the fluid to particles: what each of them sees of the fields around it, T(2.4)-(2.10), with the weights it
+// gives.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/numerics/field.hpp"
+#include "dem/coupling/weights.hpp"
+
+namespace polybed::dem {
+
+/// What a particle sees of the solids around it.
+struct Surroundings {
+  double fraction = 0;  ///< phi, all species
+  double per_mean = 0;  ///< sum phi_j/D_j, 1/m
+  double average = 0;   ///< sum phi_j D_j, m
+  double own = 0;       ///< phi of its own species
+};
+
+/// What it sees of the fluid.
+struct Stream {
+  Vector velocity{}, gradient{};  ///< U_f, m/s; grad p, Pa/m
+};
+
+class Gather {
+ public:
+  Gather(const core::Grid& grid, std::vector<double> diameter);
+
+  /// Lays the fields out side by side. \param fraction  phi_j, [species][cell]
+  void take(const std::vector<core::Field>& fraction, const core::FaceField& velocity, const core::FaceField& gradient);
+
+  /// omega in cells, 1/s, for effects that ask for it.
+  void take_vorticity(const std::array<core::Field, 3>& vorticity);
+
+  [[nodiscard]] Lines lines(const Vector& x) const { return weights_(x); }
+  [[nodiscard]] Surroundings solids(const Lines& lines, std::int32_t species) const {
+    Surroundings s;
+    for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
+      const double* cell = cells_.data() + at * width_;
+      s.fraction += w * cell[0];
+      s.per_mean += w * cell[1];
+      s.average += w * cell[2];
+      s.own += w * cell[3 + species];
+    });
+    return s;
+  }
+  [[nodiscard]] Stream stream(const Lines& lines) const {
+    Stream s;
+    for (int axis = 0; axis < weights_.dimensions(); ++axis) {
+      const auto a = std::size_t(axis);
+      for_each_face(weights_.dimensions(), lines, axis, [&](std::size_t at, double w) {
+        s.velocity[a] += w * faces_[a][at][0];
+        s.gradient[a] += w * faces_[a][at][1];
+      });
+    }
+    return s;
+  }
+  /// Only where it was taken.
+  [[nodiscard]] Vector vorticity(const Lines& lines) const {
+    Vector omega{};
+    for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
+      for (std::size_t k = 0; k < 3; ++k) omega[k] += w * vorticity_[at][k];
+    });
+    return omega;
+  }
+  /// Of one field on faces.
+  [[nodiscard]] Vector vector(const Lines& lines, const core::FaceField& field) const {
+    Vector v{};
+    for (int axis = 0; axis < weights_.dimensions(); ++axis) {
+      const auto a = std::size_t(axis);
+      for_each_face(weights_.dimensions(), lines, axis, [&](std::size_t at, double w) { v[a] += w * field[a][at]; });
+    }
+    return v;
+  }
+
+ private:
+  Weights weights_;
+  std::vector<double> diameter_;
+  std::size_t width_;          ///< numbers in a cell
+  std::vector<double> cells_;  ///< [cell]: phi, sum phi_j/D_j, sum phi_j D_j, phi_j of each species
+  std::array<std::vector<std::array<double, 2>>, 3> faces_;  ///< [axis][face]: U_f, grad p
+  std::vector<Vector> vorticity_;                            ///< [cell]; empty unless an effect asks for it
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,20 @@
+// The width over which particles are averaged for the fluid: that of the case, or what suits cells and particles.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/case/scene.hpp"
+
+namespace polybed::dem {
+
+struct Kernel {
+  double width = 0;    ///< full width at half height, m; 0: bilinear weights alone
+  std::string reason;  ///< as people read it
+};
+
+/// \param smallest_cell, largest_diameter  m  \param particles  their number
+[[nodiscard]] Kernel kernel_of(const core::Scene& scene, double smallest_cell, double largest_diameter,
+                               std::int64_t particles);
+
+}  // namespace polybed::dem

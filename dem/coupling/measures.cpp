@@ -1,0 +1,63 @@
+// What is measured of the fluid between particles.
+#include <algorithm>
+
+#include "core/numerics/ranks.hpp"
+#include "dem/coupling/coupling.hpp"
+
+namespace polybed::dem {
+
+using core::Field;
+using core::Index;
+
+/// What the particles' halves of cells at the bottom, and at a closed top, take from the fluid: no fluid moves on those
+/// faces that could show it in its pressure.
+void Coupling::weigh() {
+  const core::Grid& grid = flow_.grid();
+  const double dt = interval();
+  const auto rows = [&](int side) {
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        at_ends_[c] = phase_.impulse[1][c] / dt - (1 - phase_.voidage_on[1][c]) * flow_.gradient()[1][c];
+    });
+  };
+  rows(0);
+  if (flow_.boundaries().closed()) rows(1);
+}
+
+double Coupling::most_solids() const {
+  double most = 0;
+  core::for_each_row(flow_.grid(), [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      double all = 0;
+      for (const Field& phi : fraction_) all += phi[c];
+      most = std::max(most, all);
+    }
+  });
+  return core::greatest_of_ranks(flow_.grid(), most);
+}
+
+double Coupling::pressure_drop() const {
+  const core::Grid& grid = flow_.grid();
+  const double h = grid.spacing[1];
+  const Field& p = flow_.state().pressure;
+  double sum = 0;
+  const auto row = [&](int j, auto&& body) {
+    core::for_each_row(grid, {0, j, 0}, {grid.cells[0], j + 1, grid.cells[2]}, body);
+  };
+  for (const int side : {0, 1})
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += h * at_ends_[c];
+    });
+  if (grid.ends(1, 0))
+    row(0, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += p[c];
+    });
+  const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
+  if (grid.ends(1, 1))
+    row(grid.cells[1] - 1, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum -= share * p[c];
+    });
+  return core::sum_of_ranks(grid, sum) / (double(grid.column_cells(0)) * grid.column_cells(2));
+}
+
+}  // namespace polybed::dem

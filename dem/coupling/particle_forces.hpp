@@ -1,0 +1,56 @@
+// Forces of the averaged fluid on each particle, with the polydisperse composition that it sees, T(2.4)-(2.10).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "closures/drag.hpp"
+#include "core/case/scene.hpp"
+#include "dem/coupling/fluid_motion.hpp"
+#include "dem/coupling/gather.hpp"
+#include "dem/coupling/own_share.hpp"
+
+namespace polybed::dem {
+
+/// How often a law was asked, and how often outside its range.
+struct LawUse {
+  std::uint64_t evaluations = 0, guarded = 0;
+  std::uint64_t clamped_voidage = 0;  ///< voidages beyond what any bed has, held at the bounds for closures
+};
+
+class ParticleForces {
+ public:
+  ParticleForces(const core::Scene& scene, const Materials& materials, double fluid_density, double viscosity);
+
+  /// What each owned particle feels at its place and velocity: all of a FluidLoad but the impulse.
+  /// \param own  null: a particle is part of what it sees
+  void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
+            const OwnShare* own = nullptr);
+
+  [[nodiscard]] bool has_added_mass() const { return added_ != Added::none; }
+  [[nodiscard]] LawUse use() const;
+
+ private:
+  static constexpr std::size_t most = 256;  ///< particles of a batch
+  using Row = std::array<double, most>;
+  enum class Added { none, half, zuber };
+
+  template <class Solids>
+  void find_by(const Particles& particles, const Gather& gather, Solids&& solids, std::vector<FluidLoad>& loads);
+  template <class Solids>
+  void see(const Particles& particles, const Gather& gather, Solids&& solids_at, std::size_t begin, std::size_t count,
+           std::vector<FluidLoad>& loads);
+  void drag(std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
+
+  std::optional<closures::DragLaw> law_;  ///< absent: no drag
+  Added added_ = Added::none;
+  std::vector<double> diameter_;  ///< of each species, m
+  std::vector<double> creeping_;  ///< 3 pi mu D of each species, over the divisor of a gas that slips, kg/s
+  double largest_, fluid_density_, viscosity_;
+  closures::GuardCount count_;
+  std::uint64_t clamped_ = 0;
+  Row voidage_, per_mean_, average_, share_, size_, slip_, stokes_, f_;
+};
+
+}  // namespace polybed::dem

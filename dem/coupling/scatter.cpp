@@ -1,0 +1,151 @@
+#include "dem/coupling/scatter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "closures/sphere.hpp"
+
+namespace polybed::dem {
+
+using core::Field;
+
+Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass,
+                 double all, double speed)
+    : grid_(grid),
+      block_(block),
+      weights_(grid),
+      species_(materials.species()),
+      count_(added_mass ? carry_flux + 1 : yield + 1),
+      width_(std::size_t(grid.dimensions) * count_ + species_.size()) {
+  double lightest = species_.front().density, heaviest = lightest;
+  for (const Species& s : species_) {
+    lightest = std::min(lightest, s.density);
+    heaviest = std::max(heaviest, s.density);
+  }
+  // The greatest that each sum can be if all particles were in one place, and what speeds may exceed expectations by.
+  constexpr double reserve = 64;
+  const double mass = all * heaviest;
+  for (const double most :
+       {all, all * speed * reserve, mass * speed * reserve, mass * reserve, all, all, all / lightest, mass, all})
+    unit_.push_back(FixedPoint::for_sums_of(most, 1));
+  sums_.resize(grid.padded_size() * width_);
+}
+
+void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
+  std::fill(sums_.begin(), sums_.end(), 0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const Motion& m = particles.motion[i];
+    const FluidLoad& f = loads[i];
+    const double v = closures::sphere_volume(particles.place[i].radius), mass = 1 / m.inverse_mass,
+                 inertia = mass + f.added;
+    const double x = f.drag * dt / inertia, s = mean_decay(x), g = x * s, a = f.added / inertia * s;
+    const std::array<double, 6> same{mass * (g + a),      v * (g + a), v * (1 - mass / inertia * s),
+                                     v * v * s / inertia, mass * a,    v * a};
+    add(particles.place[i], same, m.v, f.impulse, std::size_t(particles.species[i]));
+  }
+}
+
+void Scatter::collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
+                           double dt) {
+  fit_units(ranks, loads, dt);
+  std::fill(sums_.begin(), sums_.end(), 0);
+  for (std::size_t i = 0; i < particles.owned; ++i)
+    add(particles.place[i], {loads[i].drag * dt, 0, 0, 0, 0, 0}, {}, loads[i].impulse,
+        std::size_t(particles.species[i]));
+}
+
+/// No mass bounds what held particles take in a step: units that hold the greatest of each, times their number, which
+/// are the same on any number of ranks.
+void Scatter::fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt) {
+  double most_drag = 0, most_impulse = 0;
+  for (const FluidLoad& f : loads) {
+    most_drag = std::max(most_drag, f.drag * dt);
+    for (const double i : f.impulse) most_impulse = std::max(most_impulse, std::abs(i));
+  }
+  std::array<double, 1> number{double(loads.size())};
+  core::add_over_ranks(ranks, number);
+  most_drag = core::greatest_of_ranks(ranks, most_drag);
+  most_impulse = core::greatest_of_ranks(ranks, most_impulse);
+  if (most_drag > 0) unit_[Sum::drag] = FixedPoint::for_sums_of(most_drag, number[0]);
+  if (most_impulse > 0) unit_[Sum::impulse] = FixedPoint::for_sums_of(most_impulse, number[0]);
+}
+
+/// \param same  drag, follow, slide, yield, carry, carry_flux: alike on the faces of all axes
+void Scatter::add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
+                  std::size_t species) {
+  const Lines lines = weights_(place.x);
+  const double v = closures::sphere_volume(place.radius);
+  std::array<double, 9> units{};
+  units[Sum::volume] = v * unit_[Sum::volume].per_unit;
+  for (std::size_t q = drag; q < count_; ++q) units[q] = same[q - drag] * unit_[q].per_unit;
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    units[flux] = v * velocity[a] * unit_[flux].per_unit;
+    units[Sum::impulse] = impulse[a] * unit_[Sum::impulse].per_unit;
+    for_each_face(grid_.dimensions, lines, axis, [&](std::size_t at, double w) {
+      std::int64_t* sum = sums_.data() + at * width_ + a * count_;
+      for (std::size_t q = 0; q < count_; ++q) sum[q] += std::int64_t(w * units[q]);
+    });
+  }
+  const std::size_t cell = std::size_t(grid_.dimensions) * count_ + species;
+  for_each_cell(grid_.dimensions, lines,
+                [&](std::size_t at, double w) { sums_[at * width_ + cell] += std::int64_t(w * units[Sum::volume]); });
+}
+
+/// Sums over all ranks. A column is mostly empty above its bed: only what lies between entries that any rank has filled
+/// is sent.
+void Scatter::add_up(const core::Ranks* ranks) {
+  if (ranks == nullptr) return;
+  const auto filled = [](std::int64_t sum) { return sum != 0; };
+  const auto first = std::find_if(sums_.begin(), sums_.end(), filled);
+  const auto last = std::find_if(sums_.rbegin(), sums_.rend(), filled).base();
+  const auto begin = std::size_t(-core::greatest_of_ranks(ranks, -double(first - sums_.begin())));
+  const auto end = std::size_t(core::greatest_of_ranks(ranks, double(last - sums_.begin())));
+  if (begin < end) core::add_over_ranks(ranks, std::span(sums_).subspan(begin, end - begin));
+}
+
+void Scatter::give(const core::Ranks* ranks, const GridExchange* exchange, bool open_top, fluid::ParticlePhase& phase,
+                   std::vector<Field>& fraction) {
+  if (exchange != nullptr) {
+    shared_.resize(block_.padded_size() * width_);
+    exchange->add(width_, sums_, shared_);
+  } else {
+    add_up(ranks);
+  }
+  const std::span<const std::int64_t> sums = exchange != nullptr ? shared_ : sums_;
+  const double per_cell = 1 / grid_.cell_volume(), unit = unit_[volume].unit * per_cell;
+  std::fill(phase.voidage.begin(), phase.voidage.end(), 1.0);
+  for (std::size_t j = 0; j < species_.size(); ++j) {
+    const std::size_t cell = std::size_t(grid_.dimensions) * count_ + j;
+    for (std::size_t c = 0; c < block_.padded_size(); ++c) {
+      fraction[j][c] = double(sums[c * width_ + cell]) * unit;
+      phase.voidage[c] -= fraction[j][c];
+    }
+  }
+  give_faces(sums, open_top, phase);
+}
+
+void Scatter::give_faces(std::span<const std::int64_t> sums, bool open_top, fluid::ParticlePhase& phase) const {
+  const double per_cell = 1 / grid_.cell_volume();
+  const std::array<core::FaceField*, 9> fields{&phase.voidage_on, &phase.flux,   &phase.impulse,
+                                               &phase.drag,       &phase.follow, &phase.slide,
+                                               &phase.yield,      &phase.carry,  &phase.carry_flux};
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    for (std::size_t q = 0; q < count_; ++q) {
+      Field& field = (*fields[q])[a];
+      const double unit = unit_[q].unit * per_cell;
+      for (std::size_t c = 0; c < field.size(); ++c) field[c] = double(sums[c * width_ + a * count_ + q]) * unit;
+    }
+    // The faces of the outlet stand for half a cell.
+    if (axis == 1 && open_top && block_.ends(1, 1))
+      core::for_each_row(block_, {0, block_.cells[1], 0}, {block_.cells[0], block_.cells[1] + 1, block_.cells[2]},
+                         [&](core::Index begin, core::Index end) {
+                           for (std::size_t q = 0; q < count_; ++q)
+                             for (auto c = std::size_t(begin); c < std::size_t(end); ++c) (*fields[q])[1][c] *= 2;
+                         });
+    for (double& eps : phase.voidage_on[a]) eps = 1 - eps;
+  }
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,51 @@
+// From particles to the fluid: their volumes in cells and what they answer on faces, T(2.9), as sums in whole units, so
+// that they depend neither on the order of the particles nor on how many ranks share them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/numerics/ranks.hpp"
+#include "dem/coupling/fluid_motion.hpp"
+#include "dem/coupling/weights.hpp"
+#include "dem/parallel/grid_exchange.hpp"
+#include "fluid/particle_phase.hpp"
+
+namespace polybed::dem {
+
+class Scatter {
+ public:
+  /// \param grid  of the whole column  \param block  that this rank's fluid has, or the column
+  /// \param volume  of all particles, m3  \param speed  greatest expected, m/s
+  Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass, double volume,
+          double speed);
+
+  /// Sums over this rank's particles. \param dt  of the fluid's step, s
+  void collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt);
+  /// The same of a fixed bed, whose particles take drag and do not move. Collective.
+  void collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
+                    double dt);
+  /// Collective: sums over all ranks, per volume of a cell. \param open_top  the faces at the top move
+  /// \param exchange  with the owners of the blocks; null: every rank has the whole column
+  void give(const core::Ranks* ranks, const GridExchange* exchange, bool open_top, fluid::ParticlePhase& phase,
+            std::vector<core::Field>& fraction);
+
+ private:
+  /// What stands on a face, in this order.
+  enum Sum { volume, flux, impulse, drag, follow, slide, yield, carry, carry_flux };
+
+  void fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt);
+  void add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
+           std::size_t species);
+  void add_up(const core::Ranks* ranks);
+  void give_faces(std::span<const std::int64_t> sums, bool open_top, fluid::ParticlePhase& phase) const;
+
+  core::Grid grid_, block_;
+  Weights weights_;
+  std::vector<Species> species_;
+  std::size_t count_, width_;                ///< sums on a face, and on all faces and the cell of an entry
+  std::vector<FixedPoint> unit_;             ///< of each
+  std::vector<std::int64_t> sums_, shared_;  ///< [entry][axis, sum; species]; of the column, and of a block
+};
+
+}  // namespace polybed::dem

@@ -1,0 +1,97 @@
+#include "dem/effects/side_forces.hpp"
+
+#include <algorithm>
+
+#include "dem/effects/brownian.hpp"
+#include "dem/effects/history.hpp"
+#include "dem/effects/lift.hpp"
+#include "dem/effects/magnus.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+bool calls_for(const core::Scene& scene, const std::string& role) { return core::law_of(scene, role) != "none"; }
+
+}  // namespace
+
+SideForces::SideForces(const core::Scene& scene, const Materials& materials, double density, double viscosity,
+                       double dt, double interval)
+    : dt_(dt) {
+  if (calls_for(scene, "lift")) effects_.push_back(std::make_unique<Lift>(materials, density, viscosity));
+  if (calls_for(scene, "magnus")) effects_.push_back(std::make_unique<Magnus>(materials, density, viscosity, dt));
+  // Those with a memory have their places in it one behind the other.
+  if (calls_for(scene, "history"))
+    effects_.push_back(std::make_unique<History>(materials, density, viscosity, interval, memory_end(),
+                                                 calls_for(scene, "added_mass")));
+  if (calls_for(scene, "brownian"))
+    effects_.push_back(std::make_unique<Brownian>(scene.fluid.temperature.value(), scene.bed.seed, dt, memory_end()));
+  if (effects_.empty()) return;
+  rows_.width = memory_end();
+  for (const auto& effect : effects_) needs_vorticity_ |= effect->needs_vorticity();
+}
+
+/// Behind the force and what the effects so far keep.
+std::size_t SideForces::memory_end() const {
+  std::size_t end = SideRows::force_size;
+  for (const auto& effect : effects_) end += effect->memory_size();
+  return end;
+}
+
+bool SideForces::has_inertia() const {
+  return std::any_of(effects_.begin(), effects_.end(), [](const auto& effect) { return effect->has_inertia(); });
+}
+
+SideView SideForces::look(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {
+  if (needs_vorticity_) {
+    vorticity_.resize(particles.owned);
+    for (std::size_t i = 0; i < particles.owned; ++i)
+      vorticity_[i] = gather.vorticity(gather.lines(particles.place[i].x));
+  }
+  return {particles, loads, vorticity_};
+}
+
+/// The forces where the particles are now, in place of those before.
+void SideForces::replace(const SideView& view) {
+  for (std::size_t i = 0; i < view.loads.size(); ++i) std::fill_n(rows_.of(i), SideRows::force_size, 0.0);
+  for (const auto& effect : effects_) effect->add(view, rows_);
+  for (std::size_t i = 0; i < view.loads.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) view.loads[i].force[k] += rows_.of(i)[k];
+}
+
+void SideForces::add_impulse(std::span<FluidLoad> loads, double time) const {
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) loads[i].impulse[k] += time * rows_.of(i)[k];
+}
+
+void SideForces::begin(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {
+  if (!present()) return;
+  rows_.clear(particles.owned);
+  const SideView view = look(particles, gather, loads);
+  for (const auto& effect : effects_) effect->begin(view, rows_);
+  replace(view);
+}
+
+void SideForces::find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {
+  if (!present()) return;
+  add_impulse(loads, 0.5 * dt_);  // of the half kick that has been
+  replace(look(particles, gather, loads));
+  add_impulse(loads, 0.5 * dt_);  // of the one that comes
+}
+
+void SideForces::refresh(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {
+  if (!present()) return;
+  const SideView view = look(particles, gather, loads);
+  for (const auto& effect : effects_) effect->end_interval(view, rows_);
+  replace(view);
+}
+
+void SideForces::hold(std::vector<FluidLoad>& loads) const {
+  if (present()) add_impulse(loads, dt_);
+}
+
+void SideForces::turn(Particles& particles, FluidMotion& motion) {
+  for (const auto& effect : effects_) effect->turn(vorticity_, particles, motion);
+}
+
+}  // namespace polybed::dem
