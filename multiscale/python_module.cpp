@@ -1,16 +1,19 @@
 #include "multiscale/python_module.hpp"
 
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <system_error>
 #include <vector>
 
+#include "core/error.hpp"
 #include "multiscale/child_program.hpp"
 #include "multiscale/installed.hpp"
 
@@ -20,6 +23,13 @@ namespace {
 
 /// Debian's own Python: another one may come first on the path and lack the packages.
 constexpr const char* python = "/usr/bin/python3";
+
+std::vector<std::string> words_of(const std::string& module, const std::vector<std::string>& arguments) {
+  const std::filesystem::path package = beside_program(POLYBED_PYTHON_INSTALLED, POLYBED_PYTHON_SOURCE) / "polybed";
+  std::vector<std::string> words{python, "-I", package / "isolated.py", module};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
 
 /// Starts a program whose output goes into a pipe, or where ours goes if there is none; 0 or why it did not start.
 int start(std::vector<std::string> arguments, const std::optional<std::array<int, 2>>& pipe, pid_t& child) {
@@ -58,9 +68,7 @@ int wait_for(pid_t child) {
 }  // namespace
 
 PythonEnd run_python(const std::string& module, const std::vector<std::string>& arguments, PythonOutput output) {
-  const std::filesystem::path package = beside_program(POLYBED_PYTHON_INSTALLED, POLYBED_PYTHON_SOURCE) / "polybed";
-  std::vector<std::string> words{python, "-I", package / "isolated.py", module};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> words = words_of(module, arguments);
   PythonEnd end;
   std::optional<std::array<int, 2>> pipe;
   if (output == PythonOutput::keep && ::pipe(pipe.emplace().data()) != 0) {
@@ -79,6 +87,14 @@ PythonEnd run_python(const std::string& module, const std::vector<std::string>& 
   else
     end.code = wait_for(child);
   return end;
+}
+
+void become_python(const std::string& module, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = words_of(module, arguments);
+  ::setenv("POLYBED", this_program().c_str(), 1);
+  ::execv(python, pointers_to(words).data());
+  throw core::FileError(
+      fmt::format("cannot start {}: {}; {}", python, std::system_category().message(errno), python_packages));
 }
 
 }  // namespace polybed::multiscale

@@ -21,6 +21,10 @@ enum class PythonOutput { keep, show };
 [[nodiscard]] PythonEnd run_python(const std::string& module, const std::vector<std::string>& arguments,
                                    PythonOutput output);
 
+/// Becomes a module of the package: the study of a command that is written in Python. The module finds this program in
+/// the environment's POLYBED. Throws core::FileError if Python cannot be started.
+[[noreturn]] void become_python(const std::string& module, const std::vector<std::string>& arguments);
+
 /// The line that installs what the package needs.
 constexpr const char* python_packages = "apt-get install python3 python3-numpy python3-h5py python3-matplotlib";
 
