@@ -19,7 +19,7 @@ with needed(__name__ == "__main__"):
     from polybed.drawing import animation, fields, history, overview, particles, profiles
     from polybed.drawing.style import STYLE
     from polybed.files import FAULTS, contents_of
-    from polybed.read import nearest, read
+    from polybed.read import Snapshot, nearest
 
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
 WRONG_COMMAND, STOPPED = 2, 130
@@ -65,7 +65,7 @@ def kinds_of(run):
 
 def picture(directory, time=None, output=None):
     """Draws a run at a time (the last one if None) in one picture, and returns its path."""
-    run = read(directory)
+    run = Snapshot(directory)
     with plt.rc_context(STYLE):
         step = step_of(run, time)
         with contents_of(run.directory):
@@ -101,7 +101,7 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
 
 def pictures(directory, what=None, time=None, out=None, ending="png", rate=None, progress=None):
     """Draws the chosen pictures of a run (all that it holds) into a folder (RUN/pictures) and returns their paths."""
-    run = read(directory)
+    run = Snapshot(directory)
     what = kinds_of(run) if what is None else what
     step_of(run, time)
     folder = Path(out) if out else run.directory / "pictures"

@@ -12,6 +12,8 @@
 Nothing is read before it is asked for, and a run that is still going on can be read: each file is whole.
 """
 
+import functools
+
 import numpy as np
 
 from polybed import quantities
@@ -158,6 +160,13 @@ class Run:
         if len(self.time) == 0:
             raise IndexError(f"{self.directory} has no stored fields yet")
         return nearest(self.time, time)
+
+
+class Snapshot(Run):
+    """A run whose history and profiles are read once: a picture of a run that goes on shows one state of it."""
+
+    history = functools.cached_property(Run.history.fget)
+    profiles = functools.cached_property(Run.profiles.fget)
 
 
 def read(directory):

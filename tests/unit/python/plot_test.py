@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
@@ -266,6 +267,20 @@ class Particles(SampleRun):
         lines = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
         self.assertEqual(lines["carried out"][-1], -0.5)
         np.testing.assert_allclose(lines["does not close"], 0, atol=1e-14)
+
+    def test_a_history_that_grows_while_it_is_drawn(self):
+        path, read_text = self.directory / "history.csv", polybed.read.__globals__["read_text"]
+        last = path.read_text().splitlines()[-1].split(",")
+
+        def grown(file):
+            if file == path:
+                last[0] = repr(float(last[0]) + 1)
+                path.write_text(path.read_text() + ",".join(last) + "\n")
+            return read_text(file)
+
+        with unittest.mock.patch.dict(polybed.read.__globals__, read_text=grown):
+            paths = plot.pictures(self.directory, ("history",))
+        self.assertEqual([p.name for p in paths], ["history.png"])
 
     def test_temperature_stands_where_there_is_no_pressure(self):
         figure = profiles.draw(self.sample, 1)
