@@ -157,13 +157,13 @@ void ends_of_coefficients(Trial& trial) {
 
 std::vector<HardCase> box_cases() {
   const std::vector<Treatment> dem{{"particles", "", ""}};
-  return {{"D9", "a cooling gas", {"float_sums"}, dem, cooling_gas, false},
+  return {{"D9", "a cooling granular gas", {"float_sums"}, dem, cooling_gas, false},
           {"D10", "100 m/s at a wall", {"fixed_dt"}, dem, too_fast, false},
           {"D11", "a box joined across two diameters", {"one_image"}, dem, shallow_box},
           {"D12", "places at exactly 0 and L, and far out", {}, dem, on_the_edge},
           {"D13", "no wall, no force", {}, dem, no_force_without_overlap, false},
           {"D14", "two centres in one place", {}, dem, one_place},
-          {"D15", "ends of friction and restitution", {}, dem, ends_of_coefficients}};
+          {"D15", "extremes of friction and restitution", {}, dem, ends_of_coefficients}};
 }
 
 }  // namespace polybed::hard

@@ -162,7 +162,7 @@ std::vector<HardCase> fluidised_cases() {
            all_schemes(),
            [](Trial& trial) { steel_in_air(trial, false); }},
           {"T4 balance",
-           "the same as it slugs, pressure drop against weight (V7)",
+           "slugging steel in air: pressure drop against weight",
            {"advective_momentum"},
            all_schemes(),
            [](Trial& trial) { steel_in_air(trial, true); }},

@@ -161,16 +161,16 @@ void absurd(Trial& trial) { refused(trial, sound_case("diameter = \"0.8 mm\"", "
 
 std::vector<HardCase> input_cases() {
   const std::vector<Treatment> input{{"input", "", ""}};
-  return {{"I1", "numbers that are none", {}, input, no_numbers},
-          {"I2", "numbers that cannot be", {}, input, impossible_numbers},
+  return {{"I1", "values that are not numbers", {}, input, no_numbers},
+          {"I2", "impossible values", {}, input, impossible_numbers},
           {"I3", "units missing or mixed", {}, input, units},
-          {"I4", "denser than packed", {}, input, too_dense},
+          {"I4", "beds denser than spheres pack", {}, input, too_dense},
           {"I5", "an inlet beyond all bounds", {}, input, too_fast_inlet},
           {"I6", "unknown keys and laws", {}, input, unknown_key},
-          {"I7", "no size, or more than memory", {}, input, no_size},
+          {"I7", "no size, or more cells than memory", {}, input, no_size},
           {"I8", "checkpoints cut or changed", {}, input, cut_checkpoint},
           {"I9", "line ends, keys twice, huge files", {}, input, odd_files},
-          {"I10", "legal and absurd", {}, input, absurd}};
+          {"I10", "legal but absurd cases", {}, input, absurd}};
 }
 
 }  // namespace polybed::hard

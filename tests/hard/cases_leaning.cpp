@@ -97,8 +97,14 @@ std::vector<HardCase> leaning_cases() {
            {"central_flux"},
            all_schemes(),
            three_cells},
-          {"T14 rate", "its settling rate, three cells wide", {}, implicit, [](Trial& t) { rate_of_settling(t, 3); }},
-          {"T14 fine", "the same, 24 cells wide", {}, implicit, [](Trial& t) { rate_of_settling(t, 24); }}};
+          {"T14 rate",
+           "settling rate in a leaning channel, three cells wide",
+           {},
+           implicit,
+           [](Trial& t) { rate_of_settling(t, 3); }},
+          {"T14 fine", "settling rate in a leaning channel, 24 cells wide", {}, implicit, [](Trial& t) {
+             rate_of_settling(t, 24);
+           }}};
 }
 
 }  // namespace polybed::hard

@@ -186,14 +186,15 @@ void hangs_by_friction(Trial& trial) {
 
 std::vector<HardCase> particle_cases() {
   const std::vector<Treatment> dem{{"particles", "", ""}};
-  std::vector<HardCase> cases{{"D1", "start with overlaps of half a diameter", {"fixed_dt"}, dem, overlapping_start},
-                              {"D2", "steps around the limit", {}, dem, at_the_limit},
-                              {"D3", "Young's modulus 1e7 to 2e11 Pa", {"fixed_dt"}, dem, any_stiffness},
-                              {"D4", "a small sphere on a large one", {}, dem, small_on_large},
-                              {"D5", "grazing elastic impacts", {}, dem, grazing_impacts},
-                              {"D6", "a corner of three walls", {"one_wall"}, dem, corner_of_three},
-                              {"D7", "dense shear", {}, dem, dense_shear},
-                              {"D8", "held between walls by friction", {"lost_history"}, dem, hangs_by_friction}};
+  std::vector<HardCase> cases{
+      {"D1", "start with overlaps of half a diameter", {"fixed_dt"}, dem, overlapping_start},
+      {"D2", "time steps around the limit of stability", {}, dem, at_the_limit},
+      {"D3", "Young's modulus 1e7 to 2e11 Pa", {"fixed_dt"}, dem, any_stiffness},
+      {"D4", "a small sphere on a large one", {}, dem, small_on_large},
+      {"D5", "grazing elastic impacts", {}, dem, grazing_impacts},
+      {"D6", "a corner of three walls", {"one_wall"}, dem, corner_of_three},
+      {"D7", "dense shear flow of particles", {}, dem, dense_shear},
+      {"D8", "a particle held between walls by friction", {"lost_history"}, dem, hangs_by_friction}};
   for (HardCase& one : box_cases()) cases.push_back(std::move(one));
   return cases;
 }

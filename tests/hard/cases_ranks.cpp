@@ -252,14 +252,14 @@ void many_messages(Trial& trial) {
 std::vector<HardCase> rank_cases() {
   const std::vector<Treatment> ranks{{"ranks", "", ""}};
   return {{"P1", "a rank without particles", {}, ranks, rank_without_particles},
-          {"P2", "all on one rank", {}, ranks, all_on_one_rank},
+          {"P2", "all particles on one rank", {}, ranks, all_on_one_rank},
           {"P3", "migration over ranks", {}, ranks, crossing_ranks},
-          {"P4", "five ranks", {}, ranks, odd_numbers},
+          {"P4", "particles on five ranks", {}, ranks, odd_numbers},
           {"P5", "slabs thinner than a sphere", {}, ranks, thin_slabs},
           {"P6", "friction across a slab and a corner", {}, ranks, friction_across_faces},
-          {"P7", "taken up on other numbers of ranks", {}, ranks, other_numbers, false},
+          {"P7", "restarted on other numbers of ranks", {}, ranks, other_numbers, false},
           {"P8", "a rank killed in mid-run", {}, ranks, killed, false},
-          {"P9", "order of sums", {"float_sums"}, ranks, order_of_sums},
+          {"P9", "sums that must not depend on their order", {"float_sums"}, ranks, order_of_sums},
           {"P10", "a hundred thousand steps of messages", {}, ranks, many_messages, false}};
 }
 

@@ -123,7 +123,7 @@ std::vector<HardCase> settling_cases() {
            all_schemes(),
            [](Trial& trial) { settle_and_hold(trial, 4, false); }},
           {"T3 rest",
-           "the same, at rest in the end (V6)",
+           "settle to the maximum packing, then rest",
            {},
            all_schemes(),
            [](Trial& trial) { settle_and_hold(trial, 4, true); }},

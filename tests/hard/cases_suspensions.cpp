@@ -179,13 +179,13 @@ void impact_in_liquid(Trial& trial) {
 std::vector<HardCase> suspension_cases() {
   const std::vector<Treatment> coupled{{"coupled", "", ""}};
   return {{"C1", "a sphere larger than its cells", {"pcm_void"}, coupled, larger_than_cells},
-          {"C4", "light spheres are let go", {"added_mass_lagged"}, coupled, light_spheres},
+          {"C4", "release of spheres lighter than the fluid", {"added_mass_lagged"}, coupled, light_spheres},
           {"C5", "steps of six to a thousand relaxation times", {"drag_explicit"}, coupled, stiff_drag},
           {"C6", "1 to 1000 solid steps to a fluid step", {"last_substep"}, coupled, many_steps_to_one},
           {"C7", "drag at a solids fraction of 0.80", {"raw_drag"}, coupled, beyond_packing},
-          {"C8", "neutrally buoyant and at rest", {"double_buoyancy"}, coupled, neutral_at_rest},
-          {"C9", "a held bed at any velocity", {}, coupled, held_bed, false},
-          {"C10", "impact in a liquid", {"dry_restitution"}, coupled, impact_in_liquid, false}};
+          {"C8", "neutrally buoyant particles at rest", {"double_buoyancy"}, coupled, neutral_at_rest},
+          {"C9", "flow through fixed particles at any velocity", {}, coupled, held_bed, false},
+          {"C10", "impact of a sphere in a liquid", {"dry_restitution"}, coupled, impact_in_liquid, false}};
 }
 
 }  // namespace polybed::hard

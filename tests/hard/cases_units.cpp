@@ -140,8 +140,8 @@ void coupled(Trial& trial) {
 
 std::vector<HardCase> unit_cases() {
   return {{"V12", "the same bed in other units", {"hidden_unit"}, all_schemes(), continuum},
-          {"V12 beads", "the same particles in other units", {}, {{"particles", "", ""}}, particles},
-          {"V12 wet", "the same, in a fluid", {}, {{"coupled", "", ""}}, coupled}};
+          {"V12 beads", "dry particles in other units", {}, {{"particles", "", ""}}, particles},
+          {"V12 wet", "particles in a fluid in other units", {}, {{"coupled", "", ""}}, coupled}};
 }
 
 }  // namespace polybed::hard

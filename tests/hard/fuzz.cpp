@@ -197,13 +197,29 @@ std::string kind_of(const Result& result) {
   return kind;
 }
 
+namespace {
+
+/// What expected.toml of a kept case says of a key; empty if it does not.
+std::string expected(const fs::path& folder, const std::string& key) {
+  std::ifstream file(folder / "expected.toml");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t begin = line.find('"'), end = line.find('"', begin + 1);
+    if (line.starts_with(key + " =") && end != std::string::npos) return line.substr(begin + 1, end - begin - 1);
+  }
+  return "";
+}
+
+}  // namespace
+
 fs::path keep(const Found& found, std::uint64_t seed, const fs::path& directory) {
   fs::path folder;
   for (int n = 1; folder.empty() || fs::exists(folder); ++n) folder = directory / fmt::format("{:03}", n);
   core::make_directories(folder);
   core::write_atomically(folder / "case.toml", case_text(found.draw));
-  core::write_atomically(folder / "expected.toml",
-                         "outcome = \"PASS\"  # once it is mended; or REFUSED, if refusing it is right\n");
+  core::write_atomically(
+      folder / "expected.toml",
+      fmt::format("outcome = \"PASS\"  # or REFUSED, if that is the right answer\ntitle = \"found by seed {}\"\n",
+                  seed));
   core::write_atomically(folder / "README.md", cause_page(found, seed));
   return folder;
 }
@@ -221,17 +237,13 @@ std::vector<HardCase> kept_cases(const fs::path& directory) {
           core::read_case(folder / "case.toml", {}, multiscale::all_roles(), multiscale::size_classes);
       run_scene(trial, scene, longest);
     };
-    cases.push_back({"F" + folder.filename().string(), "found by drawing", {}, {{"case", "", ""}}, work});
+    cases.push_back({"F" + folder.filename().string(), expected(folder, "title"), {}, {{"case", "", ""}}, work});
   }
   return cases;
 }
 
 std::string kept_outcome(const fs::path& directory, const std::string& id) {
-  std::ifstream file(directory / id.substr(1) / "expected.toml");
-  std::string text;
-  std::getline(file, text);
-  const std::size_t begin = text.find('"'), end = text.find('"', begin + 1);
-  return end == std::string::npos ? "" : text.substr(begin + 1, end - begin - 1);
+  return expected(directory / id.substr(1), "outcome");
 }
 
 }  // namespace polybed::hard

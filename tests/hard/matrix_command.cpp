@@ -31,7 +31,6 @@ core::ExitCode run_matrix(const Options& options) {
       cell.expected = kept_outcome(kept, cell.one.id);
   const fs::path directory = options.output.empty() ? fs::path("runs/stability") : options.output;
   const core::OutputDirectory taken(directory);
-  if (!options.json) core::print("{}\n", table_header());
   const auto show = [&](std::size_t begin, std::size_t count) {
     if (options.json) return;
     core::print("{}\n", table_lines(std::span(cells).subspan(begin, count)));

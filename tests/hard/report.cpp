@@ -15,31 +15,19 @@ namespace polybed::hard {
 
 namespace {
 
-constexpr std::array<const char*, 5> columns{"implicit/limited", "explicit/limited", "explicit/upwind", "other schemes",
-                                             "textbook"};
-constexpr int case_width = 34, column_width = 29;
-
-std::size_t column_of(const Cell& cell) {
-  if (!cell.treatment.naive.empty()) return 4;
-  const auto found = std::find(columns.begin(), columns.begin() + 3, cell.treatment.name());
-  return std::size_t(found - columns.begin());
-}
-
 /// A share of a limit; beyond a limit of nothing there is no number.
 std::string share_text(const Measured& m) { return m.share() >= 1e290 ? "!" : fmt::format("{:.1g}", m.share()); }
 
+/// One line of the table on the screen: treatment, outcome, the furthest invariant over its limit, least step, cost.
 std::string cell_text(const Cell& cell) {
   const Result& r = cell.result;
-  std::string text = name_of(r.outcome);
-  if (!cell.treatment.naive.empty())
-    text = cell.treatment.naive + " " + text;
-  else if (columns[column_of(cell)] != cell.treatment.name())
-    text = cell.treatment.name() + " " + text;
-  const std::string id = r.worst.id.substr(0, r.worst.id.find(' '));
-  if (!id.empty()) text += fmt::format(" {} {}", id, share_text(r.worst));
-  if (cell.treatment.naive.empty() && r.least_step > 0) text += fmt::format(" dt {:.0e}", r.least_step);
-  if (cell.cost > 0 && cell.treatment.naive.empty()) text += fmt::format(" {:.1f}x", cell.cost);
-  return text + (cell.as_expected() ? "" : " <--");
+  const bool product = cell.treatment.naive.empty();
+  const std::string name = product ? cell.treatment.name() : "textbook: " + cell.treatment.naive;
+  std::string text = fmt::format("    {:<32} {:<8}", name, name_of(r.outcome));
+  if (!r.worst.id.empty()) text += fmt::format("  {}: {} of its limit", r.worst.id, share_text(r.worst));
+  if (product && r.least_step > 0) text += fmt::format(", least step {:.0e} s", r.least_step);
+  if (product && cell.cost > 0) text += fmt::format(", cost {:.1f}", cell.cost);
+  return text + (cell.as_expected() ? "" : "  <-- expected " + cell.expected);
 }
 
 std::string quoted(const std::string& text) {
@@ -151,25 +139,9 @@ std::string markdown(std::span<const Cell> cells, const std::string& suite) {
 
 }  // namespace
 
-std::string table_header() {
-  std::string text = fmt::format("{:{}}", "case", case_width);
-  for (const char* column : columns) text += fmt::format(" {:{}}", column, column_width);
-  return text;
-}
-
 std::string table_lines(std::span<const Cell> cells) {
-  std::array<std::vector<std::string>, columns.size()> stacks;
-  for (const Cell& cell : cells) stacks[column_of(cell)].push_back(cell_text(cell));
-  std::size_t height = 1;
-  for (const auto& stack : stacks) height = std::max(height, stack.size());
-  std::string text;
-  for (std::size_t line = 0; line < height; ++line) {
-    std::string row = fmt::format(
-        "{:{}}", line > 0 ? "" : (cells[0].one.id + " " + cells[0].one.title).substr(0, case_width), case_width);
-    for (const auto& stack : stacks) row += fmt::format(" {:{}}", line < stack.size() ? stack[line] : "", column_width);
-    while (row.back() == ' ') row.pop_back();
-    text += row + (line + 1 < height ? "\n" : "");
-  }
+  std::string text = fmt::format("{} ({})", cells[0].one.title, cells[0].one.id);
+  for (const Cell& cell : cells) text += "\n" + cell_text(cell);
   return text;
 }
 

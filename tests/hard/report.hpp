@@ -11,10 +11,8 @@
 
 namespace polybed::hard {
 
-/// Columns of the table on the screen.
-[[nodiscard]] std::string table_header();
-/// The lines of one case: outcome, furthest invariant over its limit, least step, cost over that of the cheapest
-/// scheme.
+/// The lines of one case: what it is, then for each treatment the outcome, the furthest invariant over its limit, the
+/// least step and the cost over that of the cheapest scheme that passes.
 [[nodiscard]] std::string table_lines(std::span<const Cell> cells);
 /// Every cell that is not as expected, and every textbook treatment that passes, a line each; empty if there is none.
 [[nodiscard]] std::vector<std::string> differences(std::span<const Cell> cells);

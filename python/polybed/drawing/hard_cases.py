@@ -1,4 +1,4 @@
-"""The matrix of hard cases as a map: one row per case, one column per scheme, colour by how near to a limit it came."""
+"""The matrix of hard cases as a map: a row for each case, a column for each scheme, the colour by how near to a limit it came."""
 
 import math
 
@@ -8,15 +8,18 @@ import matplotlib.pyplot as plt
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.patches import Rectangle
 
-COLUMNS = ("implicit/limited", "explicit/limited", "explicit/upwind", "other schemes", "textbook")
+SCHEMES = ("implicit/limited", "explicit/limited", "explicit/upwind")
+COLUMNS = ("implicit", "explicit", "explicit, upwind", "textbook")
 LEAST, MOST = -4.0, 4.0  # log10 of value over limit, beyond which the colour stays
 WORST_FIRST = ("FAIL", "REFUSED", "DEGRADED", "PASS")
+STACKS = 3  # of rows side by side, so that the picture fits a screen
 
 
-def column_of(cell):
+def place_of(cell):
+    """(first column, number of columns): schemes of the two-fluid model have one each, what has no choice of schemes all three."""
     if cell["naive"]:
-        return COLUMNS.index("textbook")
-    return COLUMNS.index(cell["scheme"]) if cell["scheme"] in COLUMNS[:3] else COLUMNS.index("other schemes")
+        return len(SCHEMES), 1
+    return (SCHEMES.index(cell["scheme"]), 1) if cell["scheme"] in SCHEMES else (0, len(SCHEMES))
 
 
 def share(cell):
@@ -32,40 +35,49 @@ def worst(cells):
     return min(cells, key=lambda cell: (WORST_FIRST.index(cell["outcome"]), -share(cell)))
 
 
-def draw_cell(axes, cell, x, y, colour):
-    axes.add_patch(Rectangle((x, y), 1, 1, facecolor=colour, edgecolor="white", linewidth=1))
+def draw_cell(axes, cell, place, row, colour):
+    x, width = place
+    axes.add_patch(Rectangle((x, row), width, 1, facecolor=colour, edgecolor="white", linewidth=1))
     if cell["outcome"] == "REFUSED":
-        axes.add_patch(Rectangle((x, y), 1, 1, fill=False, hatch="////", edgecolor=GREY, linewidth=0))
+        axes.add_patch(Rectangle((x, row), width, 1, fill=False, hatch="////", edgecolor=GREY, linewidth=0))
     if cell["outcome"] == "FAIL":
-        axes.plot([x + 0.35, x + 0.65], [y + 0.2, y + 0.8], color="black", linewidth=1)
-        axes.plot([x + 0.35, x + 0.65], [y + 0.8, y + 0.2], color="black", linewidth=1)
+        middle = x + width / 2
+        axes.plot([middle - 0.15, middle + 0.15], [row + 0.2, row + 0.8], color="black", linewidth=1)
+        axes.plot([middle - 0.15, middle + 0.15], [row + 0.8, row + 0.2], color="black", linewidth=1)
     if not cell["as_expected"]:
-        axes.add_patch(Rectangle((x + 0.03, y + 0.06), 0.94, 0.88, fill=False, edgecolor="black", linewidth=1.5))
+        axes.add_patch(Rectangle((x + 0.03, row + 0.06), width - 0.06, 0.88, fill=False, edgecolor="black", linewidth=1.5))
+
+
+def draw_stack(axes, cases, rows, colour_of):
+    """Some of the cases below each other. :param rows: of the axes, so that all stacks have rows of one height"""
+    for row, (_, cells) in enumerate(cases):
+        for column in range(len(COLUMNS)):
+            axes.add_patch(Rectangle((column, row), 1, 1, facecolor=EMPTY, edgecolor="white", linewidth=1))
+        for place in sorted({place_of(cell) for cell in cells}, key=lambda place: -place[1]):
+            cell = worst([cell for cell in cells if place_of(cell) == place])
+            draw_cell(axes, cell, place, row, colour_of(share(cell)))
+    axes.set(xlim=(0, len(COLUMNS)), ylim=(rows, 0))
+    axes.xaxis.tick_top()
+    axes.set_xticks([n + 0.5 for n in range(len(COLUMNS))], COLUMNS, fontsize=7, rotation=30, ha="left", rotation_mode="anchor")
+    axes.set_yticks([n + 0.5 for n in range(len(cases))], [f"{cells[0]['title']}  {name}" for name, cells in cases], fontsize=6.5)
+    axes.tick_params(length=0)
+    axes.spines[:].set_visible(False)
 
 
 def draw(matrix):
     """The figure of a parsed stability.json."""
-    names = list(dict.fromkeys(cell["case"] for cell in matrix["cells"]))
-    places = {}
+    cases = {}
     for cell in matrix["cells"]:
-        places.setdefault((names.index(cell["case"]), column_of(cell)), []).append(cell)
+        cases.setdefault(cell["case"], []).append(cell)
+    cases, norm, colours = list(cases.items()), TwoSlopeNorm(0, LEAST, MOST), plt.get_cmap("RdYlBu_r")
+    rows = math.ceil(len(cases) / STACKS)
     with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(figsize=(7, 1.6 + 0.19 * len(names)), layout="constrained")
-        norm, colours = TwoSlopeNorm(0, LEAST, MOST), plt.get_cmap("RdYlBu_r")
-        for row in range(len(names)):
-            for column in range(len(COLUMNS)):
-                cells = places.get((row, column))
-                if cells:
-                    cell = worst(cells)
-                    draw_cell(axes, cell, column, row, colours(norm(share(cell))))
-                else:
-                    axes.add_patch(Rectangle((column, row), 1, 1, facecolor=EMPTY, edgecolor="white", linewidth=1))
-        axes.set(xlim=(0, len(COLUMNS)), ylim=(len(names), 0))
-        axes.set_xticks([n + 0.5 for n in range(len(COLUMNS))], COLUMNS)
-        axes.set_yticks([n + 0.5 for n in range(len(names))], names, fontsize=7)
-        axes.tick_params(length=0)
-        axes.spines[:].set_visible(False)
-        axes.set_title(f"hard cases, suite {matrix['suite']}, {matrix['date']}, {matrix['git_commit'][:10]}\n"
-                       "hatched: refused with a reason; cross: failed; frame: not as expected")
-        figure.colorbar(plt.cm.ScalarMappable(norm, colours), ax=axes, shrink=0.5, label="log10 of the worst value over its limit")
+        figure, stacks = plt.subplots(1, STACKS, figsize=(13.5, 1.6 + 0.17 * rows), layout="constrained")
+        for n, axes in enumerate(stacks):
+            draw_stack(axes, cases[n * rows:(n + 1) * rows], rows, lambda value: colours(norm(value)))
+            axes.set_visible(n * rows < len(cases))
+        figure.suptitle(f"hard cases, suite {matrix['suite']}, {matrix['date']}, {matrix['git_commit'][:10]}; "
+                        "hatched: refused with a reason; cross: failed; frame: not as expected", fontsize=9)
+        figure.colorbar(plt.cm.ScalarMappable(norm, colours), ax=stacks, shrink=0.4, aspect=60, location="bottom", pad=0.01,
+                        label="log10 of the worst value over its limit")
     return figure
