@@ -58,6 +58,7 @@ POLYBED_ALL_VECTOR_WIDTHS void load_motion(const Motion* motion, ContactBatch& b
   static_assert(offsetof(Motion, w) == 3 * sizeof(double) && sizeof(Motion) == 8 * sizeof(double));
   for (int c = 0; c < b.count; c += 4) {
     Four velocity[4], spin_i[4], spin_j[4];  // and one number more, which nobody reads
+#pragma GCC unroll 4
     for (int k = 0; k < 4; ++k) {
       const auto* i = reinterpret_cast<const std::byte*>(motion + b.first[c + k]);
       const auto* j = reinterpret_cast<const std::byte*>(motion + b.second[c + k]);
@@ -71,6 +72,7 @@ POLYBED_ALL_VECTOR_WIDTHS void load_motion(const Motion* motion, ContactBatch& b
     transpose(velocity);
     transpose(spin_i);
     transpose(spin_j);
+#pragma GCC unroll 3
     for (int k = 0; k < 3; ++k) {
       put_four(velocity[k], b.velocity[k] + c);
       put_four(spin_i[k], b.spin_i[k] + c);
@@ -86,8 +88,10 @@ POLYBED_ALL_VECTOR_WIDTHS void load_memory(const double* memory, int size, Conta
   for (; m + 4 <= size; m += 4)
     for (int c = 0; c < b.count; c += 4) {
       Four kept[4];
+#pragma GCC unroll 4
       for (int k = 0; k < 4; ++k) get_four(memory + std::ptrdiff_t(b.pair[c + k]) * size + m, kept[k]);
       transpose(kept);
+#pragma GCC unroll 4
       for (int k = 0; k < 4; ++k) put_four(kept[k], b.memory[m + k] + c);
     }
   for (; m < size; ++m)

@@ -65,8 +65,10 @@ POLYBED_ALL_VECTOR_WIDTHS void store_memory(double* memory, int size, const Cont
   for (; m + 4 <= size; m += 4) {
     for (int c = 0; c < fours; c += 4) {
       Four kept[4];
+#pragma GCC unroll 4
       for (int k = 0; k < 4; ++k) get_four(b.memory[m + k] + c, kept[k]);
       transpose(kept);
+#pragma GCC unroll 4
       for (int k = 0; k < 4; ++k) put_four(kept[k], memory + std::ptrdiff_t(b.pair[c + k]) * size + m);
     }
     for (int c = fours; c < b.count; ++c)
