@@ -88,7 +88,7 @@ bool CaseRun::run_to_end() {
 
 void CaseRun::go() {
   core::Progress progress(options_.quiet, simulation().time(), scene_.run.until);
-  core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, kinks()};
+  core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, breakpoints()};
   core::run(
       simulation(), stops, observers(), !options_.resume, [&](double) { write_checkpoint(); },
       [&] {

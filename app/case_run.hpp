@@ -59,7 +59,7 @@ class CaseRun {
   [[nodiscard]] virtual bool switches() const { return false; }
   /// Says in a checkpoint what has been switched on, or will be.
   virtual void add_switches(core::Checkpoint&) const {}
-  [[nodiscard]] virtual std::vector<double> kinks() { return {}; }
+  [[nodiscard]] virtual std::vector<double> breakpoints() { return {}; }
   /// What the whole run will take, told before it.
   [[nodiscard]] virtual TimeBand predicted() = 0;
 

@@ -266,7 +266,7 @@ class DemRun final : public CaseRun {
 };
 
 /// Of a run that goes on: its time, s, and what its monitor has switched on or is about to.
-double take_up_course(const fs::path& directory, Course& course, const core::Ranks* ranks) {
+double restore_course(const fs::path& directory, Course& course, const core::Ranks* ranks) {
   std::string text;
   std::array<double, 2> head{};
   core::on_first(ranks, [&] {
@@ -297,7 +297,7 @@ void run_dem(const RunOptions& options) {
   Course course{std::move(scene), {}};
   RunOptions now = options;
   for (bool ended = false; !ended; now.resume = true) {
-    const double begin = now.resume ? take_up_course(directory, course, ranks.get()) : 0;
+    const double begin = now.resume ? restore_course(directory, course, ranks.get()) : 0;
     std::optional<DemRun> run;
     start_run({directory, course.scene, "dem", ranks.get(), now.resume},
               [&] { run.emplace(now, course, begin, directory, ranks); });

@@ -59,7 +59,7 @@ class TfmRun final : public CaseRun {
   }
 
   core::Simulation& simulation() override { return model_; }
-  std::vector<double> kinks() override { return model_.kinks(); }
+  std::vector<double> breakpoints() override { return model_.breakpoints(); }
   void keep_last_state() override { model_.keep_last_state(); }
 
   std::vector<core::Observer> observers() override {

@@ -20,19 +20,11 @@ void for_each_law(Body&& body) {
   for_each_law(body, std::make_index_sequence<std::variant_size_v<DragLaw>>{});
 }
 
-/// Before a function with loops over rows: compiled for wider vectors as well, the widest that the processor has being
-/// chosen when the program starts; without fused multiply-adds (-ffp-contract=off) all give the same bits.
-#if defined(__x86_64__) && defined(__gnu_linux__)
-#define POLYBED_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define POLYBED_WIDE
-#endif
-
 /// Law over rows. A law without costly guard is called as it is; cello runs branch-free over all rows and a
 /// second pass redoes those outside its data.
 template <class Law>
-POLYBED_WIDE void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds, double* f,
-                           double* re_dfdre, GuardCount& count) {
+POLYBED_ALL_VECTOR_WIDTHS void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds,
+                                        double* f, double* re_dfdre, GuardCount& count) {
   std::size_t outside = 0;
   if constexpr (std::is_same_v<Law, DragCello>) {
     std::size_t inside = 0;
@@ -72,8 +64,8 @@ struct Block {
 
 /// The block's cells from `begin` on as the law sees them.
 template <class Law>
-POLYBED_WIDE void compose(const Law& law, Block& block, std::size_t begin, std::span<const double> voidage,
-                          std::span<const double* const> share, std::span<const double> diameter) {
+POLYBED_ALL_VECTOR_WIDTHS void compose(const Law& law, Block& block, std::size_t begin, std::span<const double> voidage,
+                                       std::span<const double* const> share, std::span<const double> diameter) {
   Block::Row average;
   double largest = 0;
   std::fill_n(average.begin(), block.cells, 0);
@@ -96,8 +88,8 @@ POLYBED_WIDE void compose(const Law& law, Block& block, std::size_t begin, std::
 
 /// f of one species in all cells of a block.
 template <class Law>
-POLYBED_WIDE void evaluate_species(const Law& law, Block& b, const double* share, const double* slip, double diameter,
-                                   double per_viscosity, double* f, GuardCount& count) {
+POLYBED_ALL_VECTOR_WIDTHS void evaluate_species(const Law& law, Block& b, const double* share, const double* slip,
+                                                double diameter, double per_viscosity, double* f, GuardCount& count) {
   for (std::size_t c = 0; c < b.cells; ++c) {
     const MixtureTerms term =
         law.term({b.cell_voidage[c], b.mean[c], b.per_mean[c], b.coefficient[c]}, diameter, share[c]);
@@ -117,8 +109,8 @@ struct ParticleRows {
 
 /// f of the particles of a block, each the one species wanted of its own mixture.
 template <class Law>
-POLYBED_WIDE void evaluate_particles(const Law& law, Block& b, const ParticleRows& in, double largest,
-                                     double per_viscosity, double* f, GuardCount& count) {
+POLYBED_ALL_VECTOR_WIDTHS void evaluate_particles(const Law& law, Block& b, const ParticleRows& in, double largest,
+                                                  double per_viscosity, double* f, GuardCount& count) {
   for (std::size_t p = 0; p < b.cells; ++p) {  // apart from the next loop: together they are too long for vectors
     b.per_mean[p] = in.per_mean[p];
     b.coefficient[p] = law.coefficient(in.voidage[p], {in.per_mean[p], in.average[p], largest});

@@ -200,13 +200,13 @@ bool Model::may_shorten() const {
 void Model::shorten_step() {
   constexpr double reserve = 1.25;
   const double met = core::greatest_of_ranks(ranks_.get(), met_);
-  take_up_step(clock(), steps_, reserve * met);
+  set_step_for(clock(), steps_, reserve * met);
   if (coupling_) coupling_->restart();
   ++work_.shortenings;
 }
 
 /// Steps for a speed. \param began, began_at  time and number of the first of them
-void Model::take_up_step(double began, std::int64_t began_at, double speed) {
+void Model::set_step_for(double began, std::int64_t began_at, double speed) {
   began_ = began;
   began_at_ = began_at;
   limits_ = step_limits(scene_, materials_, laws_, speed);

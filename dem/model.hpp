@@ -119,14 +119,14 @@ class Model : public core::Simulation {
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
   /// What a particle costs over what it costs to be in a contact. With a fluid 5.5 was measured (docs/parallel.md).
   [[nodiscard]] std::int32_t own_work() const { return coupling_ ? 5 : 1; }
-  void take_up(const core::Checkpoint& checkpoint, bool same_step);
-  void take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all);
-  void take_up_sides(const core::Checkpoint& checkpoint, std::size_t count);
+  void restore(const core::Checkpoint& checkpoint, bool same_step);
+  void restore_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all);
+  void restore_sides(const core::Checkpoint& checkpoint, std::size_t count);
   void look_ahead();
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   [[nodiscard]] bool may_shorten() const;
   void shorten_step();
-  void take_up_step(double began, std::int64_t began_at, double speed);
+  void set_step_for(double began, std::int64_t began_at, double speed);
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
   void count_leaving();

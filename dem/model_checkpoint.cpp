@@ -205,9 +205,9 @@ core::Checkpoint Model::checkpoint() const {
   return checkpoint;
 }
 
-void Model::resume(const core::Checkpoint& checkpoint) { take_up(checkpoint, true); }
+void Model::resume(const core::Checkpoint& checkpoint) { restore(checkpoint, true); }
 
-void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
+void Model::restore(const core::Checkpoint& checkpoint, bool same_step) {
   std::vector<double> particles, contacts;
   std::array<double, 9> head{};
   core::on_first(ranks_.get(), [&] {
@@ -247,7 +247,7 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
   steps_ = std::int64_t(head[2]);
   reported_ = head[4];
   if (same_step) {
-    take_up_step(head[5], std::int64_t(head[6]), head[7]);
+    set_step_for(head[5], std::int64_t(head[6]), head[7]);
     met_ = head[8];
   }
   std::vector<Particle> all;
@@ -255,13 +255,13 @@ void Model::take_up(const core::Checkpoint& checkpoint, bool same_step) {
     all.push_back(read_particle(particles.data() + n, materials_));
   std::vector<KeptContact> kept = read_contacts(contacts, std::size_t(pairs_.memory_size));
   place(all, work_of(all, kept, own_work()));
-  if (coupling_) take_up_fluid(checkpoint, all);
-  if (coupling_ && same_step && coupling_->sides().present()) take_up_sides(checkpoint, all.size());
+  if (coupling_) restore_fluid(checkpoint, all);
+  if (coupling_ && same_step && coupling_->sides().present()) restore_sides(checkpoint, all.size());
   list_pairs(kept);
 }
 
 /// The fluid of a checkpoint, and what it does to the particles; or, where that had none, as at a start.
-void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all) {
+void Model::restore_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all) {
   std::vector<double> loads(all.size() * load_width);
   const bool with_fluid =
       core::on_any_rank(ranks_.get(), core::is_first(ranks_.get()) && checkpoint.arrays.contains("fluid_loads"));
@@ -283,7 +283,7 @@ void Model::take_up_fluid(const core::Checkpoint& checkpoint, const std::vector<
 }
 
 /// What side forces had kept of the particles; of a run that had none those without a memory begin with nothing.
-void Model::take_up_sides(const core::Checkpoint& checkpoint, std::size_t count) {
+void Model::restore_sides(const core::Checkpoint& checkpoint, std::size_t count) {
   SideRows& rows = coupling_->sides().rows();
   const bool any =
       core::on_any_rank(ranks_.get(), core::is_first(ranks_.get()) && checkpoint.arrays.contains("fluid_sides"));
@@ -300,7 +300,7 @@ void Model::take_up_sides(const core::Checkpoint& checkpoint, std::size_t count)
 }
 
 void Model::start_from(const core::Checkpoint& checkpoint) {
-  take_up(checkpoint, false);
+  restore(checkpoint, false);
   steps_ = marked_at_ = 0;
   reported_ = 0;
   if (coupling_) coupling_->begin(particles_);

@@ -1,5 +1,5 @@
 // The averaged fluid between particles, step by step: T(1.10) with T(1.16), the same terms as in fluid/momentum.hpp,
-// with the particles' answer taken implicitly.
+// two-way coupled with the particles, implicitly in their drag.
 //
 //   (m + K) dU = dt [m a - eps G - I/dt - C (U.grad)U] - dt (eps + S) dG,   m = eps rho_f
 //   J = eps (U + dU) + F + Y dU + D dt (U.grad)U - dt Q dG,   div J = 0  (or -kappa dP/dt of a compressible fluid)

@@ -114,7 +114,7 @@ double Inlet::greatest() const {
   return most;
 }
 
-std::vector<double> Inlet::kinks() const {
+std::vector<double> Inlet::breakpoints() const {
   std::vector<double> times;
   for (const Part& part : parts_)
     if (part.ramp.table().size() > 1)
@@ -125,7 +125,7 @@ std::vector<double> Inlet::kinks() const {
 }
 
 bool Inlet::shuts() const {
-  std::vector<double> times = kinks();
+  std::vector<double> times = breakpoints();
   times.push_back(0);
   return std::any_of(times.begin(), times.end(), [&](double t) {
     return std::all_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.ramp.velocity(t) == 0; });

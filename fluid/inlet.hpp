@@ -19,7 +19,7 @@ class Ramp {
   }
   /// Velocity, m/s, at time t, s; after the jump where the table has two points at t.
   [[nodiscard]] double velocity(double t) const;
-  /// Its rate, m/s2; from the right at a kink.
+  /// Its rate, m/s2; from the right at a breakpoint.
   [[nodiscard]] double rate(double t) const;
   /// The greatest speed at any time, m/s.
   [[nodiscard]] double greatest() const;
@@ -55,7 +55,7 @@ class Inlet {
   /// Whether there is a time at which nothing flows.
   [[nodiscard]] bool shuts() const;
   /// Times at which a rate jumps: the integrator must stop there.
-  [[nodiscard]] std::vector<double> kinks() const;
+  [[nodiscard]] std::vector<double> breakpoints() const;
 
  private:
   /// One velocity, the share of each of the block's bottom faces, row by row, that has it, and that of the whole

@@ -68,7 +68,7 @@ double Openings::Gate::flux_rate(std::size_t n, double t) const {
   return sum;
 }
 
-std::vector<double> Openings::kinks() const {
+std::vector<double> Openings::breakpoints() const {
   std::vector<double> times;
   for (const Gate& gate : gates_)
     for (const Gate::Part& part : gate.parts)

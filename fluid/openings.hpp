@@ -38,7 +38,7 @@ class Openings {
   /// The greatest speed at which anything is fed, m/s.
   [[nodiscard]] double greatest() const { return greatest_; }
   /// Times at which a feed's rate jumps.
-  [[nodiscard]] std::vector<double> kinks() const;
+  [[nodiscard]] std::vector<double> breakpoints() const;
 
   /// Velocities on fed faces: those of the feed.
   void set_velocities(Interphase& solids) const;

@@ -302,9 +302,9 @@ void Model::project_jump(const core::Field& before) {
   layout_.pack(fields.solids, fields.fluid, y_);
 }
 
-std::vector<double> Model::kinks() const {
-  std::vector<double> times = inlet().kinks();
-  const std::vector<double> of_feeds = constants().openings.kinks();
+std::vector<double> Model::breakpoints() const {
+  std::vector<double> times = inlet().breakpoints();
+  const std::vector<double> of_feeds = constants().openings.breakpoints();
   times.insert(times.end(), of_feeds.begin(), of_feeds.end());
   return times;
 }

@@ -68,7 +68,7 @@ class Model : public core::Simulation {
   [[nodiscard]] const fluid::Boundaries& boundaries() const { return equations_.boundaries(); }
   [[nodiscard]] const fluid::Inlet& inlet() const { return equations_.inlet(); }
   /// Times at which what flows in changes its rate or jumps: a run must stop there.
-  [[nodiscard]] std::vector<double> kinks() const;
+  [[nodiscard]] std::vector<double> breakpoints() const;
   /// Volume of each species that has come in and gone out since the start, m3, of the fields last shown.
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   [[nodiscard]] const std::string& integrator_name() const { return integrator_name_; }
@@ -94,7 +94,7 @@ class Model : public core::Simulation {
  private:
   void choose_integrator(const core::Scene& scene);
   void check_fits(const core::Checkpoint& checkpoint) const;
-  void take_up_counts(const core::Checkpoint& checkpoint);
+  void restore_counts(const core::Checkpoint& checkpoint);
   void make_integrator();
   [[nodiscard]] core::Field inlet_velocity(double t) const;
   void project_jump(const core::Field& before);
@@ -111,7 +111,7 @@ class Model : public core::Simulation {
   [[nodiscard]] bool transports_temperature() const { return !fields().solids.temperature_rate.empty(); }
   void start_compressible();
   void open_account();
-  void take_up_account(const core::Checkpoint& checkpoint);
+  void restore_account(const core::Checkpoint& checkpoint);
   void begin_compressible();
   void count_fluid(std::span<const double> y);
 

@@ -150,14 +150,14 @@ void Model::resume(const core::Checkpoint& checkpoint) {
   core::take_from_first(ranks, clock);
   time_ = clock[0];
   step_ = clock[1];
-  take_up_counts(checkpoint);
-  if (compressible()) take_up_account(checkpoint);
+  restore_counts(checkpoint);
+  if (compressible()) restore_account(checkpoint);
   restore_fallback(checkpoint);
   begin_integration();
 }
 
 /// Counts go on where they were; they are exact in a double up to 9e15.
-void Model::take_up_counts(const core::Checkpoint& checkpoint) {
+void Model::restore_counts(const core::Checkpoint& checkpoint) {
   const core::Ranks* ranks = constants().grid.ranks.get();
   std::array<double, counts.size()> values{};
   core::on_first(ranks, [&] {

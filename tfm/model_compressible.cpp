@@ -72,7 +72,7 @@ void Model::count_fluid(std::span<const double> y) {
   ledger_.advance(time_, *flow);
 }
 
-void Model::take_up_account(const core::Checkpoint& checkpoint) {
+void Model::restore_account(const core::Checkpoint& checkpoint) {
   std::array<double, 3> kg{};
   const auto kept = [&](const char* name) {  // 0 from an incompressible fluid, from which a run may begin
     const auto number = checkpoint.numbers.find(name);

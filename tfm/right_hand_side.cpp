@@ -152,7 +152,7 @@ void RightHandSide::fill_ghosts(double t) {
   boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);
 }
 
-/// The side of a kink or jump of the inlet that a time stands for: the end of a step lies before it.
+/// The side of a breakpoint or jump of the inlet that a time stands for: the end of a step lies before it.
 double RightHandSide::side_of(double t) const {
   return t > begin_ ? std::nextafter(t, -std::numeric_limits<double>::infinity()) : t;
 }

@@ -9,28 +9,21 @@
 #include "core/error.hpp"
 #include "core/numerics/mpi.hpp"
 
-// Loops over entries, compiled for wider vectors as well, the widest that the processor has being chosen when the
-// program starts; without fused multiply-adds (-ffp-contract=off) all give the same bits.
-#if defined(__x86_64__) && defined(__gnu_linux__)
-#define POLYBED_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define POLYBED_WIDE
-#endif
-
 namespace polybed::core {
 
 namespace {
 
-POLYBED_WIDE void linear_sum_of(double a, const double* x, double b, const double* y, double* z, std::size_t n) {
+POLYBED_ALL_VECTOR_WIDTHS void linear_sum_of(double a, const double* x, double b, const double* y, double* z,
+                                             std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = a * x[i] + b * y[i];
 }
 
-POLYBED_WIDE void scale_of(double c, const double* x, double* z, std::size_t n) {
+POLYBED_ALL_VECTOR_WIDTHS void scale_of(double c, const double* x, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = c * x[i];
 }
 
 /// sum of (x w)^2 in eight interleaved partial sums: the order of additions is fixed, whatever the width.
-POLYBED_WIDE double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
+POLYBED_ALL_VECTOR_WIDTHS double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
   constexpr std::size_t lanes = 8;
   std::array<double, lanes> part{};
   std::size_t i = 0;

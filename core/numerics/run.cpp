@@ -16,15 +16,15 @@ struct Event {
   bool checkpoint;  ///< the run can be taken up again there
 };
 
-/// The next event after a time. Kinks and checkpoints that are the same event as another are met together, at the
-/// kink's own time or, without one, at the end's.
+/// The next event after a time. Breakpoints and checkpoints that are the same event as another are met together, at the
+/// breakpoint's own time or, without one, at the end's.
 Event next_event(const Stops& stops, double now) {
   const double checkpoint = next_multiple(stops.checkpoint_every, now);
-  double kink = std::numeric_limits<double>::infinity();
-  for (const double t : stops.kinks)
-    if (is_later(t, now)) kink = std::min(kink, t);
-  const double first = std::min({stops.until, checkpoint, kink});
-  const double time = same_time(kink, first) ? kink : same_time(stops.until, first) ? stops.until : first;
+  double breakpoint = std::numeric_limits<double>::infinity();
+  for (const double t : stops.breakpoints)
+    if (is_later(t, now)) breakpoint = std::min(breakpoint, t);
+  const double first = std::min({stops.until, checkpoint, breakpoint});
+  const double time = same_time(breakpoint, first) ? breakpoint : same_time(stops.until, first) ? stops.until : first;
   return {time, same_time(time, checkpoint) || same_time(time, stops.until)};
 }
 

@@ -31,13 +31,13 @@ struct Observer {
 
 /// What stops a step: checkpoints, where the run can be taken up again, and times at which the problem jumps.
 struct Stops {
-  double until = 0;             ///< s, end of the run
-  double checkpoint_every = 0;  ///< s; 0: only at the end
-  std::vector<double> kinks;    ///< s
+  double until = 0;                 ///< s, end of the run
+  double checkpoint_every = 0;      ///< s; 0: only at the end
+  std::vector<double> breakpoints;  ///< s
 };
 
 /// Runs a simulation from its present time to stops.until. Stops and output times that rounding alone keeps apart
-/// (core/numerics/schedule.hpp) are one event: one step ends there, at the time of the kink or else of the end.
+/// (core/numerics/schedule.hpp) are one event: one step ends there, at the time of the breakpoint or else of the end.
 /// Observers act at every multiple of their period after the present time, in the order given, and `at_start`
 /// says whether they act on the state at the start too (not after a resume: they have). `checkpoint` is
 /// called at checkpoint times and at the end; `after_step` after every accepted step and returns false if the

@@ -7,14 +7,6 @@
 
 namespace polybed::dem {
 
-// One machine code per width of vectors, chosen at the first call. The results have the same bits: nothing but + - * /
-// and sqrt, none fused. The sanitizers cannot follow the choice.
-#if defined(__SANITIZE_ADDRESS__)
-#define POLYBED_ALL_VECTOR_WIDTHS
-#else
-#define POLYBED_ALL_VECTOR_WIDTHS __attribute__((target_clones("default", "avx2", "avx512f")))
-#endif
-
 // Contacts of a batch do not depend on each other, which the compiler cannot see from arrays that might overlap.
 #define POLYBED_INDEPENDENT _Pragma("GCC ivdep")
 

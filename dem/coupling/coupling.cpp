@@ -113,8 +113,8 @@ void Coupling::advance(Particles& particles, double t) {
     weigh();
   }
   ++steps_;
-  const auto scope = timers_.scope("fluid: particles' answer");
-  if (!held_) answer(particles);
+  const auto scope = timers_.scope("fluid: two-way coupling");
+  if (!held_) couple_two_way(particles);
   for (FluidLoad& load : motion_.load) load.impulse = {};
   take_fields();
   forces_.find(particles, gather_, motion_.load, own());
@@ -156,7 +156,7 @@ void Coupling::require_voidage() const {
 }
 
 /// What the change of the fluid would have done to the particles meanwhile: see fluid::ParticlePhase.
-void Coupling::answer(Particles& particles) {
+void Coupling::couple_two_way(Particles& particles) {
   const double dt = interval();
   core::FaceField change = flow_.velocity_change(), push = flow_.gradient_change(), carried;
   if (phase_.added_mass()) carried = flow_.convected();
@@ -175,7 +175,7 @@ void Coupling::answer(Particles& particles) {
       const Vector c = gather_.vector(lines, carried);
       for (std::size_t k = 0; k < 3; ++k) dv[k] += f.added / inertia * s * (du[k] + c[k]);
     }
-    motion_.account_answer(m, dv);
+    motion_.account_coupling(m, dv);
     for (std::size_t k = 0; k < 3; ++k) m.v[k] += dv[k];
   }
 }

@@ -46,7 +46,8 @@ class Coupling {
   [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
   /// Step of the particles from now on, s; only between steps of the fluid, and without side forces, which know theirs.
   void set_dt(double dt) { dt_ = dt; }
-  /// The fluid's step that ends at time t, s, and the particles' answer to it.
+  /// The fluid's step that ends at time t, s; each particle then receives the impulse of the change of the fluid.
+  /// does to them over it.
   void advance(Particles& particles, double t);
   /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
   void hold(const Particles& particles);
@@ -88,7 +89,7 @@ class Coupling {
   void require_voidage() const;
   void smooth(core::FaceField& field) const;
   void smooth_sums();
-  void answer(Particles& particles);
+  void couple_two_way(Particles& particles);
   void take_fields();
   void here(std::initializer_list<core::FaceField*> fields) const;
   void fetch();

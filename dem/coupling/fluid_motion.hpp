@@ -86,7 +86,7 @@ class FluidMotion {
     work_.add(work * energy_.per_unit);
   }
   /// A change of velocity that the fluid alone has made.
-  void account_answer(const Motion& m, const Vector& dv) {
+  void account_coupling(const Motion& m, const Vector& dv) {
     double work = 0;
     for (std::size_t k = 0; k < 3; ++k) work += (m.v[k] + 0.5 * dv[k]) * dv[k];
     work_.add(work / m.inverse_mass * energy_.per_unit);

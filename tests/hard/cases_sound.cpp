@@ -41,14 +41,14 @@ Heard of_product(const std::string& integrator, core::Scene scene, double step, 
   tfm::Model model(scene, timers);
   const auto cell = std::size_t(model.constants().grid.index(0, 0));
   Heard heard;
-  std::vector<double> kinks{start, driven_at};
+  std::vector<double> breakpoints{start, driven_at};
   for (int n = 1; n <= steps; ++n) {
     while (model.time() < n * step * (1 - 1e-12)) {
-      const bool jumps = !kinks.empty() && kinks.front() <= n * step;
-      model.step(jumps ? kinks.front() : n * step);
-      if (!jumps || model.time() < kinks.front()) continue;
+      const bool jumps = !breakpoints.empty() && breakpoints.front() <= n * step;
+      model.step(jumps ? breakpoints.front() : n * step);
+      if (!jumps || model.time() < breakpoints.front()) continue;
       model.restart();
-      kinks.erase(kinks.begin());
+      breakpoints.erase(breakpoints.begin());
     }
     model.show(model.time());
     heard.bottom.push_back(model.fields().fluid.pressure[cell]);

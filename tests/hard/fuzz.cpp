@@ -94,7 +94,7 @@ void run_scene(Trial& trial, const core::Scene& scene, double cpu) {
   const auto run = trial.begin(scene);
   WatchedColumn watched(trial, *run);
   const auto over = [&] { return core::cpu_seconds() - begin > cpu || trial.has_failed(); };
-  trial.report("ends", run_as_commands_do(watched, scene, run->model().kinks(), over) ? 1 : 0);
+  trial.report("ends", run_as_commands_do(watched, scene, run->model().breakpoints(), over) ? 1 : 0);
   trial.see_end(*run, watched.watch);
 }
 

@@ -184,7 +184,7 @@ void Trial::restart(Run& run) {
 }
 
 void Trial::advance(Run& run, double until, const Watch& watch) {
-  std::vector<double> stops = run.model().kinks();
+  std::vector<double> stops = run.model().breakpoints();
   std::erase_if(stops, [&](double t) { return !core::is_later(t, run.time()) || !core::is_later(until, t); });
   stops.push_back(until);
   const double half = 0.5 * (run.time() + until), last_cpu = core::cpu_seconds() + watch.cpu;

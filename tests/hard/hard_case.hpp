@@ -84,7 +84,7 @@ class Trial {
   /// The scene as a run of the treatment, at its start; a state other than the scene's may be given to `start`, which
   /// changes the first field (the fractions, species by species, cell by cell).
   std::unique_ptr<Run> begin(core::Scene scene, const std::function<void(tfm::Model&)>& start = {});
-  /// Advances to a time, stopping at the kinks of the inlet, and watches.
+  /// Advances to a time, stopping at the breakpoints of the inlet, and watches.
   void advance(Run& run, double until, const Watch& watch = {});
   /// Of a run that someone else drives: one step, watched now and then; a jump; the end.
   tfm::StepLine step(Run& run, double stop, const Watch& watch);

@@ -51,8 +51,8 @@ Hammer water_hammer(const char* integrator) {
   Hammer result;
   double sum = 0, last_p = 0, last_t = 0, first = 0;
   int samples = 0;
-  for (const double kink : {at, at + 0.2 * crossing}) {
-    march(model, kink, step, [] {});
+  for (const double breakpoint : {at, at + 0.2 * crossing}) {
+    march(model, breakpoint, step, [] {});
     model.restart();
   }
   march(model, at + 9.2 * crossing, step, [&] {

@@ -33,7 +33,7 @@ TEST_P(Jet, EveryLevelCarriesWhatFlowsIn) {
   model.show(0);
   for (const int j : {0, 1, 20, 40}) EXPECT_NEAR(through(model, j), 0.05, 1e-7) << j;
   advance(model, 0.05);
-  model.restart();  // as the run does at a kink of the inlet
+  model.restart();  // as the run does at a breakpoint of the inlet
   model.show(0.05);
   for (const int j : {0, 1, 20, 40}) EXPECT_NEAR(through(model, j), 0.09, 1e-6) << j;
   EXPECT_LT(fluid::divergence_error(model.constants().grid, model.fields().fluid.flux, model.velocity_scale()), 1e-2);

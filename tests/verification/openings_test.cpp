@@ -26,12 +26,12 @@ std::vector<double> volumes(tfm::Model& model) {
   return fluid::species_volumes(model.constants().grid, model.fields().solids);
 }
 
-/// Steps to a time, as a run does: past each kink of what flows in by a restart.
+/// Steps to a time, as a run does: past each breakpoint of what flows in by a restart.
 void advance_past_kinks(tfm::Model& model, double until) {
   while (model.time() < until) {
     double stop = until;
-    for (const double kink : model.kinks())
-      if (kink > model.time()) stop = std::min(stop, kink);
+    for (const double breakpoint : model.breakpoints())
+      if (breakpoint > model.time()) stop = std::min(stop, breakpoint);
     while (model.time() < stop) model.step(stop);
     model.restart();
   }

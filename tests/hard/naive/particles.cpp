@@ -75,7 +75,7 @@ void ParticleRun::step() {
   collect();
   flow_.advance(time_, every_ * dt_, phase_);
   time_ += every_ * dt_;
-  answer();
+  couple_two_way();
   for (dem::FluidLoad& load : motion_.load) load.impulse = {};
   take_fields();
 }
@@ -160,8 +160,8 @@ void ParticleRun::crowd_centres() {
     });
 }
 
-/// As dem::Coupling::answer, without a kernel's gathering.
-void ParticleRun::answer() {
+/// As dem::Coupling::couple_two_way, without a kernel's gathering.
+void ParticleRun::couple_two_way() {
   const double dt = every_ * dt_;
   for (std::size_t i = 0; i < particles_.owned; ++i) {
     const dem::FluidLoad& f = motion_.load[i];

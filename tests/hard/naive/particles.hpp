@@ -44,7 +44,7 @@ class ParticleRun final : public hard::TextbookSuspension {
   void kick(std::size_t i);
   void move();
   void crowd_centres();
-  void answer();
+  void couple_two_way();
   void take_fields();
 
   Treatment treatment_;

@@ -78,28 +78,28 @@ TEST(Run, MeetsBreakpointsAndCheckpointsAsOneEvent) {
   int apart = 0;
   for (int n = 1; n <= 1000; ++n)
     for (const double every : {0.1, 0.01, 0.007, 1.0 / 3}) {
-      const double kink = std::strtod(std::to_string(n * every).c_str(), nullptr);
-      if (!same_time(kink, n * every)) continue;
-      apart += kink != n * every;
-      const Record record = record_of({kink + every / 2, every, {kink}}, every, kink);
-      ASSERT_EQ(std::count(record.restarts.begin(), record.restarts.end(), kink), 1) << kink;
-      ASSERT_EQ(std::count(record.checkpoints.begin(), record.checkpoints.end(), kink), 1) << kink;
-      ASSERT_EQ(std::count(record.rows.begin(), record.rows.end(), kink), 1) << kink;
-      ASSERT_EQ(record.checkpoints.size(), std::size_t(n) + 1) << kink;
+      const double breakpoint = std::strtod(std::to_string(n * every).c_str(), nullptr);
+      if (!same_time(breakpoint, n * every)) continue;
+      apart += breakpoint != n * every;
+      const Record record = record_of({breakpoint + every / 2, every, {breakpoint}}, every, breakpoint);
+      ASSERT_EQ(std::count(record.restarts.begin(), record.restarts.end(), breakpoint), 1) << breakpoint;
+      ASSERT_EQ(std::count(record.checkpoints.begin(), record.checkpoints.end(), breakpoint), 1) << breakpoint;
+      ASSERT_EQ(std::count(record.rows.begin(), record.rows.end(), breakpoint), 1) << breakpoint;
+      ASSERT_EQ(record.checkpoints.size(), std::size_t(n) + 1) << breakpoint;
     }
   EXPECT_GT(apart, 100);
 }
 
 TEST(Run, StopsAtTheKinkWhereAnEndOrACheckpointIsAnUlpAway) {
-  const double checkpoint_every = 0.1, kink = 0.3;
-  ASSERT_GT(3 * checkpoint_every, kink);
-  const Record across = record_of({0.5, checkpoint_every, {kink}}, 0, 1);
-  EXPECT_THAT(across.restarts, ElementsAre(0.1, 0.2, kink, 0.4, 0.5));
+  const double checkpoint_every = 0.1, breakpoint = 0.3;
+  ASSERT_GT(3 * checkpoint_every, breakpoint);
+  const Record across = record_of({0.5, checkpoint_every, {breakpoint}}, 0, 1);
+  EXPECT_THAT(across.restarts, ElementsAre(0.1, 0.2, breakpoint, 0.4, 0.5));
   EXPECT_EQ(across.checkpoints, across.restarts);
-  for (const double until : {kink * (1 - ulp), kink, kink * (1 + ulp)}) {
-    const Record record = record_of({until, checkpoint_every, {kink}}, 0, 1);
-    EXPECT_THAT(record.checkpoints, ElementsAre(0.1, 0.2, kink)) << until - kink;
-    EXPECT_THAT(record.rows, ElementsAre(0, kink));
+  for (const double until : {breakpoint * (1 - ulp), breakpoint, breakpoint * (1 + ulp)}) {
+    const Record record = record_of({until, checkpoint_every, {breakpoint}}, 0, 1);
+    EXPECT_THAT(record.checkpoints, ElementsAre(0.1, 0.2, breakpoint)) << until - breakpoint;
+    EXPECT_THAT(record.rows, ElementsAre(0, breakpoint));
   }
 }
 

@@ -62,7 +62,7 @@ TEST(Inlet, FacesHaveTheirShare) {
   EXPECT_DOUBLE_EQ(flux[std::size_t(grid.index(2, 0))], 0.6 * 0.3 + 0.4 * 0.01);
   EXPECT_NEAR(rate[std::size_t(grid.index(1, 0))], 0.7 * 0.2, 1e-15);
   EXPECT_EQ(rate[std::size_t(grid.index(3, 0))], 0);
-  EXPECT_EQ(inlet.kinks(), (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(inlet.breakpoints(), (std::vector<double>{0.0, 1.0}));
   EXPECT_EQ(inlet.greatest(), 0.4);
 }
 

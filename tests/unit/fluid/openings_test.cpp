@@ -99,7 +99,7 @@ TEST_F(Ends, WhatHasPassedIsInOrOut) {
   EXPECT_EQ(passed[1].out, 0);
   EXPECT_EQ(openings.passages().size(), 3U);
   EXPECT_EQ(openings.greatest(), 0.2);
-  EXPECT_EQ(openings.kinks(), (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(openings.breakpoints(), (std::vector<double>{0.0, 1.0}));
 }
 
 TEST(Screens, AreAbsent) {
