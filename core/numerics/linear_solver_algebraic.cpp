@@ -8,7 +8,7 @@ namespace polybed::core {
 
 namespace {
 
-constexpr int most_iterations = 200;
+constexpr int most_algebraic_iterations = 200;
 
 /// The same rows as the structured matrix has, cell by cell.
 void fill(const Grid& grid, const FaceSpans& coefficient, std::span<const double> shift, HypreRows& rows) {
@@ -50,7 +50,7 @@ int solve_algebraically(const Grid& grid, const FaceSpans& coefficient, std::spa
   rows.set_right(packed(grid, source));
   rows.set_solution(solution);
   rows.assemble(1, true);
-  const int iterations = rows.conjugate_gradients(tolerance, most_iterations);
+  const int iterations = rows.conjugate_gradients(tolerance, most_algebraic_iterations);
   HYPRE_ClearAllErrors();
   rows.get_solution(solution);
   const double* from = solution.data();

@@ -41,10 +41,6 @@ constexpr std::array<std::string_view, 13> results{"history.csv",       "steps.c
 constexpr std::array<std::string_view, 2> folders_of_steps{"fields", "particles"};
 constexpr std::string_view unfinished = ".temporary";
 
-[[noreturn]] void fail(const std::string& deed, const fs::path& path, int reason) {
-  throw FileError(fmt::format("cannot {} {}: {}", deed, path.string(), std::system_category().message(reason)));
-}
-
 bool is_file(const fs::path& path) {
   std::error_code none;  // of what is not there
   return fs::is_regular_file(fs::symlink_status(path, none));
@@ -73,7 +69,7 @@ std::string foreign_file(const fs::path& directory) {
     const bool ours = fs::is_directory(entry->symlink_status()) && is_of_program(entry->path());
     if (!ours) return entry->path().filename().string();
   }
-  if (error) fail("read the directory", directory, error.value());
+  if (error) cannot("read the directory", directory, error.value());
   return {};
 }
 
@@ -87,7 +83,7 @@ int opened_mark(const fs::path& directory) {
         directory.string(), name, mark_name));
   const fs::path path = directory / mark_name;
   const int mark = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-  if (mark < 0) fail("write", path, errno);
+  if (mark < 0) cannot("write", path, errno);
   struct stat status {};
   if (::fstat(mark, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1) return mark;
   ::close(mark);
@@ -113,11 +109,11 @@ void lock(int mark, const fs::path& directory) {
     if (errno == EWOULDBLOCK)
       throw FileError(fmt::format("{}: {} writes into it; wait for its end, or name another directory by -o DIR",
                                   directory.string(), holder(mark)));
-    if (errno != ENOLCK && errno != ENOTSUP) fail("lock", directory, errno);  // file systems without locks
+    if (errno != ENOLCK && errno != ENOTSUP) cannot("lock", directory, errno);  // file systems without locks
   }
   const std::string text = fmt::format("{}process {} on {}\n", mark_text, ::getpid(), host());
   if (::ftruncate(mark, 0) != 0 || ::pwrite(mark, text.data(), text.size(), 0) != ssize_t(text.size()))
-    fail("write", directory / mark_name, errno);
+    cannot("write", directory / mark_name, errno);
 }
 
 Descriptor locked(const fs::path& directory) {
@@ -127,7 +123,7 @@ Descriptor locked(const fs::path& directory) {
 }
 
 void remove_file(const fs::path& path) {
-  if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != EISDIR) fail("remove", path, errno);
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != EISDIR) cannot("remove", path, errno);
 }
 
 /// 000001.h5, finished or not.
@@ -154,7 +150,7 @@ void mark_directory(const fs::path& path) {
   struct stat status {};
   const bool empty = ::fstat(mark.number(), &status) == 0 && status.st_size == 0;
   if (empty && ::write(mark.number(), mark_text.data(), mark_text.size()) != ssize_t(mark_text.size()))
-    fail("write", path / mark_name, errno);
+    cannot("write", path / mark_name, errno);
 }
 
 void remove_results(const fs::path& directory, std::span<const std::string_view> kept) {

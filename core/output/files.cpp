@@ -20,13 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& deed, const fs::path& path, int reason) {
-  throw FileError(fmt::format("cannot {} {}: {}", deed, path.string(), std::system_category().message(reason)));
-}
-
 /// Throws for what has no length of its own, and may have no end.
 void require_regular(const fs::path& path, const struct stat& status) {
-  if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
+  if (S_ISDIR(status.st_mode)) cannot("read", path, EISDIR);
   if (!S_ISREG(status.st_mode))
     throw FileError(fmt::format("cannot read {}: it is no regular file, but a pipe or a device", path.string()));
 }
@@ -55,7 +51,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 
 Descriptor opened_to_append(const fs::path& path) {
   const int number = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
-  if (number < 0) fail("write", path, errno);
+  if (number < 0) cannot("write", path, errno);
   return Descriptor(number);
 }
 
@@ -91,17 +87,21 @@ Sum crc(const std::array<Sum, 256>& table, std::span<const std::byte> bytes, Sum
 
 }  // namespace
 
+void cannot(const std::string& deed, const fs::path& path, int reason) {
+  throw FileError(fmt::format("cannot {} {}: {}", deed, path.string(), std::system_category().message(reason)));
+}
+
 Descriptor new_file(const fs::path& path) {
   ::unlink(path.c_str());
   const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (number < 0) fail("write", path, errno);
+  if (number < 0) cannot("write", path, errno);
   return Descriptor(number);
 }
 
 LineFile::LineFile(fs::path path, std::string_view text) : path_(std::move(path)), file_(begun(path_, text)) {}
 
 void LineFile::append(std::string_view line) {
-  if (const int reason = write_all(file_, bytes_of(line)); reason != 0) fail("write", path_, reason);
+  if (const int reason = write_all(file_, bytes_of(line)); reason != 0) cannot("write", path_, reason);
 }
 
 void write_atomically(const fs::path& path, std::span<const std::byte> bytes) {
@@ -111,7 +111,7 @@ void write_atomically(const fs::path& path, std::span<const std::byte> bytes) {
   if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
   if (reason != 0) {
     ::unlink(temporary.c_str());
-    fail("write", path, reason);
+    cannot("write", path, reason);
   }
   flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
@@ -124,7 +124,7 @@ void put_in_place(const fs::path& written, const fs::path& path) {
   if (reason == 0 && std::rename(written.c_str(), path.c_str()) != 0) reason = errno;
   if (reason != 0) {
     ::unlink(written.c_str());
-    fail("write", path, reason);
+    cannot("write", path, reason);
   }
   flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
@@ -135,17 +135,17 @@ void claim_file(const fs::path& path, std::span<const std::byte> bytes, std::siz
   if (reason == 0) reason = write_and_flush(file, bytes);
   if (reason == 0) return;
   ::unlink(path.c_str());
-  fail("write", path, reason);
+  cannot("write", path, reason);
 }
 
 void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {
   Descriptor file = opened_to_append(path);
-  if (const int reason = write_and_flush(file, bytes); reason != 0) fail("write", path, reason);
+  if (const int reason = write_and_flush(file, bytes); reason != 0) cannot("write", path, reason);
 }
 
 std::size_t bytes_of_file(const fs::path& path, std::size_t most) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) fail("read", path, errno);
+  if (::stat(path.c_str(), &status) != 0) cannot("read", path, errno);
   require_regular(path, status);
   const auto size = std::size_t(status.st_size);
   if (size > most)
@@ -158,13 +158,13 @@ void read_pieces(const fs::path& path, std::size_t begin, std::size_t end,
   constexpr std::size_t piece = 1 << 20;
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe would wait for a writer
   struct stat status {};
-  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) fail("read", path, errno);
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) cannot("read", path, errno);
   require_regular(path, status);
   Bytes bytes(std::min(piece, end - begin));
   while (begin < end) {
     const ssize_t count = ::pread(file.number(), bytes.data(), std::min(piece, end - begin), off_t(begin));
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail("read", path, errno);
+    if (count < 0) cannot("read", path, errno);
     if (count == 0) return;
     see(std::span(bytes).first(std::size_t(count)));
     begin += std::size_t(count);
@@ -187,7 +187,7 @@ std::string read_text(const fs::path& path, std::size_t most) {
 void make_directories(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) fail("make the directory", path, error.value());
+  if (error) cannot("make the directory", path, error.value());
 }
 
 void refuse_link(const fs::path& path) {

@@ -57,6 +57,9 @@ inline constexpr std::size_t longest_file = 4'000'000'000;
 /// longer than `most`. Whoever opens a file that a user names asks this before.
 [[nodiscard]] std::size_t bytes_of_file(const std::filesystem::path& path, std::size_t most = SIZE_MAX);
 
+/// Throws the FileError of a system call on a file that failed. \param deed  as in "read"; \param reason  errno
+[[noreturn]] void cannot(const std::string& deed, const std::filesystem::path& path, int reason);
+
 /// Calls `see` with the bytes of a file from `begin` to `end`, piece by piece: no memory for the whole is needed.
 void read_pieces(const std::filesystem::path& path, std::size_t begin, std::size_t end,
                  const std::function<void(std::span<const std::byte>)>& see);
