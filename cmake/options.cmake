@@ -15,7 +15,6 @@ set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 option(POLYBED_NATIVE "Compile for this machine's processor; off makes programs that run anywhere" OFF)
 option(POLYBED_WARNINGS_AS_ERRORS "Stop at a warning" OFF)
 option(POLYBED_TESTS "Build the tests" ON)
-option(POLYBED_JOINED "Compile sources of the command line six at a time: the whole in less time, a change in more" OFF)
 option(POLYBED_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 
 add_library(polybed_options INTERFACE)

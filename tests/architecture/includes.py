@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Every #include goes down the layers, each library is seen where it is wrapped alone, and a source includes what it uses of
-the standard library and of fmt, itself or through a header of the program: sources are compiled several at a time
-(POLYBED_JOINED), where another's include would do."""
+the standard library and of fmt, itself or through a header of the program: sources are compiled several at a time,
+where another's include would do."""
 import functools
 import re
 import sys
