@@ -104,9 +104,9 @@ double CaseRun::wall_seconds() const {
 
 bool CaseRun::after_step() { return !core::on_any_rank(ranks_.get(), interrupt_.wanted()); }
 
-void CaseRun::judge(std::span<const fluid::WorstInvariant> worst) {
+void CaseRun::judge(std::span<const measures::WorstInvariant> worst) {
   if (options_.permissive) return;
-  const fluid::WorstInvariant* law = fluid::broken_law(worst);
+  const measures::WorstInvariant* law = measures::broken_law(worst);
   if (!core::on_any_rank(ranks_.get(), law != nullptr)) return;
   const int rank = core::rank_of_greatest(ranks_.get(), law != nullptr ? 1 : 0);
   broken_law_ = core::said_by(ranks_.get(), rank, law != nullptr ? law->text() : "");
@@ -182,8 +182,8 @@ void CaseRun::finish(const std::string& state) {
   if (options_.json) core::print("{}\n", text);
 }
 
-void print_invariants(std::span<const fluid::WorstInvariant> worst) {
-  for (const fluid::WorstInvariant& w : worst)
+void print_invariants(std::span<const measures::WorstInvariant> worst) {
+  for (const measures::WorstInvariant& w : worst)
     core::print(stderr, "{}: worst {:.2e}, limit {:.0e}{}\n", w.name, w.value, w.limit,
                 w.value <= w.limit ? "" : "  <-- exceeded");
 }

@@ -16,7 +16,7 @@
 #include "core/numerics/run.hpp"
 #include "core/progress.hpp"
 #include "core/timers.hpp"
-#include "fluid/invariants.hpp"
+#include "measures/invariants.hpp"
 #include "multiscale/effects/left_out.hpp"
 #include "multiscale/effects/monitor.hpp"
 #include "multiscale/estimate/estimate.hpp"
@@ -65,7 +65,7 @@ class CaseRun {
 
   /// With what a row of the history has measured. A run that has broken a conservation law ends after the step, all
   /// that is due then being written, unless it is permissive. Collective.
-  void judge(std::span<const fluid::WorstInvariant> worst);
+  void judge(std::span<const measures::WorstInvariant> worst);
 
   /// Writes "prediction". \param actual  CPU s of all ranks
   void write_prediction_of(core::Json& json, const std::string& state, double actual);
@@ -118,7 +118,7 @@ class CaseRun {
 };
 
 /// Prints a line for each invariant, on standard error.
-void print_invariants(std::span<const fluid::WorstInvariant> worst);
+void print_invariants(std::span<const measures::WorstInvariant> worst);
 
 /// A run that is about to be made.
 struct RunStart {

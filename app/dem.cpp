@@ -106,7 +106,7 @@ class DemRun final : public CaseRun {
   }
 
   core::ProgressLine line() override {
-    const fluid::WorstInvariant* energy = observers_->invariants().energy();
+    const measures::WorstInvariant* energy = observers_->invariants().energy();
     return {model_.time(),
             scene_.run.until,
             model_.limits().dt,
@@ -156,8 +156,8 @@ class DemRun final : public CaseRun {
     write_work(json);
     write_timers(json, timers_);
     if (fluid_) write_fluid(json, *fluid_);
-    const std::vector<fluid::WorstInvariant> watched =
-        observers_ ? observers_->invariants().worst() : std::vector<fluid::WorstInvariant>{};
+    const std::vector<measures::WorstInvariant> watched =
+        observers_ ? observers_->invariants().worst() : std::vector<measures::WorstInvariant>{};
     if (!watched.empty()) write_invariants(json, watched);
     if (observers_) write_ledger(json);
     if (model_.outflow() != nullptr) write_outflow(json, *model_.outflow());
@@ -223,7 +223,7 @@ class DemRun final : public CaseRun {
     json.key("energy").begin_object().member("kinetic_J", t.kinetic).member("rotational_J", t.rotational);
     json.member("elastic_J", t.elastic).member("potential_J", t.potential);
     if (scene_.dem.ledger && model_.outflow() != nullptr) json.member("carried_out_J", t.carried_out);
-    if (const fluid::WorstInvariant* energy = observers_->invariants().energy())
+    if (const measures::WorstInvariant* energy = observers_->invariants().energy())
       json.member("dissipated_J", t.dissipated)
           .member("work_J", t.work)
           .member("initial_J", observers_->invariants().start().energy)

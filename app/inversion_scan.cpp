@@ -10,7 +10,7 @@
 #include "core/output/files.hpp"
 #include "core/print.hpp"
 #include "dem/continuum_scene.hpp"
-#include "fluid/time_mean.hpp"
+#include "measures/time_mean.hpp"
 #include "multiscale/compare_window.hpp"
 #include "multiscale/inversion/scan_file.hpp"
 #include "multiscale/picture.hpp"
@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 /// quarter.
 constexpr double ramp_share = 0.02;
 
-fluid::TimeMean mean_of(const fs::path& directory, const core::History& history, const Window& window,
-                        const Series& values) {
-  const auto mean = fluid::time_mean(within(history.of("time_s"), values, window));
+measures::TimeMean mean_of(const fs::path& directory, const core::History& history, const Window& window,
+                           const Series& values) {
+  const auto mean = measures::time_mean(within(history.of("time_s"), values, window));
   if (!mean || !mean->error)
     throw core::CaseError(fmt::format(
         "{}: too few rows of its history in the last quarter to tell a mean: a smaller output.history_every gives more",
@@ -113,8 +113,8 @@ class RunsOfModel {
       const core::History history = core::read_history(run.directory);
       const std::vector<std::string> species = species_of(history);
       const Window window = window_of(history);
-      const fluid::TimeMean b = mean_of(run.directory, history, window, centre_difference(history, species));
-      const fluid::TimeMean height = mean_of(run.directory, history, window, history.of("bed_height_m"));
+      const measures::TimeMean b = mean_of(run.directory, history, window, centre_difference(history, species));
+      const measures::TimeMean height = mean_of(run.directory, history, window, history.of("bed_height_m"));
       run.mean = {b.mean, *b.error};
       run.bed_height = height.mean;
       run.bed_height_error = *height.error;

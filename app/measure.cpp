@@ -16,13 +16,13 @@
 #include "core/output/json_value.hpp"
 #include "core/output/output.hpp"
 #include "core/print.hpp"
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 
 namespace polybed::multiscale {
 
 namespace {
 
-using fluid::Profile;
+using measures::Profile;
 using Values = std::vector<std::optional<double>>;
 
 struct Measure {
@@ -33,28 +33,30 @@ struct Measure {
 /// Centre of species 2 less that of species 1, over the bed height; empty for one species.
 std::optional<double> centre_difference(const Profile& profile) {
   if (profile.fraction.size() < 2) return std::nullopt;
-  const auto first = fluid::centre(profile, 0), second = fluid::centre(profile, 1), height = fluid::bed_height(profile);
+  const auto first = measures::centre(profile, 0), second = measures::centre(profile, 1),
+             height = measures::bed_height(profile);
   return first && second && height && *height > 0 ? std::optional((*second - *first) / *height) : std::nullopt;
 }
 
 std::optional<double> pressure_drop(const Profile& profile) {
-  return profile.pressure.empty() ? std::nullopt : std::optional(fluid::pressure_drop(profile));
+  return profile.pressure.empty() ? std::nullopt : std::optional(measures::pressure_drop(profile));
 }
 
 std::vector<Measure> measures_of(const std::vector<std::string>& species) {
   std::vector<Measure> all{
-      {"bed_height", "m", "highest z where phi equals half of its mean between z_0.80 and z_0.95", fluid::bed_height},
+      {"bed_height", "m", "highest z where phi equals half of its mean between z_0.80 and z_0.95",
+       measures::bed_height},
       {"bed_height_by_pressure", "m", "where straight lines through the pressure of bed and freeboard cross",
-       fluid::bed_height_by_pressure},
+       measures::bed_height_by_pressure},
       {"pressure_drop", "Pa", "net pressure at the bottom less that at the top", pressure_drop}};
   for (std::size_t j = 0; j < species.size(); ++j)
     all.push_back({"centre_" + species[j], "m", "mean height of the volume of the species",
-                   [j](const Profile& p) { return fluid::centre(p, j); }});
+                   [j](const Profile& p) { return measures::centre(p, j); }});
   all.push_back(
       {"centre_difference", "1", "centre of species 2 less that of species 1, over bed_height", centre_difference});
   all.push_back({"interface", "m", "top of the lower layer, x* = 0.05",
-                 [](const Profile& p) { return fluid::interface_height(p); }});
-  all.push_back({"mixing", "1", "1 mixed, 0 separated", fluid::mixing});
+                 [](const Profile& p) { return measures::interface_height(p); }});
+  all.push_back({"mixing", "1", "1 mixed, 0 separated", measures::mixing});
   return all;
 }
 
@@ -155,7 +157,7 @@ void lay(const core::JsonValue& on, Asked& asked) {
   const auto lay_one = [&](Profile& profile) {
     if (slab / profile.slab > most_ratio || profile.slab / slab > most_ratio)
       throw core::FileError(fmt::format("slab: {} m is too far from the {} m of a profile", slab, profile.slab));
-    profile = fluid::on_slabs(profile, slab, count);
+    profile = measures::on_slabs(profile, slab, count);
   };
   for (Profile& profile : asked.profiles) lay_one(profile);
   if (asked.reference) lay_one(*asked.reference);
@@ -249,13 +251,13 @@ Distances distances_of(const Asked& asked) {
   const auto of_profile = [&](const Profile& profile) {
     double sum = 0, count = 0;
     for (std::size_t j = 0; j < profile.fraction.size(); ++j)
-      if (const auto d = fluid::profile_distance(profile, reference, j)) {
+      if (const auto d = measures::profile_distance(profile, reference, j)) {
         sum += *d;
         count += 1;
       }
     return count > 0 ? std::optional(sum / count) : std::nullopt;
   };
-  return {values_of(asked, [&](const Profile& profile) { return fluid::composition_distance(profile, reference); }),
+  return {values_of(asked, [&](const Profile& profile) { return measures::composition_distance(profile, reference); }),
           values_of(asked, of_profile)};
 }
 

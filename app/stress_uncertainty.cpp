@@ -14,7 +14,7 @@
 #include "core/output/json.hpp"
 #include "core/output/output.hpp"
 #include "core/print.hpp"
-#include "fluid/time_mean.hpp"
+#include "measures/time_mean.hpp"
 #include "multiscale/calibrate/moved_table.hpp"
 #include "multiscale/compare_window.hpp"
 
@@ -28,7 +28,7 @@ constexpr std::string_view word = "table:";
 /// A mean over the window in which runs are compared.
 std::optional<double> late_mean(const core::History& history, const Series& values) {
   if (values.empty()) return {};
-  const auto mean = fluid::time_mean(within(history.of("time_s"), values, window_of(history)));
+  const auto mean = measures::time_mean(within(history.of("time_s"), values, window_of(history)));
   return mean ? std::optional(mean->mean) : std::nullopt;
 }
 

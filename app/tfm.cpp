@@ -81,7 +81,7 @@ class TfmRun final : public CaseRun {
   }
 
   core::ProgressLine line() override {
-    const fluid::WorstInvariant& worst = observers_->invariants().nearest();
+    const measures::WorstInvariant& worst = observers_->invariants().nearest();
     const tfm::StepLine& step = model_.last_step();
     return {model_.time(),
             scene_.run.until,

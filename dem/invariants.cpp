@@ -10,7 +10,7 @@
 
 namespace polybed::dem {
 
-using fluid::WorstInvariant;
+using measures::WorstInvariant;
 
 std::vector<std::int64_t> numbers_of(const Model& model) {
   std::vector<std::int64_t> number(model.materials().species().size(), 0);

@@ -7,7 +7,7 @@
 
 #include "dem/coupling/fluid_record.hpp"
 #include "dem/measures.hpp"
-#include "fluid/invariants.hpp"
+#include "measures/invariants.hpp"
 
 namespace polybed::dem {
 
@@ -36,9 +36,9 @@ class Invariants {
   void see(const Totals& now, const FluidRecord* fluid);
 
   [[nodiscard]] const RunStart& start() const { return start_; }
-  [[nodiscard]] const std::vector<fluid::WorstInvariant>& worst() const { return worst_; }
+  [[nodiscard]] const std::vector<measures::WorstInvariant>& worst() const { return worst_; }
   /// The energy of the ledger; null without one.
-  [[nodiscard]] const fluid::WorstInvariant* energy() const { return ledger_ ? &worst_.front() : nullptr; }
+  [[nodiscard]] const measures::WorstInvariant* energy() const { return ledger_ ? &worst_.front() : nullptr; }
 
  private:
   [[nodiscard]] double energy_miss(const Totals& now);
@@ -47,7 +47,7 @@ class Invariants {
   RunStart start_;
   bool ledger_;
   double greatest_energy_ = 0;  ///< met so far, J
-  std::vector<fluid::WorstInvariant> worst_;
+  std::vector<measures::WorstInvariant> worst_;
 };
 
 }  // namespace polybed::dem

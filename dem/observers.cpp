@@ -6,7 +6,7 @@
 
 #include "core/numerics/ranks.hpp"
 #include "dem/parallel/gathered.hpp"
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 
 namespace polybed::dem {
 
@@ -72,7 +72,7 @@ struct Snapshot {
   [[nodiscard]] core::ParticleSnapshot view() const { return {id, species, radius, position, velocity, spin}; }
 };
 
-std::vector<double> slab_centres(const fluid::Slabs& slabs) {
+std::vector<double> slab_centres(const measures::Slabs& slabs) {
   std::vector<double> y;
   for (std::size_t k = 0; k < slabs.count; ++k) y.push_back((double(k) + 0.5) * slabs.thickness());
   return y;
@@ -117,26 +117,26 @@ void Observers::write_history(double time) {
     for (const Species& s : species) density.push_back(s.density);
     for (const Particle& p : all) mass[std::size_t(p.species)] += species[std::size_t(p.species)].mass;
     const Snapshot snapshot(all);
-    const fluid::Profile profile = fluid::particle_profile(snapshot.view(), species.size(), slabs_).solids;
-    const fluid::ParticleHeights heights = fluid::particle_heights(snapshot.view(), density);
-    bed_height_ = fluid::bed_height(profile);
+    const measures::Profile profile = measures::particle_profile(snapshot.view(), species.size(), slabs_).solids;
+    const measures::ParticleHeights heights = measures::particle_heights(snapshot.view(), density);
+    bed_height_ = measures::bed_height(profile);
     files_->history.write_row(row_of(time, profile, heights, mass, most_solids));
   });
 }
 
 /// On the first rank. Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
-std::vector<std::optional<double>> Observers::row_of(double time, const fluid::Profile& profile,
-                                                     const fluid::ParticleHeights& heights,
+std::vector<std::optional<double>> Observers::row_of(double time, const measures::Profile& profile,
+                                                     const measures::ParticleHeights& heights,
                                                      const std::vector<double>& mass, double most_solids) const {
   const double drop = fluid_ ? fluid_->pressure_drop() : 0, weight = weight_of(model_, mass, slabs_.area);
-  std::vector<std::optional<double>> row{time, model_.limits().dt, fluid::bed_height(profile), drop, weight};
+  std::vector<std::optional<double>> row{time, model_.limits().dt, measures::bed_height(profile), drop, weight};
   for (std::size_t j = 0; j < mass.size(); ++j) {
     row.push_back(heights.mean[j]);
     row.push_back(mass[j]);
   }
   const Totals& t = totals_;
-  row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), t.kinetic, t.rotational, t.elastic,
-                         t.potential});
+  row.insert(row.end(), {measures::interface_height(profile), measures::mixing(profile), t.kinetic, t.rotational,
+                         t.elastic, t.potential});
   if (has_ledger_) row.insert(row.end(), {t.dissipated, t.work});
   if (has_ledger_ && model_.outflow() != nullptr) row.emplace_back(t.carried_out);
   row.insert(row.end(), {double(t.contacts), t.max_overlap, t.max_force});
@@ -159,7 +159,7 @@ void Observers::write_particles(double time) {
   core::on_first(model_.ranks(), [&] {
     const Snapshot snapshot(all);
     const std::size_t species = model_.materials().species().size();
-    const fluid::ParticleProfile profile = fluid::particle_profile(snapshot.view(), species, slabs_);
+    const measures::ParticleProfile profile = measures::particle_profile(snapshot.view(), species, slabs_);
     std::vector<std::vector<double>> rows{std::vector<double>(slabs_.count, 0.0)};
     for (std::size_t k = 0; k < slabs_.count; ++k) rows[0][k] = 1 - profile.solids.solids_fraction(k);
     for (std::size_t j = 0; j < species; ++j) {

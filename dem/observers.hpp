@@ -15,7 +15,7 @@
 #include "dem/invariants.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
-#include "fluid/particle_profile.hpp"
+#include "measures/particle_profile.hpp"
 
 namespace polybed::dem {
 
@@ -51,12 +51,12 @@ class Observers {
     core::ParticleWriter particles;
     std::unique_ptr<FluidOutput> fluid;  ///< null without one
   };
-  [[nodiscard]] std::vector<std::optional<double>> row_of(double time, const fluid::Profile& profile,
-                                                          const fluid::ParticleHeights& heights,
+  [[nodiscard]] std::vector<std::optional<double>> row_of(double time, const measures::Profile& profile,
+                                                          const measures::ParticleHeights& heights,
                                                           const std::vector<double>& mass, double most_solids) const;
 
   const Model& model_;
-  fluid::Slabs slabs_;
+  measures::Slabs slabs_;
   bool has_ledger_;
   std::optional<FluidRecord> fluid_;  ///< absent: there is no fluid
   std::unique_ptr<Files> files_;

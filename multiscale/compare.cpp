@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 
 namespace polybed::multiscale {
 
@@ -17,17 +17,17 @@ constexpr double composition_goal_near_inversion = 0.1;  // calibration.md, sect
 constexpr double window_parts = 4;                       // windows in a run, likewise
 
 double half_width(double variance, std::size_t degrees) {
-  return fluid::student_quantile(degrees) * std::sqrt(variance);
+  return measures::student_quantile(degrees) * std::sqrt(variance);
 }
 
 /// The interface of the mean profile, as the thesis defines it.
-std::optional<fluid::TimeMean> interface_of(const WindowProfiles& profiles) {
+std::optional<measures::TimeMean> interface_of(const WindowProfiles& profiles) {
   if (profiles.count() == 0) return std::nullopt;
-  const auto found = fluid::interface_height(profiles.mean());
+  const auto found = measures::interface_height(profiles.mean());
   if (!found) return std::nullopt;
-  fluid::TimeMean mean{*found, std::nullopt};
-  if (const auto j = fluid::jackknife(profiles.count(),
-                                      [&](const auto& kept) { return fluid::interface_height(profiles.mean(kept)); }))
+  measures::TimeMean mean{*found, std::nullopt};
+  if (const auto j = measures::jackknife(
+          profiles.count(), [&](const auto& kept) { return measures::interface_height(profiles.mean(kept)); }))
     mean.error = half_width(j->variance, j->degrees);
   return mean;
 }
@@ -38,12 +38,12 @@ Score distance_score(const std::string& name, const WindowProfiles& tfm, const W
                      std::optional<double> goal, const Distance& distance) {
   Score score{name, std::nullopt, std::nullopt, goal};
   if (tfm.count() == 0 || dem.count() == 0) return score;
-  const fluid::Profile tfm_mean = tfm.mean(), dem_mean = dem.mean();
+  const measures::Profile tfm_mean = tfm.mean(), dem_mean = dem.mean();
   score.value = distance(tfm_mean, dem_mean);
   const auto of_tfm =
-      fluid::jackknife(tfm.count(), [&](const auto& kept) { return distance(tfm.mean(kept), dem_mean); });
+      measures::jackknife(tfm.count(), [&](const auto& kept) { return distance(tfm.mean(kept), dem_mean); });
   const auto of_dem =
-      fluid::jackknife(dem.count(), [&](const auto& kept) { return distance(tfm_mean, dem.mean(kept)); });
+      measures::jackknife(dem.count(), [&](const auto& kept) { return distance(tfm_mean, dem.mean(kept)); });
   if (score.value && of_tfm && of_dem)
     score.error = half_width(of_tfm->variance + of_dem->variance, std::min(of_tfm->degrees, of_dem->degrees));
   return score;
@@ -86,7 +86,7 @@ class Comparer {
   template <class Values>
   void add(const std::string& name, const Values& values_of) {
     const auto mean = [&](const core::History& history) {
-      return fluid::time_mean(within(history.of("time_s"), values_of(history), window_));
+      return measures::time_mean(within(history.of("time_s"), values_of(history), window_));
     };
     result_.measures.push_back({name, mean(tfm_.history), mean(dem_.history)});
   }
@@ -125,24 +125,25 @@ class Comparer {
     if (species_.size() > 1) {
       const ComparedMeasure& b = measure("centre_difference");
       result_.scores.push_back({"e_b", b.difference(), b.difference_error(), 0.05});
-      result_.scores.push_back(distance_score("D1", tfm_profiles_, dem_profiles_, 0.05, fluid::composition_distance));
+      result_.scores.push_back(
+          distance_score("D1", tfm_profiles_, dem_profiles_, 0.05, measures::composition_distance));
     }
     for (std::size_t j = 0; j < species_.size(); ++j)
       result_.scores.push_back(
           distance_score("profile_" + species_[j], tfm_profiles_, dem_profiles_, std::nullopt,
-                         [&](const auto& a, const auto& b) { return fluid::profile_distance(a, b, j); }));
+                         [&](const auto& a, const auto& b) { return measures::profile_distance(a, b, j); }));
   }
 
   template <class Side>
   [[nodiscard]] std::optional<OnTop> on_top(const Side& side) const {
-    std::vector<std::pair<fluid::TimeMean, std::string>> centres;
+    std::vector<std::pair<measures::TimeMean, std::string>> centres;
     for (const std::string& name : species_) {
-      const std::optional<fluid::TimeMean> mean = side(measure(centre_column(name)));
+      const std::optional<measures::TimeMean> mean = side(measure(centre_column(name)));
       if (!mean) return std::nullopt;
       centres.emplace_back(*mean, name);
     }
     std::sort(centres.begin(), centres.end(), [](const auto& a, const auto& b) { return a.first.mean > b.first.mean; });
-    const fluid::TimeMean &first = centres[0].first, &second = centres[1].first;
+    const measures::TimeMean &first = centres[0].first, &second = centres[1].first;
     const bool certain =
         first.error && second.error && first.mean - second.mean > std::hypot(*first.error, *second.error);
     return OnTop{centres[0].second, certain};
@@ -160,7 +161,7 @@ class Comparer {
     double longest = 0;
     std::string slowest;
     for (const ComparedMeasure& m : result_.measures)
-      if (const std::optional<fluid::TimeMean> mean = side(m); mean && mean->error && mean->correlation > longest) {
+      if (const std::optional<measures::TimeMean> mean = side(m); mean && mean->error && mean->correlation > longest) {
         longest = mean->correlation;
         slowest = m.name;
       }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fluid/time_mean.hpp"
+#include "measures/time_mean.hpp"
 #include "multiscale/compare_window.hpp"
 #include "multiscale/inversion/scan_file.hpp"
 
@@ -15,7 +15,7 @@ namespace polybed::multiscale {
 /// A time mean by both models; empty where a run has none.
 struct ComparedMeasure {
   std::string name;  ///< with its unit: "bed_height_m"
-  std::optional<fluid::TimeMean> tfm, dem;
+  std::optional<measures::TimeMean> tfm, dem;
 
   [[nodiscard]] std::optional<double> difference() const;        ///< TFM less DEM
   [[nodiscard]] std::optional<double> difference_error() const;  ///< half-width of its 95 % interval

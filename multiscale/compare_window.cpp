@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "fluid/drift.hpp"
-#include "fluid/time_mean.hpp"
+#include "measures/drift.hpp"
+#include "measures/time_mean.hpp"
 #include "multiscale/run_record.hpp"
 
 namespace polybed::multiscale {
@@ -21,7 +21,7 @@ constexpr double rounding = 1e-9;      // of times at the ends of the window
 /// Where the marginal standard error rule would have the window begin, for one series.
 double begin_by_rule(const core::History& history, const Series& values, const Window& window) {
   const Series time = within(history.of("time_s"), history.of("time_s"), window);
-  const std::size_t drop = fluid::rows_to_drop(within(history.of("time_s"), values, window));
+  const std::size_t drop = measures::rows_to_drop(within(history.of("time_s"), values, window));
   return drop > 0 && drop < time.size() ? time[drop] : window.begin;
 }
 
@@ -82,8 +82,8 @@ WindowProfiles::WindowProfiles(const core::Profiles& profiles, const std::vector
     if (profiles.time[n] >= window.begin - slack && profiles.time[n] <= window.end + slack) rows_.push_back(n);
 }
 
-fluid::Profile WindowProfiles::mean(const std::vector<bool>& kept) const {
-  fluid::Profile found;
+measures::Profile WindowProfiles::mean(const std::vector<bool>& kept) const {
+  measures::Profile found;
   found.slab = slab_;
   found.fraction.assign(values_.size(), Series(slabs_, 0.0));
   const double all = kept.empty() ? double(count()) : double(std::count(kept.begin(), kept.end(), true));
@@ -108,9 +108,9 @@ MeanProfiles WindowProfiles::time_means() const {
           }
         return sum / count;
       };
-      fluid::TimeMean mean{mean_of(std::vector<bool>(rows_.size(), true)), std::nullopt};
-      if (const auto left_out = fluid::jackknife(rows_.size(), mean_of))
-        mean.error = fluid::student_quantile(left_out->degrees) * std::sqrt(left_out->variance);
+      measures::TimeMean mean{mean_of(std::vector<bool>(rows_.size(), true)), std::nullopt};
+      if (const auto left_out = measures::jackknife(rows_.size(), mean_of))
+        mean.error = measures::student_quantile(left_out->degrees) * std::sqrt(left_out->variance);
       found[j].push_back(mean);
     }
   return found;
@@ -129,7 +129,7 @@ std::vector<std::string> drifts_in(const core::History& history, const std::vect
                                    const Window& window) {
   std::vector<std::string> names{"bed_height"};
   for (const std::string& name : species) names.push_back("centre_" + name);
-  fluid::Drifts drifts(names);
+  measures::Drifts drifts(names);
   const Series& time = history.of("time_s");
   for (std::size_t n = 0; n < time.size() && time[n] <= window.end; ++n) {
     std::vector<std::optional<double>> row;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/output/output.hpp"
-#include "fluid/profile.hpp"
-#include "fluid/time_mean.hpp"
+#include "measures/profile.hpp"
+#include "measures/time_mean.hpp"
 
 namespace polybed::multiscale {
 
@@ -50,7 +50,7 @@ using Series = std::vector<double>;
                                                  const Window& window);
 
 /// Solids fractions over time of each species in each slab, [species][slab].
-using MeanProfiles = std::vector<std::vector<fluid::TimeMean>>;
+using MeanProfiles = std::vector<std::vector<measures::TimeMean>>;
 
 /// Profiles of a run in the window.
 class WindowProfiles {
@@ -60,10 +60,10 @@ class WindowProfiles {
 
   [[nodiscard]] std::size_t count() const { return rows_.size(); }
   /// Mean over time. \param kept  which of them; empty: all
-  [[nodiscard]] fluid::Profile mean(const std::vector<bool>& kept = {}) const;
+  [[nodiscard]] measures::Profile mean(const std::vector<bool>& kept = {}) const;
   /// Mean solids fractions over time, each with the half-width of its 95 % interval from leaving out groups of profiles
-  /// (fluid::jackknife), which of a mean is that of batch means; empty with less than four profiles. Without a profile
-  /// in the window no species has a slab.
+  /// (measures::jackknife), which of a mean is that of batch means; empty with less than four profiles. Without a
+  /// profile in the window no species has a slab.
   [[nodiscard]] MeanProfiles time_means() const;
 
  private:

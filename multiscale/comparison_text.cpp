@@ -14,8 +14,8 @@ namespace {
 using core::Json;
 using Number = std::optional<double>;
 
-Number mean_of(const std::optional<fluid::TimeMean>& mean) { return mean ? Number(mean->mean) : std::nullopt; }
-Number error_of(const std::optional<fluid::TimeMean>& mean) { return mean ? mean->error : std::nullopt; }
+Number mean_of(const std::optional<measures::TimeMean>& mean) { return mean ? Number(mean->mean) : std::nullopt; }
+Number error_of(const std::optional<measures::TimeMean>& mean) { return mean ? mean->error : std::nullopt; }
 
 void write_measures(Json& json, const Comparison& comparison) {
   json.key("measures").begin_object();
@@ -152,7 +152,7 @@ std::string comparison_json(const Comparison& comparison, const ComparedRun& tfm
   json.end_array();
   json.key("window").begin_object();
   json.member("begin_s", comparison.window.begin).member("end_s", comparison.window.end);
-  json.member("shortened", comparison.window.shortened).member("confidence", fluid::confidence).end_object();
+  json.member("shortened", comparison.window.shortened).member("confidence", measures::confidence).end_object();
   write_measures(json, comparison);
   write_profiles(json, comparison);
   write_scores(json, comparison);

@@ -66,9 +66,9 @@ void write_well_posedness(Json& json, const tfm::LeastWellPosed& least, int dime
   json.end_array().member("share_below_1", least.share_below_now).end_object();
 }
 
-void write_drifts(Json& json, const fluid::Drifts& drifts) {
+void write_drifts(Json& json, const measures::Drifts& drifts) {
   json.key("drift").begin_object().member("window_s", drifts.window()).key("measures").begin_array();
-  for (const fluid::DriftOfMeasure& d : drifts.judge())
+  for (const measures::DriftOfMeasure& d : drifts.judge())
     json.begin_object()
         .member("name", d.name)
         .member("rate_m_per_s", d.drift.rate)
@@ -80,7 +80,7 @@ void write_drifts(Json& json, const fluid::Drifts& drifts) {
 
 /// Mass of each species at the start, in, out and in the column, and how well they add up; nothing if no end is open.
 void write_ledger(Json& json, const tfm::Constants& constants, const RunTotals& totals,
-                  const fluid::Invariants& invariants) {
+                  const measures::Invariants& invariants) {
   if (!constants.openings.present()) return;
   const std::vector<fluid::Passed>& passed = totals.passed;
   const std::vector<double>& now = totals.masses;
@@ -94,7 +94,7 @@ void write_ledger(Json& json, const tfm::Constants& constants, const RunTotals& 
         .member("in_kg", in)
         .member("out_kg", out)
         .member("stored_kg", now[j])
-        .member("relative_error", fluid::ledger_error(start, in, out, now[j]))
+        .member("relative_error", measures::ledger_error(start, in, out, now[j]))
         .end_object();
   }
   json.end_array();
@@ -109,9 +109,9 @@ std::string processor() {
   return "unknown";
 }
 
-std::vector<std::string> drift_lines(const fluid::Drifts& drifts) {
+std::vector<std::string> drift_lines(const measures::Drifts& drifts) {
   std::vector<std::string> lines;
-  for (const fluid::DriftOfMeasure& d : drifts.judge())
+  for (const measures::DriftOfMeasure& d : drifts.judge())
     if (!d.steady)
       lines.push_back(fmt::format("not steady: drift of {} {:.3g} mm/s, within {:.2g}, over the last {:.3g} s", d.name,
                                   1e3 * d.drift.rate, 1e3 * d.drift.error, drifts.window()));
@@ -187,9 +187,9 @@ void begin_record(Json& json, const core::Scene& scene, const std::string& model
       .end_object();
 }
 
-void write_invariants(Json& json, std::span<const fluid::WorstInvariant> worst) {
+void write_invariants(Json& json, std::span<const measures::WorstInvariant> worst) {
   json.key("invariants").begin_array();
-  for (const fluid::WorstInvariant& w : worst)
+  for (const measures::WorstInvariant& w : worst)
     json.begin_object()
         .member("name", w.name)
         .member("worst", w.value)
@@ -201,9 +201,9 @@ void write_invariants(Json& json, std::span<const fluid::WorstInvariant> worst) 
   json.end_array();
 }
 
-std::vector<std::string> exceeded_lines(std::span<const fluid::WorstInvariant> worst) {
+std::vector<std::string> exceeded_lines(std::span<const measures::WorstInvariant> worst) {
   std::vector<std::string> lines;
-  for (const fluid::WorstInvariant& w : worst)
+  for (const measures::WorstInvariant& w : worst)
     if (!(w.value <= w.limit))
       lines.push_back(fmt::format("{} exceeded its limit{}", w.name,
                                   w.broken() ? " more than tenfold: the results do not conserve it" : ""));

@@ -11,7 +11,7 @@
 #include "core/output/json.hpp"
 #include "core/output/json_value.hpp"
 #include "core/timers.hpp"
-#include "fluid/invariants.hpp"
+#include "measures/invariants.hpp"
 #include "multiscale/effects/left_out.hpp"
 #include "multiscale/effects/neglected.hpp"
 #include "tfm/observers.hpp"
@@ -63,16 +63,16 @@ void begin_record(core::Json& json, const core::Scene& scene, const std::string&
 
 /// Writes "invariants": the worst value of each, its limit, when it was, whether it held, and whether a run that breaks
 /// it ends.
-void write_invariants(core::Json& json, std::span<const fluid::WorstInvariant> worst);
+void write_invariants(core::Json& json, std::span<const measures::WorstInvariant> worst);
 
 /// One line for each invariant that is beyond its limit: what the warnings of a record begin with.
-[[nodiscard]] std::vector<std::string> exceeded_lines(std::span<const fluid::WorstInvariant> worst);
+[[nodiscard]] std::vector<std::string> exceeded_lines(std::span<const measures::WorstInvariant> worst);
 
 /// Writes "timers": seconds by term.
 void write_timers(core::Json& json, const core::Timers& timers);
 
 /// One line for each height that still drifts.
-[[nodiscard]] std::vector<std::string> drift_lines(const fluid::Drifts& drifts);
+[[nodiscard]] std::vector<std::string> drift_lines(const measures::Drifts& drifts);
 
 /// The record as one JSON object.
 [[nodiscard]] std::string run_record_text(const RunRecord& record);

@@ -103,24 +103,24 @@ std::vector<double> mean_temperature(const core::Grid& grid, const core::Field& 
     weight[c] = std::max(fraction[c], 0.0);
     weighted[c] *= weight[c];
   }
-  std::vector<double> mean = fluid::lateral_mean(grid, weighted);
-  const std::vector<double> solids = fluid::lateral_mean(grid, weight);
+  std::vector<double> mean = measures::lateral_mean(grid, weighted);
+  const std::vector<double> solids = measures::lateral_mean(grid, weight);
   for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = mean[k] > 0 ? mean[k] / solids[k] : 0;
   return mean;
 }
 
 std::vector<double> masses(const Model& model) {
-  std::vector<double> mass = fluid::species_volumes(model.constants().grid, model.fields().solids);
+  std::vector<double> mass = measures::species_volumes(model.constants().grid, model.fields().solids);
   for (std::size_t j = 0; j < mass.size(); ++j) mass[j] *= model.constants().density[j];
   return mass;
 }
 
-fluid::Profile profile_of(const Model& model) {
-  fluid::Profile profile;
+measures::Profile profile_of(const Model& model) {
+  measures::Profile profile;
   profile.slab = model.constants().grid.spacing[1];
   for (const core::Field& phi : model.fields().solids.fraction)
-    profile.fraction.push_back(fluid::lateral_mean(model.constants().grid, phi));
-  profile.pressure = fluid::lateral_mean(model.constants().grid, model.fields().fluid.pressure);
+    profile.fraction.push_back(measures::lateral_mean(model.constants().grid, phi));
+  profile.pressure = measures::lateral_mean(model.constants().grid, model.fields().fluid.pressure);
   return profile;
 }
 
@@ -145,7 +145,7 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
 
 void Observers::write_history(double time) {
   const Constants& constants = model_.constants();
-  const fluid::Profile profile = profile_of(model_);
+  const measures::Profile profile = profile_of(model_);
   const std::vector<double> mass = masses(model_);
   const double area = constants.grid.spacing[0] * constants.grid.column_cells(0) * constants.grid.spacing[2] *
                       constants.grid.column_cells(2);
@@ -153,26 +153,26 @@ void Observers::write_history(double time) {
   for (std::size_t j = 0; j < constants.species(); ++j)
     weight +=
         mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity * -constants.down[1] / area;
-  const double drop = fluid::pressure_drop(profile);
+  const double drop = measures::pressure_drop(profile);
   force_balance_ = weight != 0 ? drop / weight : 0;
   const Fields& fields = model_.fields();
   const double above = model_.effects().solids_stress ? model_.effects().solids_stress->packing_above(fields) : 0.0;
   const auto account = model_.fluid_account(time);
   const double fluid_mass = account ? fluid::fluid_mass(constants.grid, fields.fluid) : 0;
   const std::vector<fluid::Passed> passed = model_.passed();
-  const fluid::InvariantValues now =
+  const measures::InvariantValues now =
       invariants_.see(constants.grid, fields.solids, fields.fluid, above, model_.velocity_scale(), force_balance_ - 1,
                       time, passed, account ? account->error(fluid_mass) : 0);
-  const auto height = fluid::bed_height(profile);
+  const auto height = measures::bed_height(profile);
   bed_height_ = height;
   watch(time, height, profile);
   std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
   for (std::size_t j = 0; j < constants.species(); ++j) {
-    row.push_back(fluid::centre(profile, j));
+    row.push_back(measures::centre(profile, j));
     row.push_back(mass[j]);
   }
-  row.insert(row.end(), {fluid::interface_height(profile), fluid::mixing(profile), now.most_solids, -now.fraction_below,
-                         now.divergence});
+  row.insert(row.end(), {measures::interface_height(profile), measures::mixing(profile), now.most_solids,
+                         -now.fraction_below, now.divergence});
   if (account) row.insert(row.end(), {fluid_mass, account->in, account->out});
   if (constants.openings.present())
     for (std::size_t j = 0; j < constants.species(); ++j)
@@ -180,9 +180,9 @@ void Observers::write_history(double time) {
   core::on_first(ranks_, [&] { files_->history.write_row(row); });
 }
 
-void Observers::watch(double time, std::optional<double> height, const fluid::Profile& profile) {
+void Observers::watch(double time, std::optional<double> height, const measures::Profile& profile) {
   std::vector<std::optional<double>> heights{height};
-  for (std::size_t j = 0; j < profile.fraction.size(); ++j) heights.push_back(fluid::centre(profile, j));
+  for (std::size_t j = 0; j < profile.fraction.size(); ++j) heights.push_back(measures::centre(profile, j));
   drifts_.see(time, heights);
   const WellPosedness now = well_posedness(model_.constants(), model_.fields());
   LeastWellPosed& least = least_well_posed_;
@@ -196,8 +196,8 @@ void Observers::watch(double time, std::optional<double> height, const fluid::Pr
 void Observers::write_fields(double time) {
   const core::Grid& grid = model_.constants().grid;
   const Fields& fields = model_.fields();
-  std::vector<std::vector<double>> rows{fluid::lateral_mean(grid, fields.fluid.voidage),
-                                        fluid::lateral_mean(grid, fields.fluid.pressure)};
+  std::vector<std::vector<double>> rows{measures::lateral_mean(grid, fields.fluid.voidage),
+                                        measures::lateral_mean(grid, fields.fluid.pressure)};
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));
   std::vector<core::Field> temperatures;
@@ -206,8 +206,8 @@ void Observers::write_fields(double time) {
   std::vector<core::FieldValues> values{
       {fields.fluid.voidage}, {fields.fluid.pressure}, components(grid, velocities[0])};
   for (std::size_t j = 0; j < fields.solids.species(); ++j) {
-    rows.push_back(fluid::lateral_mean(grid, fields.solids.fraction[j]));
-    rows.push_back(fluid::lateral_mean(grid, velocities[j + 1][1]));
+    rows.push_back(measures::lateral_mean(grid, fields.solids.fraction[j]));
+    rows.push_back(measures::lateral_mean(grid, velocities[j + 1][1]));
     values.push_back({fields.solids.fraction[j]});
     values.push_back(components(grid, velocities[j + 1]));
     if (!knows_temperature(model_)) continue;

@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "core/output/output.hpp"
-#include "fluid/drift.hpp"
-#include "fluid/invariants.hpp"
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
+#include "measures/drift.hpp"
+#include "measures/invariants.hpp"
 #include "tfm/model.hpp"
 #include "tfm/well_posedness.hpp"
 
 namespace polybed::tfm {
 
 /// The vertical profile of the fields last shown. Collective.
-[[nodiscard]] fluid::Profile profile_of(const Model& model);
+[[nodiscard]] measures::Profile profile_of(const Model& model);
 
 /// The smallest margin to ill-posedness that a run has had in a row of its history, and the share of cells in the last.
 struct LeastWellPosed {
@@ -40,14 +40,14 @@ class Observers {
 
   /// The steps logged last, the newest at the end: ten, or as many as this process has done.
   [[nodiscard]] const std::deque<StepLine>& last_steps() const { return last_steps_; }
-  [[nodiscard]] const fluid::Invariants& invariants() const { return invariants_; }
+  [[nodiscard]] const measures::Invariants& invariants() const { return invariants_; }
   /// Bed height of the last row of the history, m.
   [[nodiscard]] std::optional<double> bed_height() const { return bed_height_; }
   /// Pressure drop over buoyant weight in the last row of the history.
   [[nodiscard]] double force_balance() const { return force_balance_; }
   [[nodiscard]] const LeastWellPosed& least_well_posed() const { return least_well_posed_; }
   /// Of the heights of bed and species, since this process began.
-  [[nodiscard]] const fluid::Drifts& drifts() const { return drifts_; }
+  [[nodiscard]] const measures::Drifts& drifts() const { return drifts_; }
 
  private:
   /// What the first rank has open.
@@ -58,12 +58,12 @@ class Observers {
   };
 
   /// What does not go into a row: the drift of its heights, and how well-posed the equations are.
-  void watch(double time, std::optional<double> height, const fluid::Profile& profile);
+  void watch(double time, std::optional<double> height, const measures::Profile& profile);
 
   const Model& model_;
   const core::Ranks* ranks_;
-  fluid::Invariants invariants_;
-  fluid::Drifts drifts_;
+  measures::Invariants invariants_;
+  measures::Drifts drifts_;
   LeastWellPosed least_well_posed_;
   std::unique_ptr<Files> files_;
   std::optional<core::FieldWriter> fields_;  ///< every rank writes its block

@@ -4,7 +4,7 @@
 
 #include "closures/sphere.hpp"
 #include "core/numerics/blocks.hpp"
-#include "fluid/profile.hpp"
+#include "measures/profile.hpp"
 
 namespace polybed::dem {
 
@@ -74,8 +74,8 @@ FluidOutput::FluidOutput(const Coupling& coupling, std::vector<std::string> spec
               field_names(species, coupling.flow().compressible() != nullptr), resume_time) {}
 
 std::vector<std::vector<double>> FluidOutput::profiles(const Coupling::Column& column) {
-  return {fluid::lateral_mean(column.grid, column.pressure),
-          fluid::lateral_mean(column.grid, core::cell_means(column.grid, column.velocity)[1])};
+  return {measures::lateral_mean(column.grid, column.pressure),
+          measures::lateral_mean(column.grid, core::cell_means(column.grid, column.velocity)[1])};
 }
 
 void FluidOutput::write(double time, const Coupling::Column& column, const core::ParticleSnapshot& particles) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 
 namespace polybed::multiscale {
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double enough = 30;  ///< autocorrelation times in a window: cost.md, section 6
 
-using OfProfile = std::function<std::optional<double>(const fluid::Profile&)>;
+using OfProfile = std::function<std::optional<double>(const measures::Profile&)>;
 
 /// Mean, over the profiles in the window, of what a quantity changes by from the run's slabs to those asked for.
 double change_of_slabs(const WindowProfiles& profiles, const MeasureOn& on, const OfProfile& quantity) {
@@ -21,8 +21,8 @@ double change_of_slabs(const WindowProfiles& profiles, const MeasureOn& on, cons
   for (std::size_t n = 0; n < profiles.count(); ++n) {
     std::vector<bool> kept(profiles.count(), false);
     kept[n] = true;
-    const fluid::Profile own = profiles.mean(kept);
-    const auto here = quantity(own), there = quantity(fluid::on_slabs(own, on.slab, on.count));
+    const measures::Profile own = profiles.mean(kept);
+    const auto here = quantity(own), there = quantity(measures::on_slabs(own, on.slab, on.count));
     if (!here || !there) continue;
     sum += *there - *here;
     count += 1;
@@ -59,10 +59,10 @@ class Measurer {
 
   RunQuantities make() && {
     const core::History& h = run_.history;
-    add("bed_height", h.of("bed_height_m"), [](const fluid::Profile& p) { return fluid::bed_height(p); });
+    add("bed_height", h.of("bed_height_m"), [](const measures::Profile& p) { return measures::bed_height(p); });
     for (std::size_t j = 0; j < species_.size(); ++j)
       add("centre_" + species_[j], h.of(centre_column(species_[j])),
-          [j](const fluid::Profile& p) { return fluid::centre(p, j); });
+          [j](const measures::Profile& p) { return measures::centre(p, j); });
     const Series drop = ratio(h.of("pressure_drop_Pa"), h.of("buoyant_weight_Pa"));
     add("pressure_drop", drop, {});
     if (species_.size() > 1) {
@@ -77,7 +77,7 @@ class Measurer {
  private:
   void add(const std::string& id, const Series& rows, const OfProfile& of_profile) {
     const Series in_window = within(run_.history.of("time_s"), rows, on_.window);
-    auto mean = fluid::time_mean(in_window);
+    auto mean = measures::time_mean(in_window);
     if (!mean) return;
     const bool same = std::abs(2 * run_.profiles.height.front() - on_.slab) < 1e-9 * on_.slab;
     if (of_profile && !same) mean->mean += change_of_slabs(profiles_, on_, of_profile);
@@ -87,7 +87,7 @@ class Measurer {
   }
 
   void add_fluctuations(const Series& drop) {
-    const auto mean = fluid::time_mean(drop);
+    const auto mean = measures::time_mean(drop);
     if (!mean || drop.size() < 8) return;
     double square = 0;
     for (const double v : drop) square += std::pow(v - mean->mean, 2) / double(drop.size());
@@ -97,19 +97,19 @@ class Measurer {
     if (const auto f = frequency_of(drop, step)) result_.values["pressure_frequency"] = {*f, std::nullopt, 1};
   }
 
-  [[nodiscard]] fluid::Profile mean(const std::vector<bool>& kept = {}) const {
-    return fluid::on_slabs(profiles_.mean(kept), on_.slab, on_.count);
+  [[nodiscard]] measures::Profile mean(const std::vector<bool>& kept = {}) const {
+    return measures::on_slabs(profiles_.mean(kept), on_.slab, on_.count);
   }
 
   void add_of_mean_profile() {
     result_.profile = mean();
     if (species_.size() < 2) return;
-    const auto found = fluid::interface_height(result_.profile);
+    const auto found = measures::interface_height(result_.profile);
     if (!found) return;
-    fluid::TimeMean value{*found, std::nullopt, 1};
-    if (const auto j =
-            fluid::jackknife(profiles_.count(), [&](const auto& kept) { return fluid::interface_height(mean(kept)); }))
-      value.error = fluid::student_quantile(j->degrees) * std::sqrt(j->variance);
+    measures::TimeMean value{*found, std::nullopt, 1};
+    if (const auto j = measures::jackknife(profiles_.count(),
+                                           [&](const auto& kept) { return measures::interface_height(mean(kept)); }))
+      value.error = measures::student_quantile(j->degrees) * std::sqrt(j->variance);
     result_.values["interface"] = value;
   }
 
@@ -144,12 +144,12 @@ std::vector<QuantityInfo> quantities_of(const std::vector<std::string>& species)
 
 RunQuantities quantities_of_run(const Measured& run, const MeasureOn& on) { return Measurer(run, on).make(); }
 
-std::map<std::string, double> distances(const fluid::Profile& profile, const fluid::Profile& reference) {
+std::map<std::string, double> distances(const measures::Profile& profile, const measures::Profile& reference) {
   std::map<std::string, double> found;
-  if (const auto d = fluid::composition_distance(profile, reference)) found["composition"] = *d;
+  if (const auto d = measures::composition_distance(profile, reference)) found["composition"] = *d;
   double sum = 0, count = 0;
   for (std::size_t j = 0; j < profile.fraction.size(); ++j)
-    if (const auto d = fluid::profile_distance(profile, reference, j)) {
+    if (const auto d = measures::profile_distance(profile, reference, j)) {
       sum += *d;
       count += 1;
     }

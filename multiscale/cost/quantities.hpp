@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fluid/profile.hpp"
-#include "fluid/time_mean.hpp"
+#include "measures/profile.hpp"
+#include "measures/time_mean.hpp"
 #include "multiscale/compare_window.hpp"
 
 namespace polybed::multiscale {
@@ -31,17 +31,18 @@ struct MeasureOn {
 };
 
 struct RunQuantities {
-  std::map<std::string, fluid::TimeMean> values;  ///< those that the run has
-  fluid::Profile profile;                         ///< mean over the window
-  std::string too_short;                          ///< a quantity with fewer than 30 autocorrelation times; else empty
+  std::map<std::string, measures::TimeMean> values;  ///< those that the run has
+  measures::Profile profile;                         ///< mean over the window
+  std::string too_short;  ///< a quantity with fewer than 30 autocorrelation times; else empty
 };
 
 /// Heights and centres: means of the rows of the history, moved by what the profiles stored in the window differ by if
 /// measured on the slabs asked for. The rest by the definitions of docs/measures.md. The interval of a mean is that of
-/// fluid::time_mean; those of a quantity of the mean profile leave out groups of profiles.
+/// measures::time_mean; those of a quantity of the mean profile leave out groups of profiles.
 [[nodiscard]] RunQuantities quantities_of_run(const Measured& run, const MeasureOn& on);
 
 /// Distances between the mean profiles: "composition" (of two species and more) and "profile", the mean over species.
-[[nodiscard]] std::map<std::string, double> distances(const fluid::Profile& profile, const fluid::Profile& reference);
+[[nodiscard]] std::map<std::string, double> distances(const measures::Profile& profile,
+                                                      const measures::Profile& reference);
 
 }  // namespace polybed::multiscale

@@ -11,9 +11,9 @@
 #include "core/numerics/random.hpp"
 #include "core/output/particles.hpp"
 #include "core/print.hpp"
-#include "fluid/measures.hpp"
-#include "fluid/particle_profile.hpp"
-#include "fluid/time_mean.hpp"
+#include "measures/bed.hpp"
+#include "measures/particle_profile.hpp"
+#include "measures/time_mean.hpp"
 #include "multiscale/cost/fit.hpp"
 #include "multiscale/cost/judge.hpp"
 #include "multiscale/cost/refinement.hpp"
@@ -46,7 +46,7 @@ Oracle k2() {
       const double noise = core::normal(7, std::uint64_t(n), std::uint64_t(k));
       x[std::size_t(k)] = k == 0 ? noise : rho * x[std::size_t(k - 1)] + std::sqrt(1 - rho * rho) * noise;
     }
-    const auto mean = fluid::time_mean(x);
+    const auto mean = measures::time_mean(x);
     held += mean && mean->error && std::abs(mean->mean) < *mean->error ? 1 : 0;
   }
   const double share = 100.0 * held / series;
@@ -124,8 +124,8 @@ Oracle k12() {
   return {"K12", r.fine_index ? "an index" : r.note, "no index", !r.fine_index && !r.coarse_index};
 }
 
-fluid::Profile layered(double slab) {
-  fluid::Profile p{slab, {{}, {}}, {}};
+measures::Profile layered(double slab) {
+  measures::Profile p{slab, {{}, {}}, {}};
   for (std::size_t k = 0; k < std::size_t(std::lround(0.2 / slab)); ++k) {
     const double z = p.centre(k);
     p.fraction[0].push_back(z < 0.06 ? 0.6 : 0);
@@ -136,7 +136,7 @@ fluid::Profile layered(double slab) {
 
 Oracle k13() {
   constexpr double slab = 2e-3;
-  const double found = fluid::bed_height(layered(slab)).value_or(0);
+  const double found = measures::bed_height(layered(slab)).value_or(0);
   return {"K13", fmt::format("bed_height {:.4f} m", found), "0.16 m within half a slab, not 0.06 m",
           near(found, 0.16, slab / 2)};
 }
@@ -162,14 +162,14 @@ Oracle k14() {
   fill(0, 0.06, 0.6, 0);
   fill(0.06, 0.16, 0.3, 1);
   const core::ParticleSnapshot particles{ids, species, radii, places, velocities, velocities};
-  const fluid::Profile cells = layered(slab),
-                       counted = fluid::particle_profile(particles, 2, {side * side, 0.2, 100}).solids;
+  const measures::Profile cells = layered(slab),
+                          counted = measures::particle_profile(particles, 2, {side * side, 0.2, 100}).solids;
   const auto apart = [](std::optional<double> a, std::optional<double> b) { return a && b ? std::abs(*a - *b) : 1.0; };
-  const double height = apart(fluid::bed_height(cells), fluid::bed_height(counted));
-  const double centre = apart(fluid::centre(cells, 1), fluid::centre(counted, 1));
-  const double interface = apart(fluid::interface_height(cells), fluid::interface_height(counted));
-  const double mixing = apart(fluid::mixing(cells), fluid::mixing(counted));
-  const double order = fluid::composition_distance(cells, counted).value_or(1);
+  const double height = apart(measures::bed_height(cells), measures::bed_height(counted));
+  const double centre = apart(measures::centre(cells, 1), measures::centre(counted, 1));
+  const double interface = apart(measures::interface_height(cells), measures::interface_height(counted));
+  const double mixing = apart(measures::mixing(cells), measures::mixing(counted));
+  const double order = measures::composition_distance(cells, counted).value_or(1);
   const bool good = height < slab && centre < slab && interface < slab && mixing < 0.02 && order < 0.02;
   return {"K14",
           fmt::format("height {:.1e}, centre {:.1e}, interface {:.1e} m, mixing {:.1e}, composition {:.1e}", height,

@@ -53,7 +53,7 @@ struct Reference {
   std::string kind;  ///< exact | self | extrapolated | statistical | directory; empty: none
   std::string note;
   std::map<std::string, double> value, floor, band;  ///< of errors: below the floor nothing is ranked
-  fluid::Profile profile;
+  measures::Profile profile;
 };
 
 struct Share {

@@ -12,10 +12,11 @@ MAY_USE = {
     "closures": {"closures"},
     "core": {"core"},
     "fluid": {"fluid", "core", "closures"},
-    "tfm": {"tfm", "fluid", "core", "closures"},
-    "dem": {"dem", "fluid", "core", "closures"},
-    "multiscale": {"multiscale", "tfm", "dem", "fluid", "core", "closures"},
-    "app": {"app", "multiscale", "tfm", "dem", "fluid", "core", "closures"},
+    "measures": {"measures", "fluid", "core", "closures"},
+    "tfm": {"tfm", "measures", "fluid", "core", "closures"},
+    "dem": {"dem", "measures", "fluid", "core", "closures"},
+    "multiscale": {"multiscale", "tfm", "dem", "measures", "fluid", "core", "closures"},
+    "app": {"app", "multiscale", "tfm", "dem", "measures", "fluid", "core", "closures"},
 }
 # header -> the only files that may include it
 LIBRARIES = {

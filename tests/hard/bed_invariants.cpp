@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "fluid/boundaries.hpp"
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 #include "tfm/observers.hpp"
 
 namespace polybed::hard {
@@ -16,7 +16,7 @@ namespace {
 
 /// Momentum that the fluid brings in per time and area less what it takes out, Pa: it enters between the particles,
 /// faster than it leaves.
-double thrust(const tfm::Model& model, const tfm::Fields& fields, const fluid::Profile& profile) {
+double thrust(const tfm::Model& model, const tfm::Fields& fields, const measures::Profile& profile) {
   const auto voidage = [&](std::size_t k) {
     double eps = 1;
     for (const std::vector<double>& phi : profile.fraction) eps -= phi[k];
@@ -61,19 +61,19 @@ double characteristic_time(const tfm::Model& model, const tfm::Fields& fields) {
 
 double force_balance(const tfm::Model& model, const tfm::Fields& fields) {
   const tfm::Constants& constants = model.constants();
-  fluid::Profile profile;
+  measures::Profile profile;
   profile.slab = constants.grid.spacing[1];
   for (const core::Field& phi : fields.solids.fraction)
-    profile.fraction.push_back(fluid::lateral_mean(constants.grid, phi));
-  profile.pressure = fluid::lateral_mean(constants.grid, fields.fluid.pressure);
+    profile.fraction.push_back(measures::lateral_mean(constants.grid, phi));
+  profile.pressure = measures::lateral_mean(constants.grid, fields.fluid.pressure);
   double weight = 0;
   for (std::size_t j = 0; j < constants.species(); ++j)
     for (const double phi : profile.fraction[j])
       weight += phi * profile.slab * (constants.density[j] - constants.fluid.density) * constants.gravity;
-  double carried = fluid::pressure_drop(profile) + thrust(model, fields, profile);
+  double carried = measures::pressure_drop(profile) + thrust(model, fields, profile);
   if (fields.stress.present()) {
-    profile.pressure = fluid::lateral_mean(constants.grid, fields.stress.pressure);
-    carried += fluid::pressure_drop(profile);
+    profile.pressure = measures::lateral_mean(constants.grid, fields.stress.pressure);
+    carried += measures::pressure_drop(profile);
   }
   return carried / weight - 1;
 }

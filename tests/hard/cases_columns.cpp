@@ -149,9 +149,9 @@ Slope drift_apart(Trial& trial, double velocity) {
   for (int n = 1; n <= 200; ++n) {
     trial.advance(*run, 0.1 * n, {.steps = false});
     if (n <= 100) continue;
-    const fluid::Profile profile = profile_of(*run);
+    const measures::Profile profile = profile_of(*run);
     time.push_back(0.1 * n);
-    apart.push_back(fluid::centre(profile, 0).value_or(0) - fluid::centre(profile, 1).value_or(0));
+    apart.push_back(measures::centre(profile, 0).value_or(0) - measures::centre(profile, 1).value_or(0));
   }
   return slope_of(time, apart);
 }

@@ -44,10 +44,10 @@ void many_steps(Trial& trial) {
   scene.tfm.fixed_step = 4e-4;
   scene.tfm.pressure_tolerance = 1e-12;
   const auto run = trial.begin(scene);
-  const std::vector<double> before = fluid::species_volumes(run->model().constants().grid, run->fields().solids);
+  const std::vector<double> before = measures::species_volumes(run->model().constants().grid, run->fields().solids);
   trial.advance(*run, 8, {.steps = false});
   const core::Grid& grid = run->model().constants().grid;
-  const std::vector<double> after = fluid::species_volumes(grid, run->fields().solids);
+  const std::vector<double> after = measures::species_volumes(grid, run->fields().solids);
   double apart = 0;
   for (const core::Field& phi : run->fields().solids.fraction) apart = std::max(apart, asymmetry(grid, phi, phi));
   trial.report("mirror asymmetry", apart);

@@ -75,7 +75,7 @@ double height_after(Trial& trial, const std::vector<std::pair<double, double>>& 
   scene.inlet.superficial_velocity = inlet;
   const auto run = trial.begin(scene);
   trial.advance(*run, until);
-  return fluid::bed_height(profile_of(*run)).value_or(0);
+  return measures::bed_height(profile_of(*run)).value_or(0);
 }
 
 /// T16: the inlet is stepped up, shut, reversed and opened again; the bed ends where one ends that comes from below,

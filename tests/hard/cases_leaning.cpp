@@ -75,7 +75,7 @@ double rate_over_theory(Trial& trial, int cells) {
   std::vector<double> filled;
   for (const double time : {6.0, 12.0}) {
     trial.advance(*run, time);
-    filled.push_back(fluid::bed_height(profile_of(*run)).value_or(0));
+    filled.push_back(measures::bed_height(profile_of(*run)).value_or(0));
   }
   return (filled[0] - filled[1]) /
          (filled[0] - closures::suspension_length(filled[0], width, settling, 30 * degree, 6.0));

@@ -5,10 +5,10 @@
 
 #include "core/numerics/random.hpp"
 #include "dem/coupling/coupling.hpp"
-#include "fluid/measures.hpp"
-#include "fluid/particle_profile.hpp"
-#include "fluid/time_mean.hpp"
 #include "hard/cases.hpp"
+#include "measures/bed.hpp"
+#include "measures/particle_profile.hpp"
+#include "measures/time_mean.hpp"
 #include "scenes/wet_beads.hpp"
 
 namespace polybed::hard {
@@ -44,9 +44,9 @@ core::Scene bed_of_beads() {
   return scene;
 }
 
-void keep(Series& series, const fluid::Profile& profile, double drop) {
-  series.height.push_back(fluid::bed_height(profile).value());
-  series.centre.push_back(fluid::centre(profile, 0).value());
+void keep(Series& series, const measures::Profile& profile, double drop) {
+  series.height.push_back(measures::bed_height(profile).value());
+  series.centre.push_back(measures::centre(profile, 0).value());
   series.drop.push_back(drop);
 }
 
@@ -63,7 +63,8 @@ Series as_particles(const core::Scene& scene) {
     run.until(n * until / samples);
     const dem::Coupling& coupling = *run.model.coupling();
     const core::Grid& grid = coupling.flow().grid();
-    keep(series, {grid.spacing[1], {fluid::lateral_mean(grid, coupling.fraction()[0])}, {}}, coupling.pressure_drop());
+    keep(series, {grid.spacing[1], {measures::lateral_mean(grid, coupling.fraction()[0])}, {}},
+         coupling.pressure_drop());
   }
   return series;
 }
@@ -84,16 +85,16 @@ Series as_continuum(core::Scene scene) {
     model.show(model.time());
     const core::Grid& grid = model.constants().grid;
     const tfm::Fields& fields = model.fields();
-    const fluid::Profile profile{grid.spacing[1],
-                                 {fluid::lateral_mean(grid, fields.solids.fraction[0])},
-                                 fluid::lateral_mean(grid, fields.fluid.pressure)};
-    keep(series, profile, fluid::pressure_drop(profile));
+    const measures::Profile profile{grid.spacing[1],
+                                    {measures::lateral_mean(grid, fields.solids.fraction[0])},
+                                    measures::lateral_mean(grid, fields.fluid.pressure)};
+    keep(series, profile, measures::pressure_drop(profile));
   }
   return series;
 }
 
-fluid::TimeMean later_half(const std::vector<double>& values) {
-  return fluid::time_mean(std::span(values).subspan(values.size() / 2)).value();
+measures::TimeMean later_half(const std::vector<double>& values) {
+  return measures::time_mean(std::span(values).subspan(values.size() / 2)).value();
 }
 
 /// C12: one bed of beads by both models: what they measure is the same, within the intervals of the means and what the
@@ -104,7 +105,7 @@ void both_models(Trial& trial) {
   const auto compare = [&](const std::string& what, const std::vector<double>& a, const std::vector<double>& b,
                            double scale) {
     constexpr double drag_error = 0.025;  // mean of the law against its data, docs/accuracy.md
-    const fluid::TimeMean p = later_half(a), q = later_half(b);
+    const measures::TimeMean p = later_half(a), q = later_half(b);
     const double interval = std::hypot(p.error.value_or(0), q.error.value_or(0));
     trial.report(what + " of the continuum", p.mean);
     trial.report(what + " of particles", q.mean);

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "fluid/profile.hpp"
 #include "hard/cases.hpp"
 #include "hard/suspension.hpp"
+#include "measures/profile.hpp"
 
 namespace polybed::hard {
 
@@ -15,7 +15,7 @@ using scenes::water;
 
 /// Mean net pressure of the lowest row of cells less that of the highest, Pa.
 double drop_of(const fluid::Flow& flow) {
-  const std::vector<double> mean = fluid::lateral_mean(flow.grid(), flow.state().pressure);
+  const std::vector<double> mean = measures::lateral_mean(flow.grid(), flow.state().pressure);
   return mean.front() - mean.back();
 }
 

@@ -23,7 +23,7 @@ double height_after_settling(Trial& trial, double trace) {
                   [&](std::size_t, int k, double phi) { return phi > 0 || k > 45 ? phi : trace * (1 - k / 45.0); });
   });
   trial.advance(*run, 1.0);
-  return fluid::bed_height(profile_of(*run)).value_or(0);
+  return measures::bed_height(profile_of(*run)).value_or(0);
 }
 
 /// T1: what stands in the freeboard, from 1e-16 to 1e-8, does not matter.

@@ -24,7 +24,7 @@ void interface_of_one_cell(Trial& trial) {
   scene.tfm.pressure_tolerance = 1e-9;  // what is left of div J compresses the fractions; the flux is on trial here
   const auto run = trial.begin(scene);
   trial.advance(*run, 0.5, {.steps = false});
-  const fluid::Profile profile = profile_of(*run);
+  const measures::Profile profile = profile_of(*run);
   double variation = 0, width = 0;
   for (std::size_t k = 20; k < 70; ++k) {
     variation += std::abs(profile.fraction[0][k] - profile.fraction[0][k - 1]);

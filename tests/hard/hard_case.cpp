@@ -8,9 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/numerics/schedule.hpp"
-#include "fluid/invariants.hpp"
 #include "hard/bed_invariants.hpp"
 #include "hard/textbook.hpp"
+#include "measures/invariants.hpp"
 
 namespace polybed::hard {
 
@@ -91,7 +91,7 @@ std::unique_ptr<Run> Trial::begin(core::Scene scene, const std::function<void(tf
     run = std::make_unique<ModelRun>(scene, timers_);
     if (start) start(run->model());
   }
-  initial_volume_ = fluid::species_volumes(run->model().constants().grid, run->fields().solids);
+  initial_volume_ = measures::species_volumes(run->model().constants().grid, run->fields().solids);
   steps_since_start_ = 0;
   see(*run, {});
   return run;
@@ -117,12 +117,12 @@ void Trial::report(const std::string& name, double value) { reported_ += fmt::fo
 void Trial::see(Run& run, const Watch& watch) {
   const tfm::Fields& fields = run.fields();
   const core::Grid& grid = run.model().constants().grid;
-  const std::vector<double> volume = fluid::species_volumes(grid, fields.solids);
+  const std::vector<double> volume = measures::species_volumes(grid, fields.solids);
   const bool open = run.model().constants().openings.present();
   const std::vector<fluid::Passed> passed = open ? run.model().passed() : std::vector<fluid::Passed>(volume.size());
   for (std::size_t j = 0; j < volume.size(); ++j)
     if (initial_volume_[j] + passed[j].in > 0)
-      measure("V1 mass", fluid::ledger_error(initial_volume_[j], passed[j].in, passed[j].out, volume[j]), 1e-12);
+      measure("V1 mass", measures::ledger_error(initial_volume_[j], passed[j].in, passed[j].out, volume[j]), 1e-12);
     else
       measure("V1 solids from nowhere", std::abs(volume[j]), 0);
   double least = 0, negative_drag = 0;

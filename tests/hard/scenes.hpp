@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fluid/invariants.hpp"
-#include "fluid/measures.hpp"
 #include "hard/hard_case.hpp"
+#include "measures/bed.hpp"
+#include "measures/invariants.hpp"
 #include "scenes/beds.hpp"
 
 namespace polybed::hard {
@@ -57,13 +57,13 @@ void set_fractions(tfm::Model& model, Change&& change) {
 }
 
 /// Vertical profile of a run's fields.
-inline fluid::Profile profile_of(Run& run) {
-  fluid::Profile profile;
+inline measures::Profile profile_of(Run& run) {
+  measures::Profile profile;
   const tfm::Fields& fields = run.fields();
   const core::Grid& grid = run.model().constants().grid;
   profile.slab = grid.spacing[1];
-  for (const core::Field& phi : fields.solids.fraction) profile.fraction.push_back(fluid::lateral_mean(grid, phi));
-  profile.pressure = fluid::lateral_mean(grid, fields.fluid.pressure);
+  for (const core::Field& phi : fields.solids.fraction) profile.fraction.push_back(measures::lateral_mean(grid, phi));
+  profile.pressure = measures::lateral_mean(grid, fields.fluid.pressure);
   return profile;
 }
 

@@ -21,7 +21,7 @@ TEST(Naive, RunsWithoutATreatmentDoAsTheProduct) {
     const auto a = product.begin(scene), b = other.begin(scene);
     product.advance(*a, 0.1);
     other.advance(*b, 0.1);
-    const fluid::Profile one = profile_of(*a), two = profile_of(*b);
+    const measures::Profile one = profile_of(*a), two = profile_of(*b);
     for (std::size_t k = 0; k < one.slabs(); ++k)
       EXPECT_NEAR(one.fraction[0][k], two.fraction[0][k], integrator == "explicit" ? 1e-9 : 1e-4) << integrator;
   }
@@ -35,7 +35,7 @@ TEST(Naive, MomentaAsUnknownsWorkWhereNothingVanishes) {
   const auto a = product.begin(scene), b = other.begin(scene);
   product.advance(*a, 0.1);
   other.advance(*b, 0.1);
-  const fluid::Profile one = profile_of(*a), two = profile_of(*b);
+  const measures::Profile one = profile_of(*a), two = profile_of(*b);
   for (std::size_t k = 0; k < one.slabs(); ++k) EXPECT_NEAR(one.fraction[0][k], two.fraction[0][k], 1e-4);
 }
 

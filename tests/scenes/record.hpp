@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "fluid/invariants.hpp"
+#include "measures/invariants.hpp"
 #include "scenes/beds.hpp"
 
 namespace polybed::scenes {

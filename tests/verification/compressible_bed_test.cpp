@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "core/numerics/operators.hpp"
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 #include "scenes/record.hpp"
 
 namespace polybed::scenes {
@@ -17,7 +17,7 @@ double fluid_error(const tfm::Model& model) {
 /// Height of the centre of the first species, m.
 double centre(const tfm::Model& model) {
   const core::Grid& grid = model.constants().grid;
-  const std::vector<double> phi = fluid::lateral_mean(grid, model.fields().solids.fraction[0]);
+  const std::vector<double> phi = measures::lateral_mean(grid, model.fields().solids.fraction[0]);
   double sum = 0, moment = 0;
   for (std::size_t j = 0; j < phi.size(); ++j) {
     sum += phi[j];
@@ -120,7 +120,7 @@ core::Scene gas_bed(const char* law) {
 TEST(CompressibleBed, AGasFluidisedBedExpandsAndKeepsBothMasses) {
   core::Timers timers;
   tfm::Model gas(gas_bed("ideal_gas"), timers), incompressible(gas_bed("incompressible"), timers);
-  const double volume = fluid::species_volumes(gas.constants().grid, gas.fields().solids)[0];
+  const double volume = measures::species_volumes(gas.constants().grid, gas.fields().solids)[0];
   gas.show(0);
   const double start = centre(gas);
   advance(gas, 0.06);
@@ -131,7 +131,7 @@ TEST(CompressibleBed, AGasFluidisedBedExpandsAndKeepsBothMasses) {
   record("fluid mass", fluid_error(gas));
   EXPECT_GT(reference, 1e-3);
   EXPECT_NEAR(rise, reference, 0.05 * reference);
-  EXPECT_NEAR(fluid::species_volumes(gas.constants().grid, gas.fields().solids)[0], volume, 1e-12 * volume);
+  EXPECT_NEAR(measures::species_volumes(gas.constants().grid, gas.fields().solids)[0], volume, 1e-12 * volume);
   EXPECT_LT(fluid_error(gas), 1e-3);  // the invariant's limit, rtol
 }
 

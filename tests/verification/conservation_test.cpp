@@ -18,9 +18,9 @@ TEST_P(Conservation, MassBoundsAndVolume) {
   core::Timers timers;
   tfm::Model model(scene, timers);
   model.show(0);
-  const std::vector<double> before = fluid::species_volumes(model.constants().grid, model.fields().solids);
+  const std::vector<double> before = measures::species_volumes(model.constants().grid, model.fields().solids);
   advance(model, 1.0);
-  const std::vector<double> after = fluid::species_volumes(model.constants().grid, model.fields().solids);
+  const std::vector<double> after = measures::species_volumes(model.constants().grid, model.fields().solids);
   for (std::size_t j = 0; j < 2; ++j) {
     record(fmt::format("relative change of mass {}", j), after[j] / before[j] - 1);
     EXPECT_NEAR(after[j], before[j], 1e-12 * before[j]);

@@ -13,17 +13,17 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Openings, testing::Values("explicit", "imp
 
 /// Largest relative error of the ledgers of the species; the model shows its last state.
 double ledger_error(const tfm::Model& model, const std::vector<double>& start) {
-  const std::vector<double> now = fluid::species_volumes(model.constants().grid, model.fields().solids);
+  const std::vector<double> now = measures::species_volumes(model.constants().grid, model.fields().solids);
   const std::vector<fluid::Passed> passed = model.passed();
   double worst = 0;
   for (std::size_t j = 0; j < now.size(); ++j)
-    worst = std::max(worst, fluid::ledger_error(start[j], passed[j].in, passed[j].out, now[j]));
+    worst = std::max(worst, measures::ledger_error(start[j], passed[j].in, passed[j].out, now[j]));
   return worst;
 }
 
 std::vector<double> volumes(tfm::Model& model) {
   model.show(model.time());
-  return fluid::species_volumes(model.constants().grid, model.fields().solids);
+  return measures::species_volumes(model.constants().grid, model.fields().solids);
 }
 
 /// Steps to a time, as a run does: past each breakpoint of what flows in by a restart.

@@ -81,7 +81,7 @@ TEST(Sedimentation, ADiluteSuspensionSettlesWithTwoShocks) {
   record("bed, mm", bed * 1e3);
   EXPECT_NEAR(top, height - 1.5413e-3 * 24, cell);
   EXPECT_NEAR(bed, 0.36991e-3 * 24, cell);
-  EXPECT_NEAR(fluid::species_volumes(model.constants().grid, model.fields().solids)[0], 0.12 * height * cell * cell,
+  EXPECT_NEAR(measures::species_volumes(model.constants().grid, model.fields().solids)[0], 0.12 * height * cell * cell,
               1e-12 * height * cell * cell);
 }
 

@@ -114,7 +114,7 @@ TEST(ThreeDimensions, BothIntegratorsAgreeAndKeepMass) {
   record("distance", apart);
   EXPECT_LT(apart, 1e-3);  // a hundred times rtol
   for (const Finished* run : {&by_steps, &by_newton}) {
-    const std::vector<double> volume = fluid::species_volumes(grid, run->model.fields().solids);
+    const std::vector<double> volume = measures::species_volumes(grid, run->model.fields().solids);
     const double solids =
         scene.bed.static_height * scene.bed.solids_fraction * scene.column.size[0] * scene.column.size[2];
     for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(volume[j] / (solids * scene.bed.volume_share[j]), 1, 1e-12);

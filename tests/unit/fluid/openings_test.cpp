@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "fluid/invariants.hpp"
-
 namespace polybed::fluid {
 namespace {
 
@@ -111,12 +109,6 @@ TEST(Screens, AreAbsent) {
   EXPECT_TRUE(Openings(column(), scene).present());
   scene.column.closed = true;
   EXPECT_FALSE(Openings(column(), scene).present());
-}
-
-TEST(Ledger, ErrorIsRelativeToAllThereEverWas) {
-  EXPECT_EQ(ledger_error(2, 3, 1, 4), 0);
-  EXPECT_DOUBLE_EQ(ledger_error(2, 3, 1, 4.5), 0.1);
-  EXPECT_EQ(ledger_error(0, 0, 0, 0), 0);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "core/output/files.hpp"
 #include "core/output/output.hpp"
-#include "fluid/particle_profile.hpp"
+#include "measures/particle_profile.hpp"
 
 namespace {
 
@@ -96,7 +96,7 @@ ParticleStep sample_particles(int step, double time) {
 
 /// Profiles of particles alone: their volume fractions, velocities and granular temperatures.
 struct ParticleProfiles {
-  polybed::fluid::Slabs slabs{0.06 * 0.008, 0.2, 60};
+  polybed::measures::Slabs slabs{0.06 * 0.008, 0.2, 60};
   ProfileWriter writer;
 
   explicit ParticleProfiles(const std::filesystem::path& directory)
@@ -107,7 +107,7 @@ struct ParticleProfiles {
     return y;
   }
   void write(double time, const ParticleSnapshot& particles) {
-    const auto profile = polybed::fluid::particle_profile(particles, 2, slabs);
+    const auto profile = polybed::measures::particle_profile(particles, 2, slabs);
     std::vector<std::vector<double>> rows = profile.solids.fraction;
     rows.insert(rows.end(), profile.velocity.begin(), profile.velocity.end());
     rows.insert(rows.end(), profile.temperature.begin(), profile.temperature.end());

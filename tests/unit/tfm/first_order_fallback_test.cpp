@@ -118,9 +118,9 @@ TEST_P(Fallback, ActsInARunThatStartsOutOfBoundsAndEnds) {
   EXPECT_GE(model.work().first_order_cells, 1u);
   EXPECT_EQ(model.checkpoint().arrays.count("first_order_steps_left"), 1u);
   model.show(model.time());
-  const std::vector<double> before = fluid::species_volumes(model.constants().grid, model.fields().solids);
+  const std::vector<double> before = measures::species_volumes(model.constants().grid, model.fields().solids);
   advance(model, 0.5);
-  const std::vector<double> after = fluid::species_volumes(model.constants().grid, model.fields().solids);
+  const std::vector<double> after = measures::species_volumes(model.constants().grid, model.fields().solids);
   record("cells flagged", double(model.work().first_order_cells));
   EXPECT_EQ(model.checkpoint().arrays.count("first_order_steps_left"), 0u) << "still out of bounds after half a second";
   for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(after[j] / before[j], 1, 1e-12);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 /// A straight line through a series in time.
 struct Drift {
@@ -44,4 +44,4 @@ class Drifts {
   std::vector<std::vector<double>> values_;  ///< [measure][row]; NaN: none
 };
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

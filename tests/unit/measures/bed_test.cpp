@@ -1,11 +1,11 @@
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace polybed::fluid {
+namespace polybed::measures {
 namespace {
 
 constexpr double slab = 2e-3;
@@ -163,4 +163,4 @@ TEST(Measures, DistanceOfTwoOrders) {
 }
 
 }  // namespace
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

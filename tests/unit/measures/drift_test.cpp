@@ -1,4 +1,4 @@
-#include "fluid/drift.hpp"
+#include "measures/drift.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace polybed::fluid {
+namespace polybed::measures {
 namespace {
 
 std::vector<double> times(int rows, double step) {
@@ -87,4 +87,4 @@ TEST(Drifts, ASpeciesThatIsAbsentIsNotJudged) {
 }
 
 }  // namespace
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

@@ -6,7 +6,7 @@
 
 #include "core/numerics/field.hpp"
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 /// Slabs of one thickness from the bottom up.
 struct Profile {
@@ -31,4 +31,4 @@ struct Profile {
 /// Mean over each horizontal layer of the column of a padded cell field; [layer from the bottom]. Collective.
 [[nodiscard]] std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field);
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

@@ -1,11 +1,11 @@
-#include "fluid/drift.hpp"
+#include "measures/drift.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::vector<DriftOfMeasure> Drifts::judge() const {
   return found;
 }
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

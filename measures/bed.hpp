@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "fluid/profile.hpp"
+#include "measures/profile.hpp"
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 /// z_q: height, m, below which the share q of the solids volume lies; linear within a slab. Empty for an empty bed.
 [[nodiscard]] std::optional<double> volume_quantile(const Profile& profile, double q);
@@ -45,4 +45,4 @@ namespace polybed::fluid {
 /// Net pressure at the bottom less that at the top, Pa: linear continuation of the outermost two slabs.
 [[nodiscard]] double pressure_drop(const Profile& profile);
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

@@ -1,4 +1,4 @@
-// Particles as a vertical profile, by the exact part of each sphere between two planes, so that fluid/measures measures
+// Particles as a vertical profile, by the exact part of each sphere between two planes, so that measures/bed measures
 // a bed of particles and a continuum by one definition.
 //
 // Sums run in whole numbers: the result has the same bits in any order of the particles, and on any number of ranks
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/output/particles.hpp"
-#include "fluid/profile.hpp"
+#include "measures/profile.hpp"
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 /// Volume, m3, of the part of a sphere below a horizontal plane: the cap pi h^2 (3R - h)/3 of height
 /// h = plane - (centre - R), 0 for h < 0 and the whole sphere for h > 2R.
@@ -80,4 +80,4 @@ struct ParticleHeights {
 [[nodiscard]] std::optional<double> bed_height_columns(const core::ParticleSnapshot& particles,
                                                        std::array<double, 2> size, std::array<int, 2> columns);
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

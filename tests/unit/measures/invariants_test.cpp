@@ -1,12 +1,10 @@
-#include "fluid/invariants.hpp"
+#include "measures/invariants.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "fluid/profile.hpp"
-#include "fluid/properties.hpp"
+#include "measures/profile.hpp"
 
-namespace polybed::fluid {
+namespace polybed::measures {
 namespace {
 
 core::Grid small() {
@@ -38,8 +36,8 @@ class Watch : public testing::Test {
     return invariants_.see(grid_, solids_, fluid_, above_, 0.1, 0.0, 2.0);
   }
   core::Grid grid_ = small();
-  Interphase solids_;
-  FluidState fluid_;
+  fluid::Interphase solids_;
+  fluid::FluidState fluid_;
   Invariants invariants_{{1.0}, {"sand"}, 1e-3};
   double above_ = 0;  ///< how far the packing is exceeded, as the solids stress tells
 };
@@ -96,7 +94,7 @@ TEST(WorstInvariant, ALawIsBrokenTenfoldBeyondItsLimit) {
 
 // Mass that leaks from one of two species: the law names it.
 TEST_F(Watch, TheSpeciesThatLosesMassIsNamed) {
-  solids_ = Interphase(grid_, {2000.0, 1000.0});
+  solids_ = fluid::Interphase(grid_, {2000.0, 1000.0});
   for (auto& phi : solids_.fraction) phi.assign(phi.size(), 0.3);
   fluid_.voidage.assign(fluid_.voidage.size(), 0.4);
   const double volume = 0.3 * 24 * grid_.cell_volume();
@@ -109,25 +107,11 @@ TEST_F(Watch, TheSpeciesThatLosesMassIsNamed) {
   EXPECT_EQ(broken_law(invariants.worst())->place, "species light");
 }
 
-TEST(Properties, AFluidWithoutPropertiesIsRefusedByName) {
-  core::Fluid honey;
-  honey.name = "honey";
-  EXPECT_THROW((void)fluid_constants(honey), core::CaseError);
-  honey.density = 1400;
-  honey.viscosity = 10;
-  EXPECT_EQ(fluid_constants(honey).density, 1400);
-}
-
-TEST(Properties, WhatIsGivenOverridesWhatIsKnown) {
-  core::Fluid water;
-  water.name = "water";
-  water.temperature = 288.15;
-  const double density = fluid_constants(water).density;
-  EXPECT_NEAR(density, 999.1, 0.05);  // CRC: 999.10 kg/m3 at 15 degC
-  water.viscosity = 2e-3;
-  EXPECT_EQ(fluid_constants(water).viscosity, 2e-3);
-  EXPECT_EQ(fluid_constants(water).density, density);
+TEST(Ledger, ErrorIsRelativeToAllThereEverWas) {
+  EXPECT_EQ(ledger_error(2, 3, 1, 4), 0);
+  EXPECT_DOUBLE_EQ(ledger_error(2, 3, 1, 4.5), 0.1);
+  EXPECT_EQ(ledger_error(0, 0, 0, 0), 0);
 }
 
 }  // namespace
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

@@ -1,4 +1,4 @@
-#include "fluid/invariants.hpp"
+#include "measures/invariants.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/numerics/ranks.hpp"
 #include "fluid/pressure.hpp"
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 using core::Index;
 
@@ -67,7 +67,7 @@ const WorstInvariant& Invariants::nearest() const {
                            [](const auto& a, const auto& b) { return a.share() < b.share(); });
 }
 
-std::vector<double> species_volumes(const core::Grid& grid, const Interphase& solids) {
+std::vector<double> species_volumes(const core::Grid& grid, const fluid::Interphase& solids) {
   std::vector<double> result;
   for (const core::Field& phi : solids.fraction) {
     double sum = 0, lost = 0;
@@ -88,9 +88,9 @@ double ledger_error(double start, double in, double out, double now) {
   return start + in > 0 ? std::abs((now + out - in) - start) / (start + in) : 0;
 }
 
-InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid,
+InvariantValues Invariants::see(const core::Grid& grid, const fluid::Interphase& solids, const fluid::FluidState& fluid,
                                 double packing_above, double velocity_scale, double force_balance, double time,
-                                std::span<const Passed> passed, double fluid_error) {
+                                std::span<const fluid::Passed> passed, double fluid_error) {
   InvariantValues now;
   const std::vector<double> volume_now = species_volumes(grid, solids);
   for (std::size_t j = 0; j < solids.species(); ++j) {
@@ -110,7 +110,7 @@ InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids
   now.fraction_below = -core::least_of_ranks(grid, least);
   now.most_solids = core::greatest_of_ranks(grid, most);
   now.packing_above = packing_above;
-  now.divergence = divergence_error(grid, fluid.flux, velocity_scale);
+  now.divergence = fluid::divergence_error(grid, fluid.flux, velocity_scale);
   now.force_balance = force_balance;
   worst_[bounds].keep(now.fraction_below, time);
   worst_[packing].keep(now.packing_above, time);
@@ -119,4 +119,4 @@ InvariantValues Invariants::see(const core::Grid& grid, const Interphase& solids
   return now;
 }
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

@@ -1,10 +1,10 @@
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 namespace {
 
@@ -208,4 +208,4 @@ double pressure_drop(const Profile& profile) {
   return (1.5 * p[0] - 0.5 * p[1]) - (1.5 * p[n - 1] - 0.5 * p[n - 2]);
 }
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

@@ -1,10 +1,10 @@
-#include "fluid/particle_profile.hpp"
+#include "measures/particle_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 namespace {
 
@@ -166,4 +166,4 @@ std::optional<double> bed_height_columns(const core::ParticleSnapshot& particles
   return held > 0 ? std::optional(sum / double(held)) : std::nullopt;
 }
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

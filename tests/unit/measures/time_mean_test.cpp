@@ -1,4 +1,4 @@
-#include "fluid/time_mean.hpp"
+#include "measures/time_mean.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace polybed::fluid {
+namespace polybed::measures {
 namespace {
 
 /// x_k = rho x_k-1 + noise, of variance 1 and mean 0; its autocorrelation time is (1 + rho) / (1 - rho).
@@ -100,4 +100,4 @@ TEST(TimeMean, JackknifeOfAMeanIsTheVarianceOfTheMean) {
 }
 
 }  // namespace
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

@@ -1,10 +1,10 @@
-#include "fluid/profile.hpp"
+#include "measures/profile.hpp"
 
 #include <algorithm>
 
 #include "core/numerics/ranks.hpp"
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 Profile on_slabs(const Profile& profile, double slab, std::size_t count) {
   const auto spread = [&](const std::vector<double>& values) {
@@ -41,4 +41,4 @@ std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double>
   return mean;
 }
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

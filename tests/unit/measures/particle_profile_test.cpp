@@ -1,4 +1,4 @@
-#include "fluid/particle_profile.hpp"
+#include "measures/particle_profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <numeric>
 #include <random>
 
-#include "fluid/measures.hpp"
+#include "measures/bed.hpp"
 
-namespace polybed::fluid {
+namespace polybed::measures {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -215,4 +215,4 @@ TEST(ParticleHeights, ColumnsByHand) {
 }
 
 }  // namespace
-}  // namespace polybed::fluid
+}  // namespace polybed::measures

@@ -10,7 +10,7 @@
 #include "fluid/interphase.hpp"
 #include "fluid/openings.hpp"
 
-namespace polybed::fluid {
+namespace polybed::measures {
 
 /// The state of the invariants at one time.
 struct InvariantValues {
@@ -59,9 +59,9 @@ class Invariants {
   /// Measures and keeps what is worst in the column. Collective.
   /// \param passed       what each species has passed through open ends; empty: nothing
   /// \param fluid_error  of the mass of a compressible fluid; else 0
-  InvariantValues see(const core::Grid& grid, const Interphase& solids, const FluidState& fluid, double packing_above,
-                      double velocity_scale, double force_balance, double time, std::span<const Passed> passed = {},
-                      double fluid_error = 0);
+  InvariantValues see(const core::Grid& grid, const fluid::Interphase& solids, const fluid::FluidState& fluid,
+                      double packing_above, double velocity_scale, double force_balance, double time,
+                      std::span<const fluid::Passed> passed = {}, double fluid_error = 0);
 
   [[nodiscard]] const std::vector<double>& initial_mass() const { return initial_mass_; }
   [[nodiscard]] const std::vector<WorstInvariant>& worst() const { return worst_; }
@@ -80,6 +80,6 @@ class Invariants {
 [[nodiscard]] double ledger_error(double start, double in, double out, double now);
 
 /// Volume of each species in the column, m3, summed with compensation. Collective.
-[[nodiscard]] std::vector<double> species_volumes(const core::Grid& grid, const Interphase& solids);
+[[nodiscard]] std::vector<double> species_volumes(const core::Grid& grid, const fluid::Interphase& solids);
 
-}  // namespace polybed::fluid
+}  // namespace polybed::measures
