@@ -86,7 +86,9 @@ void add_measure(CLI::App& app, Commands& commands) {
   CLI::Option_group& what = *command.add_option_group("what");
   what.add_option("RUN", options->run, "run directory");
   what.add_option("--profiles", options->profiles, "JSON file of profiles instead; - reads standard input");
+  CLI::Option* list = what.add_flag("--list", options->list, "instead: every measure with its unit and definition");
   what.require_option(1);
+  command.add_flag("--markdown", options->markdown, "of the list: the page of the documentation")->needs(list);
   command.add_flag("--json", options->json, "one JSON object");
   commands.push_back({&command, doing([options] { multiscale::run_measure(*options); })});
 }

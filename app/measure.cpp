@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 
+#include "app/measure_list.hpp"
 #include "app/options.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
@@ -16,61 +17,22 @@
 #include "core/output/json_value.hpp"
 #include "core/output/output.hpp"
 #include "core/print.hpp"
-#include "measures/bed.hpp"
+#include "measures/bed_table.hpp"
 
 namespace polybed::multiscale {
 
 namespace {
 
 using measures::Profile;
-using Values = std::vector<std::optional<double>>;
-
-struct Measure {
-  std::string name, unit, help;
-  std::function<std::optional<double>(const Profile&)> of;
-};
-
-/// Centre of species 2 less that of species 1, over the bed height; empty for one species.
-std::optional<double> centre_difference(const Profile& profile) {
-  if (profile.fraction.size() < 2) return std::nullopt;
-  const auto first = measures::centre(profile, 0), second = measures::centre(profile, 1),
-             height = measures::bed_height(profile);
-  return first && second && height && *height > 0 ? std::optional((*second - *first) / *height) : std::nullopt;
-}
-
-std::optional<double> pressure_drop(const Profile& profile) {
-  return profile.pressure.empty() ? std::nullopt : std::optional(measures::pressure_drop(profile));
-}
-
-std::vector<Measure> measures_of(const std::vector<std::string>& species) {
-  std::vector<Measure> all{
-      {"bed_height", "m", "highest z where phi equals half of its mean between z_0.80 and z_0.95",
-       measures::bed_height},
-      {"bed_height_by_pressure", "m", "where straight lines through the pressure of bed and freeboard cross",
-       measures::bed_height_by_pressure},
-      {"pressure_drop", "Pa", "net pressure at the bottom less that at the top", pressure_drop}};
-  for (std::size_t j = 0; j < species.size(); ++j)
-    all.push_back({"centre_" + species[j], "m", "mean height of the volume of the species",
-                   [j](const Profile& p) { return measures::centre(p, j); }});
-  all.push_back(
-      {"centre_difference", "1", "centre of species 2 less that of species 1, over bed_height", centre_difference});
-  all.push_back({"interface", "m", "top of the lower layer, x* = 0.05",
-                 [](const Profile& p) { return measures::interface_height(p); }});
-  all.push_back({"mixing", "1", "1 mixed, 0 separated", measures::mixing});
-  return all;
-}
+using Values = std::vector<measures::Value>;
 
 /// What is asked for.
 struct Asked {
   std::vector<std::string> species;
   std::vector<double> time;  ///< s, of the profiles of a run
-  std::vector<Profile> profiles;
+  std::vector<measures::Bed> beds;
   std::optional<Profile> reference;
   bool laid = false;  ///< on slabs that are asked for
-};
-
-struct Distances {
-  Values composition, profile;
 };
 
 // ---- reading
@@ -159,14 +121,14 @@ void lay(const core::JsonValue& on, Asked& asked) {
       throw core::FileError(fmt::format("slab: {} m is too far from the {} m of a profile", slab, profile.slab));
     profile = measures::on_slabs(profile, slab, count);
   };
-  for (Profile& profile : asked.profiles) lay_one(profile);
+  for (measures::Bed& bed : asked.beds) lay_one(bed.profile);
   if (asked.reference) lay_one(*asked.reference);
   asked.laid = true;
 }
 
 void require_slabs_of_reference(const Asked& asked) {
-  for (std::size_t n = 0; asked.reference && n < asked.profiles.size(); ++n) {
-    const Profile &profile = asked.profiles[n], &reference = *asked.reference;
+  for (std::size_t n = 0; asked.reference && n < asked.beds.size(); ++n) {
+    const Profile &profile = asked.beds[n].profile, &reference = *asked.reference;
     if (profile.slabs() != reference.slabs() || std::abs(profile.slab - reference.slab) > 1e-9 * reference.slab)
       throw core::FileError(fmt::format("profiles[{}]: {} slabs of {} m, the reference has {} of {} m", n,
                                         profile.slabs(), profile.slab, reference.slabs(), reference.slab));
@@ -178,8 +140,8 @@ Asked read_asked(const core::JsonValue& value) {
   asked.species = of(value, "species", read_species);
   const core::JsonValue::Array& profiles = of(value, "profiles", [](const auto& v) { return std::cref(v.array()); });
   for (std::size_t n = 0; n < profiles.size(); ++n)
-    asked.profiles.push_back(
-        naming(fmt::format("profiles[{}]", n), [&] { return read_profile(profiles[n], asked.species.size()); }));
+    asked.beds.push_back(
+        {naming(fmt::format("profiles[{}]", n), [&] { return read_profile(profiles[n], asked.species.size()); })});
   if (const core::JsonValue* reference = member(value, "reference"))
     asked.reference = naming("reference", [&] { return read_profile(*reference, asked.species.size()); });
   if (const core::JsonValue* on = member(value, "on")) naming("on", [&] { lay(*on, asked); });
@@ -230,35 +192,44 @@ Asked read_run(const std::filesystem::path& run) {
     for (const std::string& name : asked.species) profile.fraction.push_back(row_of("phi_" + name, n));
     if (has_pressure) profile.pressure = row_of("p", n);
     profile.slab = 2 * stored.height.front();
-    asked.profiles.push_back(std::move(profile));
+    asked.beds.push_back({std::move(profile)});
   }
   return asked;
 }
 
 // ---- measuring
 
-Values values_of(const Asked& asked, const std::function<std::optional<double>(const Profile&)>& measure) {
+/// A measure of each of the profiles.
+struct Column {
+  std::string name, unit, help, heading;
   Values values;
-  for (const Profile& profile : asked.profiles) {
-    const std::optional<double> value = measure(profile);
-    values.push_back(value && std::isfinite(*value) ? value : std::nullopt);
+};
+
+/// \param of  what a measure is read off, by the bed
+template <class Source, class Of>
+std::vector<Column> columns_of(const measures::Table<Source>& table, const Asked& asked, const Of& of) {
+  std::vector<Column> found;
+  for (const measures::Single<Source>& measure : measures::singles(table, asked.species)) {
+    Values values;
+    for (const measures::Bed& bed : asked.beds) {
+      const measures::Value value = measure.of(of(bed));
+      values.push_back(value && std::isfinite(*value) ? value : std::nullopt);
+    }
+    found.push_back({measure.name, measure.unit, measure.help, measure.column(), std::move(values)});
   }
-  return values;
+  return found;
 }
 
-Distances distances_of(const Asked& asked) {
-  const Profile& reference = *asked.reference;
-  const auto of_profile = [&](const Profile& profile) {
-    double sum = 0, count = 0;
-    for (std::size_t j = 0; j < profile.fraction.size(); ++j)
-      if (const auto d = measures::profile_distance(profile, reference, j)) {
-        sum += *d;
-        count += 1;
-      }
-    return count > 0 ? std::optional(sum / count) : std::nullopt;
-  };
-  return {values_of(asked, [&](const Profile& profile) { return measures::composition_distance(profile, reference); }),
-          values_of(asked, of_profile)};
+std::vector<Column> measured(const Asked& asked) {
+  return columns_of(measures::read_by(&measures::Readers::profile, measures::bed_table()), asked,
+                    [](const measures::Bed& bed) -> const measures::Bed& { return bed; });
+}
+
+std::vector<Column> distances(const Asked& asked) {
+  if (!asked.reference) return {};
+  return columns_of(measures::distance_table(), asked, [&](const measures::Bed& bed) {
+    return measures::Beside{bed.profile, *asked.reference};
+  });
 }
 
 // ---- telling
@@ -270,13 +241,13 @@ void write_array(core::Json& json, const Numbers& numbers) {
   json.end_array();
 }
 
-void write_profiles(core::Json& json, const std::vector<Profile>& profiles) {
+void write_profiles(core::Json& json, const std::vector<measures::Bed>& beds) {
   json.key("profiles").begin_array();
-  for (const Profile& profile : profiles) {
-    json.begin_object().member("slab", profile.slab).key("fraction").begin_array();
-    for (const auto& phi : profile.fraction) write_array(json, phi);
+  for (const measures::Bed& bed : beds) {
+    json.begin_object().member("slab", bed.profile.slab).key("fraction").begin_array();
+    for (const auto& phi : bed.profile.fraction) write_array(json, phi);
     json.end_array().key("pressure");
-    write_array(json, profile.pressure);
+    write_array(json, bed.profile.pressure);
     json.end_object();
   }
   json.end_array();
@@ -287,40 +258,33 @@ void print_json(const Asked& asked, bool of_run) {
   json.begin_object();
   if (of_run) write_array(json.key("time_s"), asked.time);
   json.key("measures").begin_object();
-  for (const Measure& measure : measures_of(asked.species)) {
-    json.key(measure.name).begin_object().member("unit", measure.unit).member("help", measure.help).key("values");
-    write_array(json, values_of(asked, measure.of));
+  for (const Column& column : measured(asked)) {
+    json.key(column.name).begin_object().member("unit", column.unit).member("help", column.help).key("values");
+    write_array(json, column.values);
     json.end_object();
   }
   json.end_object();
-  if (asked.reference) {
-    const Distances distances = distances_of(asked);
-    write_array(json.key("distances").begin_object().key("composition"), distances.composition);
-    write_array(json.key("profile"), distances.profile);
-    json.end_object();
-  }
-  if (asked.laid) write_profiles(json, asked.profiles);
+  if (asked.reference) json.key("distances").begin_object();
+  for (const Column& column : distances(asked)) write_array(json.key(column.name), column.values);
+  if (asked.reference) json.end_object();
+  if (asked.laid) write_profiles(json, asked.beds);
   json.end_object();
   core::print("{}\n", json.text());
 }
 
 void print_table(const Asked& asked, bool of_run) {
-  std::vector<std::pair<std::string, Values>> columns;
-  if (of_run) columns.emplace_back("time_s", Values(asked.time.begin(), asked.time.end()));
-  for (const Measure& measure : measures_of(asked.species))
-    columns.emplace_back(measure.unit == "1" ? measure.name : measure.name + "_" + measure.unit,
-                         values_of(asked, measure.of));
-  if (asked.reference) {
-    const Distances distances = distances_of(asked);
-    columns.emplace_back("distance_composition", distances.composition);
-    columns.emplace_back("distance_profile", distances.profile);
+  std::vector<Column> columns = measured(asked);
+  if (of_run) columns.insert(columns.begin(), {{}, {}, {}, "time_s", Values(asked.time.begin(), asked.time.end())});
+  for (Column& column : distances(asked)) {
+    column.heading = "distance_" + column.name;
+    columns.push_back(std::move(column));
   }
-  for (const auto& column : columns) core::print("{:>12}  ", column.first);
+  for (const Column& column : columns) core::print("{:>12}  ", column.heading);
   core::print("\n");
-  for (std::size_t n = 0; n < asked.profiles.size(); ++n) {
-    for (const auto& [name, values] : columns) {
-      const std::string entry = values[n] ? fmt::format("{:.6g}", *values[n]) : "-";
-      core::print("{:>{}}  ", entry, std::max<std::size_t>(12, name.size()));
+  for (std::size_t n = 0; n < asked.beds.size(); ++n) {
+    for (const Column& column : columns) {
+      const std::string entry = column.values[n] ? fmt::format("{:.6g}", *column.values[n]) : "-";
+      core::print("{:>{}}  ", entry, std::max<std::size_t>(12, column.heading.size()));
     }
     core::print("\n");
   }
@@ -329,6 +293,7 @@ void print_table(const Asked& asked, bool of_run) {
 }  // namespace
 
 void run_measure(const MeasureOptions& options) {
+  if (options.list) return print_measures(options);
   const bool of_run = options.profiles.empty();
   const Asked asked = of_run ? read_run(options.run) : read_profiles_of(options.profiles);
   options.json ? print_json(asked, of_run) : print_table(asked, of_run);

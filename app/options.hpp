@@ -61,11 +61,12 @@ struct CostOptions : RunOptions {
   std::uint64_t seed = 1;
 };
 
-/// Options of what is read off profiles: one of the two is given.
+/// Options of what is read off profiles: one of the first three is given.
 struct MeasureOptions {
   std::filesystem::path run;  ///< a run directory
   std::string profiles;       ///< a JSON file of profiles; "-": standard input
-  bool json = false;
+  bool list = false;          ///< the measures themselves
+  bool markdown = false, json = false;
 };
 
 struct DragOptions {

@@ -12,25 +12,16 @@ namespace polybed::dem {
 
 namespace {
 
-std::vector<std::string> history_columns(const Model& model, bool ledger) {
-  const Materials& materials = model.materials();
-  std::vector<std::string> columns{"time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"};
-  for (const Species& s : materials.species()) {
-    columns.push_back("centre_" + s.name + "_m");
-    columns.push_back("mass_" + s.name + "_kg");
-  }
-  columns.insert(columns.end(), {"interface_m", "mixing", "kinetic_J", "rotational_J", "elastic_J", "potential_J"});
-  if (ledger) columns.insert(columns.end(), {"dissipated_J", "work_J"});
-  if (ledger && model.outflow() != nullptr) columns.emplace_back("carried_out_J");
-  columns.insert(columns.end(), {"contacts", "max_overlap_m", "max_contact_force_N"});
-  if (const Coupling* coupling = model.coupling()) {
-    columns.emplace_back("max_solids_fraction");
-    if (coupling->flow().compressible() != nullptr) columns.emplace_back("mass_fluid_kg");
-  }
-  if (model.outflow() != nullptr)
-    for (const Species& s : materials.species())
-      columns.insert(columns.end(), {"out_" + s.name, "out_" + s.name + "_kg"});
-  return columns;
+std::vector<std::string> names_of(const Model& model) {
+  std::vector<std::string> names;
+  for (const Species& s : model.materials().species()) names.push_back(s.name);
+  return names;
+}
+
+Parts parts_of(const Model& model, bool ledger) {
+  const Coupling* coupling = model.coupling();
+  return {ledger, model.outflow() != nullptr, coupling != nullptr,
+          coupling != nullptr && coupling->flow().compressible() != nullptr};
 }
 
 std::vector<std::string> profile_names(const Model& model) {
@@ -84,15 +75,14 @@ Observers::Observers(const Model& model, const core::Scene& scene, const std::fi
                      std::optional<RunStart> start, const FluidTotals& fluid, std::optional<double> resume_time)
     : model_(model),
       slabs_{model.box().size[0] * model.box().size[2], model.box().size[1], std::size_t(scene.column.cells[1])},
-      has_ledger_(scene.dem.ledger),
+      history_(measures::bed_table(), history_table(parts_of(model, scene.dem.ledger)), names_of(model)),
       totals_(totals_of(model)),
-      invariants_(model, start ? std::move(*start) : RunStart{totals_.sum(), numbers_of(model)}, has_ledger_) {
+      invariants_(model, start ? std::move(*start) : RunStart{totals_.sum(), numbers_of(model)}, scene.dem.ledger) {
   const Coupling* coupling = model.coupling();
   if (coupling != nullptr) fluid_.emplace(*coupling, model.ranks(), fluid);
   core::on_first(model.ranks(), [&] {
-    core::ParticleScene particles{model.box().size, model.box().periodic, {}};
-    for (const Species& s : model.materials().species()) particles.species.push_back(s.name);
-    files_.reset(new Files{{directory, history_columns(model, has_ledger_), resume_time},
+    const core::ParticleScene particles{model.box().size, model.box().periodic, names_of(model)};
+    files_.reset(new Files{{directory, history_.columns(), resume_time},
                            {directory, slab_centres(slabs_), profile_names(model), resume_time},
                            {directory, particles, resume_time},
                            nullptr});
@@ -113,43 +103,29 @@ void Observers::write_history(double time) {
   const double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
   core::on_first(model_.ranks(), [&] {
     const auto& species = model_.materials().species();
-    std::vector<double> mass(species.size(), 0.0), density;
+    measures::Bed bed{.time = time, .step = model_.limits().dt, .mass = std::vector<double>(species.size(), 0.0)};
+    std::vector<double> density;
     for (const Species& s : species) density.push_back(s.density);
-    for (const Particle& p : all) mass[std::size_t(p.species)] += species[std::size_t(p.species)].mass;
+    for (const Particle& p : all) bed.mass[std::size_t(p.species)] += species[std::size_t(p.species)].mass;
     const Snapshot snapshot(all);
-    const measures::Profile profile = measures::particle_profile(snapshot.view(), species.size(), slabs_).solids;
-    const measures::ParticleHeights heights = measures::particle_heights(snapshot.view(), density);
-    bed_height_ = measures::bed_height(profile);
-    files_->history.write_row(row_of(time, profile, heights, mass, most_solids));
+    bed.profile = measures::particle_profile(snapshot.view(), species.size(), slabs_).solids;
+    bed.centre = measures::particle_heights(snapshot.view(), density).mean;
+    // Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
+    bed.pressure_drop = fluid_ ? fluid_->pressure_drop() : 0;
+    bed.buoyant_weight = weight_of(model_, bed.mass, slabs_.area);
+    bed_height_ = measures::bed_height(bed.profile);
+    files_->history.write_row(history_.row(bed, told(most_solids)));
   });
 }
 
-/// On the first rank. Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
-std::vector<std::optional<double>> Observers::row_of(double time, const measures::Profile& profile,
-                                                     const measures::ParticleHeights& heights,
-                                                     const std::vector<double>& mass, double most_solids) const {
-  const double drop = fluid_ ? fluid_->pressure_drop() : 0, weight = weight_of(model_, mass, slabs_.area);
-  std::vector<std::optional<double>> row{time, model_.limits().dt, measures::bed_height(profile), drop, weight};
-  for (std::size_t j = 0; j < mass.size(); ++j) {
-    row.push_back(heights.mean[j]);
-    row.push_back(mass[j]);
-  }
-  const Totals& t = totals_;
-  row.insert(row.end(), {measures::interface_height(profile), measures::mixing(profile), t.kinetic, t.rotational,
-                         t.elastic, t.potential});
-  if (has_ledger_) row.insert(row.end(), {t.dissipated, t.work});
-  if (has_ledger_ && model_.outflow() != nullptr) row.emplace_back(t.carried_out);
-  row.insert(row.end(), {double(t.contacts), t.max_overlap, t.max_force});
-  if (fluid_) {
-    row.push_back(most_solids);
-    if (model_.coupling()->flow().compressible() != nullptr) row.push_back(fluid_->mass());
-  }
+Told Observers::told(double most_solids) const {
+  Told told{totals_, most_solids, fluid_ ? fluid_->mass() : 0, {}, {}};
   if (const Outflow* outflow = model_.outflow())
-    for (std::size_t j = 0; j < mass.size(); ++j) {
-      const auto number = double(outflow->number[j]);
-      row.insert(row.end(), {number, number * model_.materials().species()[j].mass});
+    for (std::size_t j = 0; j < outflow->number.size(); ++j) {
+      told.number_out.push_back(double(outflow->number[j]));
+      told.mass_out.push_back(told.number_out[j] * model_.materials().species()[j].mass);
     }
-  return row;
+  return told;
 }
 
 void Observers::write_particles(double time) {

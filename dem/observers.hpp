@@ -12,9 +12,11 @@
 #include "core/output/profiles.hpp"
 #include "dem/coupling/fluid_output.hpp"
 #include "dem/coupling/fluid_record.hpp"
+#include "dem/history_table.hpp"
 #include "dem/invariants.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
+#include "measures/bed_table.hpp"
 #include "measures/particle_profile.hpp"
 
 namespace polybed::dem {
@@ -51,13 +53,12 @@ class Observers {
     core::ParticleWriter particles;
     std::unique_ptr<FluidOutput> fluid;  ///< null without one
   };
-  [[nodiscard]] std::vector<std::optional<double>> row_of(double time, const measures::Profile& profile,
-                                                          const measures::ParticleHeights& heights,
-                                                          const std::vector<double>& mass, double most_solids) const;
+  /// On the first rank.
+  [[nodiscard]] Told told(double most_solids) const;
 
   const Model& model_;
   measures::Slabs slabs_;
-  bool has_ledger_;
+  measures::History<Told> history_;
   std::optional<FluidRecord> fluid_;  ///< absent: there is no fluid
   std::unique_ptr<Files> files_;
   Totals totals_;

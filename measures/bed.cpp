@@ -139,6 +139,12 @@ std::optional<double> centre(const Profile& profile, std::size_t species) {
   return volume > 0 ? std::optional(moment / volume) : std::nullopt;
 }
 
+std::optional<double> centre_difference(const Profile& profile) {
+  if (profile.fraction.size() < 2) return std::nullopt;
+  const auto first = centre(profile, 0), second = centre(profile, 1), height = bed_height(profile);
+  return first && second && height && *height > 0 ? std::optional((*second - *first) / *height) : std::nullopt;
+}
+
 std::optional<double> interface_height(const Profile& profile, double tolerance) {
   if (profile.fraction.size() < 2) return std::nullopt;
   const auto slices = slices_of(profile);
@@ -187,6 +193,16 @@ std::optional<double> profile_distance(const Profile& profile, const Profile& re
     sum += phi_ref[k];
   }
   return sum > 0 ? std::optional(difference / sum) : std::nullopt;
+}
+
+std::optional<double> profile_distance(const Profile& profile, const Profile& reference) {
+  double sum = 0, count = 0;
+  for (std::size_t j = 0; j < profile.fraction.size(); ++j)
+    if (const auto distance = profile_distance(profile, reference, j)) {
+      sum += *distance;
+      count += 1;
+    }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 std::optional<double> composition_distance(const Profile& profile, const Profile& reference) {

@@ -22,6 +22,9 @@ namespace polybed::measures {
 /// Height, m, of the centre of volume of a species; empty if there is none of it.
 [[nodiscard]] std::optional<double> centre(const Profile& profile, std::size_t species);
 
+/// Centre of species 2 less that of species 1, over the bed height; empty for one species.
+[[nodiscard]] std::optional<double> centre_difference(const Profile& profile);
+
 /// Top, m, of the lower layer of the thesis: the profile is cut from below into 50 slices of equal solids
 /// volume; slices are dropped from below while the next one differs from them by more than `tolerance` in the
 /// share of any species; the interface is the top of the last slice whose shares are within `tolerance` of
@@ -36,6 +39,9 @@ namespace polybed::measures {
 /// has none of the species. Throws std::invalid_argument for other slabs.
 [[nodiscard]] std::optional<double> profile_distance(const Profile& profile, const Profile& reference,
                                                      std::size_t species);
+
+/// Mean of it over the species that the reference has; empty if it has none.
+[[nodiscard]] std::optional<double> profile_distance(const Profile& profile, const Profile& reference);
 
 /// How differently two beds are layered: half the sum over the species of the integral of |x_j - x_j,ref| over h, the
 /// share of the solids volume counted from below, 0 to 1; of two species the integral of |x_2 - x_2,ref|. By the 50

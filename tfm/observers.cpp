@@ -14,31 +14,19 @@ namespace {
 
 constexpr std::size_t last_steps_kept = 10;  // that a run that fails tells
 
-std::vector<std::string> history_columns(const Constants& constants, bool compressible) {
-  std::vector<std::string> columns{"time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"};
-  for (const std::string& name : constants.name) {
-    columns.push_back("centre_" + name + "_m");
-    columns.push_back("mass_" + name + "_kg");
-  }
-  columns.insert(columns.end(), {"interface_m", "mixing", "max_solids_fraction", "min_fraction", "divergence"});
-  if (compressible) columns.insert(columns.end(), {"mass_fluid_kg", "fluid_in_kg", "fluid_out_kg"});
-  if (constants.openings.present())
-    for (const std::string& name : constants.name) {
-      columns.push_back("in_" + name + "_kg");
-      columns.push_back("out_" + name + "_kg");
-    }
-  return columns;
-}
-
 std::vector<double> slab_centres(const core::Grid& grid) {
   std::vector<double> y;
   for (int k = 0; k < grid.column_cells(1); ++k) y.push_back((k + 0.5) * grid.spacing[1]);
   return y;
 }
 
-std::vector<std::string> names_of_heights(const Constants& constants) {
-  std::vector<std::string> names{"bed_height"};
-  for (const std::string& name : constants.name) names.push_back("centre_" + name);
+std::vector<measures::Single<measures::Bed>> heights_of(const Constants& constants) {
+  return measures::singles(measures::read_by(&measures::Readers::drift, measures::bed_table()), constants.name);
+}
+
+std::vector<std::string> names_of(const std::vector<measures::Single<measures::Bed>>& heights) {
+  std::vector<std::string> names;
+  for (const auto& height : heights) names.push_back(height.name);
   return names;
 }
 
@@ -129,13 +117,17 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
     : model_(model),
       ranks_(model.constants().grid.ranks.get()),
       invariants_(std::move(initial_mass), model.constants().name, rtol, model.effects().compressible != nullptr),
-      drifts_(names_of_heights(model.constants())) {
+      history_(measures::bed_table(),
+               history_table(model.effects().compressible != nullptr, model.constants().openings.present()),
+               model.constants().name),
+      heights_(heights_of(model.constants())),
+      drifts_(names_of(heights_)) {
   const Constants& constants = model.constants();
   const bool compressible = model.effects().compressible != nullptr;
   core::on_first(ranks_, [&] {
     const std::filesystem::path steps = directory / "steps.csv";
     files_.reset(new Files{
-        {directory, history_columns(constants, compressible), resume_time},
+        {directory, history_.columns(), resume_time},
         {directory, slab_centres(constants.grid), profile_names(constants, knows_temperature(model)), resume_time},
         {steps, kept_steps(steps, resume_time)}});
   });
@@ -145,16 +137,22 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
 
 void Observers::write_history(double time) {
   const Constants& constants = model_.constants();
-  const measures::Profile profile = profile_of(model_);
-  const std::vector<double> mass = masses(model_);
+  measures::Bed bed{
+      .profile = profile_of(model_), .time = time, .step = model_.last_step().step, .mass = masses(model_)};
   const double area = constants.grid.spacing[0] * constants.grid.column_cells(0) * constants.grid.spacing[2] *
                       constants.grid.column_cells(2);
-  double weight = 0;
   for (std::size_t j = 0; j < constants.species(); ++j)
-    weight +=
-        mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity * -constants.down[1] / area;
-  const double drop = measures::pressure_drop(profile);
-  force_balance_ = weight != 0 ? drop / weight : 0;
+    bed.buoyant_weight += bed.mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity *
+                          -constants.down[1] / area;
+  force_balance_ = bed.buoyant_weight != 0 ? measures::pressure_drop(bed.profile) / bed.buoyant_weight : 0;
+  bed_height_ = measures::bed_height(bed.profile);
+  const std::vector<measures::Value> row = history_.row(bed, told(time));
+  watch(bed);
+  core::on_first(ranks_, [&] { files_->history.write_row(row); });
+}
+
+Told Observers::told(double time) {
+  const Constants& constants = model_.constants();
   const Fields& fields = model_.fields();
   const double above = model_.effects().solids_stress ? model_.effects().solids_stress->packing_above(fields) : 0.0;
   const auto account = model_.fluid_account(time);
@@ -163,33 +161,22 @@ void Observers::write_history(double time) {
   const measures::InvariantValues now =
       invariants_.see(constants.grid, fields.solids, fields.fluid, above, model_.velocity_scale(), force_balance_ - 1,
                       time, passed, account ? account->error(fluid_mass) : 0);
-  const auto height = measures::bed_height(profile);
-  bed_height_ = height;
-  watch(time, height, profile);
-  std::vector<std::optional<double>> row{time, model_.last_step().step, height, drop, weight};
-  for (std::size_t j = 0; j < constants.species(); ++j) {
-    row.push_back(measures::centre(profile, j));
-    row.push_back(mass[j]);
+  Told told{now, fluid_mass, account.value_or(fluid::MassAccount{}), {}, {}};
+  for (std::size_t j = 0; j < passed.size(); ++j) {
+    told.in.push_back(passed[j].in * constants.density[j]);
+    told.out.push_back(passed[j].out * constants.density[j]);
   }
-  row.insert(row.end(), {measures::interface_height(profile), measures::mixing(profile), now.most_solids,
-                         -now.fraction_below, now.divergence});
-  if (account) row.insert(row.end(), {fluid_mass, account->in, account->out});
-  if (constants.openings.present())
-    for (std::size_t j = 0; j < constants.species(); ++j)
-      row.insert(row.end(), {passed[j].in * constants.density[j], passed[j].out * constants.density[j]});
-  core::on_first(ranks_, [&] { files_->history.write_row(row); });
+  return told;
 }
 
-void Observers::watch(double time, std::optional<double> height, const measures::Profile& profile) {
-  std::vector<std::optional<double>> heights{height};
-  for (std::size_t j = 0; j < profile.fraction.size(); ++j) heights.push_back(measures::centre(profile, j));
-  drifts_.see(time, heights);
+void Observers::watch(const measures::Bed& bed) {
+  drifts_.see(bed.time, measures::values(heights_, bed));
   const WellPosedness now = well_posedness(model_.constants(), model_.fields());
   LeastWellPosed& least = least_well_posed_;
   least.share_below_now = now.share_below;
   if (now.lacks_more_than(least.cell)) {
     least.cell = now;
-    least.time = time;
+    least.time = bed.time;
   }
 }
 

@@ -7,8 +7,10 @@
 
 #include "core/output/output.hpp"
 #include "measures/bed.hpp"
+#include "measures/bed_table.hpp"
 #include "measures/drift.hpp"
 #include "measures/invariants.hpp"
+#include "tfm/history_table.hpp"
 #include "tfm/model.hpp"
 #include "tfm/well_posedness.hpp"
 
@@ -58,11 +60,15 @@ class Observers {
   };
 
   /// What does not go into a row: the drift of its heights, and how well-posed the equations are.
-  void watch(double time, std::optional<double> height, const measures::Profile& profile);
+  void watch(const measures::Bed& bed);
+  /// Measures the invariants, and what else the model alone knows.
+  Told told(double time);
 
   const Model& model_;
   const core::Ranks* ranks_;
   measures::Invariants invariants_;
+  measures::History<Told> history_;
+  std::vector<measures::Single<measures::Bed>> heights_;  ///< whose drift is told
   measures::Drifts drifts_;
   LeastWellPosed least_well_posed_;
   std::unique_ptr<Files> files_;

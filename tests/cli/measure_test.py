@@ -44,11 +44,16 @@ class OfRun(Scratch):
             self.assertEqual({m["unit"] for m in found["measures"].values()}, {"m", "1", "Pa"})
             self.assertIn("centre_fine_m", self.ends(DONE, "measure", run).stdout.split("\n")[0])
 
+            listed = strict_json(self.ends(DONE, "measure", "--list", "--json").stdout)
+            columns = {line["column"] for section in ("bed", model) for line in listed[section]}
+            self.assertLessEqual({c.replace("fine", "<name>").replace("coarse", "<name>") for c in rows}, columns)
+
     def test_what_is_no_run_is_named(self):
         for words in (["measure", self.folder], ["measure", "--profiles", self.folder / "none.json"]):
             self.assertIn(str(self.folder), self.ends(FILE, *words).stderr)
         self.ends(WRONG_CASE, "measure")
         self.ends(WRONG_CASE, "measure", self.folder, "--profiles", "-")
+        self.ends(WRONG_CASE, "measure", self.folder, "--markdown")
 
 
 class OfProfiles(Scratch):

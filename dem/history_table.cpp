@@ -1,0 +1,42 @@
+#include "dem/history_table.hpp"
+
+namespace polybed::dem {
+
+measures::Table<Told> history_table(const Parts& parts) {
+  measures::Table<Told> table{
+      {"kinetic", "J", "energy of motion", [](const Told& t) { return t.totals.kinetic; }},
+      {"rotational", "J", "energy of spin", [](const Told& t) { return t.totals.rotational; }},
+      {"elastic", "J", "energy of the springs of contacts, and of attraction, which is negative",
+       [](const Told& t) { return t.totals.elastic; }},
+      {"potential", "J", "energy in gravity", [](const Told& t) { return t.totals.potential; }}};
+  const auto add = [&table](bool there, measures::Measure<Told> measure) {
+    if (there) table.push_back(std::move(measure));
+  };
+  add(parts.ledger,
+      {"dissipated", "J", "lost in contacts since the start", [](const Told& t) { return t.totals.dissipated; }});
+  add(parts.ledger, {"work", "J",
+                     "done on the particles by the fluid, the walls and the flow of a sheared box since the start: "
+                     "kinetic + rotational + elastic + potential + dissipated - work stays what it was",
+                     [](const Told& t) { return t.totals.work; }});
+  add(parts.ledger && parts.outflow, {"carried_out", "J",
+                                      "with dem.opening: energy that particles have taken out with them since the "
+                                      "start; in the sum above it counts as "
+                                      "dissipated energy does",
+                                      [](const Told& t) { return t.totals.carried_out; }});
+  add(true, {"contacts", "1", "pairs that touch, and particles that touch a wall",
+             [](const Told& t) { return double(t.totals.contacts); }});
+  add(true, {"max_overlap", "m", "the largest of any contact", [](const Told& t) { return t.totals.max_overlap; }});
+  add(true, {"max_contact_force", "N", "the largest of any contact", [](const Told& t) { return t.totals.max_force; }});
+  add(parts.fluid, {"max_solids_fraction", "1", "with a fluid: greatest phi of a cell",
+                    [](const Told& t) { return t.most_solids; }});
+  add(parts.fluid && parts.compressible,
+      {"mass_fluid", "kg", "of a compressible fluid: in the column, after its last step",
+       [](const Told& t) { return t.fluid_mass; }});
+  add(parts.outflow, {"out", "1", "with dem.opening: particles that have left since the start",
+                      [](const Told& t, std::size_t j) { return t.number_out[j]; }});
+  add(parts.outflow,
+      {"out", "kg", "with dem.opening: their mass", [](const Told& t, std::size_t j) { return t.mass_out[j]; }});
+  return table;
+}
+
+}  // namespace polybed::dem

@@ -1,0 +1,90 @@
+// A table of measures: a row for each, with its name, unit, definition and function. The columns of history.csv, the
+// heights whose drift a run tells, the answers of polybed measure and their page of the documentation are read off it.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace polybed::measures {
+
+using Value = std::optional<double>;  ///< empty: there is nothing to measure
+
+/// Who reads a measure.
+struct Readers {
+  bool history = true;   ///< history.csv has a column of it
+  bool profile = false;  ///< it is of a profile alone, and polybed measure tells it
+  bool drift = false;    ///< a height, m: a run says at its end whether it still drifts
+};
+
+/// One row: a measure of a `Source`, as a whole or of each species in it.
+template <class Source>
+struct Measure {
+  using OfWhole = std::function<Value(const Source&)>;
+  using OfSpecies = std::function<Value(const Source&, std::size_t species)>;
+
+  std::string name;  ///< "bed_height"; "centre" of the species "fine" is "centre_fine"
+  std::string unit;  ///< "1" of a number
+  std::string help;  ///< its definition
+  std::variant<OfWhole, OfSpecies> of;
+  Readers readers = {};
+
+  [[nodiscard]] bool of_species() const { return std::holds_alternative<OfSpecies>(of); }
+};
+
+template <class Source>
+using Table = std::vector<Measure<Source>>;
+
+/// The rows that someone reads, e.g. &Readers::history.
+template <class Source>
+[[nodiscard]] Table<Source> read_by(bool Readers::*reader, Table<Source> table) {
+  std::erase_if(table, [reader](const Measure<Source>& measure) { return !(measure.readers.*reader); });
+  return table;
+}
+
+/// A measure of one number.
+template <class Source>
+struct Single {
+  std::string name, unit, help;
+  typename Measure<Source>::OfWhole of;
+  Readers readers = {};
+
+  /// "bed_height_m", "mixing"
+  [[nodiscard]] std::string column() const { return unit == "1" ? name : name + "_" + unit; }
+};
+
+/// The numbers that a table asks for where there are these species. Rows of each species that follow each other stay
+/// together, species by species.
+template <class Source>
+[[nodiscard]] std::vector<Single<Source>> singles(const Table<Source>& table, const std::vector<std::string>& species) {
+  using Row = Measure<Source>;
+  std::vector<Single<Source>> found;
+  for (auto row = table.begin(); row != table.end();) {
+    if (!row->of_species()) {
+      found.push_back({row->name, row->unit, row->help, std::get<typename Row::OfWhole>(row->of), row->readers});
+      ++row;
+      continue;
+    }
+    const auto end = std::find_if(row, table.end(), [](const Row& later) { return !later.of_species(); });
+    for (std::size_t j = 0; j < species.size(); ++j)
+      for (auto one = row; one != end; ++one)
+        found.push_back({one->name + "_" + species[j], one->unit, one->help,
+                         [of = std::get<typename Row::OfSpecies>(one->of), j](const Source& s) { return of(s, j); },
+                         one->readers});
+    row = end;
+  }
+  return found;
+}
+
+/// What they measure, in their order.
+template <class Source>
+[[nodiscard]] std::vector<Value> values(const std::vector<Single<Source>>& measures, const Source& source) {
+  std::vector<Value> found;
+  for (const Single<Source>& measure : measures) found.push_back(measure.of(source));
+  return found;
+}
+
+}  // namespace polybed::measures

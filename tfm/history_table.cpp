@@ -1,0 +1,29 @@
+#include "tfm/history_table.hpp"
+
+namespace polybed::tfm {
+
+measures::Table<Told> history_table(bool compressible, bool openings) {
+  measures::Table<Told> table{
+      {"max_solids_fraction", "1", "greatest phi of a cell", [](const Told& t) { return t.invariants.most_solids; }},
+      {"min_fraction", "1", "0, or how far the least phi_j of a cell lies below, negative",
+       [](const Told& t) { return -t.invariants.fraction_below; }},
+      {"divergence", "1", "max of abs(div J) h / U; not 0 in a compressible fluid",
+       [](const Told& t) { return t.invariants.divergence; }}};
+  if (compressible) {
+    table.push_back(
+        {"mass_fluid", "kg", "of a compressible fluid: in the column", [](const Told& t) { return t.fluid_mass; }});
+    table.push_back({"fluid_in", "kg", "of a compressible fluid: in through the distributor since the start",
+                     [](const Told& t) { return t.account.in; }});
+    table.push_back({"fluid_out", "kg", "of a compressible fluid: out at the top since the start",
+                     [](const Told& t) { return t.account.out; }});
+  }
+  if (openings) {
+    table.push_back({"in", "kg", "fed since the start; if an end is open to solids or they are fed",
+                     [](const Told& t, std::size_t j) { return t.in[j]; }});
+    table.push_back({"out", "kg", "left since the start; if an end is open to solids or they are fed",
+                     [](const Told& t, std::size_t j) { return t.out[j]; }});
+  }
+  return table;
+}
+
+}  // namespace polybed::tfm
