@@ -22,22 +22,23 @@ Value centre_of(const Bed& bed, std::size_t species) {
 }  // namespace
 
 Table<Bed> bed_table() {
-  const Readers everyone{.profile = true}, and_drift{.profile = true, .drift = true},
-      studies{.history = false, .profile = true};
+  const Readers all{.profile = true, .drift = true, .picture = true}, and_drift{.profile = true, .drift = true},
+      and_picture{.profile = true, .picture = true}, also_profiles{.profile = true},
+      only_profiles{.history = false, .profile = true};
   return {
       {"time", "s", "time", [](const Bed& bed) { return bed.time; }},
       {"dt", "s", "length of the step that contains it", [](const Bed& bed) { return bed.step; }},
       {"bed_height", "m",
        "highest z where phi, linear between slab centres, equals half of the volume-weighted mean of phi between "
        "z_0.80 and z_0.95",
-       of_profile(bed_height), and_drift},
+       of_profile(bed_height), all},
       {"bed_height_by_pressure", "m",
        "where two straight lines through p cross, by least squares over z_0.10 to z_0.80 and above 1.1 bed heights",
-       of_profile(bed_height_by_pressure), studies},
+       of_profile(bed_height_by_pressure), only_profiles},
       {"pressure_drop", "Pa",
        "net pressure at the bottom less that at the top, continued linearly from the outer two slabs; of a "
        "compressible fluid it also carries what the fluid weighs beyond rho_0",
-       pressure_drop_of, everyone},
+       pressure_drop_of, also_profiles},
       {"buoyant_weight", "Pa",
        "of the bed in the fluid, over the cross-section: the pressure drop, in the mean, of a fluidised bed",
        [](const Bed& bed) { return bed.buoyant_weight; }},
@@ -45,27 +46,27 @@ Table<Bed> bed_table() {
        centre_of, and_drift},
       {"mass", "kg", "in the column", [](const Bed& bed, std::size_t species) { return bed.mass[species]; }},
       {"centre_difference", "1", "centre of species 2 less that of species 1, over bed_height",
-       of_profile(centre_difference), studies},
+       of_profile(centre_difference), only_profiles},
       {"interface", "m",
        "the profile cut from below into 50 slices of equal solids volume; slices are dropped from below while the next "
        "differs by more than 0.05 in a share; the top of the last slice within 0.05 of the shares accumulated from the "
        "first kept one, no higher than the bed",
-       [](const Bed& bed) { return interface_height(bed.profile); }, everyone},
+       [](const Bed& bed) { return interface_height(bed.profile); }, and_picture},
       {"mixing", "1",
        "1 - mean over the slices of (x - x_mean)^2/(x_mean (1 - x_mean)), mean over species: 1 mixed, 0 separated",
-       of_profile(mixing), everyone},
+       of_profile(mixing), also_profiles},
   };
 }
 
 Table<Beside> distance_table() {
-  const Readers studies{.history = false, .profile = true};
+  const Readers only_profiles{.history = false, .profile = true};
   return {
       {"composition", "1",
        "half the sum over the species of the mean of |x_j - x_j,ref| over the slices: 0 alike, 1 nowhere alike",
-       [](const Beside& beds) { return composition_distance(beds.profile, beds.reference); }, studies},
+       [](const Beside& beds) { return composition_distance(beds.profile, beds.reference); }, only_profiles},
       {"profile", "1",
        "integral over z of |phi_j - phi_j,ref| over that of phi_j,ref, mean over species: 0 alike, 2 nowhere together",
-       [](const Beside& beds) { return profile_distance(beds.profile, beds.reference); }, studies},
+       [](const Beside& beds) { return profile_distance(beds.profile, beds.reference); }, only_profiles},
   };
 }
 

@@ -1,5 +1,6 @@
 // A table of measures: a row for each, with its name, unit, definition and function. The columns of history.csv, the
-// heights whose drift a run tells, the answers of polybed measure and their page of the documentation are read off it.
+// heights whose drift a run tells, the answers of polybed measure, the page of the documentation and the table of the
+// Python package are read off it.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +19,7 @@ struct Readers {
   bool history = true;   ///< history.csv has a column of it
   bool profile = false;  ///< it is of a profile alone, and polybed measure tells it
   bool drift = false;    ///< a height, m: a run says at its end whether it still drifts
+  bool picture = false;  ///< a level in the bed, m: pictures of the history and of profiles draw a line there
 };
 
 /// One row: a measure of a `Source`, as a whole or of each species in it.

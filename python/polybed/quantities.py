@@ -1,9 +1,17 @@
 """Numbers with their unit: what a run holds, by name."""
 
+import json
+import pathlib
+
 import numpy as np
 
+# What `polybed measure --list --json` says of every measure.
+TABLE = json.loads(pathlib.Path(__file__).with_name("measures.json").read_text())
+COLUMNS = {row["column"]: row for part in ("bed", "tfm", "dem") for row in TABLE[part] if row["column"]}
 # Units by the end of a column's name; none is the end of another.
-ENDINGS = {"_m": "m", "_s": "s", "_Pa": "Pa", "_J": "J", "_kg": "kg", "_N": "N"}
+ENDINGS = {f"_{row['unit']}": row["unit"] for row in COLUMNS.values() if row["unit"] != "1"}
+# Levels in a bed, by column what a picture calls them.
+LEVELS = {column: row["name"].replace("_", " ") for column, row in COLUMNS.items() if row["picture"]}
 # Units of fields and profiles by the beginning of their name.
 BEGINNINGS = {"phi_": "1", "voidage": "1", "u_": "m/s", "theta_": "m2/s2", "total_pressure": "Pa", "pressure": "Pa",
               "density": "kg/m3"}

@@ -48,6 +48,11 @@ class OfRun(Scratch):
             columns = {line["column"] for section in ("bed", model) for line in listed[section]}
             self.assertLessEqual({c.replace("fine", "<name>").replace("coarse", "<name>") for c in rows}, columns)
 
+    def test_the_python_package_has_the_table_as_it_is(self):
+        """If not: polybed measure --list --json | python3 -m json.tool --indent 1 > python/polybed/measures.json"""
+        table = strict_json((program.ROOT / "python/polybed/measures.json").read_text())
+        self.assertEqual(table, strict_json(self.ends(DONE, "measure", "--list", "--json").stdout))
+
     def test_what_is_no_run_is_named(self):
         for words in (["measure", self.folder], ["measure", "--profiles", self.folder / "none.json"]):
             self.assertIn(str(self.folder), self.ends(FILE, *words).stderr)

@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import COLOURS, GREY, PALE, length_unit, species_line, title_of
+from polybed.drawing.style import COLOURS, GREY, PALE, length_unit, levels, species_line, title_of
 
 
 def draw_heights(axes, run, factor, unit):
@@ -12,9 +12,8 @@ def draw_heights(axes, run, factor, unit):
     for n, name in enumerate(run.species):
         if f"centre_{name}_m" in history:
             axes.plot(t, history[f"centre_{name}_m"] * factor, label=f"centre of {name}", **species_line(n))
-    for column, name, line in (("bed_height_m", "bed height", "--"), ("interface_m", "interface", ":")):
-        if column in history and not np.isnan(history[column]).all():
-            axes.plot(t, history[column] * factor, color=GREY, linestyle=line, linewidth=1, label=name)
+    for column, name, line in levels(history):
+        axes.plot(t, history[column] * factor, color=GREY, linestyle=line, linewidth=1, label=name)
     axes.set_ylim(bottom=0)
     axes.set_ylabel(f"height ({unit})")
 

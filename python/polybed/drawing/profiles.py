@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import EMPTY, FEW_SOLIDS, GREY, PALE, length_unit, species_line, title_of
+from polybed.drawing.style import EMPTY, FEW_SOLIDS, GREY, PALE, length_unit, levels, species_line, title_of
 from polybed.read import nearest
 
 
@@ -17,8 +17,8 @@ def value_at(run, column, time):
 
 
 def mark_levels(axes, run, time, factor, named):
-    """Lines at the interface and at the top of the bed."""
-    for column, name, line in (("bed_height_m", "bed height", "--"), ("interface_m", "interface", ":")):
+    """Lines at the levels in the bed."""
+    for column, name, line in levels(run.history):
         level = value_at(run, column, time)
         if level is None:
             continue
@@ -81,7 +81,7 @@ def edges(centres):
 
 
 def draw_in_time(axes, run, name, most, factor, time):
-    """Volume fraction of a species over time and height, with the interface and the top of the bed."""
+    """Volume fraction of a species over time and height, with the levels in the bed."""
     profiles, history = run.profiles, run.history
     y = profiles["y_m"]
     half = (y[1] - y[0]) / 2 if len(y) > 1 else y[0]
@@ -90,9 +90,8 @@ def draw_in_time(axes, run, name, most, factor, time):
     mesh = axes.pcolormesh(
         edges(profiles["time_s"]), faces, profiles[f"phi_{name}"].T, cmap="viridis", vmin=0, vmax=most, rasterized=True
     )
-    for column, line in (("bed_height_m", "--"), ("interface_m", ":")):
-        if column in history:
-            axes.plot(history["time_s"], history[column] * factor, color="white", linestyle=line, linewidth=1)
+    for column, _, line in levels(history):
+        axes.plot(history["time_s"], history[column] * factor, color="white", linestyle=line, linewidth=1)
     axes.axvline(time, color="white", linewidth=0.6)
     axes.set_title(f"{name}: volume fraction in time")
     axes.set_xlabel("time (s)")

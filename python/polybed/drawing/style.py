@@ -4,14 +4,19 @@ Colours of the species are those of Okabe and Ito (2008), which people with any 
 of one sign are viridis and cividis, maps of two signs red and blue, of equal lightness on both sides.
 """
 
+import itertools
+
 import matplotlib
 
 matplotlib.use("Agg")
 import numpy as np
 
+from polybed.quantities import LEVELS
+
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
 NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each other
 LINES = ["-", "--", "-."]  # beyond six species the colours come again, in another line
+LEVEL_LINES = ["--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))]  # of levels in the bed
 GREY = "#555555"
 PALE = "#bbbbbb"
 EMPTY = "#eeeeee"  # of a map where there is nothing to show
@@ -32,6 +37,13 @@ FEW_SOLIDS = 0.01  # a volume fraction below which a place counts as empty
 def species_line(n):
     """Colour and line of the species number n."""
     return {"color": COLOURS[n % len(COLOURS)], "linestyle": LINES[n // len(COLOURS) % len(LINES)]}
+
+
+def levels(history):
+    """(column, label, line) of each level in the bed that a history has somewhere: its height, the interface."""
+    lines = dict(zip(LEVELS, itertools.cycle(LEVEL_LINES)))
+    return [(column, label, lines[column]) for column, label in LEVELS.items()
+            if not np.isnan(history.get(column, np.nan)).all()]
 
 
 def length_unit(run):

@@ -100,6 +100,12 @@ class Profiles(SampleRun):
         self.assertAlmostEqual(lines["bed height"].get_ydata()[0], 90)  # 0.08 + 0.02 * 0.5 m, in mm
         self.assertNotIn("interface", lines, "the sample has none")
 
+    def test_a_level_that_the_table_of_measures_names_is_drawn(self):
+        with unittest.mock.patch.dict(style.LEVELS, {"centre_fine_m": "new level"}):
+            for figure in (profiles.draw(self.sample, 0.6), history.draw(self.sample)):
+                lines = {line.get_label(): line for line in figure.axes[0].get_lines()}
+                self.assertEqual((lines["bed height"].get_linestyle(), lines["new level"].get_linestyle()), ("--", "-."))
+
     def test_no_value_is_none(self):
         self.assertIsNone(profiles.value_at(self.sample, "interface_m", 0.5))
         self.assertIsNone(profiles.value_at(self.sample, "no such column", 0.5))
