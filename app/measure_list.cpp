@@ -15,7 +15,7 @@ namespace {
 /// A row as it is told: the name that polybed measure knows it by and its column of history.csv, empty if it has none.
 struct Line {
   std::string name, column, unit, help;
-  bool picture;
+  measures::Readers readers;
 };
 
 struct Section {
@@ -28,7 +28,7 @@ std::vector<Line> lines_of(const measures::Table<Source>& table) {
   std::vector<Line> lines;
   for (const auto& measure : measures::singles(table, {"<name>"}))
     lines.push_back({measure.readers.profile ? measure.name : "", measure.readers.history ? measure.column() : "",
-                     measure.unit, measure.help, measure.readers.picture});
+                     measure.unit, measure.help, measure.readers});
   return lines;
 }
 
@@ -75,7 +75,8 @@ void print_list_json() {
       json.begin_object();
       text("name", line.name);
       text("column", line.column);
-      json.member("unit", line.unit).member("help", line.help).member("picture", line.picture).end_object();
+      json.member("unit", line.unit).member("help", line.help);
+      json.member("drift", line.readers.drift).member("picture", line.readers.picture).end_object();
     }
     json.end_array();
   }
