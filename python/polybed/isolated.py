@@ -30,6 +30,7 @@ if __name__ == "__main__":
     os.environ["MPLBACKEND"] = "Agg"  # a notebook exports one that this interpreter may not have
     from polybed.packages import needed
 
-    with needed(True):
-        import_matplotlib()
+    if not module.startswith("polybed.study."):  # a study imports it if it draws
+        with needed(True):
+            import_matplotlib()
     runpy.run_module(module, run_name="__main__", alter_sys=True)

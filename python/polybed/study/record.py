@@ -1,0 +1,38 @@
+"""What a study writes: its record, whole or not at all, and a picture of it."""
+
+import importlib
+import json
+import sys
+from contextlib import suppress
+
+from polybed.in_place import in_place
+from polybed.isolated import import_matplotlib
+from polybed.study.ending import FILE, NUMBERS, StudyError, answer
+
+
+def write_record(path, found):
+    """Puts a JSON file in place whole and returns its text. Raises StudyError."""
+    try:
+        text = json.dumps(found, ensure_ascii=False, allow_nan=False)
+        with in_place(path) as temporary:
+            temporary.write_text(text + "\n", encoding="utf-8")
+    except ValueError as error:
+        raise StudyError(NUMBERS, "a number that is not finite was about to be written as JSON") from error
+    except OSError as error:
+        raise StudyError(FILE, f"cannot write {path}: {error.strerror}") from error
+    return text
+
+
+def draw(module, function, directory, what, quiet):
+    """Has a module of the package draw a record's folder, and says where the picture is, or why there is no `what`: the record is
+    complete without. quiet: says nothing"""
+    try:
+        import_matplotlib()
+        path = getattr(importlib.import_module(module), function)(directory)
+    except Exception as error:  # whatever is wrong with a picture, the study has ended well
+        if not quiet:
+            with suppress(OSError):
+                print(f"no {what}: {error}", file=sys.stderr, flush=True)
+    else:
+        if not quiet:
+            answer(path)
