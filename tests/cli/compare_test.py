@@ -185,7 +185,7 @@ class Comparison(Scratch):
         told = self.ends(FILE, "compare", self.case, "--tfm", dem, "--dem", dem, "-o", self.folder / "again").stderr
         self.assertIn("a run of dem, not of tfm", told)
         (dem / "run.json").write_text('{"filetype": "polybed run", ')
-        self.assertIn("run.json: no JSON at byte", self.given(code=FILE).stderr)
+        self.assertIn("run.json is damaged", self.given(code=FILE).stderr)
         (dem / "run.json").unlink()
         self.assertIn("no run", self.given(code=FILE).stderr)
 
