@@ -96,9 +96,9 @@ void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
 [[noreturn]] void run_compare(const std::vector<std::string>& words);
 void run_calibrate(const CalibrateOptions& options);
-void run_check(const CaseOptions& options);
+void run_check(const RunOptions& options);
 /// The case alone, as a record of its run has it; as JSON with its hashes and why a model cannot run it.
-void print_resolved(const CaseOptions& options);
+void print_resolved(const RunOptions& options);
 void run_effects(const CaseOptions& options);
 void run_effects_bench(int rounds, bool json);
 /// The code to end with: of numbers that failed where the promise is broken.

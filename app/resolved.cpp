@@ -1,12 +1,11 @@
 // polybed check --resolved: the case as a record of its run has it, and whether each model runs it; nothing is
 // estimated.
-#include "app/options.hpp"
+#include "app/run_directory.hpp"
 #include "core/case/file.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "core/version.hpp"
 #include "dem/continuum_scene.hpp"
-#include "multiscale/effects/choice.hpp"
 #include "tfm/particle_scene.hpp"
 
 namespace polybed::multiscale {
@@ -32,8 +31,8 @@ void write_reasons(core::Json& json, const char* model, const std::vector<std::s
 
 }  // namespace
 
-void print_resolved(const CaseOptions& options) {
-  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
+void print_resolved(const RunOptions& options) {
+  const core::Scene scene = read_scene(options);
   const std::string text = core::resolved_case(scene);
   if (!options.json) return core::print("{}\n", text);
   core::Json json;
@@ -41,7 +40,9 @@ void print_resolved(const CaseOptions& options) {
       .member("git_commit", core::git_commit())
       .member("case", text)
       .member("hash", core::text_hash(text));
-  json.member("scan_hash", hash_of_scanned(scene)).key("refused").begin_object();
+  json.member("scan_hash", hash_of_scanned(scene)).key("overrides").begin_array();
+  for (const std::string& override : scene.overrides) json.value(override);
+  json.end_array().key("refused").begin_object();
   write_reasons(json, "tfm", tfm::only_for_particles(scene));
   write_reasons(json, "dem", dem::only_for_continuum(scene));
   core::print("{}\n", json.end_object().end_object().text());

@@ -8,24 +8,18 @@ from polybed.program import call
 FREE = ("tfm.", "dem.", "output.")  # tables that may differ between runs of one case
 
 
-def until_override(until):
-    """The override that an option --until stands for, a list; none if it was not given."""
-    if not until:
-        return []
-    return [f"run.until={until}" if set(until) <= set("0123456789.eE+-") else f'run.until="{until}"']
-
-
 def words_of(overrides):
     """Overrides as the program takes them."""
     return [word for override in overrides for word in ("--set", override)]
 
 
 class Case:
-    """A case file with overrides, resolved. Raises ProgramError if it is wrong."""
+    """A case file with overrides, resolved. Raises ProgramError if it is wrong. until: simulated time, as --until has it, or None"""
 
-    def __init__(self, path, overrides):
-        found = json.loads(call("check", path, *words_of(overrides), "--resolved", "--json"))
-        self.path, self.overrides = str(path), list(overrides)
+    def __init__(self, path, overrides, until=None):
+        end = ["--until", until] if until else []
+        found = json.loads(call("check", path, *words_of(overrides), *end, "--resolved", "--json"))
+        self.path, self.overrides = str(path), found["overrides"]  # the end among them
         self.text, self.hash, self.scan_hash = found["case"], found["hash"], found["scan_hash"]
         self.git_commit = found["git_commit"]  # of the program
         self.refused = found["refused"]  # by each model: why it cannot run the case

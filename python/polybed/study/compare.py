@@ -17,7 +17,7 @@ with needed(__name__ == "__main__"):
     from polybed.folder import read_record
     from polybed.program import name_of
     from polybed.study import compare_report as report
-    from polybed.study.cases import Case, differences, roles_in_both_models, until_override, words_of
+    from polybed.study.cases import Case, differences, roles_in_both_models, words_of
     from polybed.study.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
     from polybed.study.measured import measured
     from polybed.study.output_folder import taken
@@ -91,7 +91,8 @@ def compare_runs(options, case, directories):
     if scan:
         with contents_of(scan[1]):
             add_inversion(found, *scan, case.velocity)
-    found.warnings += [f"{model}: the run is not done ({record['state']})" for model, record in records.items() if record["state"] != "done"]
+    states = {model: record["state"] for model, record in records.items()}
+    found.warnings += [f"{model}: the run is not done ({state})" for model, state in states.items() if state != "done"]
     plain = report.plain(found, case, options.output, {model: (directories[model], records[model]) for model in MODELS})
     path = Path(options.output) / "comparison.json"
     text = write_record(path, plain)
@@ -101,7 +102,7 @@ def compare_runs(options, case, directories):
 
 
 def make(options):
-    case = Case(options.case, [*options.set, *until_override(options.until)])
+    case = Case(options.case, options.set, options.until)
     options.output = options.output or os.path.join("runs", f"{name_of(options.case)}-compare")
     refuse_before_running(options, case)
     with taken(Path(options.output)):

@@ -36,7 +36,7 @@ def plain_scores(found):
 
 def counts_of(record):
     """The counters of a run, as its record has them."""
-    return {name: count for name, count in sorted(record["work"].items()) if isinstance(count, (int, float)) and not isinstance(count, bool)}
+    return {name: count for name, count in sorted(record["work"].items()) if type(count) in (int, float)}
 
 
 def plain_run(directory, record, profiles):

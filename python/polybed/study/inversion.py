@@ -19,10 +19,10 @@ with needed(__name__ == "__main__"):
     from polybed.folder import read_record
     from polybed.read import read
     from polybed.study import inversion_report as report
-    from polybed.study.cases import Case, hash_of, until_override, words_of
+    from polybed.study.cases import Case, hash_of, words_of
     from polybed.study.ending import DONE, WRONG_CASE, StudyError, answer, guarded
     from polybed.study.inversion_search import Mean, search
-    from polybed.study.measured import Columns, centre_difference, drifts_in, species_of, window_of, within
+    from polybed.study.measured import centre_difference, drifts_in, history_of, species_of, window_of, within
     from polybed.study.output_folder import taken
     from polybed.study.record import draw, write_record
     from polybed.study.runs import flags, has_checkpoint, ranks, run
@@ -46,14 +46,13 @@ class RunsOfModel:
         return report.ScanOfModel(self.model, found, self.runs)
 
     def mean_at(self, velocity, source):
-        overrides = [*self.overrides, *until_override(self.request["until"]), *self.start_of(velocity, source)]
-        case = Case(self.request["case"], overrides)
+        case = Case(self.request["case"], [*self.overrides, *self.start_of(velocity, source)], self.request["until"])
         digest = hash_of((case.text + self.table).encode())
         directory = os.path.join(self.request["directory"], self.name, f"{1e3 * velocity:.3f}mm_s-{digest[:DIGITS]}")
         reused = finished(directory)
         if not reused:
             again = "--resume" if has_checkpoint(directory) else "--force"  # replaces what a killed run has left without a checkpoint
-            run(self.model, case.path, *words_of(overrides), "-o", directory, again, "--quiet", "--no-picture",
+            run(self.model, case.path, *words_of(case.overrides), "-o", directory, again, "--quiet", "--no-picture",
                 *flags(self.request, "permissive"))
         made = measure(directory)
         made.reused = reused
@@ -102,7 +101,7 @@ def mean_of(directory, history, values, window):
 def measure(directory):
     """What a finished run has measured, as a scan looks at it."""
     found = read(directory)
-    history, record = Columns(found.directory / "history.csv", found.history), found.record
+    history, record = history_of(found), found.record
     species, window = species_of(history), window_of(history)
     b = mean_of(directory, history, centre_difference(history, species), window)
     height = mean_of(directory, history, history["bed_height_m"], window)
@@ -134,7 +133,7 @@ def record_of(request, case, scans):
 def make(request):
     """Makes the scan that is asked for, and writes inversion.json."""
     directory = Path(request["directory"])
-    case = Case(request["case"], [*request["overrides"], *until_override(request["until"])])
+    case = Case(request["case"], request["overrides"], request["until"])
     request["until_s"] = case.keys["run"]["until"]
     with taken(directory):
         if speaks(request):

@@ -41,7 +41,8 @@ class ScanOfModel:
 
     def plain(self):
         found = self.found
-        steps = [{"velocity_m_s": step.velocity, "from": step.source} | run.plain() for step, run in zip(found.steps, self.runs, strict=True)]
+        steps = [{"velocity_m_s": step.velocity, "from": step.source} | run.plain()
+                 for step, run in zip(found.steps, self.runs, strict=True)]
         plain = {"outcome": found.outcome, "velocity_m_s": found.velocity, "error_m_s": found.error, "low_m_s": found.low,
                  "high_m_s": found.high, "slope_s_m": found.slope, "cpu_s": sum(run.cpu_s for run in self.runs), "runs": steps}
         if self.moved:

@@ -35,6 +35,11 @@ class Point(NamedTuple):
     run: int
 
 
+def known(outcome, low, high, velocity, error):
+    """Between which velocities an inversion that was found lies: the bracket where it is narrow, else the interval by the noise, m/s."""
+    return (low, high) if outcome == "bracket" else (velocity - error, velocity + error)
+
+
 @dataclass
 class Found:
     """What a search has found."""
@@ -48,8 +53,9 @@ class Found:
 
     @property
     def width(self):
-        """How well the velocity is known, over itself: the bracket where it is narrow, else the interval by the noise."""
-        return (self.high - self.low if self.outcome == "bracket" else 2 * self.error) / self.velocity
+        """How well the velocity is known, over itself."""
+        low, high = known(self.outcome, self.low, self.high, self.velocity, self.error)
+        return (high - low) / self.velocity
 
 
 class Search:

@@ -1,4 +1,4 @@
-"""What a study writes: its record, whole or not at all, and a picture of it."""
+"""What a study leaves and says: its record, whole or not at all, a picture of it, and remarks."""
 
 import importlib
 import json
@@ -6,7 +6,6 @@ import sys
 from contextlib import suppress
 
 from polybed.in_place import in_place
-from polybed.isolated import import_matplotlib
 from polybed.study.ending import FILE, NUMBERS, StudyError, answer
 
 
@@ -23,16 +22,20 @@ def write_record(path, found):
     return text
 
 
+def remark(text):
+    """Says something on standard error, as far as that can be written."""
+    with suppress(OSError):
+        print(text, file=sys.stderr, flush=True)
+
+
 def draw(module, function, directory, what, quiet):
     """Has a module of the package draw a record's folder, and says where the picture is, or why there is no `what`: the record is
     complete without. quiet: says nothing"""
     try:
-        import_matplotlib()
         path = getattr(importlib.import_module(module), function)(directory)
     except Exception as error:  # whatever is wrong with a picture, the study has ended well
         if not quiet:
-            with suppress(OSError):
-                print(f"no {what}: {error}", file=sys.stderr, flush=True)
+            remark(f"no {what}: {error}")
     else:
         if not quiet:
             answer(path)

@@ -16,10 +16,10 @@ from polybed.packages import needed
 with needed(__name__ == "__main__"):
     from polybed.program import call
     from polybed.read import read
-    from polybed.study.cases import Case, until_override, words_of
+    from polybed.study.cases import Case, words_of
     from polybed.study.ending import DONE, guarded
-    from polybed.study.measured import Columns, centre_difference, species_of, window_of, within
-    from polybed.study.record import write_record
+    from polybed.study.measured import centre_difference, history_of, species_of, window_of, within
+    from polybed.study.record import remark, write_record
     from polybed.study.runs import flags, has_checkpoint, run
     from polybed.study.time_mean import time_mean
 
@@ -33,8 +33,7 @@ def moved_table(table, sigma, path):
 def late_means(directory):
     """Means of bed height and normalised centre difference over the window in which runs are compared, by name; None for what a run has
     not."""
-    found = read(directory)
-    history = Columns(found.directory / "history.csv", found.history)
+    history = history_of(read(directory))
     series = {"bed_height_m": history["bed_height_m"], "centre_difference": centre_difference(history, species_of(history))}
     means = {name: time_mean(within(history["time_s"], values, window_of(history))) for name, values in series.items()}
     return {name: mean and mean.mean for name, mean in means.items()}
@@ -43,29 +42,28 @@ def late_means(directory):
 def band(name, unit, minus, table, plus):
     """A band as it is written; said on standard error."""
     low, high = min(minus, table, plus), max(minus, table, plus)
-    print(f"{name}: {table:.5g}{unit}, {low:.5g} to {high:.5g} within one standard error of the table", file=sys.stderr, flush=True)
+    remark(f"{name}: {table:.5g}{unit}, {low:.5g} to {high:.5g} within one standard error of the table")
     return {"table": table, "minus": minus, "plus": plus, "low": low, "high": high}
 
 
-def run_again(request, table, name, sigma):
+def run_again(request, case, name, sigma):
     """The case with its table moved, in a folder of the run."""
     output = os.path.join(request["directory"], name)
-    moved = moved_table(table, sigma, os.path.join(request["directory"], f"table-{name}.h5"))
+    moved = moved_table(case.table, sigma, os.path.join(request["directory"], f"table-{name}.h5"))
     again = "--resume" if request["resume"] and has_checkpoint(output) else "--force" if request["force"] else None
-    run("tfm", request["case"], *words_of([*request["overrides"], *until_override(request["until"]), moved]), "-o", output, "--no-picture",
+    run("tfm", request["case"], *words_of([*case.overrides, moved]), "-o", output, "--no-picture",
         *flags(request, "permissive", "quiet"), *([again] if again else []))
     return output
 
 
 def make(request):
     directory = request["directory"]
-    overrides = [*request["overrides"], *until_override(request["until"])]
-    table = Case(request["case"], overrides).table
+    case = Case(request["case"], request["overrides"], request["until"])
     picture = [] if request["picture"] else ["--no-picture"]
-    run("tfm", request["case"], *words_of(overrides), "-o", directory, *flags(request, "resume", "force", "permissive", "quiet", "json"),
-        *picture, answers=True)
-    means = [late_means(folder) for folder in (run_again(request, table, "minus", -1), directory, run_again(request, table, "plus", 1))]
-    found = {"filetype": "polybed stress uncertainty", "version": 1, "table": table, "standard_errors": 1,
+    run("tfm", request["case"], *words_of(case.overrides), "-o", directory, *picture,
+        *flags(request, "resume", "force", "permissive", "quiet", "json"), answers=True)
+    means = [late_means(folder) for folder in (run_again(request, case, "minus", -1), directory, run_again(request, case, "plus", 1))]
+    found = {"filetype": "polybed stress uncertainty", "version": 1, "table": case.table, "standard_errors": 1,
              "window": "last quarter, from where it is stationary"}
     for name, unit in (("bed_height_m", " m"), ("centre_difference", "")):
         values = [of[name] for of in means]

@@ -195,10 +195,6 @@ class Cases(unittest.TestCase):
         self.assertEqual(cases.hash_of(b""), "cbf29ce484222325")  # of FNV-1a itself
         self.assertEqual(cases.hash_of(b"a"), "af63dc4c8601ec8c")
 
-    def test_an_end_is_a_number_or_has_its_unit(self):
-        self.assertEqual([cases.until_override(text) for text in ("", None, "1.5e-3", "20 s")],
-                         [[], [], ["run.until=1.5e-3"], ['run.until="20 s"']])
-
 
 class Report(unittest.TestCase):
     def test_the_file_has_its_form(self):
