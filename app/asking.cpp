@@ -80,6 +80,17 @@ void add_drag(CLI::App& app, Commands& commands) {
                       })});
 }
 
+void add_measure(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::MeasureOptions>();
+  CLI::App& command = *app.add_subcommand("measure", "bed height, centres, mixing, ... of the profiles of a run");
+  CLI::Option_group& what = *command.add_option_group("what");
+  what.add_option("RUN", options->run, "run directory");
+  what.add_option("--profiles", options->profiles, "JSON file of profiles instead; - reads standard input");
+  what.require_option(1);
+  command.add_flag("--json", options->json, "one JSON object");
+  commands.push_back({&command, doing([options] { multiscale::run_measure(*options); })});
+}
+
 void add_keys(CLI::App& app, Commands& commands) {
   struct Options {
     bool json = false, markdown = false;

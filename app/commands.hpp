@@ -44,6 +44,7 @@ void add_check(CLI::App& app, Commands& commands);
 void add_effects(CLI::App& app, Commands& commands);
 void add_estimate(CLI::App& app, Commands& commands);
 void add_drag(CLI::App& app, Commands& commands);
+void add_measure(CLI::App& app, Commands& commands);
 /// schema, explain, list.
 void add_keys(CLI::App& app, Commands& commands);
 

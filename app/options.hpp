@@ -61,6 +61,13 @@ struct CostOptions : RunOptions {
   std::uint64_t seed = 1;
 };
 
+/// Options of what is read off profiles: one of the two is given.
+struct MeasureOptions {
+  std::filesystem::path run;  ///< a run directory
+  std::string profiles;       ///< a JSON file of profiles; "-": standard input
+  bool json = false;
+};
+
 struct DragOptions {
   std::string law = "cello", csv;
   std::optional<double> voidage, reynolds;
@@ -98,6 +105,7 @@ core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
 void run_estimate(const EstimateOptions& options);
 core::ExitCode run_cost(CostOptions options);
 void run_drag(const DragOptions& options);
+void run_measure(const MeasureOptions& options);
 void run_inversion(const InversionOptions& options);
 void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);

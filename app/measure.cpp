@@ -1,0 +1,335 @@
+// polybed measure: what is read off the profiles of a run, or off those that are given: one definition for every study.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <iterator>
+#include <limits>
+#include <set>
+
+#include "app/options.hpp"
+#include "core/error.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/output/json_value.hpp"
+#include "core/output/output.hpp"
+#include "core/print.hpp"
+#include "fluid/measures.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using fluid::Profile;
+using Values = std::vector<std::optional<double>>;
+
+struct Measure {
+  std::string name, unit, help;
+  std::function<std::optional<double>(const Profile&)> of;
+};
+
+/// Centre of species 2 less that of species 1, over the bed height; empty for one species.
+std::optional<double> centre_difference(const Profile& profile) {
+  if (profile.fraction.size() < 2) return std::nullopt;
+  const auto first = fluid::centre(profile, 0), second = fluid::centre(profile, 1), height = fluid::bed_height(profile);
+  return first && second && height && *height > 0 ? std::optional((*second - *first) / *height) : std::nullopt;
+}
+
+std::optional<double> pressure_drop(const Profile& profile) {
+  return profile.pressure.empty() ? std::nullopt : std::optional(fluid::pressure_drop(profile));
+}
+
+std::vector<Measure> measures_of(const std::vector<std::string>& species) {
+  std::vector<Measure> all{
+      {"bed_height", "m", "highest z where phi equals half of its mean between z_0.80 and z_0.95", fluid::bed_height},
+      {"bed_height_by_pressure", "m", "where straight lines through the pressure of bed and freeboard cross",
+       fluid::bed_height_by_pressure},
+      {"pressure_drop", "Pa", "net pressure at the bottom less that at the top", pressure_drop}};
+  for (std::size_t j = 0; j < species.size(); ++j)
+    all.push_back({"centre_" + species[j], "m", "mean height of the volume of the species",
+                   [j](const Profile& p) { return fluid::centre(p, j); }});
+  all.push_back(
+      {"centre_difference", "1", "centre of species 2 less that of species 1, over bed_height", centre_difference});
+  all.push_back({"interface", "m", "top of the lower layer, x* = 0.05",
+                 [](const Profile& p) { return fluid::interface_height(p); }});
+  all.push_back({"mixing", "1", "1 mixed, 0 separated", fluid::mixing});
+  return all;
+}
+
+/// What is asked for.
+struct Asked {
+  std::vector<std::string> species;
+  std::vector<double> time;  ///< s, of the profiles of a run
+  std::vector<Profile> profiles;
+  std::optional<Profile> reference;
+  bool laid = false;  ///< on slabs that are asked for
+};
+
+struct Distances {
+  Values composition, profile;
+};
+
+// ---- reading
+
+double finite(const core::JsonValue& value) {
+  if (!std::isfinite(value.number())) throw core::FileError("a number is not finite");
+  return value.number();
+}
+
+/// What `read` returns; an error says of what it is.
+template <class Read>
+auto naming(const std::string& what, const Read& read) {
+  try {
+    return read();
+  } catch (const core::FileError& error) {
+    throw core::FileError(fmt::format("{}: {}", what, error.what()));
+  }
+}
+
+const core::JsonValue* member(const core::JsonValue& value, const std::string& name) {
+  const auto found = value.object().find(name);
+  return found == value.object().end() || found->second.is_null() ? nullptr : &found->second;
+}
+
+template <class Member>
+auto of(const core::JsonValue& value, const std::string& name, const Member& read) {
+  const core::JsonValue& found = value.of(name);
+  return naming(name, [&] { return read(found); });
+}
+
+std::vector<double> numbers(const core::JsonValue& value) {
+  std::vector<double> found;
+  for (const core::JsonValue& number : value.array()) found.push_back(finite(number));
+  return found;
+}
+
+double thickness(const core::JsonValue& value) {
+  const double slab = finite(value);
+  if (!(slab > 0)) throw core::FileError(fmt::format("{} m is no thickness of a slab", slab));
+  return slab;
+}
+
+Profile read_profile(const core::JsonValue& value, std::size_t species) {
+  Profile profile;
+  profile.slab = of(value, "slab", thickness);
+  profile.fraction = of(value, "fraction", [](const core::JsonValue& rows) {
+    std::vector<std::vector<double>> found;
+    for (const core::JsonValue& row : rows.array()) found.push_back(numbers(row));
+    return found;
+  });
+  if (profile.fraction.size() != species)
+    throw core::FileError(fmt::format("fraction: {} rows for {} species", profile.fraction.size(), species));
+  for (const auto& phi : profile.fraction)
+    if (phi.empty() || phi.size() != profile.slabs())
+      throw core::FileError("fraction: its rows are empty or of different length");
+  if (member(value, "pressure") != nullptr) profile.pressure = of(value, "pressure", numbers);
+  if (!profile.pressure.empty() && profile.pressure.size() != profile.slabs())
+    throw core::FileError(fmt::format("pressure: {} values for {} slabs", profile.pressure.size(), profile.slabs()));
+  return profile;
+}
+
+std::vector<std::string> read_species(const core::JsonValue& value) {
+  std::vector<std::string> names;
+  for (const core::JsonValue& name : value.array()) names.push_back(name.text());
+  if (names.empty()) throw core::FileError("none is named");
+  if (std::set<std::string>(names.begin(), names.end()).size() < names.size())
+    throw core::FileError("a name stands twice");
+  return names;
+}
+
+std::size_t count_of(const core::JsonValue& value) {
+  constexpr double most = 1e6;
+  const double count = finite(value);
+  if (!(count >= 1 && count <= most) || count != std::floor(count))
+    throw core::FileError(fmt::format("{} is no number of slabs from 1 to {}", count, most));
+  return std::size_t(count);
+}
+
+/// Lays all on the slabs that are asked for.
+void lay(const core::JsonValue& on, Asked& asked) {
+  constexpr double most_ratio = 1e9;
+  const double slab = of(on, "slab", thickness);
+  const std::size_t count = of(on, "count", count_of);
+  const auto lay_one = [&](Profile& profile) {
+    if (slab / profile.slab > most_ratio || profile.slab / slab > most_ratio)
+      throw core::FileError(fmt::format("slab: {} m is too far from the {} m of a profile", slab, profile.slab));
+    profile = fluid::on_slabs(profile, slab, count);
+  };
+  for (Profile& profile : asked.profiles) lay_one(profile);
+  if (asked.reference) lay_one(*asked.reference);
+  asked.laid = true;
+}
+
+void require_slabs_of_reference(const Asked& asked) {
+  for (std::size_t n = 0; asked.reference && n < asked.profiles.size(); ++n) {
+    const Profile &profile = asked.profiles[n], &reference = *asked.reference;
+    if (profile.slabs() != reference.slabs() || std::abs(profile.slab - reference.slab) > 1e-9 * reference.slab)
+      throw core::FileError(fmt::format("profiles[{}]: {} slabs of {} m, the reference has {} of {} m", n,
+                                        profile.slabs(), profile.slab, reference.slabs(), reference.slab));
+  }
+}
+
+Asked read_asked(const core::JsonValue& value) {
+  Asked asked;
+  asked.species = of(value, "species", read_species);
+  const core::JsonValue::Array& profiles = of(value, "profiles", [](const auto& v) { return std::cref(v.array()); });
+  for (std::size_t n = 0; n < profiles.size(); ++n)
+    asked.profiles.push_back(
+        naming(fmt::format("profiles[{}]", n), [&] { return read_profile(profiles[n], asked.species.size()); }));
+  if (const core::JsonValue* reference = member(value, "reference"))
+    asked.reference = naming("reference", [&] { return read_profile(*reference, asked.species.size()); });
+  if (const core::JsonValue* on = member(value, "on")) naming("on", [&] { lay(*on, asked); });
+  require_slabs_of_reference(asked);
+  return asked;
+}
+
+Asked read_profiles_of(const std::string& file) {
+  if (file != "-") {
+    const core::JsonValue value = core::read_json(file);
+    return naming(file, [&] { return read_asked(value); });
+  }
+  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  return naming("standard input", [&] { return read_asked(core::parse_json(text)); });
+}
+
+/// In the order of the case, which the columns of the history keep.
+std::vector<std::string> species_of(const std::filesystem::path& run, const core::Profiles& profiles) {
+  const std::string front = "phi_";
+  std::vector<std::string> stored;
+  for (const std::string& name : profiles.names)
+    if (name.starts_with(front)) stored.push_back(name.substr(front.size()));
+  if (stored.empty()) throw core::FileError((run / "profiles.h5").string() + " has no phi_NAME of a species");
+  if (!std::filesystem::exists(run / "history.csv")) return stored;
+  const std::vector<std::string> columns = core::read_history(run).columns;
+  const auto place = [&](const std::string& name) {
+    return std::find(columns.begin(), columns.end(), "centre_" + name + "_m");
+  };
+  std::stable_sort(stored.begin(), stored.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  return stored;
+}
+
+Asked read_run(const std::filesystem::path& run) {
+  const core::Profiles stored = core::read_profiles(run);
+  Asked asked{species_of(run, stored), stored.time, {}, {}};
+  const std::size_t slabs = stored.height.size();
+  const auto row_of = [&](const std::string& name, std::size_t n) {
+    const std::vector<double>& all = stored.of(name).values;
+    if (slabs == 0 || all.size() != stored.time.size() * slabs)
+      throw core::FileError(fmt::format("{}: {} has {} values for {} times and {} slabs",
+                                        (run / "profiles.h5").string(), name, all.size(), stored.time.size(), slabs));
+    const auto begin = all.begin() + std::ptrdiff_t(n * slabs);
+    return std::vector<double>(begin, begin + std::ptrdiff_t(slabs));
+  };
+  const bool has_pressure = std::find(stored.names.begin(), stored.names.end(), "p") != stored.names.end();
+  for (std::size_t n = 0; n < stored.time.size(); ++n) {
+    Profile profile;
+    for (const std::string& name : asked.species) profile.fraction.push_back(row_of("phi_" + name, n));
+    if (has_pressure) profile.pressure = row_of("p", n);
+    profile.slab = 2 * stored.height.front();
+    asked.profiles.push_back(std::move(profile));
+  }
+  return asked;
+}
+
+// ---- measuring
+
+Values values_of(const Asked& asked, const std::function<std::optional<double>(const Profile&)>& measure) {
+  Values values;
+  for (const Profile& profile : asked.profiles) {
+    const std::optional<double> value = measure(profile);
+    values.push_back(value && std::isfinite(*value) ? value : std::nullopt);
+  }
+  return values;
+}
+
+Distances distances_of(const Asked& asked) {
+  const Profile& reference = *asked.reference;
+  const auto of_profile = [&](const Profile& profile) {
+    double sum = 0, count = 0;
+    for (std::size_t j = 0; j < profile.fraction.size(); ++j)
+      if (const auto d = fluid::profile_distance(profile, reference, j)) {
+        sum += *d;
+        count += 1;
+      }
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
+  };
+  return {values_of(asked, [&](const Profile& profile) { return fluid::composition_distance(profile, reference); }),
+          values_of(asked, of_profile)};
+}
+
+// ---- telling
+
+template <class Numbers>
+void write_array(core::Json& json, const Numbers& numbers) {
+  json.begin_array();
+  for (const auto& number : numbers) json.value(number);
+  json.end_array();
+}
+
+void write_profiles(core::Json& json, const std::vector<Profile>& profiles) {
+  json.key("profiles").begin_array();
+  for (const Profile& profile : profiles) {
+    json.begin_object().member("slab", profile.slab).key("fraction").begin_array();
+    for (const auto& phi : profile.fraction) write_array(json, phi);
+    json.end_array().key("pressure");
+    write_array(json, profile.pressure);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void print_json(const Asked& asked, bool of_run) {
+  core::Json json;
+  json.begin_object();
+  if (of_run) write_array(json.key("time_s"), asked.time);
+  json.key("measures").begin_object();
+  for (const Measure& measure : measures_of(asked.species)) {
+    json.key(measure.name).begin_object().member("unit", measure.unit).member("help", measure.help).key("values");
+    write_array(json, values_of(asked, measure.of));
+    json.end_object();
+  }
+  json.end_object();
+  if (asked.reference) {
+    const Distances distances = distances_of(asked);
+    write_array(json.key("distances").begin_object().key("composition"), distances.composition);
+    write_array(json.key("profile"), distances.profile);
+    json.end_object();
+  }
+  if (asked.laid) write_profiles(json, asked.profiles);
+  json.end_object();
+  core::print("{}\n", json.text());
+}
+
+void print_table(const Asked& asked, bool of_run) {
+  std::vector<std::pair<std::string, Values>> columns;
+  if (of_run) columns.emplace_back("time_s", Values(asked.time.begin(), asked.time.end()));
+  for (const Measure& measure : measures_of(asked.species))
+    columns.emplace_back(measure.unit == "1" ? measure.name : measure.name + "_" + measure.unit,
+                         values_of(asked, measure.of));
+  if (asked.reference) {
+    const Distances distances = distances_of(asked);
+    columns.emplace_back("distance_composition", distances.composition);
+    columns.emplace_back("distance_profile", distances.profile);
+  }
+  for (const auto& column : columns) core::print("{:>12}  ", column.first);
+  core::print("\n");
+  for (std::size_t n = 0; n < asked.profiles.size(); ++n) {
+    for (const auto& [name, values] : columns) {
+      const std::string entry = values[n] ? fmt::format("{:.6g}", *values[n]) : "-";
+      core::print("{:>{}}  ", entry, std::max<std::size_t>(12, name.size()));
+    }
+    core::print("\n");
+  }
+}
+
+}  // namespace
+
+void run_measure(const MeasureOptions& options) {
+  const bool of_run = options.profiles.empty();
+  const Asked asked = of_run ? read_run(options.run) : read_profiles_of(options.profiles);
+  options.json ? print_json(asked, of_run) : print_table(asked, of_run);
+}
+
+}  // namespace polybed::multiscale
