@@ -39,7 +39,7 @@ class ProgramError(Exception):
 
     def __init__(self, words, code, said):
         super().__init__(f"{' '.join(words)}\nended with {code}: {said.strip()}")
-        self.code = code
+        self.code, self.said = code, said.strip()
 
 
 def program():
