@@ -10,9 +10,8 @@ void add_cost(CLI::App& app, Commands& commands) {
   CLI::App& command = *app.add_subcommand("cost", "error against time for a case, and the settings that follow");
   command.prefix_command();
   command.set_help_flag();
-  commands.push_back({&command, [&command]() -> core::ExitCode {
-                        multiscale::become_python("polybed.cost", command.remaining());
-                      }});
+  commands.push_back(
+      {&command, [&command]() -> core::ExitCode { multiscale::become_python("polybed.cost", command.remaining()); }});
   CLI::App& oracles = *app.add_subcommand("oracles", "what `polybed cost selftest` examines of the program")->group("");
   commands.push_back({&oracles, doing(multiscale::run_oracles)});
 }

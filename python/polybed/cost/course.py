@@ -38,6 +38,6 @@ def run_sweep(scene, options, runner):
     attribution.attribute(sweeper)
     for row in sweep.rows:
         if row.kind == CANDIDATE and row.done and sweep.chaotic and row.measured.too_short:
-            sweep.warnings.append(f"{settings_text(sweep, row)}: window too short for {row.measured.too_short}: fewer than 30 autocorrelation "
-                                  "times")
+            sweep.warnings.append(f"{settings_text(sweep, row)}: window too short for {row.measured.too_short}: fewer than 30 "
+                                  "autocorrelation times")
     return sweep

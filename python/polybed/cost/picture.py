@@ -1,6 +1,6 @@
 """Draws a sweep of error against time: what `polybed cost` and `polybed plot` of its folder hand over to.
 
-    python3 -m polybed.cost DIR [--out DIR]
+    python3 -m polybed.cost.picture DIR [--out DIR]
 
 Reads DIR/cost.json, writes cost.png and cost.svg and prints their paths. Exit codes are those of polybed.
 """

@@ -47,8 +47,8 @@ def exact_reference(sweeper):
     sweep = sweeper.sweep
     found = sweep.rows[sweeper.run(Row(RunOrder("force_balance"), REFERENCE, note="force balance"))]
     if len(sweeper.scene.species) > 1 or not found.done or sweep.ranking not in found.measured.values:
-        return sweep.refuse("no exact value of this quantity: one is known of the height and the pressure drop of a bed of one species that "
-                            "is carried")
+        return sweep.refuse("no exact value of this quantity: one is known of the height and the pressure drop of a bed of one species "
+                            "that is carried")
     sweep.reference = Reference("exact", "uniform expansion by the balance of forces", means_of(found))
 
 
@@ -114,8 +114,8 @@ def line_of_grids(sweeper, grid):
             break
         line.append(row)
         if not row.outcome.invariants_held:
-            sweeper.sweep.warnings.append(f"grid {grid.levels[level].label}: an invariant exceeded its limit, and it is one of the grids of "
-                                          "the reference")
+            sweeper.sweep.warnings.append(f"grid {grid.levels[level].label}: an invariant exceeded its limit, and it is one of the grids "
+                                          "of the reference")
     return line
 
 
@@ -123,8 +123,8 @@ def add_space(sweeper, grid):
     """Moves the reference from the grid it was run on to the limit of the line of grids."""
     sweep, line = sweeper.sweep, line_of_grids(sweeper, grid)
     if len(line) < 3:
-        return sweep.refuse("no trustworthy reference: fewer than three grids were run within the budget; a larger --budget, or --axes without "
-                            "grid for errors on one grid alone")
+        return sweep.refuse("no trustworthy reference: fewer than three grids were run within the budget; a larger --budget, or --axes "
+                            "without grid for errors on one grid alone")
     reference, finest = sweep.reference, len(line) - 1
     reference.kind = "extrapolated"
     ratio = (grid.levels[finest - 2].value / grid.levels[finest].value) ** 0.5  # cells are whole: of 99 come 50, not 49.5

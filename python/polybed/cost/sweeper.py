@@ -33,8 +33,8 @@ def checked_quantities(options, known, species):
             raise StudyError(WRONG_CASE, f"--qoi {name}: no such quantity of this case")
     found = options.quantities or ["bed_height", *(["centre_difference"] if len(species) > 1 else [])]
     if found[0] in ("profile", "composition"):
-        raise StudyError(WRONG_CASE, f"--qoi {found[0]}: a distance from the reference has no uncertainty to rank by; name another quantity "
-                                     "first")
+        raise StudyError(WRONG_CASE, f"--qoi {found[0]}: a distance from the reference has no uncertainty to rank by; name another "
+                                     "quantity first")
     return found
 
 
@@ -65,9 +65,9 @@ class Sweeper:
 
     def order_of(self, settings, more=()):
         levels = [axis.levels[settings[axis.name]] for axis in self.sweep.axes]
-        models = [level.model for level in levels if level.model]
+        model = [self.sweep.options.model, *(level.model for level in levels if level.model)][-1]
         overrides = [override for level in levels for override in level.overrides]
-        return RunOrder(models[-1] if models else self.sweep.options.model, max([1, *(level.ranks for level in levels)]), (*overrides, *more))
+        return RunOrder(model, max([1, *(level.ranks for level in levels)]), (*overrides, *more))
 
     def on_line(self, name, level):
         """Settings that differ from the centre on one axis."""

@@ -18,14 +18,16 @@ def counters_of(record, cells):
         unknowns = record["unknowns"]
         # An explicit step solves for the pressure; an implicit one multiplies by the Jacobian in each Krylov iteration.
         iterations = "pressure_iterations" if work["pressure_solves"] > 0 else "jacobian_products"
-        return {name: work[name] for name in ("steps", "rejected_steps")} | {
-            "rhs_evaluations x unknowns": unknowns * work["rhs_evaluations"], f"{iterations} x unknowns": unknowns * work["linear_iterations"]}
+        return {"steps": work["steps"], "rejected_steps": work["rejected_steps"],
+                "rhs_evaluations x unknowns": unknowns * work["rhs_evaluations"],
+                f"{iterations} x unknowns": unknowns * work["linear_iterations"]}
     counters = {name: work[name] for name in ("steps", "particle_steps", "pair_checks", "candidates")}
     counters["contact_evaluations"] = work["contact_steps"]
     if "fluid" in record:
         fluid = record["fluid"]
         counters |= {"particle_steps in the fluid": work["particle_steps"], "fluid_steps": fluid["steps"],
-                     "fluid_steps x particles": record["particles"] * fluid["steps"], "fluid_iterations x cells": cells * fluid["iterations"]}
+                     "fluid_steps x particles": record["particles"] * fluid["steps"],
+                     "fluid_iterations x cells": cells * fluid["iterations"]}
     return counters
 
 

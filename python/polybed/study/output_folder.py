@@ -41,7 +41,8 @@ def foreign_file(folder):
     runs."""
     if is_of_program(folder):
         return None
-    return next((entry.name for entry in folder.iterdir() if not (entry.is_dir() and not entry.is_symlink() and is_of_program(entry))), None)
+    return next((entry.name for entry in folder.iterdir()
+                 if entry.is_symlink() or not entry.is_dir() or not is_of_program(entry)), None)
 
 
 def opened_mark(folder):
@@ -52,8 +53,8 @@ def opened_mark(folder):
         raise StudyError(FILE, f"cannot make the directory {folder}: {error.strerror}") from error
     name = foreign_file(folder)
     if name is not None:
-        raise StudyError(WRONG_CASE, f"{folder} contains files that polybed has not written, {name} for one: -o DIR names a new or an empty "
-                                     f"directory; an empty file {MARK} in {folder} allows polybed to replace its own files there")
+        raise StudyError(WRONG_CASE, f"{folder} contains files that polybed has not written, {name} for one: -o DIR names a new or an "
+                                     f"empty directory; an empty file {MARK} in {folder} allows polybed to replace its own files there")
     path = folder / MARK
     try:
         mark = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
@@ -81,7 +82,8 @@ def taken(folder):
         try:
             fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise StudyError(FILE, f"{folder}: {holder(mark)} writes into it; wait for its end, or name another directory by -o DIR") from None
+            raise StudyError(FILE, f"{folder}: {holder(mark)} writes into it; wait for its end, or name another directory by -o DIR"
+                             ) from None
         except OSError as error:
             if error.errno not in NO_LOCKS:
                 raise StudyError(FILE, f"cannot lock {folder}: {error.strerror}") from error
