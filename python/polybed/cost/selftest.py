@@ -87,29 +87,33 @@ def k6():
 
 
 def lorenz(y):
-    return np.array([10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - 8 / 3 * y[2]])
+    return 10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - 8 / 3 * y[2]
 
 
 def damped(y):
-    return np.array([y[1], -y[0] - 0.2 * y[1], 0 * y[0]])
+    return y[1], -y[0] - 0.2 * y[1], 0.0
 
 
-def courses(rate, push):
-    """First component of a system in time, as it is and pushed, by the classical method of Runge and Kutta."""
-    dt = 0.01
-    y, found = np.array([[1, 1 + push], [1, 1], [1, 1]]), []
+def moved(y, k, by):
+    return y[0] + by * k[0], y[1] + by * k[1], y[2] + by * k[2]
+
+
+def course(rate, push):
+    """First component of a system in time, by the classical method of Runge and Kutta."""
+    dt, y, found = 0.01, (1 + push, 1.0, 1.0), []
     for _ in range(5000):
         a = rate(y)
-        b = rate(y + dt / 2 * a)
-        c = rate(y + dt / 2 * b)
-        y = y + dt / 6 * (a + 2 * b + 2 * c + rate(y + dt * c))
+        b = rate(moved(y, a, dt / 2))
+        c = rate(moved(y, b, dt / 2))
+        d = rate(moved(y, c, dt))
+        y = moved(y, [a[i] + 2 * b[i] + 2 * c[i] + d[i] for i in range(3)], dt / 6)
         found.append(y[0])
-    return np.array(found).T
+    return found
 
 
 def k7():
     """What is chaotic and what is not."""
-    first, second = (is_chaotic(*courses(rate, 1e-10)) for rate in (lorenz, damped))
+    first, second = (is_chaotic(course(rate, 0.0), course(rate, 1e-10)) for rate in (lorenz, damped))
     word = {True: "chaotic", False: "steady"}
     return Oracle("K7", f"Lorenz {word[first]}, damped {word[second]}", "chaotic, steady", first and not second)
 
