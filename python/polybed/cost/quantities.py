@@ -36,7 +36,7 @@ class RunQuantities:
 def measure_on(keys, begin):
     """The slabs of a resolved case, and the window from `begin`, s, on."""
     column = keys["column"]
-    return MeasureOn(column["size"][1] / column["cells"][1], column["cells"][1], Window(begin, np.finfo(float).max))
+    return MeasureOn(column["size"][1] / column["cells"][1], column["cells"][1], Window(begin, np.inf))
 
 
 def quantities_of(species):

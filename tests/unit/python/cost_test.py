@@ -252,6 +252,18 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(off.values["bed_height"].mean, 0.11 + 0.02 * (0.25 - half) / 0.25, delta=1e-12)
 
 
+    def test_means_are_those_of_the_last_quarter(self):
+        """Of a height that is 0.1 m up to three quarters of the run and 0.12 m from there on, in rows and in profiles."""
+        run = self.run_of(40, [0.1])
+        late = run.history["time_s"] > 7.4
+        run.history["bed_height_m"] = np.where(late, 0.12, 0.1)
+        run.profiles["phi_a"][run.profiles["time_s"] > 7.4] = np.where(run.profiles["y_m"] < 0.12, 0.4, 0.0)
+        on = quantities.measure_on({"column": {"size": [0.01, 0.2], "cells": [2, 40]}}, 7.5)
+        found = quantities.quantities_of_run(run, on)
+        self.assertEqual(found.values["bed_height"].mean, 0.12)
+        np.testing.assert_allclose(found.profile.fraction[0, :24], 0.4)
+
+
 class Words(unittest.TestCase):
     def test_targets_and_budgets(self):
         self.assertEqual([command.target_of(text) for text in ("1%", "0.02", "2e-3", "5 %")], [0.01, 0.02, 2e-3, 0.05])

@@ -107,7 +107,9 @@ class Windows(unittest.TestCase):
         np.testing.assert_allclose(centre_difference(history, ["a", "b"]), 0.5)
         self.assertEqual(len(centre_difference(history, ["a"])), 0)
         np.testing.assert_equal(ratio(np.array([1.0, 2.0, 3.0]), np.array([2.0, 0.0, -1.0])), [0.5, np.nan, np.nan])
-        self.assertEqual(within(self.TIME, self.TIME, Window(75, 100))[0], 75)
+        for end in (100, np.inf):
+            self.assertEqual(within(self.TIME, self.TIME, Window(75, end))[0], 75)
+        self.assertEqual(len(within(np.empty(0), np.empty(0), Window(75, 100))), 0)
         with self.assertRaisesRegex(ending.FAULTS, "history.csv .* mixing"):
             history["mixing"]
 
