@@ -243,7 +243,7 @@ void run_check(const RunOptions& options) {
     json.begin_object().member("case", text).member("hash", core::text_hash(text));
     json.member("fluid_density_kg_m3", derived.fluid.density).member("fluid_viscosity_Pa_s", derived.fluid.viscosity);
     if (derived.sound > 0) json.member("speed_of_sound_m_s", derived.sound);
-    json.member("buoyant_weight_Pa", derived.weight);
+    json.member("buoyant_weight_Pa", derived.weight).member("static_height_m", scene.bed.static_height);
     write_requirements(json, need);
     if (particles) {
       json.key("dem").begin_object();

@@ -47,14 +47,6 @@ struct EstimateOptions : CaseOptions {  // case_path may be empty
   bool machine = false;  ///< measure the machine
 };
 
-/// Options of a sweep of error against time; those of a run are for the case.
-struct CostOptions : RunOptions {
-  std::vector<std::string> words;  ///< CASE; check DIR; diff OLD NEW; selftest
-  std::string model, quantities, axes, target = "1%", budget = "20min", clock = "work", reference = "auto";
-  int repeat = 5;
-  std::uint64_t seed = 1;
-};
-
 /// Options of what is read off profiles: one of the two is given.
 struct MeasureOptions {
   std::filesystem::path run;  ///< a run directory
@@ -104,7 +96,7 @@ void run_effects_bench(int rounds, bool json);
 /// The code to end with: of numbers that failed where the promise is broken.
 core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
 void run_estimate(const EstimateOptions& options);
-core::ExitCode run_cost(CostOptions options);
+void run_oracles();
 void run_drag(const DragOptions& options);
 void run_measure(const MeasureOptions& options);
 void run_inversion(const InversionOptions& options);

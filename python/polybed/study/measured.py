@@ -96,8 +96,8 @@ def centre_difference(history, species):
 
 
 def in_window(time, window):
-    """Which of these times the window has, truths."""
-    slack = ROUNDING * window.end
+    """Which of these times the window has, truths; its end may lie beyond all of them."""
+    slack = ROUNDING * min([window.end, *time[-1:]])
     return (time >= window.begin - slack) & (time <= window.end + slack)
 
 
