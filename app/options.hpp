@@ -28,12 +28,6 @@ struct RunOptions : CaseOptions {
   bool stress_uncertainty = false;  ///< of the TFM: again with its stress table at plus and minus one standard error
 };
 
-/// Options of the comparison of both models; those of a run are for the models that it runs itself.
-struct CompareOptions : RunOptions {
-  std::filesystem::path tfm, dem;   ///< runs to compare; empty: it is run
-  std::filesystem::path inversion;  ///< folder of a scan of the case; empty: the default one, if it is of the case
-};
-
 /// Options of the pictures of a run.
 struct PlotOptions {
   std::filesystem::path run;     ///< a run directory, or a case that has one in runs/
@@ -53,12 +47,11 @@ struct EstimateOptions : CaseOptions {  // case_path may be empty
   bool machine = false;  ///< measure the machine
 };
 
-/// Options of a sweep of error against time; those of a run are for the case.
-struct CostOptions : RunOptions {
-  std::vector<std::string> words;  ///< CASE; check DIR; diff OLD NEW; selftest
-  std::string model, quantities, axes, target = "1%", budget = "20min", clock = "work", reference = "auto";
-  int repeat = 5;
-  std::uint64_t seed = 1;
+/// Options of what is read off profiles: one of the two is given.
+struct MeasureOptions {
+  std::filesystem::path run;  ///< a run directory
+  std::string profiles;       ///< a JSON file of profiles; "-": standard input
+  bool json = false;
 };
 
 /// Options of what is read off profiles: one of the first three is given.
@@ -82,6 +75,11 @@ struct InversionOptions : RunOptions {
   std::string from, to;  ///< velocities to begin the scan at; empty: about the force balance
 };
 
+struct MoveOptions {
+  std::filesystem::path table, moved;
+  double sigma = 0;  ///< standard errors
+};
+
 /// Options of the calibration: boxes of particles for a table of the solids stress.
 struct CalibrateOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-calibrate
@@ -96,19 +94,23 @@ struct CalibrateOptions : CaseOptions {
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
-void run_compare(const CompareOptions& options);
+[[noreturn]] void run_compare(const std::vector<std::string>& words);
 void run_calibrate(const CalibrateOptions& options);
-void run_check(const CaseOptions& options);
+void run_check(const RunOptions& options);
+/// The case alone, as a record of its run has it; as JSON with its hashes and why a model cannot run it.
+void print_resolved(const RunOptions& options);
 void run_effects(const CaseOptions& options);
 void run_effects_bench(int rounds, bool json);
 /// The code to end with: of numbers that failed where the promise is broken.
 core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
 void run_estimate(const EstimateOptions& options);
-core::ExitCode run_cost(CostOptions options);
+void run_oracles();
 void run_drag(const DragOptions& options);
 void run_measure(const MeasureOptions& options);
 void run_inversion(const InversionOptions& options);
-void run_inversion_scan(const InversionOptions& options);
+/// Writes a table of the solids stress moved by a number of its standard errors; for studies.
+void run_move_table(const MoveOptions& options);
+[[noreturn]] void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);

@@ -63,7 +63,7 @@ PythonEnd draw(const PlotOptions& options) {
   if (!fs::exists(options.run / "cost.json")) return run_python("polybed.plot", words_of(options), PythonOutput::show);
   std::vector<std::string> words{"--", options.run.string()};
   if (!options.output.empty()) words.insert(words.begin(), {"--out", options.output.string()});
-  return run_python("polybed.cost", words, PythonOutput::show);
+  return run_python("polybed.cost.picture", words, PythonOutput::show);
 }
 
 }  // namespace

@@ -1,31 +1,19 @@
 // Commands that run many cases to learn something.
 #include "app/commands.hpp"
 #include "core/numerics/mpi_start.hpp"
+#include "multiscale/python_module.hpp"
 
 namespace polybed::command_line {
 
+/// Its options are those of the Python package, `polybed cost --help` included.
 void add_cost(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::CostOptions>();
   CLI::App& command = *app.add_subcommand("cost", "error against time for a case, and the settings that follow");
-  command.add_option("WORDS", options->words, "CASE; check DIR; diff OLD NEW; selftest")->required();
-  take_overrides(command, *options);
-  command.add_option("-o,--output", options->output, "folder; default runs/<case name>-cost");
-  command.add_option("--until", options->until, "simulated time, e.g. \"20 s\"");
-  command.add_option("--model", options->model, "tfm | dem")->check(CLI::IsMember({"tfm", "dem"}));
-  command.add_option("--qoi", options->quantities, "quantities by commas; the first ranks");
-  command.add_option("--axes", options->axes, "axes by commas");
-  command.add_option("--target", options->target, "error, e.g. 1%");
-  command.add_option("--budget", options->budget, "wall time, e.g. 20min");
-  command.add_option("--repeat", options->repeat, "runs for a CPU time")->check(CLI::Range(3, 100));
-  command.add_option("--clock", options->clock, "work | cpu | wall")->check(CLI::IsMember({"work", "cpu", "wall"}));
-  command.add_option("--reference", options->reference, "auto | exact | DIR of a run");
-  command.add_option("--seed", options->seed, "of the order of repetitions");
-  command.add_flag("--resume", options->resume, "go on with the runs in the folder");
-  command.add_flag("--force", options->force, "replace a sweep that exists");
-  command.add_flag("--quiet", options->quiet, "no progress");
-  command.add_flag("--json", options->json, "cost.json on standard output");
-  command.add_flag("!--no-picture", options->picture, "no cost.png and cost.svg");
-  commands.push_back({&command, doing([options] { return multiscale::run_cost(*options); })});
+  command.prefix_command();
+  command.set_help_flag();
+  commands.push_back(
+      {&command, [&command]() -> core::ExitCode { multiscale::become_python("polybed.cost", command.remaining()); }});
+  CLI::App& oracles = *app.add_subcommand("oracles", "what `polybed cost selftest` examines of the program")->group("");
+  commands.push_back({&oracles, doing(multiscale::run_oracles)});
 }
 
 void add_inversion(CLI::App& app, Commands& commands) {
@@ -48,7 +36,18 @@ void add_inversion(CLI::App& app, Commands& commands) {
   command.add_flag("--quiet", options->quiet, "no line for each run");
   command.add_flag("!--no-picture", options->picture, "no inversion.png at the end");
   commands.push_back({&command, doing([options] { multiscale::run_inversion(*options); }),
-                      [options] { return options->scan.empty() ? On::one_process : On::all_ranks; }});
+                      [options] { return options->scan.empty() ? On::one_process : On::study; }});
+}
+
+/// For the package's own use.
+void add_move_table(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::MoveOptions>();
+  CLI::App& command = *app.add_subcommand("move-table", "a table of the solids stress, moved by standard errors");
+  command.group("");
+  command.add_option("TABLE", options->table)->required();
+  command.add_option("--sigma", options->sigma)->required();
+  command.add_option("MOVED", options->moved)->required();
+  commands.push_back({&command, doing([options] { multiscale::run_move_table(*options); })});
 }
 
 void add_calibrate(CLI::App& app, Commands& commands) {

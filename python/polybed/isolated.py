@@ -5,6 +5,7 @@
 -I keeps Python itself from the working directory and from the environment's PYTHONPATH.
 """
 
+import importlib.util
 import os
 import runpy
 import sys
@@ -13,12 +14,26 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent
 
 
-def import_matplotlib():
-    """Imports it from this folder: it reads a matplotlibrc of the working directory, and that may name programs to run."""
+class MatplotlibFromPackage:
+    """Finds matplotlib, when it is first imported, so that it is run in this folder: it reads a matplotlibrc of the working directory, and
+    that may name programs to run."""
+
+    @classmethod
+    def find_spec(cls, name, path=None, target=None):
+        if name != "matplotlib":
+            return None
+        sys.meta_path.remove(cls)
+        spec = importlib.util.find_spec(name)
+        if spec is not None:
+            spec.loader.exec_module = lambda module, run=spec.loader.exec_module: in_package(run, module)
+        return spec
+
+
+def in_package(run, module):
     here = os.open(".", os.O_PATH)
     os.chdir(PACKAGE)
     try:
-        import matplotlib  # noqa: F401
+        run(module)
     finally:
         os.fchdir(here)
         os.close(here)
@@ -27,9 +42,6 @@ def import_matplotlib():
 if __name__ == "__main__":
     module, sys.argv = sys.argv[1], ["-m", *sys.argv[2:]]  # as Python's own -m leaves it while it imports the package
     sys.path.insert(0, str(PACKAGE.parent))
+    sys.meta_path.insert(0, MatplotlibFromPackage)
     os.environ["MPLBACKEND"] = "Agg"  # a notebook exports one that this interpreter may not have
-    from polybed.packages import needed
-
-    with needed(True):
-        import_matplotlib()
     runpy.run_module(module, run_name="__main__", alter_sys=True)

@@ -1,34 +1,10 @@
 """What a finished run of pareto_b.py says: means over the last quarter with their intervals, and what it took."""
-import re
-
 import numpy as np
-from strips import ROOT
+
+from polybed.cost.work import counters_of, weighed
 
 STUDENT = 2.262  # 95 %, nine degrees of freedom
 FIRST, SECOND = "fine", "coarse"
-
-
-def weights():
-    """ns of each counter, as `polybed cost` weighs them."""
-    text = (ROOT / "multiscale/cost/work.cpp").read_text()
-    return {name: float(ns) for name, ns in re.findall(r'\{"([\w ]+)", ([\d.e+]+)\}', text)}
-
-
-def work_of(record, cells):
-    """Weighed counters of a run, s: those of multiscale/cost/work.cpp."""
-    work, ns = record["work"], weights()
-    if record["model"] == "tfm":
-        products = "pressure_iterations" if work["pressure_solves"] else "jacobian_products"
-        counts = {"rhs_evaluations x unknowns": work["rhs_evaluations"] * record["unknowns"],
-                  f"{products} x unknowns": work["linear_iterations"] * record["unknowns"]}
-    else:
-        fluid = record["fluid"]
-        counts = {"particle_steps": work["particle_steps"], "pair_checks": work["pair_checks"],
-                  "contact_evaluations": work["contact_steps"], "candidates": work["candidates"],
-                  "particle_steps in the fluid": work["particle_steps"], "fluid_steps": fluid["steps"],
-                  "fluid_steps x particles": fluid["steps"] * record["particles"],
-                  "fluid_iterations x cells": fluid["iterations"] * cells}
-    return 1e-9 * sum(ns[name] * count for name, count in counts.items())
 
 
 def interval(values):
@@ -46,7 +22,7 @@ def measured(run, cells, common):
     apart = 1e3 * (history[f"centre_{SECOND}_m"] - history[f"centre_{FIRST}_m"])
     drop = np.mean(history["pressure_drop_Pa"][late] / history["buoyant_weight_Pa"][late])
     simulated = record["time_s"]
-    found = {"state": "done", "simulated_s": simulated, "cpu_s": record["cpu_s"], "work_s": work_of(record, cells),
+    found = {"state": "done", "simulated_s": simulated, "cpu_s": record["cpu_s"], "work_s": weighed(counters_of(record, cells)),
              "drift_mm_s": float(np.polyfit(history["time_s"][late], height[late], 1)[0]), "drop_over_weight": float(drop),
              "broken": [w for w in record["warnings"] if "exceeded" in w]}
     found["bed_height_mm"], found["bed_height_ci_mm"] = interval(height[late])

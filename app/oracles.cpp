@@ -1,0 +1,118 @@
+// polybed oracles: what `polybed cost selftest` examines of the program itself. A particle that settles, by both
+// integrators, which must buy error with work at the rate of their order; and particles counted into slabs.
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "app/options.hpp"
+#include "closures/sphere.hpp"
+#include "core/numerics/integrator.hpp"
+#include "core/output/json.hpp"
+#include "core/output/particles.hpp"
+#include "core/print.hpp"
+#include "fluid/particle_profile.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+constexpr double acceleration = 6, terminal = 0.15, relaxation = terminal / acceleration;  // a bead of 1 mm in water
+
+/// dv/dt = g' (1 - (v/u_t)^2), drag in proportion to v^2; from rest v = u_t tanh(g' t/u_t).
+double rate_of(double v) { return acceleration * (1 - v * v / (terminal * terminal)); }
+
+class Settling : public core::OdeProblem {
+ public:
+  core::Rate rates(double, std::span<const double> v, std::span<double> rate) override {
+    rate[0] = rate_of(v[0]);
+    return core::Rate::ok;
+  }
+};
+
+class ImplicitSettling : public core::DaeProblem {
+ public:
+  core::Rate residual(double, std::span<const double> v, std::span<const double> dvdt, std::span<double> r) override {
+    r[0] = dvdt[0] - rate_of(v[0]);
+    return core::Rate::ok;
+  }
+  core::Rate setup(double, std::span<const double> v, std::span<const double>, std::span<const double>,
+                   double cj) override {
+    slope_ = cj + 2 * acceleration * v[0] / (terminal * terminal);
+    return core::Rate::ok;
+  }
+  core::Rate precondition(double, std::span<const double> r, std::span<double> z, double, double) override {
+    z[0] = r[0] / slope_;
+    return core::Rate::ok;
+  }
+
+ private:
+  double slope_ = 1;
+};
+
+/// Writes the steps that an integrator takes and the relative error that it ends with.
+void write_settling(core::Json& json, core::Integrator& integrator) {
+  constexpr double until = relaxation;
+  integrator.restart(0, std::vector<double>{0}, std::vector<double>{acceleration}, 0);
+  const auto before = integrator.statistics().steps;
+  for (double t = 0; t < until;) t = integrator.step(until).time;
+  const double exact = terminal * std::tanh(until / relaxation);
+  json.begin_object().member("steps", double(integrator.statistics().steps - before));
+  json.member("error", std::abs(integrator.state()[0] / exact - 1)).end_object();
+}
+
+void write_both_integrators(core::Json& json) {
+  json.key("explicit").begin_array();
+  for (const int n : {8, 16, 32, 64}) {
+    Settling problem;
+    write_settling(json, *core::make_explicit(problem, {.atol = {1e-12}, .fixed_step = relaxation / n}));
+  }
+  json.end_array().key("implicit").begin_array();
+  for (const double rtol : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+    ImplicitSettling problem;
+    write_settling(json, *core::make_implicit(
+                             problem, {.rtol = rtol, .atol = {rtol * terminal}, .id = {1}, .linear_tolerance = 1e-3}));
+  }
+  json.end_array();
+}
+
+/// Spheres on a vertical line in two layers, 0.6 below 60 mm and 0.3 above, counted into slabs by their exact parts.
+fluid::Profile counted_layers() {
+  constexpr double slab = 2e-3, radius = 2e-4, side = 0.02, height = 0.2;
+  std::vector<std::int64_t> ids;
+  std::vector<double> radii;
+  std::vector<std::int32_t> species;
+  std::vector<std::array<double, 3>> places, velocities;
+  const auto fill = [&](double from, double to, double phi, std::int32_t kind) {
+    const double volume = side * side * (to - from) * phi, each = closures::sphere_volume(radius);
+    const auto count = std::size_t(std::lround(volume / each));
+    for (std::size_t n = 0; n < count; ++n) {
+      ids.push_back(std::int64_t(ids.size()));
+      radii.push_back(radius);
+      species.push_back(kind);
+      places.push_back({0, from + (double(n) + 0.5) / double(count) * (to - from), 0});
+      velocities.push_back({0, 0, 0});
+    }
+  };
+  fill(0, 0.06, 0.6, 0);
+  fill(0.06, 0.16, 0.3, 1);
+  const core::ParticleSnapshot particles{ids, species, radii, places, velocities, velocities};
+  return fluid::particle_profile(particles, 2, {side * side, height, std::size_t(std::lround(height / slab))}).solids;
+}
+
+}  // namespace
+
+void run_oracles() {
+  core::Json json;
+  json.begin_object().key("settling").begin_object();
+  write_both_integrators(json);
+  const fluid::Profile layers = counted_layers();
+  json.end_object().key("counted").begin_object().member("slab", layers.slab).key("fraction").begin_array();
+  for (const std::vector<double>& phi : layers.fraction) {
+    json.begin_array();
+    for (const double value : phi) json.value(value);
+    json.end_array();
+  }
+  core::print("{}\n", json.end_array().end_object().end_object().text());
+}
+
+}  // namespace polybed::multiscale

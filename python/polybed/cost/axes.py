@@ -1,0 +1,166 @@
+"""What a sweep varies: axes, their levels, and the settings of the command line that a level stands for."""
+
+from dataclasses import dataclass, field, replace
+
+from polybed.cost.scene import LEAST_MODULUS
+from polybed.study.ending import WRONG_CASE, StudyError
+
+NUMERICS, STATISTICS, MODEL, MACHINE = "numerics", "statistics", "model", "machine"
+DRAG_LAWS = ("cello", "vbk_theory", "gidaspow", "di_felice")
+
+
+@dataclass
+class Level:
+    label: str  # "1e-3", "18x128"
+    value: float = 0  # in the direction of the axis; 0: it has none
+    overrides: list = field(default_factory=list)  # "key=value" each
+    model: str = ""  # tfm | dem | force_balance; empty: that of the sweep
+    ranks: int = 1
+
+
+@dataclass
+class Axis:
+    name: str
+    kind: str
+    levels: list  # from cheap to dear where that is known
+    given: int = 0  # the level of the case as it is
+    beyond: list = field(default_factory=list)  # dearer ones, for the reference
+
+
+def setting(key, value):
+    """ "key=value", a number with all its digits."""
+    return f"{key}={value:.17g}"
+
+
+def number_level(key, value):
+    return Level(f"{value:.3g}", value, [setting(key, value)])
+
+
+def numbers(name, key, values, given, falling, beyond):
+    """An axis of these values of a key and that of the case among them."""
+    levels = [number_level(key, value) for value in values]
+    same = [n for n, value in enumerate(values) if abs(value - given) <= 1e-9 * abs(given)]
+    behind = [n for n, value in enumerate(values) if (value < given if falling else value > given)]
+    place = (same or behind or [len(values)])[0]
+    if not same:
+        levels.insert(place, number_level(key, given))
+    return Axis(name, NUMERICS, levels, place, [number_level(key, value) for value in beyond])
+
+
+def grid_level(scene, coarser):
+    """The case on cells divided by a factor (2: twice as coarse); no direction has fewer than one."""
+    cells = [max(1, int(n / coarser + 0.5)) if n > 1 else n for n in scene.cells]
+    overrides = [] if coarser == 1 else [f"column.cells=[{','.join(map(str, cells))}]"]
+    return Level("x".join(map(str, cells)), coarser, overrides)
+
+
+def rtol_axis(scene, _):
+    return numbers("rtol", "tfm.rtol", [1e-2, 1e-3, 1e-4, 1e-5], scene.of("tfm.rtol"), True, [1e-6, 1e-7])
+
+
+def grid_axis(scene, _):
+    factors = [2, 1, 0.5, *([0.25] if scene.cells[0] == 1 else [])]
+    return Axis("grid", NUMERICS, [grid_level(scene, f) for f in factors], 1, [grid_level(scene, factors[-1] / f) for f in (2, 4)])
+
+
+def scheme_axis(scene, _):
+    integrator, flux = scene.of("tfm.integrator"), scene.of("tfm.flux")
+    limited = flux == "limited"
+    levels = [] if integrator == "auto" and limited else [Level(f"{integrator} {flux}")]
+    for other in ("auto", "explicit", "implicit"):
+        if other != integrator or not limited:
+            levels.append(Level(other, 0, [f"tfm.integrator={other}", "tfm.flux=limited"]))
+        elif not levels:
+            levels.append(Level(other))
+    return Axis("scheme", NUMERICS, levels + ([Level("upwind", 0, ["tfm.flux=upwind"])] if limited else []))
+
+
+def steps_axis(scene, _):
+    return numbers("steps", "dem.steps_per_contact", [10, 20, 50, 100], scene.of("dem.steps_per_contact"), False, [200, 400])
+
+
+def coupling_axis(scene, _):
+    return numbers("coupling", "dem.fluid_every", [50, 16, 5], scene.of("dem.fluid_every"), True, [2, 1])
+
+
+def window_axis(scene, _):
+    """The averaging time is the last quarter of the run: n of them end at until (3 + n)/4."""
+    until = scene.of("run.until")
+    levels = [Level(f"x{n}", n, [setting("run.until", until * (3 + n) / 4)]) for n in (1, 3, 10)]
+    return Axis("window", STATISTICS, [replace(levels[0], overrides=[]), *levels[1:]])
+
+
+def stiffness_axis(scene, _):
+    """Softer contacts last four times as long with a modulus divided by 4^(5/2), Hertz."""
+    modulus = scene.of("dem.youngs_modulus", LEAST_MODULUS)
+    soft, given = (number_level("dem.youngs_modulus", modulus / factor) for factor in (32, 1))
+    own = [(f"species.{species['name']}", species) for species in scene.keys["species"]]
+    own += [(f"contact_pair.{n}", pair) for n, pair in enumerate(scene.keys.get("contact_pair", []))]
+    soft.overrides += [setting(f"{name}.youngs_modulus", table["youngs_modulus"] / 32) for name, table in own if "youngs_modulus" in table]
+    return Axis("stiffness", MODEL, [soft, replace(given, overrides=[])], 1)
+
+
+def kernel_axis(scene, _):
+    greatest = max(species["diameter"] for species in scene.keys["species"])
+    widths = [Level(f"{d} d", d, ["dem.kernel=diffusion", setting("dem.kernel_width", d * greatest)]) for d in (3, 4, 6)]
+    return Axis("kernel", MODEL, [Level("given"), *widths])
+
+
+def laws_axis(name, role, given, others):
+    return Axis(name, MODEL, [Level(given), *(Level(law, 0, [f"effects.{role}={law}"]) for law in others if law != given)])
+
+
+def drag_axis(scene, _):
+    given = scene.law("drag")
+    return laws_axis("drag", "drag", given, () if given == "none" else DRAG_LAWS)
+
+
+def stress_axis(scene, _):
+    """The pressure and the stress of the solids."""
+    given, laws = scene.law("solids_stress"), ("kinetic", "frictional")
+    return laws_axis("effects", "solids_stress", given, laws if given in laws else ())
+
+
+def level_axis(scene, model):
+    flat = len(scene.cells) == 2
+    levels = [Level("dem" if model == "dem" else "tfm 2-D" if flat else "tfm 3-D")]
+    if scene.law("drag") != "none" and not scene.only_for_particles and scene.needs["static_height_m"] > 0:
+        levels.append(Level("force balance", model="force_balance"))
+    if model == "tfm" and flat and scene.cells[0] > 1:
+        levels.append(Level("tfm 1-D", 0, [f"column.cells=[1,{scene.cells[1]}]"]))
+    if model == "tfm" and scene.law("contact") != "none" and scene.as_particles:
+        levels.append(Level("dem", model="dem"))
+    if model == "dem" and scene.law("solids_stress") != "none":
+        levels.append(Level("tfm", model="tfm"))
+    return Axis("level", MODEL, levels)
+
+
+def ranks_axis(*_):
+    return Axis("ranks", MACHINE, [Level("1", 1), Level("2", 2, ranks=2)])
+
+
+# name: (models that it acts in, whether a sweep has it by default, what makes it), in the order of a sweep.
+MAKERS = {"rtol": (("tfm",), True, rtol_axis), "grid": (("tfm",), True, grid_axis), "scheme": (("tfm",), True, scheme_axis),
+          "steps": (("dem",), True, steps_axis), "coupling": (("dem",), True, coupling_axis),
+          "window": (("tfm", "dem"), False, window_axis), "stiffness": (("dem",), True, stiffness_axis),
+          "kernel": (("dem",), False, kernel_axis), "drag": (("tfm", "dem"), True, drag_axis), "effects": (("tfm",), True, stress_axis),
+          "level": (("tfm", "dem"), True, level_axis), "ranks": (("tfm", "dem"), False, ranks_axis)}
+OF_FLUID = ("coupling", "kernel")
+
+
+def acting_axes(scene, model):
+    """Names of the axes that act in this case by a model."""
+    return [name for name, (models, _, _) in MAKERS.items() if model in models and (scene.has_fluid or name not in OF_FLUID)]
+
+
+def axes_of(scene, model, names):
+    """The axes of these names in the order of a sweep; without names those that a sweep has by default. Raises StudyError for a name that
+    is unknown, or that does not act in this case."""
+    acting = acting_axes(scene, model)
+    for name in names:
+        if name not in MAKERS:
+            raise StudyError(WRONG_CASE, f"--axes {name}: there are {', '.join(MAKERS)}")
+        if name not in acting:
+            raise StudyError(WRONG_CASE, f"--axes {name}: does not act in this case by {model}")
+    return [make(scene, model) for name, (_, by_default, make) in MAKERS.items()
+            if (name in names if names else by_default and name in acting)]

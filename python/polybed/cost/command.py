@@ -1,0 +1,141 @@
+"""The command line of polybed cost."""
+
+import argparse
+import os
+import re
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+from polybed.cost.check import check_recommendation, print_difference
+from polybed.cost.course import run_sweep
+from polybed.cost.markdown import sweep_markdown
+from polybed.cost.report import SweepOf, sweep_json, write_sweep
+from polybed.cost.runner import Runner
+from polybed.cost.scene import Scene
+from polybed.cost.sweep import SweepOptions
+from polybed.cost.sweeper import common_overrides
+from polybed.program import call, name_of
+from polybed.study import output_folder
+from polybed.study.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
+
+SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
+NUMBER = r" *\+?(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?) *"
+
+
+def target_of(text):
+    """ "1%" or "0.01"."""
+    found = re.fullmatch(NUMBER + r"(%?)", text)
+    if not found or not float(found[1]) > 0:
+        raise StudyError(WRONG_CASE, f"--target {text}: expected an error, e.g. 1%")
+    return float(found[1]) / 100 if found[2] else float(found[1])
+
+
+def budget_of(text):
+    """s; a number without a unit is of seconds."""
+    found = re.fullmatch(NUMBER + rf"({'|'.join(SECONDS)})? *", text)
+    if not found or not float(found[1]) > 0:
+        raise StudyError(WRONG_CASE, f"--budget {text}: expected a time, e.g. 20min")
+    return float(found[1]) * SECONDS[found[2] or "s"]
+
+
+def between(low, high):
+    """The type of an option that is a whole number in a range."""
+    def read(text):
+        number = int(text)
+        if not low <= number <= high:
+            raise argparse.ArgumentTypeError(f"{number} is not in the range {low} to {high}")
+        return number
+    read.__name__ = "whole number"
+    return read
+
+
+def listed(text):
+    return [word for word in text.split(",") if word]
+
+
+def parser():
+    options = argparse.ArgumentParser(prog="polybed cost", description="Error against time for a case, and the settings that follow.",
+                                      allow_abbrev=False)
+    options.add_argument("words", nargs="+", metavar="WORDS", help="CASE; check DIR; diff OLD NEW; selftest")
+    options.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="in place of what the file says")
+    options.add_argument("-o", "--output", type=Path, help="folder; default runs/<case name>-cost")
+    options.add_argument("--until", help='simulated time, e.g. "20 s"')
+    options.add_argument("--model", choices=("tfm", "dem"))
+    options.add_argument("--qoi", type=listed, default=[], help="quantities by commas; the first ranks")
+    options.add_argument("--axes", type=listed, default=[], help="axes by commas")
+    options.add_argument("--target", default="1%", help="error, e.g. 1%%")
+    options.add_argument("--budget", default="20min", help="wall time, e.g. 20min")
+    options.add_argument("--repeat", type=between(3, 100), default=5, help="runs for a CPU time")
+    options.add_argument("--clock", choices=("work", "cpu", "wall"), default="work")
+    options.add_argument("--reference", default="auto", help="auto | exact | DIR of a run")
+    options.add_argument("--seed", type=between(0, 2**64 - 1), default=1, help="of the order of repetitions")
+    options.add_argument("--resume", action="store_true", help="go on with the runs in the folder")
+    options.add_argument("--force", action="store_true", help="replace a sweep that exists")
+    options.add_argument("--quiet", action="store_true", help="no progress")
+    options.add_argument("--json", action="store_true", help="cost.json on standard output")
+    options.add_argument("--no-picture", dest="picture", action="store_false", help="no cost.png and cost.svg")
+    return options
+
+
+def model_of(scene, wanted):
+    """The model of a sweep: the continuum where it runs the case. Raises ProgramError if the one that is asked for cannot run it."""
+    model = wanted or ("dem" if scene.only_for_particles else "tfm")
+    runs_it = scene.as_particles or scene.only_for_particles if model == "dem" else not scene.only_for_particles
+    if not runs_it:  # which keys forbid it the program says
+        call("estimate", scene.path, *(word for override in scene.overrides for word in ("--set", override)), "--model", model)
+    return model
+
+
+def sweep_options(given, scene):
+    return SweepOptions(model_of(scene, given.model), given.qoi, given.axes, target_of(given.target), budget_of(given.budget), given.repeat,
+                        given.clock, given.reference, given.seed, given.quiet or given.json)
+
+
+def overrides_of(given):
+    """Those of the command line; a time with a unit is a text of the case file."""
+    if not given.until:
+        return given.set
+    return [*given.set, "run.until=" + (given.until if re.fullmatch(r"[0-9.eE+-]*", given.until) else f'"{given.until}"')]
+
+
+def sweep(given):
+    """Runs a sweep and writes its files."""
+    case = given.words[0]
+    scene = Scene(case, overrides_of(given))
+    folder = given.output or Path("runs") / f"{name_of(case)}-cost"
+    if (folder / "cost.json").exists() and not given.resume and not given.force:
+        raise StudyError(WRONG_CASE, f"{folder} holds a sweep already: --resume goes on with it, --force replaces it")
+    if given.reference not in ("auto", "exact") and not (Path(given.reference) / "profiles.h5").exists():
+        raise StudyError(FILE, f"--reference {given.reference}: no run directory")
+    options, overrides = sweep_options(given, scene), [*scene.overrides, *common_overrides(scene)]
+    with output_folder.taken(folder):
+        found = run_sweep(scene, options, Runner(scene, overrides, output_folder.subfolder(folder, "runs"), given.resume))
+        of = SweepOf(os.path.abspath(case), scene, overrides)
+        no_picture = write_sweep(found, of, folder, given.picture)
+        answer(sweep_json(found, of) if given.json else f"{sweep_markdown(found, of)}\n{folder / 'cost.json'}")
+    if no_picture:
+        with suppress(OSError):
+            print(f"no picture: {no_picture}", file=sys.stderr)
+    return found.outcome == "done"
+
+
+def selftest():
+    from polybed.cost.selftest import print_selftest
+    return print_selftest()
+
+
+def work(given):
+    """Does what the words ask for; returns the code to end with."""
+    commands = {"check": ("check DIR", lambda folder: check_recommendation(Path(folder))),
+                "diff": ("diff OLD.json NEW.json", print_difference), "selftest": ("selftest", selftest)}
+    first, *rest = given.words
+    usage, do = commands.get(first, ("CASE, check DIR, diff OLD NEW or selftest", lambda: sweep(given)))
+    if len(given.words) != (len(usage.split()) if first in commands else 1):
+        raise StudyError(WRONG_CASE, f"usage: polybed cost {usage}")
+    return DONE if do(*rest) else NUMBERS
+
+
+def main(arguments):
+    given = parser().parse_intermixed_args(arguments)
+    return guarded(lambda: work(given))

@@ -1,0 +1,167 @@
+"""From runs to errors, ranks and one recommendation: functions of what a sweep has measured."""
+
+from math import hypot
+
+from polybed.cost.axes import NUMERICS
+from polybed.cost.fit import Priced, pareto_front
+from polybed.cost.quantities import LENGTH, SHARE
+from polybed.cost.sweep import CANDIDATE, REFERENCE, Recommendation, RowQuantity
+from polybed.study.measured import measures_of
+
+FLOOR_FACTOR = 10  # of the disagreement of two references
+
+
+def carries(disagreement, errors, target):
+    """Whether a reference carries a ranking. Two references, of two families, disagree by `disagreement`; errors below ten times that are
+    not ranked. It does if an error is above that floor, or if the floor itself is below the target."""
+    floor = FLOOR_FACTOR * disagreement
+    return floor <= target or any(error >= floor for error in errors)
+
+
+def scale_of(sweep, quantity):
+    """What errors of a quantity are relative to."""
+    info = next((q for q in sweep.quantities if q.id == quantity), None)
+    if info is None or info.scale == SHARE:
+        return 1.0
+    return abs(sweep.reference.value.get("bed_height" if info.scale == LENGTH else quantity, 0)) or 1.0
+
+
+def measure_errors(sweep, row):
+    """Gives a row its quantities with their distances from the reference."""
+    row.quantities = {}
+    if not row.done:
+        return
+    reference = sweep.reference
+    for name, mean in row.measured.values.items():
+        if name not in reference.value:
+            continue
+        scale, band = scale_of(sweep, name), reference.band.get(name, 0.0)
+        interval = hypot(mean.error or 0, band * scale) / scale if sweep.chaotic else band
+        row.quantities[name] = RowQuantity(mean.mean, abs(mean.mean - reference.value[name]) / scale, mean.error, interval)
+
+
+def measure_distances(sweep):
+    """Gives the rows their distances of profiles from the reference."""
+    rows = [row for row in sweep.rows if row.done and row.measured.profile]
+    if not rows or not sweep.reference.profile:
+        return
+    species = range(len(sweep.reference.profile.fraction))
+    found = measures_of([row.measured.profile for row in rows], map(str, species), reference=sweep.reference.profile)
+    for name, values in found["distances"].items():
+        for row, value in zip(rows, values):
+            if value is not None:
+                row.quantities[name] = RowQuantity(value, value)
+
+
+def distance_of(sweep, row, other):
+    """How far apart two runs are in the first quantity, relative; None where one has none."""
+    a, b = (r.measured.values.get(sweep.ranking) for r in (row, other))
+    return abs(a.mean - b.mean) / scale_of(sweep, sweep.ranking) if row.done and other.done and a and b else None
+
+
+def ranked(sweep, row):
+    """Error and interval of the ranking quantity; None for what is not ranked."""
+    ranks = row.kind == CANDIDATE and row.done and row.outcome.invariants_held
+    return row.quantities.get(sweep.ranking) if ranks else None
+
+
+def is_hollow(sweep, quantity):
+    within = sweep.chaotic and quantity.error_interval is not None and quantity.error < quantity.error_interval
+    return within or quantity.error < sweep.reference.floor.get(sweep.ranking, 0)
+
+
+def unranked_status(row):
+    if not row.done:
+        return row.outcome.state
+    if not row.outcome.invariants_held:
+        return "failed"
+    return "hollow" if row.kind in (CANDIDATE, REFERENCE) else "model"
+
+
+def recommend(sweep):
+    """The cheapest row whose error is within the target, interval included."""
+    best = None
+    for n, row in enumerate(sweep.rows):
+        quantity = ranked(sweep, row)
+        if quantity is None or quantity.error + (quantity.error_interval or 0) > sweep.options.target:
+            continue
+        # Below a floor that lies above the target nothing is known of the error.
+        if is_hollow(sweep, quantity) and sweep.reference.floor.get(sweep.ranking, 0) > sweep.options.target:
+            continue
+        if best is None or row.rate < sweep.rows[best].rate:
+            best = n
+    if best is not None:
+        sweep.recommendation = Recommendation(sweep.options.target, best)
+
+
+def rank(sweep):
+    """Statuses of all rows, and the recommendation."""
+    competing = []
+    for row in sweep.rows:
+        row.status = unranked_status(row)
+        quantity = ranked(sweep, row) if sweep.outcome == "done" else None
+        if quantity is not None and not is_hollow(sweep, quantity):
+            competing.append((row, Priced(quantity.error, row.rate)))
+            row.status = "dominated"
+    for n in pareto_front([point for _, point in competing]):
+        competing[n][0].status = "pareto"
+    for row in sweep.rows:
+        if row.predicted and row.outcome.state == "not run":
+            row.status = "predicted"
+    if sweep.outcome == "done":
+        recommend(sweep)
+
+
+def level_of(row, axis):
+    return row.settings.get(axis.name, axis.given)
+
+
+def settings_text(sweep, row):
+    """Settings of a row in words: "rtol 1e-3, grid 9x64"."""
+    if not row.settings:
+        return row.note
+    shown = [f"{axis.name} {axis.levels[level_of(row, axis)].label}" for axis in sweep.axes
+             if axis.kind == NUMERICS or level_of(row, axis) != axis.given]
+    return ", ".join(shown + ([row.note] if row.note else [])) or "as given"
+
+
+def percent(share):
+    return f"{100 * share:.2g} %"
+
+
+def given_row(sweep):
+    """The row of the case as it is given."""
+    return next((row for row in sweep.rows if row.kind == CANDIDATE and not row.note and
+                 all(level_of(row, axis) == axis.given for axis in sweep.axes)), None)
+
+
+def recommendation_text(sweep):
+    name, target = sweep.ranking, percent(sweep.options.target)
+    if not sweep.recommendation:
+        return f"No setting that was run has an error of {name} within {target}, interval included."
+    row = sweep.rows[sweep.recommendation.row]
+    quantity = row.quantities[name]
+    text = (f"For {target} of {name} take {settings_text(sweep, row)}: error {percent(quantity.error)} +- "
+            f"{percent(quantity.error_interval or 0)}, {row.rate:.3g} s for a simulated second ({sweep.options.clock})")
+    given = given_row(sweep)
+    if given is not None and given.done and given is not row and given.rate > 0:
+        text += f"; the case as given takes {given.rate / row.rate:.3g} times that"
+    return text + "."
+
+
+def advice(sweep):
+    """Advice in words, a sentence each."""
+    if sweep.outcome != "done":
+        return [f"Refused: {sweep.reason}."]
+    lines = [recommendation_text(sweep)]
+    known = [share for share in sweep.attribution if share.value is not None]
+    unknown = [share for share in sweep.attribution if share.axes]
+    largest = max(known, key=lambda share: share.value, default=None)
+    if largest is not None and largest.value > 0:
+        lines.append(f"The largest row {'of those measured is' if unknown else 'is'} {largest.row} ({percent(largest.value)})"
+                     f"{'' if unknown else ': that is what to improve'}.")
+    if unknown:
+        lines.append(f"Not measured, so in none of these errors: {', '.join(share.row for share in unknown)}. "
+                     f"--axes {','.join(axis for share in unknown for axis in share.axes)} measures them.")
+    loose = [share.row for share in known if largest.value > 0 and 10 * share.value < largest.value]
+    return lines + ([f"Ten times smaller, so to be loosened: {', '.join(loose)}."] if loose else [])

@@ -1,0 +1,47 @@
+"""Draws a sweep of error against time: what `polybed cost` and `polybed plot` of its folder hand over to.
+
+    python3 -m polybed.cost.picture DIR [--out DIR]
+
+Reads DIR/cost.json, writes cost.png and cost.svg and prints their paths. Exit codes are those of polybed.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from polybed.packages import NO_FILE, needed
+
+with needed(__name__ == "__main__"):
+    import matplotlib.pyplot as plt
+
+    from polybed.drawing import cost
+    from polybed.drawing.style import STYLE
+    from polybed.files import FAULTS, contents_of, read_json
+    from polybed.plot import save
+
+
+def pictures(directory, out=None):
+    """Draws the sweep in a folder as PNG and SVG and returns their paths."""
+    folder = Path(out or directory)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = Path(directory) / "cost.json"
+    sweep = read_json(path, "polybed cost")
+    with plt.rc_context(STYLE), contents_of(path):
+        return [save(cost.draw(sweep), folder / f"cost.{ending}") for ending in ("png", "svg")]
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="polybed plot", description="Draws a sweep of error against time.")
+    parser.add_argument("directory")
+    parser.add_argument("--out", help="folder of the pictures (default: that of the sweep)")
+    options = parser.parse_args(arguments)
+    try:
+        print("\n".join(map(str, pictures(options.directory, options.out))))
+    except FAULTS as error:
+        print(error, file=sys.stderr)
+        return NO_FILE
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,152 @@
+"""What the errors of a sweep are measured against."""
+
+from polybed.cost.axes import setting
+from polybed.cost.judge import FLOOR_FACTOR, carries, measure_errors, scale_of, settings_text
+from polybed.cost.quantities import quantities_of_run
+from polybed.cost.refinement import refine
+from polybed.cost.runner import RunOrder
+from polybed.cost.sweep import CANDIDATE, REFERENCE, Reference, Row
+from polybed.study.measured import measured
+
+FORMAL_ORDER = 2  # of the discretisation in space where nothing is sharp
+
+
+def find_reference(sweeper):
+    """Finds the reference of a sweep, or refuses it."""
+    wanted = sweeper.sweep.options.reference
+    if wanted == "exact":
+        exact_reference(sweeper)
+    elif wanted != "auto":
+        given_reference(sweeper.sweep, wanted)
+    elif sweeper.sweep.chaotic:
+        statistical_reference(sweeper)
+    else:
+        additive_reference(sweeper)
+
+
+def means_of(row):
+    return {name: mean.mean for name, mean in row.measured.values.items()}
+
+
+def given_reference(sweep, folder):
+    """A run that is given."""
+    found = quantities_of_run(measured(folder), sweep.on)
+    sweep.reference = Reference("directory", folder, {name: mean.mean for name, mean in found.values.items()}, profile=found.profile)
+    set_bands(sweep, found.values)
+
+
+def set_bands(sweep, values):
+    """The bands are the intervals of the reference itself, and so are the floors."""
+    reference = sweep.reference
+    reference.band = {name: (mean.error or 0.0) / scale_of(sweep, name) for name, mean in values.items()}
+    reference.floor = dict(reference.band)
+
+
+def exact_reference(sweeper):
+    """The balance of forces on a bed of one species."""
+    sweep = sweeper.sweep
+    found = sweep.rows[sweeper.run(Row(RunOrder("force_balance"), REFERENCE, note="force balance"))]
+    if len(sweeper.scene.species) > 1 or not found.done or sweep.ranking not in found.measured.values:
+        return sweep.refuse("no exact value of this quantity: one is known of the height and the pressure drop of a bed of one species "
+                            "that is carried")
+    sweep.reference = Reference("exact", "uniform expansion by the balance of forces", means_of(found))
+
+
+def statistical_reference(sweeper):
+    """The longest and finest of what was run, and if it can be had a run three windows long on the finest grid."""
+    sweep, grid = sweeper.sweep, sweeper.sweep.axis("grid")
+    settings = dict(sweeper.centre)
+    if grid:
+        settings["grid"] = len(grid.levels) - 1
+    order = sweeper.order_of(settings, (setting("run.until", 1.5 * sweeper.scene.of("run.until")),))
+    found = sweep.rows[sweeper.run(Row(order, REFERENCE, settings, "reference: finest and three windows long"), 0.6)]
+    for level in reversed(range(len(grid.levels) if grid else 0)):
+        found = found if found.done else sweeper.row_on_line("grid", level) or found
+    if not found.done:
+        return
+    sweep.reference = Reference("statistical", settings_text(sweep, found), means_of(found), profile=found.measured.profile)
+    set_bands(sweep, found.measured.values)
+    if found.kind == CANDIDATE:
+        sweep.warnings.append("the reference is one of the runs that it ranks")
+
+
+def other_family(sweeper, row):
+    """An integrator of another family than the one that a run had."""
+    if sweeper.sweep.options.model == "dem":
+        return "dem.integrator=" + ("thesis" if sweeper.scene.of("dem.integrator") == "synchronised" else "synchronised")
+    return "tfm.integrator=" + ("explicit" if "jacobian_products x unknowns" in row.outcome.counters else "implicit")
+
+
+def additive_reference(sweeper):
+    """Time by a run two levels beyond and one of another family, on the coarsest grid, whose errors in time are those of the others as far
+    as errors add up; space by Richardson's value of the line of grids."""
+    sweep = sweeper.sweep
+    one = sweep.rows[sweeper.run(Row(sweeper.tight(), REFERENCE, note="reference: two levels beyond"))]
+    if not one.done:
+        return
+    family = Row(sweeper.tight((other_family(sweeper, one),)), REFERENCE, note="reference: of another family")
+    two = sweep.rows[sweeper.run(family)]
+    if not two.done:
+        return sweep.refuse(f"no second family to check the reference by: {two.outcome.reason}")
+    note = "two levels beyond the finest, and another family of integrators"
+    sweep.reference = reference = Reference("self", note, means_of(one), profile=one.measured.profile)
+    for name, mean in two.measured.values.items():
+        if name in reference.value:
+            reference.floor[name] = FLOOR_FACTOR * abs(mean.mean - reference.value[name]) / scale_of(sweep, name)
+    disagreement = reference.floor.setdefault(sweep.ranking, 0.0) / FLOOR_FACTOR
+    if sweep.axis("grid"):
+        add_space(sweeper, sweep.axis("grid"))
+    if sweep.outcome != "done":
+        return
+    for row in sweep.rows:
+        measure_errors(sweep, row)
+    errors = [row.quantities[sweep.ranking].error for row in sweep.rows if row.kind == CANDIDATE and sweep.ranking in row.quantities]
+    if not carries(disagreement, errors, sweep.options.target):
+        sweep.refuse(f"no trustworthy reference: two families of integrators differ by {100 * disagreement:.2g} % in {sweep.ranking}")
+
+
+def line_of_grids(sweeper, grid):
+    """From the coarsest, which the reference was run on, without a gap."""
+    line = []
+    for level in range(len(grid.levels)):
+        row = sweeper.row_on_line("grid", level)
+        if row is None:
+            break
+        line.append(row)
+        if not row.outcome.invariants_held:
+            sweeper.sweep.warnings.append(f"grid {grid.levels[level].label}: an invariant exceeded its limit, and it is one of the grids "
+                                          "of the reference")
+    return line
+
+
+def add_space(sweeper, grid):
+    """Moves the reference from the grid it was run on to the limit of the line of grids."""
+    sweep, line = sweeper.sweep, line_of_grids(sweeper, grid)
+    if len(line) < 3:
+        return sweep.refuse("no trustworthy reference: fewer than three grids were run within the budget; a larger --budget, or --axes "
+                            "without grid for errors on one grid alone")
+    reference, finest = sweep.reference, len(line) - 1
+    reference.kind = "extrapolated"
+    ratio = (grid.levels[finest - 2].value / grid.levels[finest].value) ** 0.5  # cells are whole: of 99 come 50, not 49.5
+    for name in sorted(reference.value):
+        if not all(name in row.measured.values for row in line[-3:]):
+            continue
+        refined = refine(*(row.measured.values[name].mean for row in line[-3:]), ratio, FORMAL_ORDER)
+        reference.value[name] += refined.limit - line[0].measured.values[name].mean
+        reference.band[name] = refined.band
+        if name == sweep.ranking:
+            tell_of_refinement(sweep, refined, len(line))
+    reference.band = {name: band / scale_of(sweep, name) for name, band in reference.band.items()}
+    reference.profile = line[-1].measured.profile
+    band = reference.band.setdefault(sweep.ranking, 0.0)
+    if band > 5 * sweep.options.target:
+        sweep.refuse(f"not converging: the grids leave {sweep.ranking} uncertain by {100 * band:.2g} %")
+
+
+def tell_of_refinement(sweep, refined, grids):
+    if refined.note:
+        sweep.warnings.append(f"grids: {refined.note}")
+    if refined.order is not None:
+        sweep.reference.note += f"; Richardson's value of {grids} grids, order {refined.order:.2f}"
+    elif refined.band > 0:
+        sweep.reference.note += "; grids not in the asymptotic range: the finest, within three times half of their range"

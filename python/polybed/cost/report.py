@@ -1,0 +1,148 @@
+"""What a sweep leaves: cost.json, cost.csv, cost.md and pictures."""
+
+import json
+import os
+from dataclasses import dataclass
+from math import isfinite
+
+from polybed.cost.judge import level_of, scale_of
+from polybed.cost.markdown import sweep_markdown
+from polybed.cost.timing import Timing, timing_of
+from polybed.cost.work import VERSION, weighed
+from polybed.in_place import in_place
+from polybed.program import call
+from polybed.study.ending import NUMBERS, StudyError
+
+
+@dataclass
+class SweepOf:
+    """Of which case a sweep is."""
+    path: str
+    scene: object
+    overrides: list
+
+    def __post_init__(self):
+        """The program's commit, and what it was built with: "polybed VERSION (COMMIT), built with KIND"."""
+        version = call("--version")
+        self.commit = version.split("(", 1)[1].split(")")[0]
+        self.build = version.partition(", built with ")[2].strip()
+
+
+def processor():
+    """The processor's name as the system gives it; "unknown" elsewhere."""
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            return next((line.partition(":")[2].strip() for line in file if line.startswith("model name")), "unknown")
+    except OSError:
+        return "unknown"
+
+
+def plain(value):
+    """As the program writes JSON: whole numbers without a point, up to those that are not exact."""
+    if isinstance(value, dict):
+        return {key: plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(entry) for entry in value]
+    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e16 else value
+
+
+def finite(value):
+    return value if value is not None and isfinite(value) else None
+
+
+def in_order(found):
+    return {name: found[name] for name in sorted(found)}
+
+
+def settings_of(sweep, row):
+    return {"settings": {axis.name: axis.levels[level_of(row, axis)].label for axis in sweep.axes} if row.settings else {},
+            "note": row.note, "model": row.order.model, "ranks": row.order.ranks, "overrides": row.order.overrides}
+
+
+def row_json(sweep, row):
+    outcome = row.outcome
+    quantities = {name: {"value": q.value, "ci": finite(q.interval), "error": q.error, "error_ci": finite(q.error_interval)}
+                  for name, q in in_order(row.quantities).items()}
+    predicted = {"predicted": {"error": row.predicted.error, "cost": row.predicted.cost}} if row.predicted else {}
+    return {"kind": row.kind, **settings_of(sweep, row), "work": in_order(outcome.counters), "work_s": weighed(outcome.counters),
+            "simulated_s": outcome.simulated, "s_per_sim_s": row.rate, "cpu_s": row.cpu, "wall_s": [outcome.wall], "qoi": quantities,
+            **predicted, "status": row.status, "reason": outcome.reason}
+
+
+def recommendation_json(sweep):
+    if not sweep.recommendation:
+        return []
+    row = sweep.rows[sweep.recommendation.row]
+    quantity = row.quantities[sweep.ranking]
+    return [{"target": sweep.recommendation.target, "qoi": sweep.ranking, "run": sweep.recommendation.row, **settings_of(sweep, row),
+             "error": quantity.error, "ci": finite(quantity.error_interval), "s_per_sim_s": row.rate,
+             "confirmed": sweep.recommendation.confirmed}]
+
+
+def shares_json(shares):
+    most = max([0.0, *(share.value or 0.0 for share in shares)])
+    return [{"row": share.row, "value": finite(share.value), "share": share.value / most if share.value is not None and most > 0 else None,
+             "note": share.note} for share in shares]
+
+
+def sweep_json(sweep, of):
+    """cost.json. Raises StudyError if a number is not finite."""
+    laws = {f"{what}_of_{axis}": sweep.laws.get(f"{what}_of_{axis}") for axis in ("rtol", "grid") for what in ("error", "cost")}
+    reference = {name: {key: value for key, value in in_order(getattr(sweep.reference, name)).items() if isfinite(value)}
+                 for name in ("floor", "value", "band")}
+    quantities = [q._asdict() | {"scale": scale_of(sweep, q.id), "shown": q.id in sweep.options.quantities} for q in sweep.quantities]
+    found = {
+        "filetype": "polybed cost", "version": 1, "git_commit": of.commit, "case": of.scene.text, "case_path": of.path,
+        "case_hash": of.scene.hash, "overrides": of.overrides, "model": sweep.options.model, "clock": sweep.options.clock,
+        "work_version": VERSION, "target": sweep.options.target, "budget_s": sweep.options.budget,
+        "machine": {"cpu": processor(), "cores": len(os.sched_getaffinity(0)), "build": of.build}, "outcome": sweep.outcome,
+        "reason": sweep.reason, "regime": sweep.regime, "window_s": sweep.on.window.begin,
+        "reference": {"kind": sweep.reference.kind, "note": sweep.reference.note, **reference}, "qoi": quantities,
+        "runs": [row_json(sweep, row) for row in sweep.rows],
+        "fit": {name: law._asdict() if law else None for name, law in laws.items()} | {"additive_off": finite(sweep.additive_off)},
+        "pareto": [n for n, row in enumerate(sweep.rows) if row.status == "pareto"], "recommend": recommendation_json(sweep),
+        "attribution": shares_json(sweep.attribution), "inputs": shares_json(sweep.inputs), "warnings": sweep.warnings}
+    try:
+        return json.dumps(plain(found), ensure_ascii=False, allow_nan=False)
+    except ValueError as error:
+        raise StudyError(NUMBERS, "a number that is not finite was about to be written as JSON") from error
+
+
+def number(value):
+    return "" if value is None else f"{value:.9g}"
+
+
+def csv_row(sweep, row, counters):
+    timing, outcome = timing_of(row.cpu) if row.cpu else Timing(), row.outcome
+    entries = [row.kind, row.note, row.status, number(row.rate), number(weighed(outcome.counters)),
+               *(f"{value:.6g}" for value in (timing.median, timing.deviation, outcome.wall))]
+    entries += [axis.levels[level_of(row, axis)].label if row.settings else "" for axis in sweep.axes]
+    entries += [f"{outcome.counters[name]:.17g}" if name in outcome.counters else "" for name in counters]
+    for info in sweep.quantities:
+        q = row.quantities.get(info.id)
+        entries += [number(q.value), number(q.interval), f"{q.error:.6g}", number(q.error_interval)] if q else [""] * 4
+    return ",".join(entries)
+
+
+def sweep_csv(sweep):
+    """cost.csv: a row for each run."""
+    counters = list(dict.fromkeys(name for row in sweep.rows for name in sorted(row.outcome.counters)))
+    head = ["kind", "note", "status", "s_per_sim_s", "work_s", "cpu_median_s", "cpu_deviation_s", "wall_s", *(a.name for a in sweep.axes),
+            *counters, *(q.id + ending for q in sweep.quantities for ending in ("", "_ci", "_error", "_error_ci"))]
+    return "\n".join([",".join(head), *(csv_row(sweep, row, counters) for row in sweep.rows)]) + "\n"
+
+
+def write_sweep(sweep, of, folder, picture):
+    """All of them. Returns why there is no picture, if one was asked for."""
+    texts = {"cost.json": sweep_json(sweep, of) + "\n", "cost.csv": sweep_csv(sweep), "cost.md": sweep_markdown(sweep, of)}
+    for name, text in texts.items():
+        with in_place(folder / name) as path:
+            path.write_text(text, encoding="utf-8")
+    if not picture:
+        return ""
+    try:
+        from polybed.cost.picture import pictures  # what draws takes longer to import than all else
+        pictures(folder)
+    except Exception as error:  # what lies in the folder is complete without its picture
+        return str(error)
+    return ""

@@ -1,0 +1,136 @@
+"""Runs a case by the program itself, one child process a run, and keeps what came of it: a sweep that is killed goes on with the runs
+that were done."""
+
+import json
+import re
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from polybed.cost.work import counters_of, weighed
+from polybed.files import contents_of, read_json
+from polybed.in_place import in_place
+from polybed.study.child import run_child
+from polybed.study.ending import WRONG_CASE
+from polybed.study.measured import Measured, measured
+from polybed.study.output_folder import mark_folder
+
+MOST_SAID = 300  # characters of what a run that failed has said
+# What a run stores and a sweep does not read.
+NOT_READ = re.compile(r"((fields|particles)\.(h5|xdmf)|checkpoint(\.previous)?\.h5(\.new)?)(\.temporary)?")
+STEP = re.compile(r"\d{6,}\.h5(\.temporary)?")
+
+
+class RunOrder(NamedTuple):
+    """What is run: the case with settings of its own."""
+    model: str  # tfm | dem
+    ranks: int = 1
+    overrides: tuple = ()
+
+
+@dataclass
+class RunOutcome:
+    state: str  # done | failed | refused | not run
+    reason: str = ""  # of what is not done
+    wall: float = 0.0  # s, of the first time it was run
+    cpu: float = 0.0  # s, without output
+    simulated: float = 0.0
+    invariants_held: bool = True
+    counters: dict = field(default_factory=dict)
+    measured: Measured | None = None
+
+    @property
+    def done(self):
+        return self.state == "done"
+
+    def rate(self, clock):
+        """s for a simulated second, by the clock; by CPU time where no work was counted."""
+        if clock == "work" and self.counters:
+            return weighed(self.counters) / self.simulated if self.simulated > 0 else 0.0
+        if clock == "wall":
+            return self.wall / max(self.simulated, 1e-300)
+        return self.cpu / self.simulated if self.simulated > 0 else 0.0
+
+
+def text_hash(text):
+    """FNV-1a hash of a text, 64 bits, as 16 hexadecimal digits: core::text_hash."""
+    found = 0xCBF29CE484222325
+    for byte in text.encode():
+        found = (found ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+    return f"{found:016x}"
+
+
+def last_lines(path):
+    text = path.read_text(encoding="utf-8", errors="replace").rstrip("\n")
+    return "..." + text[-MOST_SAID:] if len(text) > MOST_SAID else text
+
+
+def remove_matching(folder, pattern):
+    for path in folder.iterdir():
+        if pattern.fullmatch(path.name):
+            path.unlink()
+
+
+def remove_not_read(folder):
+    """Removes fields, particles and checkpoints from the folder of a run; what polybed has not written stays."""
+    remove_matching(folder, NOT_READ)
+    for steps in (folder / "fields", folder / "particles"):
+        if steps.is_dir() and not steps.is_symlink():
+            remove_matching(steps, STEP)
+            with suppress(OSError):  # there is more in it
+                steps.rmdir()
+
+
+class Runner:
+    """folder: of the runs; what lies there is used if `resume`, else it is done again. Runs of another case have other names."""
+
+    def __init__(self, scene, overrides, folder, resume):
+        self.scene, self.overrides, self.folder, self.resume = scene, list(overrides), folder, resume
+        self.cells = 1
+        for n in scene.cells:
+            self.cells *= n
+        self.seen = set()
+        self.spent = 0.0  # s, wall time of all runs that stand for this sweep: those found there count as if they had been done now
+
+    def run(self, order, seconds, again=0):
+        """Does a run, unless it was done. seconds: wall time that it may take; again: 0 for the run itself, 1, 2, ... for a repetition"""
+        name = text_hash(" ".join([self.scene.text, " ".join(self.overrides), order.model, str(order.ranks), " ".join(order.overrides)]))
+        folder = self.folder / (f"{name}-{again}" if again else name)
+        if folder not in self.seen and not (self.resume and self.ended(folder)):
+            if not seconds > 0:
+                return RunOutcome("not run", "the budget was over")
+            self.start(order, folder, seconds)
+        outcome = self.read(folder)
+        if folder not in self.seen:
+            self.seen.add(folder)
+            self.spent += outcome.wall
+        return outcome
+
+    @staticmethod
+    def ended(folder):
+        """Whether a run lies there that came to its own end, not to that of an earlier budget."""
+        path = folder / "end.json"
+        return path.exists() and not json.loads(path.read_text())["timed_out"]
+
+    def start(self, order, folder, seconds):
+        mark_folder(folder)
+        (folder / "end.json").unlink(missing_ok=True)
+        words = [order.model, str(self.scene.path), "--quiet", "--no-picture", "--force", "-o", str(folder)]
+        words += [word for override in (*self.overrides, *order.overrides) for word in ("--set", override)]
+        end = run_child(words, order.ranks, folder / "output.txt", seconds)
+        remove_not_read(folder)
+        with in_place(folder / "end.json") as path:
+            path.write_text(json.dumps({"code": end.code, "timed_out": end.timed_out, "wall_s": end.wall}) + "\n")
+
+    def read(self, folder):
+        with contents_of(folder / "end.json"):
+            end = json.loads((folder / "end.json").read_text())
+            code, timed_out, wall = end["code"], end["timed_out"], end["wall_s"]
+        if timed_out:
+            return RunOutcome("not run", f"ended after {wall:.3g} s: the budget was over", wall)
+        if code != 0:
+            return RunOutcome("refused" if code == WRONG_CASE else "failed", f"code {code}: {last_lines(folder / 'output.txt')}", wall)
+        record = read_json(folder / "run.json", "polybed run")
+        with contents_of(folder / "run.json"):
+            return RunOutcome("done", "", wall, record["cpu_s"] - record["timers"].get("output", 0), record["time_s"],
+                              all(one["held"] for one in record.get("invariants", [])), counters_of(record, self.cells), measured(folder))

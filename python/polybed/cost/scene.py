@@ -1,0 +1,62 @@
+"""The case of a sweep as the program resolves it."""
+
+import json
+import resource
+import tomllib
+
+from polybed.program import call
+
+LEAST_MODULUS = 5e6  # Pa, core::least_modulus: what contacts have unless the case says otherwise
+
+
+def children_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+class Scene:
+    """A case with settings of its own, as `polybed check` has it. Raises ProgramError if it is wrong."""
+
+    def __init__(self, path, overrides):
+        before = children_seconds()
+        found = json.loads(call("check", path, *(w for o in overrides for w in ("--set", o)), "--json"))
+        self.seconds = children_seconds() - before  # CPU time of the check, which balances the forces on the bed
+        self.path, self.overrides, self.text, self.hash, self.needs = path, list(overrides), found["case"], found["hash"], found
+        self.keys = tomllib.loads(self.text)
+
+    def of(self, path, default=None):
+        """The value of a key, "tfm.rtol"; the default if the case has none."""
+        table, name = path.split(".")
+        return self.keys[table].get(name, default)
+
+    def law(self, role):
+        """The law of a role of [effects]; "none" if it is off."""
+        return self.of(f"effects.{role}", "none")
+
+    @property
+    def species(self):
+        return [species["name"] for species in self.keys["species"]]
+
+    @property
+    def cells(self):
+        """Numbers of cells along x, y and, in three dimensions, z."""
+        return self.of("column.cells")
+
+    @property
+    def has_fluid(self):
+        return self.of("fluid.name") != "none"
+
+    @property
+    def only_for_particles(self):
+        """Whether the two-fluid model cannot run it."""
+        return "dt_limits" not in self.needs
+
+    @property
+    def as_particles(self):
+        """Whether the particle model can run it, too, of a case that is also for the two-fluid model."""
+        return "dem" in self.needs
+
+    def carried(self):
+        """Height, m, of the bed by the balance of forces on a uniform bed; None where the fluid carries a lone particle away."""
+        phi = self.needs["dt_limits"]["expanded"]["solids_fraction"]
+        return self.needs["static_height_m"] * self.of("bed.solids_fraction") / phi if phi > 0 else None

@@ -1,0 +1,165 @@
+"""The oracles of cost that need no run: what `polybed cost selftest` shows. What they examine of the program itself, both integrators and
+the counting of particles into slabs, it computes: `polybed oracles`."""
+
+import json
+from typing import NamedTuple
+
+import numpy as np
+
+from polybed.cost.fit import ErrorModel, cheapest, fit_power_law
+from polybed.cost.judge import carries
+from polybed.cost.random import normal
+from polybed.cost.refinement import refine
+from polybed.cost.timing import is_chaotic, timing_of, too_noisy
+from polybed.program import call
+from polybed.study.ending import answer
+from polybed.study.measured import Profile, measures_of
+from polybed.study.time_mean import time_mean
+
+SLAB = 2e-3  # m
+
+
+class Oracle(NamedTuple):
+    id: str
+    found: str
+    wanted: str
+    passed: bool
+
+
+def near(found, wanted, by):
+    return found is not None and abs(found - wanted) <= by
+
+
+def k1():
+    """The grid convergence index by numbers known to all digits."""
+    r = refine(0.961780, 0.968540, 0.970500)
+    good = (near(r.order, 1.786170, 5e-7) and near(r.limit, 0.9713003, 5e-8) and near(100 * r.fine_index, 0.103083, 5e-7) and
+            near(100 * r.coarse_index, 0.356249, 5e-7) and near(r.asymptotic, 0.997980, 5e-7))
+    found = (f"p {r.order:.6f}, limit {r.limit:.7f}, GCI {100 * r.fine_index:.6f} % and {100 * r.coarse_index:.6f} %, "
+             f"ratio {r.asymptotic:.6f}")
+    return Oracle("K1", found, "p 1.786170, limit 0.9713003, GCI 0.103083 % and 0.356249 %, ratio 0.997980", good)
+
+
+def k2():
+    """How often the interval of a mean has the truth: autoregressive series of mean 0."""
+    series, rows, rho = 2000, 2000, 0.9
+    noise = normal(7, np.arange(series)[:, None], np.arange(rows))
+    x = noise.T.copy()
+    x[1:] *= np.sqrt(1 - rho * rho)
+    for k in range(1, rows):
+        x[k] += rho * x[k - 1]
+    means = map(time_mean, np.ascontiguousarray(x.T))
+    share = 100 * sum(abs(m.mean) < m.error for m in means) / series
+    return Oracle("K2", f"covers in {share:.1f} %", "93 to 97 %", 93 <= share <= 97)
+
+
+def k3():
+    """A solver of error 0.8 h^2 and cost 5 h^-3."""
+    h = np.array([0.4, 0.2, 0.1])
+    error, cost = fit_power_law(h, 0.8 * h * h), fit_power_law(h, 5 * h**-3)
+    found = cheapest(ErrorModel(space=error, spin_up=1, rate=cost.factor, space_exponent=-cost.exponent), 0.01).spacing
+    wanted = (0.01 / 0.8) ** 0.5
+    return Oracle("K3", f"h {found:.5f}", f"{wanted:.5f} within 5 %", near(found, wanted, 0.05 * wanted))
+
+
+def k4(settling):
+    """A particle settles: both integrators must buy error with work at the rate of their order."""
+    slopes = []
+    for name in ("explicit", "implicit"):
+        law = fit_power_law(*zip(*((run["steps"], run["error"]) for run in settling[name])))
+        slopes.append(-law.exponent if law else 0.0)
+    found = f"error falls with steps to the power {slopes[0]:.2f}, explicit, and {slopes[1]:.2f}, implicit by its tolerance"
+    return Oracle("K4", found, "3 and 2 within 0.2", near(slopes[0], 3, 0.2) and near(slopes[1], 2, 0.2))
+
+
+def k5():
+    """A reference whose two families disagree."""
+    errors = [0.05, 0.02, 0.004]
+    loose, tight = carries(0.01, errors, 0.01), carries(1e-5, errors, 0.01)
+    word = {True: "taken", False: "refused"}
+    return Oracle("K5", f"disagreement 1 %: {word[loose]}, 0.001 %: {word[tight]}", "refused, taken", tight and not loose)
+
+
+def k6():
+    """Times that scatter by 30 %, and by 2 %."""
+    noisy, calm = (too_noisy(timing_of([1 + spread * (2 * n / 4 - 1) for n in range(5)]), 1, 2) for spread in (0.3, 0.02))
+    return Oracle("K6", noisy or "nothing", "machine busy, and nothing for 2 %", bool(noisy) and not calm)
+
+
+def lorenz(y):
+    return 10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - 8 / 3 * y[2]
+
+
+def damped(y):
+    return y[1], -y[0] - 0.2 * y[1], 0.0
+
+
+def moved(y, k, by):
+    return y[0] + by * k[0], y[1] + by * k[1], y[2] + by * k[2]
+
+
+def course(rate, push):
+    """First component of a system in time, by the classical method of Runge and Kutta."""
+    dt, y, found = 0.01, (1 + push, 1.0, 1.0), []
+    for _ in range(5000):
+        a = rate(y)
+        b = rate(moved(y, a, dt / 2))
+        c = rate(moved(y, b, dt / 2))
+        d = rate(moved(y, c, dt))
+        y = moved(y, [a[i] + 2 * b[i] + 2 * c[i] + d[i] for i in range(3)], dt / 6)
+        found.append(y[0])
+    return found
+
+
+def k7():
+    """What is chaotic and what is not."""
+    first, second = (is_chaotic(course(rate, 0.0), course(rate, 1e-10)) for rate in (lorenz, damped))
+    word = {True: "chaotic", False: "steady"}
+    return Oracle("K7", f"Lorenz {word[first]}, damped {word[second]}", "chaotic, steady", first and not second)
+
+
+def k12():
+    """A sequence of grids that swings."""
+    r = refine(1.0, 1.2, 1.1)
+    return Oracle("K12", r.note if r.fine_index is None else "an index", "no index", r.fine_index is None and r.coarse_index is None)
+
+
+def layered():
+    """Two layers of pure species, the lower one twice as dense."""
+    z = (np.arange(100) + 0.5) * SLAB
+    return Profile(SLAB, np.array([np.where(z < 0.06, 0.6, 0.0), np.where((z > 0.06) & (z < 0.16), 0.3, 0.0)]))
+
+
+def k13(heights):
+    """The height of the bed is that of its top, not of the dense layer."""
+    found = heights[0] or 0.0
+    return Oracle("K13", f"bed_height {found:.4f} m", "0.16 m within half a slab, not 0.06 m", near(found, 0.16, SLAB / 2))
+
+
+def k14(measures, composition):
+    """One profile given as cells and as particles counted into slabs by their exact parts."""
+    def apart(name):
+        cells, counted = measures[name]["values"]
+        return 1.0 if cells is None or counted is None else abs(cells - counted)
+    height, centre, interface, mixing = map(apart, ("bed_height", "centre_b", "interface", "mixing"))
+    order = 1.0 if composition is None else composition
+    good = max(height, centre, interface) < SLAB and max(mixing, order) < 0.02
+    found = f"height {height:.1e}, centre {centre:.1e}, interface {interface:.1e} m, mixing {mixing:.1e}, composition {order:.1e}"
+    return Oracle("K14", found, "lengths within a slab, 2e-3 m, shares within a slice of 50", good)
+
+
+def oracles():
+    """K1 to K7 and K12 to K14 of the specification of cost; the others need runs."""
+    computed, cells = json.loads(call("oracles")), layered()
+    counted = Profile(computed["counted"]["slab"], computed["counted"]["fraction"])
+    found = measures_of([cells, counted], "ab", reference=cells)
+    measures, distances = found["measures"], found["distances"]
+    return [k1(), k2(), k3(), k4(computed["settling"]), k5(), k6(), k7(), k12(), k13(measures["bed_height"]["values"]),
+            k14(measures, distances["composition"][1])]
+
+
+def print_selftest():
+    """All of them, as a table; whether all pass."""
+    found = oracles()
+    answer("\n".join(f"{o.id:4} {'passes' if o.passed else 'FAILS':6} {o.found}\n            wanted: {o.wanted}" for o in found))
+    return all(o.passed for o in found)

@@ -1,0 +1,115 @@
+"""What was run, what it is measured against, and what follows."""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from polybed.cost.fit import Priced
+from polybed.cost.quantities import MeasureOn, RunQuantities
+from polybed.cost.runner import RunOrder, RunOutcome
+from polybed.study.measured import Profile
+
+# What a row stands for.
+CANDIDATE, MODEL, MACHINE, REFERENCE, TWIN, SOLVER, INPUT = "candidate", "model", "machine", "reference", "twin", "solver", "input"
+
+
+@dataclass
+class SweepOptions:
+    model: str = "tfm"
+    quantities: list = field(default_factory=list)  # the first one ranks; empty: by default
+    axes: list = field(default_factory=list)  # empty: by default
+    target: float = 0.01  # error
+    budget: float = 1200.0  # wall time, s
+    repeat: int = 5
+    clock: str = "work"  # work | cpu | wall
+    reference: str = "auto"  # auto | exact | a directory of a run
+    seed: int = 1
+    quiet: bool = False
+
+
+class RowQuantity(NamedTuple):
+    """A quantity of a run with its distance from the reference, both with the half-width of a 95 % interval."""
+    value: float
+    error: float
+    interval: float | None = None
+    error_interval: float | None = None
+
+
+@dataclass
+class Row:
+    order: RunOrder
+    kind: str = CANDIDATE
+    settings: dict = field(default_factory=dict)  # level of each axis by its number; an axis left out has the given one
+    note: str = ""  # of what is not told by the settings: "temperature + 1 K"
+    outcome: RunOutcome | None = None
+    measured: RunQuantities = field(default_factory=RunQuantities)
+    quantities: dict = field(default_factory=dict)  # RowQuantity by name
+    rate: float = 0.0  # s for a simulated second, by the clock
+    cpu: list = field(default_factory=list)  # s, of the run and its repetitions
+    predicted: Priced | None = None
+    status: str = ""  # pareto | dominated | hollow | model | predicted | failed | refused | not run
+
+    @property
+    def done(self):
+        return self.outcome is not None and self.outcome.done
+
+
+@dataclass
+class Reference:
+    kind: str = ""  # exact | self | extrapolated | statistical | directory; empty: none
+    note: str = ""
+    value: dict = field(default_factory=dict)
+    floor: dict = field(default_factory=dict)  # of errors: below it nothing is ranked
+    band: dict = field(default_factory=dict)
+    profile: Profile | None = None
+
+
+@dataclass
+class Share:
+    row: str
+    value: float | None = None  # of the first quantity's error; None: not run
+    note: str = ""
+    axes: list = field(default_factory=list)  # that would measure it, of a row that no axis run has measured
+
+
+@dataclass
+class Recommendation:
+    target: float
+    row: int
+    confirmed: bool = False
+
+
+@dataclass
+class Sweep:
+    options: SweepOptions
+    axes: list = field(default_factory=list)
+    quantities: list = field(default_factory=list)  # QuantityInfo
+    on: MeasureOn | None = None
+    rows: list = field(default_factory=list)
+    outcome: str = "done"  # done | refused | failed
+    reason: str = ""
+    regime: str = "steady"  # steady | chaotic
+    reference: Reference = field(default_factory=Reference)
+    laws: dict = field(default_factory=dict)  # of error and cost along a line, "error_of_rtol"
+    additive_off: float | None = None
+    attribution: list = field(default_factory=list)
+    inputs: list = field(default_factory=list)
+    recommendation: Recommendation | None = None
+    warnings: list = field(default_factory=list)
+
+    @property
+    def ranking(self):
+        return self.options.quantities[0]
+
+    @property
+    def chaotic(self):
+        return self.regime == "chaotic"
+
+    def refuse(self, reason):
+        self.outcome, self.reason = "refused", reason
+
+    def axis(self, name):
+        return next((axis for axis in self.axes if axis.name == name), None)
+
+    def find(self, order, kind):
+        """Number of the row of this order and kind; None if there is none."""
+        return next((n for n, row in enumerate(self.rows) if row.kind == kind and row.order == order), None)

@@ -1,0 +1,191 @@
+"""The course of a sweep: its runs, and what they may take."""
+
+import sys
+from contextlib import suppress
+
+from polybed.cost.axes import MACHINE, MODEL, NUMERICS, axes_of, setting
+from polybed.cost.judge import settings_text
+from polybed.cost.quantities import measure_on, quantities_of, quantities_of_run
+from polybed.cost.runner import RunOrder, RunOutcome
+from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
+from polybed.cost.timing import is_chaotic
+from polybed.study.ending import WRONG_CASE, StudyError
+from polybed.study.measured import centre_column, species_of, within
+from polybed.study.time_mean import TimeMean
+
+WINDOW_BEGIN = 0.75  # of the run: the last quarter
+OVERDRAFT = 1.08  # of the budget, which is kept to a tenth
+PROFILES, HISTORY_ROWS = 40, 800  # of a run, a quarter of them in the window
+MUCH_DEARER = 1e3  # than a continuum particles are taken to be
+
+
+def common_overrides(scene):
+    """What every run of a sweep is given beside its settings, so that all store the same."""
+    until = scene.of("run.until")
+    return [setting("output.every", until / PROFILES), setting("output.history_every", until / HISTORY_ROWS),
+            setting("output.checkpoint_every", until)]
+
+
+def checked_quantities(options, known, species):
+    """The quantities asked for, or those by default. Raises StudyError for one that is unknown, or that cannot rank."""
+    for name in options.quantities:
+        if name not in known:
+            raise StudyError(WRONG_CASE, f"--qoi {name}: no such quantity of this case")
+    found = options.quantities or ["bed_height", *(["centre_difference"] if len(species) > 1 else [])]
+    if found[0] in ("profile", "composition"):
+        raise StudyError(WRONG_CASE, f"--qoi {found[0]}: a distance from the reference has no uncertainty to rank by; name another "
+                                     "quantity first")
+    return found
+
+
+class Sweeper:
+    """Runs the rows of a sweep, each once, within its budget. centre: the settings from which each axis is varied alone, on the coarsest
+    grid."""
+
+    def __init__(self, scene, options, runner):
+        self.scene, self.runner, self.sweep = scene, runner, Sweep(options)
+        self.sweep.quantities = quantities_of(scene.species)
+        self.sweep.axes = axes_of(scene, options.model, options.axes)
+        self.sweep.on = measure_on(scene.keys, WINDOW_BEGIN * scene.of("run.until"))
+        options.quantities = checked_quantities(options, [q.id for q in self.sweep.quantities], scene.species)
+        self.centre = {axis.name: 0 if axis.name == "grid" else axis.given for axis in self.sweep.axes}
+        self.centre_number = 0
+
+    @property
+    def centre_row(self):
+        return self.sweep.rows[self.centre_number]
+
+    def tell(self, text):
+        if not self.sweep.options.quiet:
+            with suppress(OSError):
+                print(f"{self.runner.spent:7.1f} s  {text}", file=sys.stderr, flush=True)
+
+    def left(self):
+        return OVERDRAFT * self.sweep.options.budget - self.runner.spent
+
+    def order_of(self, settings, more=()):
+        levels = [axis.levels[settings[axis.name]] for axis in self.sweep.axes]
+        model = [self.sweep.options.model, *(level.model for level in levels if level.model)][-1]
+        overrides = [override for level in levels for override in level.overrides]
+        return RunOrder(model, max([1, *(level.ranks for level in levels)]), (*overrides, *more))
+
+    def on_line(self, name, level):
+        """Settings that differ from the centre on one axis."""
+        return self.centre | {name: level}
+
+    def row_on_line(self, name, level):
+        """The candidate at a level of an axis, the others as in the centre; None if it was not run to its end."""
+        n = self.sweep.find(self.order_of(self.on_line(name, level)), CANDIDATE)
+        return self.sweep.rows[n] if n is not None and self.sweep.rows[n].done else None
+
+    def grid_ratio(self, grid, level):
+        """From the next coarser grid, if that was run, in proportion to the cells; else as if a step followed the cells, too."""
+        powers, values = len(self.scene.cells), [one.value for one in grid.levels]
+        coarser = self.row_on_line("grid", level - 1) if level > self.centre["grid"] else None
+        if coarser:
+            return coarser.outcome.wall / self.centre_row.outcome.wall * (values[level - 1] / values[level]) ** powers
+        return (values[self.centre["grid"]] / values[level]) ** (powers + 0.5)
+
+    def axis_ratio(self, axis, level):
+        """By what a level of an axis is expected to change the time of the centre: from its line as far as it was run; else by powers that
+        no axis is likely to exceed."""
+        row = self.row_on_line(axis.name, level)
+        if row:
+            return row.outcome.wall / self.centre_row.outcome.wall
+        if axis.name == "grid":
+            return self.grid_ratio(axis, level)
+        if axis.name == "window":
+            return (3 + axis.levels[level].value) / 4
+        if axis.name == "steps":
+            return axis.levels[level].value / axis.levels[self.centre[axis.name]].value
+        return MUCH_DEARER if axis.levels[level].model == "dem" else 1.0
+
+    def expected_wall(self, settings):
+        if not self.sweep.rows or not settings:
+            return 0.0
+        wall = self.centre_row.outcome.wall
+        for axis in self.sweep.axes:
+            if settings[axis.name] != self.centre[axis.name]:
+                wall *= self.axis_ratio(axis, settings[axis.name])
+        return wall
+
+    def balance_forces(self, row):
+        """Height by the balance of forces on a uniform bed: no run."""
+        height = self.scene.carried()
+        row.outcome = RunOutcome("refused", "the fluid carries a lone particle away") if height is None else RunOutcome("done")
+        row.outcome.cpu, row.outcome.simulated = self.scene.seconds, self.scene.of("run.until")
+        row.measured.values["pressure_drop"] = TimeMean(1.0)
+        if height is not None:
+            row.measured.values["bed_height"] = TimeMean(height)
+
+    def run(self, row, most=1.0):
+        """Runs what is not among the rows yet; returns its number. most: share of the budget that it may be expected to take"""
+        sweep = self.sweep
+        known = sweep.find(row.order, row.kind)
+        if known is not None:
+            sweep.rows[known].predicted = row.predicted or sweep.rows[known].predicted
+            return known
+        expected = self.expected_wall(row.settings)
+        if row.order.model == "force_balance":
+            self.balance_forces(row)
+        elif expected > most * max(0.0, sweep.options.budget - self.runner.spent):
+            row.outcome = RunOutcome("not run", f"expected to take {expected:.3g} s, beyond the budget")
+        else:
+            row.outcome = self.runner.run(row.order, self.left())
+        if row.done and not row.outcome.invariants_held:
+            row.outcome.reason = "an invariant exceeded its limit"
+        if row.outcome.measured:
+            row.measured = quantities_of_run(row.outcome.measured, sweep.on)
+        row.outcome.measured = None
+        row.cpu, row.rate = [row.outcome.cpu], row.outcome.rate(sweep.options.clock)
+        reason = f" ({row.outcome.reason})" if row.outcome.reason else ""
+        self.tell(f"{settings_text(sweep, row)}: {row.outcome.state}{reason}")
+        sweep.rows.append(row)
+        return len(sweep.rows) - 1
+
+    def run_with(self, kind, note, override):
+        """Runs the centre with one more setting."""
+        self.run(Row(self.order_of(self.centre, (override,)), kind, self.centre, note))
+
+    def find_regime(self):
+        """Runs the centre, and again with gravity changed by 1e-10: whether they part. False if the first run did not reach its end."""
+        sweep, order = self.sweep, self.order_of(self.centre)
+        first = self.runner.run(order, self.left())
+        history = first.measured.history if first.done else None
+        self.centre_number = self.run(Row(order, settings=self.centre))
+        if not first.done:
+            sweep.outcome, sweep.reason = "refused" if first.state == "not run" else "failed", f"the first run: {first.reason}"
+            return False
+        order = self.order_of(self.centre, (setting("column.gravity", self.scene.of("column.gravity") * (1 + 1e-10)),))
+        second = self.runner.run(order, self.left())
+        twin = second.measured.history if second.done else None
+        self.run(Row(order, TWIN, self.centre, "twin: gravity (1 + 1e-10)"))
+        if not second.done:
+            sweep.warnings.append("taken to be steady: the run that would tell, with gravity (1 + 1e-10), was not done")
+            return True
+        columns = ["bed_height_m", *map(centre_column, species_of(history))]
+        if any(is_chaotic(*(within(h["time_s"], h[column], sweep.on.window) for h in (history, twin))) for column in columns):
+            sweep.regime = "chaotic"
+        self.tell(sweep.regime)
+        return True
+
+    def run_lines(self, kind):
+        """Each axis of a kind by itself."""
+        for axis in self.sweep.axes:
+            for level in range(len(axis.levels)) if axis.kind == kind else ():
+                settings = self.on_line(axis.name, level)
+                other = kind in (MODEL, MACHINE) and level != self.centre[axis.name]  # no better or worse numerics
+                self.run(Row(self.order_of(settings), kind if other else CANDIDATE, settings), 0.5 if kind == MODEL else 1.0)
+
+    def tight(self, more=()):
+        """Two levels beyond the finest on each numerical axis but the grid, with more settings on top."""
+        overrides = []
+        for axis in self.sweep.axes:
+            numeric = axis.kind == NUMERICS
+            level = axis.levels[self.centre[axis.name] if numeric else axis.given]
+            if numeric and axis.name != "grid" and axis.beyond:
+                level = axis.beyond[-1]
+            overrides += level.overrides
+        if self.sweep.options.model == "tfm" and self.sweep.axis("rtol") is None:
+            overrides.append("tfm.rtol=1e-7")
+        return RunOrder(self.sweep.options.model, 1, (*overrides, *more))

@@ -1,0 +1,278 @@
+#!/usr/bin/python3
+"""What `polybed cost` computes from what it has measured, by hand values. Usage: cost_test.py PROGRAM PACKAGE_DIRECTORY"""
+
+import os
+import sys
+import unittest
+from math import e, inf
+from types import SimpleNamespace
+
+import numpy as np
+
+PROGRAM, PACKAGE = sys.argv[1:3]
+sys.path.insert(0, PACKAGE)
+os.environ["POLYBED"] = PROGRAM
+
+from polybed.cost import check, command, quantities, selftest  # noqa: E402
+from polybed.cost.axes import axes_of, grid_level, numbers  # noqa: E402
+from polybed.cost.fit import ErrorModel, PowerLaw, Priced, cheapest, fit_power_law, pareto_front  # noqa: E402
+from polybed.cost.judge import advice, carries  # noqa: E402
+from polybed.cost.markdown import sweep_markdown  # noqa: E402
+from polybed.cost.random import normal, uniform  # noqa: E402
+from polybed.cost.refinement import refine  # noqa: E402
+from polybed.cost.runner import RunOrder, RunOutcome, text_hash  # noqa: E402
+from polybed.cost.sweep import Row, Share, Sweep, SweepOptions  # noqa: E402
+from polybed.cost.timing import is_chaotic, timing_of, too_noisy  # noqa: E402
+from polybed.cost.work import counters_of, weighed  # noqa: E402
+from polybed.files import FormatError  # noqa: E402
+from polybed.study.ending import StudyError  # noqa: E402
+from polybed.study.measured import Columns, Measured, Window  # noqa: E402
+
+
+class Selftest(unittest.TestCase):
+    def test_every_oracle_passes(self):
+        for oracle in selftest.oracles():
+            with self.subTest(oracle.id):
+                self.assertTrue(oracle.passed, f"{oracle.found}, wanted {oracle.wanted}")
+
+    def test_an_oracle_can_fail(self):
+        slow = {"explicit": [{"steps": 8, "error": 1e-2}, {"steps": 16, "error": 5e-3}],
+                "implicit": [{"steps": 8, "error": 1e-2}, {"steps": 16, "error": 2.5e-3}]}
+        self.assertFalse(selftest.k4(slow).passed)  # of first order
+        self.assertFalse(selftest.k13([0.06]).passed)  # the dense layer
+        self.assertFalse(selftest.k14({name: {"values": [0.1, 0.2]} for name in ("bed_height", "centre_b", "interface", "mixing")}, 0).passed)
+
+
+class Laws(unittest.TestCase):
+    def test_a_power_law_is_found_from_its_points(self):
+        law = fit_power_law([1, 2, 4, -1], [3, 12, 48, 7])  # 3 x^2; what has no logarithm does not count
+        for found, wanted in ((law.factor, 3), (law.exponent, 2), (law.scatter, 0), (law.at(3), 27)):
+            self.assertAlmostEqual(found, wanted, delta=1e-10)
+        self.assertIsNone(fit_power_law([2, 2], [1, 3]))
+        self.assertIsNone(fit_power_law([1, 2], [1, inf]))
+        # ln y = 0, 1, 0 at ln x = 0, 1, 2: slope 0, mean 1/3, residuals -1/3, 2/3, -1/3 with mean square 6/27.
+        self.assertAlmostEqual(fit_power_law([1, e, e * e], [1, e, 1]).scatter, (6 / 27) ** 0.5, delta=1e-12)
+
+    def test_the_front_is_what_nothing_beats(self):
+        points = [Priced(*pair) for pair in ((1, 1), (0.5, 2), (0.7, 3), (0.5, 2), (0.1, 10), (2, 0.5))]
+        self.assertEqual(pareto_front(points), [5, 0, 1, 4])
+
+    def test_the_cheapest_shares_the_error_between_grid_and_window(self):
+        """Error h^2 and 1/sqrt(T), cost T h^-3, by hand: with the share s for space, T = 1/((1 - s) E^2) and h = s^(1/4) sqrt(E), so the
+        cost goes with s^(-3/4)/(1 - s), least at s = 3/7: "same grid, longer" instead of a finer one."""
+        found = cheapest(ErrorModel(space=PowerLaw(1, 2), fluctuation=1, rate=1, space_exponent=3), 0.1)
+        self.assertAlmostEqual(found.window, 100 / (1 - 3 / 7), delta=1)  # 175 s; flat about the optimum
+        self.assertAlmostEqual(found.spacing, (0.1 * (3 / 7) ** 0.5) ** 0.5, delta=1e-3)
+
+
+class Refinement(unittest.TestCase):
+    def test_order_and_limit_of_a_power(self):
+        """Exact powers: f = 1 + h^p at h = 1, 1/3, 1/9 has the limit 1 whatever the safety."""
+        for p in (1.0, 2.0):
+            found = refine(2, 1 + 3**-p, 1 + 9**-p, 3, 2)
+            self.assertAlmostEqual(found.order, p, delta=1e-12)
+            self.assertAlmostEqual(found.limit, 1, delta=1e-12)
+
+    def test_an_order_that_is_not_the_schemes_is_trusted_less(self):
+        """f = 1 + h^3 under a scheme of order 1: order 3 is beyond 1.5, so F_s = 3 with p = 1: the band is 3 (1/8 - 1/64)."""
+        found = refine(2, 1 + 1 / 8, 1 + 1 / 64, 2, 1)
+        self.assertAlmostEqual(found.order, 3, delta=1e-12)
+        self.assertEqual(found.safety, 3)
+        self.assertAlmostEqual(found.band, 3 * (1 / 8 - 1 / 64), delta=1e-12)
+        self.assertIn("not that of the scheme", found.note)
+        slow = refine(1 + 1, 1 + 0.9, 1 + 0.82, 2, 2)  # p = ln(0.1/0.08)/ln 2
+        self.assertAlmostEqual(slow.order, 0.3219, delta=1e-4)
+        self.assertEqual(slow.safety, 3)
+
+    def test_a_scattered_sequence_has_no_index(self):
+        """K12: a sequence that swings, or that parts; three times half of its range is told in its place."""
+        found = refine(1.0, 1.2, 1.1)
+        self.assertEqual((found.order, found.fine_index, found.coarse_index), (None, None, None))
+        self.assertAlmostEqual(found.band, 0.3, delta=1e-12)
+        self.assertIn("asymptotic range", found.note)
+        self.assertIsNone(refine(1.0, 1.1, 1.3).fine_index)
+        self.assertEqual(refine(1.0, 1.0, 1.0).band, 0)
+        with self.assertRaises(ValueError):
+            refine(1, 2, 3, 1.2)
+
+
+class Times(unittest.TestCase):
+    def test_median_and_spread_by_hand(self):
+        self.assertEqual(timing_of([5, 1, 2, 4, 3]), (3, 1, 2))  # the median of 2, 2, 1, 1, 0; 4 less 2
+        self.assertEqual(timing_of([1, 2]).median, 1.5)
+        with self.assertRaises(ValueError):
+            timing_of([])
+
+    def test_noise_is_told_and_not_ranked(self):
+        """K6: noise of 30 % either way, evenly spread over five times, spans 30 % between the quartiles."""
+        self.assertIn("machine busy", too_noisy(timing_of([0.7, 0.85, 1.0, 1.15, 1.3]), 1, 2))
+        calm = timing_of([0.98, 0.99, 1.0, 1.01, 1.02])
+        self.assertIsNone(too_noisy(calm, 1, 2))
+        self.assertIn("load 2.5 on 2 cores", too_noisy(calm, 2.5, 2))
+
+    def test_what_stands_still_is_steady(self):
+        """Chaos itself is K7 of the selftest."""
+        self.assertFalse(is_chaotic([1.0] * 9, [1.0 + 1e-15] * 9))
+
+    def test_random_numbers_are_those_of_the_program(self):
+        """core::uniform and core::normal of seed 7, sequence 3, index 5, as C++ prints them to 17 digits."""
+        self.assertEqual(f"{float(uniform(7, 3, 5)):.17g}", "0.67572910860470858")
+        self.assertAlmostEqual(float(normal(7, 3, 5)), 1.4852706564378706, delta=1e-15)
+
+    def test_the_hash_of_a_run_is_that_of_the_program(self):
+        self.assertEqual(text_hash("a"), "af63dc4c8601ec8c")  # FNV-1a, 64 bits
+
+
+class Work(unittest.TestCase):
+    def test_is_weighed_in_seconds(self):
+        """1000 right-hand sides of 100 unknowns at 23 ns and 500 iterations at 8 ns: 2.3 ms and 0.4 ms."""
+        work = {"steps": 7, "rejected_steps": 0, "rhs_evaluations": 1000, "pressure_solves": 3, "linear_iterations": 500}
+        record = {"model": "tfm", "unknowns": 100, "work": work}
+        self.assertAlmostEqual(weighed(counters_of(record, 0)), 2.7e-3, delta=1e-15)
+        work["pressure_solves"] = 0  # Jacobian products at 90 ns
+        self.assertAlmostEqual(weighed(counters_of(record, 0)), 2.3e-3 + 4.5e-3, delta=1e-15)
+
+    def test_of_particles(self):
+        """ns: 100 x 15, 50 x 4, 20 x 25, 10 x 7; in a fluid 100 x 38, 2 x 2e5, 2 x 30 x 300, 8 x 12 x 60 besides."""
+        work = {"steps": 1, "particle_steps": 100, "pair_checks": 50, "contact_steps": 20, "candidates": 10}
+        record = {"model": "dem", "particles": 30, "work": work}
+        self.assertAlmostEqual(weighed(counters_of(record, 12)), 2270e-9, delta=1e-20)
+        record["fluid"] = {"steps": 2, "iterations": 8}
+        self.assertAlmostEqual(weighed(counters_of(record, 12)), (2270 + 3800 + 400000 + 18000 + 5760) * 1e-9, delta=1e-18)
+
+
+class Judgement(unittest.TestCase):
+    def test_a_reference_carries_what_lies_above_ten_times_its_disagreement(self):
+        """Two references 0.1 % apart have a floor of 1 %: good for a target of 1 %, or for an error above it; not for less."""
+        self.assertTrue(carries(0.001, [0.002], 0.01))
+        self.assertTrue(carries(0.002, [0.03], 0.01))
+        self.assertFalse(carries(0.002, [0.019, 0.001], 0.01))
+        self.assertFalse(carries(0.002, [], 0.01))
+
+    def advised(self, *attribution):
+        return advice(Sweep(SweepOptions(quantities=["bed_height"]), attribution=list(attribution)))
+
+    def test_advice_names_the_largest_row_to_improve_where_all_were_measured(self):
+        lines = self.advised(Share("time integration", 1e-6, "rtol"), Share("space", 0.02, "grid"))
+        self.assertIn("The largest row is space (2 %): that is what to improve.", lines)
+        self.assertIn("Ten times smaller, so to be loosened: time integration.", lines)
+        self.assertNotIn("Not measured", "".join(lines))
+
+    def test_advice_speaks_only_of_what_was_measured(self):
+        lines = self.advised(Share("time integration", 1.2e-6, "rtol"), Share("space", None, "not run", ["grid"]),
+                             Share("statistics", None, "steady"), Share("level", None, "not run", ["level"]))
+        self.assertIn("The largest row of those measured is time integration (0.00012 %).", lines)
+        self.assertIn("Not measured, so in none of these errors: space, level. --axes grid,level measures them.", lines)
+        self.assertNotIn("to improve", "".join(lines))
+
+    def test_advice_names_the_missing_axes_where_nothing_has_an_error(self):
+        lines = self.advised(Share("time integration", 0.0, "rtol"), Share("space", None, "not run", ["grid"]))
+        self.assertNotIn("largest", "".join(lines))
+        self.assertIn("--axes grid measures", "".join(lines))
+
+    def test_the_table_has_the_median_of_the_times(self):
+        """Of repetitions the middle one is told, as in cost.csv: the first also reads the program from the disk."""
+        sweep = Sweep(SweepOptions(quantities=["bed_height"]), outcome="refused")
+        sweep.rows = [Row(RunOrder("tfm"), outcome=RunOutcome("failed"), status="failed", cpu=times) for times in ([9, 1.25, 2.5], [])]
+        text = sweep_markdown(sweep, SimpleNamespace(path="case.toml", commit="none"))
+        self.assertIn("| 2.5 |", text)
+        self.assertNotIn("| 9 |", text)
+
+
+def sweep(*runs):
+    return {"case_hash": "a", "clock": "work", "work_version": 1, "qoi": [{"id": "bed_height", "shown": True}],
+            "runs": [{"kind": "candidate", "status": status, "s_per_sim_s": cost, "qoi": {"bed_height": {"error": error}}}
+                     for error, cost, status in runs]}
+
+
+class Difference(unittest.TestCase):
+    def test_what_the_same_error_costs_more(self):
+        before = sweep((0.01, 1, "pareto"), (0.002, 5, "pareto"))
+        self.assertEqual(check.dearer(before, before), [])
+        self.assertEqual(check.dearer(before, sweep((0.002, 1.09, "pareto"))), [])  # 9 % dearer, and more accurate
+        found = check.dearer(before, sweep((0.01, 1.2, "pareto"), (0.02, 0.5, "pareto")))
+        self.assertEqual([d.now for d in found], [1.2, 0])  # for the second no run is as accurate
+        for key, other in (("case_hash", "b"), ("clock", "cpu"), ("work_version", 2), ("qoi", [{"id": "mixing", "shown": True}])):
+            with self.assertRaises(FormatError):
+                check.dearer(before, sweep() | {key: other})
+
+
+class Axes(unittest.TestCase):
+    def test_the_value_of_the_case_is_among_the_levels(self):
+        axis = numbers("rtol", "tfm.rtol", [1e-2, 1e-3, 1e-4], 3e-3, True, [1e-6])
+        self.assertEqual([level.label for level in axis.levels], ["0.01", "0.003", "0.001", "0.0001"])
+        self.assertEqual((axis.given, axis.beyond[0].overrides), (1, ["tfm.rtol=9.9999999999999995e-07"]))
+        self.assertEqual(numbers("rtol", "tfm.rtol", [1e-2, 1e-3], 1e-5, True, []).given, 2)
+        self.assertEqual(numbers("steps", "dem.steps_per_contact", [10, 20], 20, False, []).given, 1)
+
+    def test_grids_have_whole_cells(self):
+        """Half of 99 is 50, as C++ rounds; one cell stays one."""
+        scene = SimpleNamespace(cells=[1, 99])
+        self.assertEqual(grid_level(scene, 2).overrides, ["column.cells=[1,50]"])
+        self.assertEqual((grid_level(scene, 1).label, grid_level(scene, 1).overrides), ("1x99", []))
+
+    def test_names(self):
+        scene = SimpleNamespace(has_fluid=False)
+        for names, text in ((["nonsense"], "there are rtol, grid"), (["coupling"], "does not act in this case by dem")):
+            with self.assertRaisesRegex(StudyError, text):
+                axes_of(scene, "dem", names)
+
+
+class Quantities(unittest.TestCase):
+    def test_frequency_of_a_sine(self):
+        time = np.arange(64) * 0.05
+        self.assertAlmostEqual(quantities.frequency_of(np.sin(2 * np.pi * time / 0.4), 0.05), 2.5)
+        self.assertIsNone(quantities.frequency_of(np.zeros(64), 0.05))
+        self.assertIsNone(quantities.frequency_of(np.arange(7.0), 0.05))
+
+    def run_of(self, cells, heights):
+        """A bed of one species, uniform up to a height that differs from profile to profile."""
+        rows, time = 40, np.linspace(0, 10, 401)
+        y = (np.arange(cells) + 0.5) * 0.2 / cells
+        phi = [np.where(y < height, 0.5, 0.0) for height in heights]
+        history = {"time_s": time, "bed_height_m": np.full(401, heights[-1]), "centre_a_m": np.full(401, heights[-1] / 2),
+                   "pressure_drop_Pa": np.full(401, 90.0), "buoyant_weight_Pa": np.full(401, 100.0)}
+        profiles = {"time_s": np.linspace(0, 10, rows + 1), "y_m": y, "phi_a": np.array([phi[n % len(phi)] for n in range(rows + 1)])}
+        return Measured(Columns("history.csv", history), Columns("profiles.h5", profiles))
+
+    def test_lengths_are_those_on_the_slabs_of_the_case(self):
+        """The history has what the run's own slabs say; a coarser grid changes it by what its profiles change by."""
+        on = quantities.MeasureOn(0.2 / 40, 40, Window(7.5, 10))
+        same = quantities.quantities_of_run(self.run_of(40, [0.1]), on)
+        self.assertEqual(same.values["bed_height"].mean, 0.1)
+        self.assertEqual(same.values["pressure_drop"].mean, 0.9)
+        coarse = quantities.quantities_of_run(self.run_of(20, [0.1]), on)
+        # Of 20 slabs of 10 mm the half of 0.5 is passed midway between the centres at 95 and 105 mm, of 40 between 97.5 and 102.5 mm.
+        self.assertAlmostEqual(coarse.values["bed_height"].mean, 0.1, delta=1e-12)
+        self.assertEqual(coarse.profile.fraction.shape, (1, 40))
+        off = quantities.quantities_of_run(self.run_of(20, [0.11]), quantities.MeasureOn(0.2 / 10, 10, Window(7.5, 10)))
+        # Of 10 slabs of 20 mm the sixth has 0.25. Between z_0.80 = 88 mm and z_0.95 = 109 mm the mean is (12 x 0.25 + 9 x 0.0625)/(12 x
+        # 0.5 + 9 x 0.25); its half is passed above the centre at 110 mm, where the run's own slabs have the height.
+        half = 0.5 * 3.5625 / 8.25
+        self.assertAlmostEqual(off.values["bed_height"].mean, 0.11 + 0.02 * (0.25 - half) / 0.25, delta=1e-12)
+
+
+    def test_means_are_those_of_the_last_quarter(self):
+        """Of a height that is 0.1 m up to three quarters of the run and 0.12 m from there on, in rows and in profiles."""
+        run = self.run_of(40, [0.1])
+        late = run.history["time_s"] > 7.4
+        run.history["bed_height_m"] = np.where(late, 0.12, 0.1)
+        run.profiles["phi_a"][run.profiles["time_s"] > 7.4] = np.where(run.profiles["y_m"] < 0.12, 0.4, 0.0)
+        on = quantities.measure_on({"column": {"size": [0.01, 0.2], "cells": [2, 40]}}, 7.5)
+        found = quantities.quantities_of_run(run, on)
+        self.assertEqual(found.values["bed_height"].mean, 0.12)
+        np.testing.assert_allclose(found.profile.fraction[0, :24], 0.4)
+
+
+class Words(unittest.TestCase):
+    def test_targets_and_budgets(self):
+        self.assertEqual([command.target_of(text) for text in ("1%", "0.02", "2e-3", "5 %")], [0.01, 0.02, 2e-3, 0.05])
+        self.assertEqual([command.budget_of(text) for text in ("20min", "3", "500ms", "1.5 h")], [1200, 3, 0.5, 5400])
+        for read, texts in ((command.target_of, ("", "0%", "-1%", "1 m", "nan")), (command.budget_of, ("", "0s", "-3", "5 m", "inf", "1%"))):
+            for text in texts:
+                with self.assertRaises(StudyError, msg=text):
+                    read(text)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
