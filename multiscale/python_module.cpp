@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "multiscale/child_program.hpp"
+#include "multiscale/become.hpp"
 #include "multiscale/installed.hpp"
 
 namespace polybed::multiscale {
@@ -58,9 +58,8 @@ std::string read_all(int input) {
   }
 }
 
-[[noreturn]] void not_started(int reason) {
-  throw core::FileError(
-      fmt::format("cannot start {}: {}; {}", python, std::system_category().message(reason), python_packages));
+[[noreturn]] void not_started(const std::string& reason) {
+  throw core::FileError(fmt::format("cannot start {}: {}; {}", python, reason, python_packages));
 }
 
 /// Exit code of a child, as a shell tells it.
@@ -102,7 +101,7 @@ AskingModule::AskingModule(const std::string& module, const std::vector<std::str
   const core::Descriptor of_module(ends[1]);
   socket_.emplace(ends[0]);
   if (reason == 0) reason = start(words_of(module, arguments), {{ends[1], STDIN_FILENO}}, process_);
-  if (reason != 0) not_started(reason);
+  if (reason != 0) not_started(std::system_category().message(reason));
 }
 
 AskingModule::~AskingModule() {
@@ -115,10 +114,8 @@ int AskingModule::wait() {
 }
 
 void become_python(const std::string& module, const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = words_of(module, arguments);
   ::setenv("POLYBED", this_program().c_str(), 1);
-  ::execv(python, pointers_to(words).data());
-  not_started(errno);
+  not_started(become(words_of(module, arguments)));
 }
 
 }  // namespace polybed::multiscale
