@@ -24,7 +24,6 @@ with needed(__name__ == "__main__"):
     from polybed.calibration.text import box_lines, table_toml
     from polybed.files import FAULTS
     from polybed.in_place import in_place
-    from polybed.program import name_of
     from polybed.solids_table import read_table
 
 
@@ -50,7 +49,8 @@ def parsed(arguments):
     parser.add_argument("--json", action="store_true", help="one JSON object")
     parser.add_argument("--on-ranks", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
-    options.output = options.output or Path("runs") / f"{name_of(options.case)}-calibrate"
+    case = Path(options.case).absolute()  # called by its folder, which may be a link
+    options.output = options.output or Path("runs") / f"{case.parent.name if case.stem == 'case' else case.stem}-calibrate"
     options.people = ERR if options.json else OUT  # with --json standard output is the object's alone
     return options
 

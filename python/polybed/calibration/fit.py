@@ -10,7 +10,6 @@ from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from polybed.calibration.service import NUMBERS, Failure
 from polybed.solids_table import AXES, checksum
 
-
 # Half-width of the two-sided 68.27 % interval of Student's distribution by degrees of freedom, what one standard error is of a normal one.
 STUDENT = (1.837, 1.321, 1.197, 1.142, 1.111, 1.091, 1.077, 1.067, 1.059)
 SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean; points that scatter get more seeds
