@@ -80,22 +80,10 @@ struct MoveOptions {
   double sigma = 0;  ///< standard errors
 };
 
-/// Options of the calibration: boxes of particles for a table of the solids stress.
-struct CalibrateOptions : CaseOptions {
-  std::filesystem::path output;  ///< empty: runs/<case name>-calibrate
-  std::filesystem::path check;   ///< a table to check; empty: one is made
-  std::filesystem::path bed;     ///< a table of fluidised boxes to put beside a sheared one; empty: none
-  std::string box;               ///< one box, as the command tells itself; empty: all of them
-  int jobs = 1;                  ///< boxes at once, each a process of its own
-  bool launched = false;         ///< by mpirun: boxes are run by its ranks
-  bool plan_only = false, quiet = false;
-};
-
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
 [[noreturn]] void run_compare(const std::vector<std::string>& words);
-void run_calibrate(const CalibrateOptions& options);
 void run_check(const RunOptions& options);
 /// The case alone, as a record of its run has it; as JSON with its hashes and why a model cannot run it.
 void print_resolved(const RunOptions& options);
@@ -114,6 +102,10 @@ void run_move_table(const MoveOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);
+/// Becomes the study in Python, or serves it. \param words  its options
+core::ExitCode run_calibrate(const std::vector<std::string>& words);
+/// Whether these words are run by all ranks.
+[[nodiscard]] bool calibrate_needs_mpi(const std::vector<std::string>& words);
 /// Becomes polybed-hard, installed beside the program. \param words  its options
 [[noreturn]] void run_stability(std::vector<std::string> words);
 /// The code to end with: what is wrong has been said by the module that draws.

@@ -10,7 +10,7 @@
 #include "core/output/json.hpp"
 #include "core/output/particles.hpp"
 #include "core/print.hpp"
-#include "fluid/particle_profile.hpp"
+#include "measures/particle_profile.hpp"
 
 namespace polybed::multiscale {
 
@@ -76,7 +76,7 @@ void write_both_integrators(core::Json& json) {
 }
 
 /// Spheres on a vertical line in two layers, 0.6 below 60 mm and 0.3 above, counted into slabs by their exact parts.
-fluid::Profile counted_layers() {
+measures::Profile counted_layers() {
   constexpr double slab = 2e-3, radius = 2e-4, side = 0.02, height = 0.2;
   std::vector<std::int64_t> ids;
   std::vector<double> radii;
@@ -96,7 +96,7 @@ fluid::Profile counted_layers() {
   fill(0, 0.06, 0.6, 0);
   fill(0.06, 0.16, 0.3, 1);
   const core::ParticleSnapshot particles{ids, species, radii, places, velocities, velocities};
-  return fluid::particle_profile(particles, 2, {side * side, height, std::size_t(std::lround(height / slab))}).solids;
+  return measures::particle_profile(particles, 2, {side * side, height, std::size_t(std::lround(height / slab))}).solids;
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ void run_oracles() {
   core::Json json;
   json.begin_object().key("settling").begin_object();
   write_both_integrators(json);
-  const fluid::Profile layers = counted_layers();
+  const measures::Profile layers = counted_layers();
   json.end_object().key("counted").begin_object().member("slab", layers.slab).key("fraction").begin_array();
   for (const std::vector<double>& phi : layers.fraction) {
     json.begin_array();

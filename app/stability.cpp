@@ -1,13 +1,9 @@
 // polybed stability: hands over to polybed-hard, the program of hard cases.
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <system_error>
 
 #include "app/options.hpp"
 #include "core/error.hpp"
-#include "multiscale/child_program.hpp"
+#include "multiscale/become.hpp"
 #include "multiscale/installed.hpp"
 
 namespace polybed::multiscale {
@@ -15,10 +11,9 @@ namespace polybed::multiscale {
 void run_stability(std::vector<std::string> words) {
   const std::string program = (this_program().parent_path() / "polybed-hard").string();
   words.insert(words.begin(), program);
-  ::execv(program.c_str(), pointers_to(words).data());
   throw core::FileError(
       fmt::format("{}: cannot be started ({}); in a build tree: cmake --build build --target polybed-hard", program,
-                  std::system_category().message(errno)));
+                  become(words)));
 }
 
 }  // namespace polybed::multiscale

@@ -1,6 +1,5 @@
 // Commands that run many cases to learn something.
 #include "app/commands.hpp"
-#include "core/numerics/mpi_start.hpp"
 #include "multiscale/python_module.hpp"
 
 namespace polybed::command_line {
@@ -50,25 +49,15 @@ void add_move_table(CLI::App& app, Commands& commands) {
   commands.push_back({&command, doing([options] { multiscale::run_move_table(*options); })});
 }
 
+/// Its options are those of python/polybed/calibration, `polybed calibrate --help` included.
 void add_calibrate(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::CalibrateOptions>();
   CLI::App& command = *app.add_subcommand(
       "calibrate", "run boxes of particles and make a table of the solids stress for the two-fluid model");
-  take_case(command, *options);
-  command.add_option("-o,--output", options->output, "directory; default runs/<case name>-calibrate");
-  command.add_option("-j,--jobs", options->jobs, "boxes at once; default 1")->check(CLI::Range(1, 1024));
-  CLI::Option* plan = command.add_flag("--plan", options->plan_only, "which boxes, and how long; nothing is run");
-  command.add_option("--check", options->check, "TABLE: run a few points that it was not fitted to, and compare")
-      ->excludes(plan);
-  command.add_option("--bed", options->bed,
-                     "TABLE of fluidised boxes (regime bed): its p_bed is put beside what is sheared");
-  command.add_option("--box", options->box)->group("");
-  command.add_flag("--quiet", options->quiet, "no progress");
-  const auto on = [options] {
-    options->launched = core::started_by_launcher() && options->box.empty();
-    return options->launched || options->box.starts_with("bed") ? On::all_ranks : On::one_process;
-  };
-  commands.push_back({&command, doing([options] { multiscale::run_calibrate(*options); }), on});
+  command.prefix_command();
+  command.set_help_flag();
+  commands.push_back(
+      {&command, doing([&command] { return multiscale::run_calibrate(command.remaining()); }),
+       [&command] { return multiscale::calibrate_needs_mpi(command.remaining()) ? On::all_ranks : On::one_process; }});
 }
 
 /// Its options are those of polybed-hard, `polybed stability --help` included.

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/output/descriptor.hpp"
 #include "core/output/files.hpp"
+#include "multiscale/become.hpp"
 #include "multiscale/installed.hpp"
 #include "multiscale/mpirun.hpp"
 
@@ -27,13 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds look_every{2};
 constexpr std::chrono::seconds grace{5};  // mpirun gives its ranks one
-
-std::vector<std::string> environment(int ranks) {
-  if (ranks > 1) return environment_of_mpirun();
-  std::vector<std::string> all;
-  for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
-  return all;
-}
 
 std::vector<std::string> words_of(const ChildOrder& order) {
   std::vector<std::string> words;
@@ -88,15 +82,9 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 }  // namespace
 
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-  std::vector<char*> list;
-  for (std::string& text : texts) list.push_back(text.data());
-  list.push_back(nullptr);
-  return list;
-}
-
 ChildProgram::ChildProgram(const ChildOrder& order) {
-  std::vector<std::string> words = words_of(order), variables = environment(order.ranks);
+  std::vector<std::string> words = words_of(order);
+  std::vector<std::string> variables = order.ranks > 1 ? environment_of_mpirun() : environment();
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) not_started(order, words.front(), errno);
   const core::Descriptor reading(pipe[0]);

@@ -60,7 +60,4 @@ class ChildProgram {
 [[nodiscard]] ChildExit run_child(const ChildOrder& order, double seconds = std::numeric_limits<double>::infinity(),
                                   const std::function<void(const ChildProgram&)>& look = {});
 
-/// Texts as exec wants them: their places, and a null behind.
-[[nodiscard]] std::vector<char*> pointers_to(std::vector<std::string>& texts);
-
 }  // namespace polybed::multiscale

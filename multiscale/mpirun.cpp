@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 
 #include "core/error.hpp"
 #include "core/numerics/mpi_start.hpp"
-#include "multiscale/child_program.hpp"
+#include "multiscale/become.hpp"
 #include "multiscale/installed.hpp"
 
 namespace polybed::multiscale {
@@ -45,8 +43,7 @@ fs::path mpirun() {
 }
 
 std::vector<std::string> environment_of_mpirun() {
-  std::vector<std::string> all;
-  for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
+  std::vector<std::string> all = environment();
   for (const std::string_view setting : settings) {
     const std::string_view name = setting.substr(0, setting.find('=') + 1);
     if (std::none_of(all.begin(), all.end(), [&](const std::string& entry) { return entry.starts_with(name); }))
@@ -65,9 +62,7 @@ void become_ranks(int ranks, std::vector<std::string> words) {
   refuse_launcher(ranks);
   std::vector<std::string> all{mpirun(), "-q", "-n", std::to_string(ranks), this_program()};
   all.insert(all.end(), words.begin(), words.end());
-  std::vector<std::string> variables = environment_of_mpirun();
-  ::execve(all.front().c_str(), pointers_to(all).data(), pointers_to(variables).data());
-  throw core::MpiError(fmt::format("cannot start {}: {}", all.front(), std::system_category().message(errno)));
+  throw core::MpiError(fmt::format("cannot start {}: {}", all.front(), become(all, environment_of_mpirun())));
 }
 
 }  // namespace polybed::multiscale

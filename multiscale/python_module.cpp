@@ -1,7 +1,9 @@
 #include "multiscale/python_module.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,12 +11,13 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
+#include <initializer_list>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
-#include "multiscale/child_program.hpp"
+#include "multiscale/become.hpp"
 #include "multiscale/installed.hpp"
 
 namespace polybed::multiscale {
@@ -31,17 +34,15 @@ std::vector<std::string> words_of(const std::string& module, const std::vector<s
   return words;
 }
 
-/// Starts a program whose output goes into a pipe, or where ours goes if there is none; 0 or why it did not start.
-int start(std::vector<std::string> arguments, const std::optional<std::array<int, 2>>& pipe, pid_t& child) {
+/// A descriptor of ours, and where a child has it.
+using Place = std::pair<int, int>;
+
+/// Starts a program; 0 or why it did not start.
+int start(std::vector<std::string> words, std::initializer_list<Place> places, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  if (pipe) {
-    posix_spawn_file_actions_addclose(&actions, (*pipe)[0]);
-    posix_spawn_file_actions_adddup2(&actions, (*pipe)[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, (*pipe)[1], STDERR_FILENO);
-  }
-  const int reason =
-      posix_spawn(&child, arguments.front().c_str(), &actions, nullptr, pointers_to(arguments).data(), environ);
+  for (const auto& [ours, its] : places) posix_spawn_file_actions_adddup2(&actions, ours, its);
+  const int reason = posix_spawn(&child, words.front().c_str(), &actions, nullptr, pointers_to(words).data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   return reason;
 }
@@ -57,6 +58,10 @@ std::string read_all(int input) {
   }
 }
 
+[[noreturn]] void not_started(const std::string& reason) {
+  throw core::FileError(fmt::format("cannot start {}: {}; {}", python, reason, python_packages));
+}
+
 /// Exit code of a child, as a shell tells it.
 int wait_for(pid_t child) {
   int status = 0;
@@ -68,19 +73,20 @@ int wait_for(pid_t child) {
 }  // namespace
 
 PythonEnd run_python(const std::string& module, const std::vector<std::string>& arguments, PythonOutput output) {
-  std::vector<std::string> words = words_of(module, arguments);
+  const std::vector<std::string> words = words_of(module, arguments);
   PythonEnd end;
-  std::optional<std::array<int, 2>> pipe;
-  if (output == PythonOutput::keep && ::pipe(pipe.emplace().data()) != 0) {
-    end.not_started = std::system_category().message(errno);
-    return end;
-  }
   pid_t child = 0;
-  const int reason = start(std::move(words), pipe, child);
-  if (pipe) {
-    ::close((*pipe)[1]);
-    if (reason == 0) end.output = read_all((*pipe)[0]);
-    ::close((*pipe)[0]);
+  int reason = 0;
+  std::array<int, 2> pipe{-1, -1};
+  if (output == PythonOutput::show) {
+    reason = start(words, {}, child);
+  } else if (::pipe2(pipe.data(), O_CLOEXEC) == 0) {
+    reason = start(words, {{pipe[1], STDOUT_FILENO}, {pipe[1], STDERR_FILENO}}, child);
+    ::close(pipe[1]);
+    if (reason == 0) end.output = read_all(pipe[0]);
+    ::close(pipe[0]);
+  } else {
+    reason = errno;
   }
   if (reason != 0)
     end.not_started = std::string("cannot start ") + python + ": " + std::system_category().message(reason);
@@ -89,12 +95,27 @@ PythonEnd run_python(const std::string& module, const std::vector<std::string>& 
   return end;
 }
 
+AskingModule::AskingModule(const std::string& module, const std::vector<std::string>& arguments) {
+  std::array<int, 2> ends{-1, -1};
+  int reason = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0 ? 0 : errno;
+  const core::Descriptor of_module(ends[1]);
+  socket_.emplace(ends[0]);
+  if (reason == 0) reason = start(words_of(module, arguments), {{ends[1], STDIN_FILENO}}, process_);
+  if (reason != 0) not_started(std::system_category().message(reason));
+}
+
+AskingModule::~AskingModule() {
+  if (process_ > 0) (void)wait();
+}
+
+int AskingModule::wait() {
+  socket_.reset();
+  return wait_for(std::exchange(process_, 0));
+}
+
 void become_python(const std::string& module, const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = words_of(module, arguments);
   ::setenv("POLYBED", this_program().c_str(), 1);
-  ::execv(python, pointers_to(words).data());
-  throw core::FileError(
-      fmt::format("cannot start {}: {}; {}", python, std::system_category().message(errno), python_packages));
+  not_started(become(words_of(module, arguments)));
 }
 
 }  // namespace polybed::multiscale

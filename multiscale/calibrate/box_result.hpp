@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,21 +18,6 @@ struct Estimate {
 
 /// Mean and standard error of blocks of equal length, their number a multiple of 4.
 [[nodiscard]] Estimate estimate_of(const std::vector<double>& blocks);
-
-/// Half-width of the two-sided 68.27 % interval of Student's distribution, what one standard error is of a normal one:
-/// 1.837 1.321 1.197 1.142 1.111 1.091 1.077 1.067 1.059 for 1 to 9 degrees of freedom; beyond, the first terms of
-/// its series 1 + 1/(2 n) + 1/(4 n^2) (Abramowitz and Stegun 1964, 26.7.5, at 1), within 1e-4 of it. Throws
-/// std::invalid_argument at 0.
-[[nodiscard]] double student_one_sigma(std::size_t degrees);
-
-/// Seeds from which on their scatter alone is the error of their mean.
-inline constexpr std::size_t seeds_that_tell = 3;
-
-/// Mean over seeds. The error is t s/sqrt(n), s the standard deviation of the n boxes about their mean and t Student's
-/// factor of one standard error (student_one_sigma): seeds are independent, and blocks of one are not. They remember
-/// the start, which makes their error too small, and count as error what all boxes lose on their way, which makes it
-/// too great. Of two seeds, that of the boxes' own errors together if it is more; of one that.
-[[nodiscard]] Estimate mean_of_seeds(const std::vector<Estimate>& seeds);
 
 /// Whether the error from blocks twice as long is more than 1.3 times that of these: they are not independent.
 [[nodiscard]] bool error_grows(const std::vector<double>& blocks);
@@ -58,14 +42,10 @@ struct BoxResult {
   Estimate bed_pressure, bed_balance;  ///< of a fluidised bed: by slabs and by the balance of forces, over the unit
   double bed_phi = 0;                  ///< where these are taken
   double velocity = 0;                 ///< superficial, of a fluidised bed, m/s
-
-  /// S = gamma d/sqrt(theta).
-  [[nodiscard]] double shear_number() const;
 };
 
-/// Writes a finished box; reads it back if it is there and of this hash.
+/// Writes a finished box as JSON: what a fit in Python reads.
 void write_box(const std::filesystem::path& path, const BoxResult& result);
-[[nodiscard]] std::optional<BoxResult> read_box(const std::filesystem::path& path, const std::string& hash);
 
 /// Runs a box of spheres in shear on one rank, or a fluidised one (bed_run.cpp). \param ranks  that share the latter
 [[nodiscard]] BoxResult run_box(const core::Scene& scene, const BoxPoint& point,

@@ -7,7 +7,7 @@
 #include "core/output/file.hpp"
 #include "fluid/solids_table.hpp"
 #include "fluid/solids_table_file.hpp"
-#include "multiscale/calibrate/fit.hpp"
+#include "multiscale/calibrate/table_shape.hpp"
 
 namespace polybed::multiscale {
 

@@ -73,33 +73,12 @@ Plan plan_of(const core::Scene& scene) {
   if (scene.bed.volume_share.size() != scene.species.size())
     throw core::CaseError(
         fmt::format("calibrate needs bed.volume_share; bed.start = \"{}\" has none", scene.bed.start));
-  Plan plan{regime_of(scene), {}, !scene.calibrate.share.empty(), {}, {}};
+  Plan plan{regime_of(scene), {}, !scene.calibrate.share.empty()};
   plan.axes = axes_of(scene, plan.regime.name);
   for (const double x : plan.axes.share)
     if (plan.binary && !(x > 0 && x < 1))
       throw core::CaseError("calibrate.share: both species have to be there, above 0 and below 1");
-  plan.seeds.assign(plan.axes.points(), scene.calibrate.seeds);
-  set_boxes(plan);
   return plan;
-}
-
-void set_boxes(Plan& plan) {
-  const TableAxes& a = plan.axes;
-  plan.boxes.clear();
-  std::size_t point = 0;
-  for (const double phi : a.phi)
-    for (const double stokes : a.stokes)
-      for (const double e : a.restitution)
-        for (const double mu : a.friction)
-          for (const double share : a.share) {
-            for (int seed = 1; seed <= plan.seeds[point]; ++seed)
-              plan.boxes.push_back({plan.regime.name, phi, stokes, e, mu, share, plan.binary, false, seed});
-            ++point;
-          }
-  for (std::size_t n = 0, count = plan.pushed() ? plan.boxes.size() : 0; n < count; ++n) {
-    plan.boxes.push_back(plan.boxes[n]);
-    plan.boxes.back().pushed = true;
-  }
 }
 
 MeanSphere mean_sphere(const std::vector<core::Species>& species, const std::vector<double>& share) {

@@ -1,7 +1,7 @@
-// Which boxes a calibration runs: the axes of its table, and every point with its seeds.
+// What a calibration runs: the axes of its table and the scene of each box. The Python package chooses points and
+// seeds.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,26 +22,16 @@ struct BoxPoint {
 /// Values of the axes, each rising; stokes is 0 alone of dry boxes, share 0 alone of spheres of one size.
 struct TableAxes {
   std::vector<double> phi, stokes, restitution, friction, share;
-  [[nodiscard]] std::size_t points() const {
-    return phi.size() * stokes.size() * restitution.size() * friction.size() * share.size();
-  }
 };
 
 struct Plan {
   fluid::Regime regime;  ///< dry | wet | bed
   TableAxes axes;
-  bool binary = false;
-  [[nodiscard]] bool pushed() const { return binary && regime.name == "dry"; }
-  [[nodiscard]] int least_seeds() const { return *std::min_element(seeds.begin(), seeds.end()); }
-  std::vector<int> seeds;       ///< of each point [phi][stokes][restitution][friction][share]
-  std::vector<BoxPoint> boxes;  ///< of every point its seeds; then, dry and binary, as many pushed
+  bool binary = false;  ///< boxes of two species
 };
 
 /// Throws core::CaseError for axes that do not rise or cannot be run.
 [[nodiscard]] Plan plan_of(const core::Scene& scene);
-
-/// Writes down the boxes of a plan's axes and seeds.
-void set_boxes(Plan& plan);
 
 /// The scene of a box: a cube for `dry` and `wet`, a column for `bed`.
 [[nodiscard]] core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point);

@@ -18,7 +18,7 @@ def needed(of_program):
         if (missing.name or "polybed").startswith("polybed"):
             raise
         told = (f"Python's package {missing.name} is missing for {sys.executable}: apt-get install python3-numpy python3-h5py "
-                "python3-matplotlib, and run /usr/bin/python3")
+                "python3-matplotlib python3-scipy, and run /usr/bin/python3")
         if not of_program:
             raise ImportError(told, name=missing.name) from None
         print(told, file=sys.stderr)

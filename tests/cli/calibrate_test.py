@@ -6,8 +6,10 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 import tomllib
 
 import h5py
@@ -145,6 +147,60 @@ class Calibration(Scratch):
         self.assertEqual(self.calibrate(DRY, "--set", "calibrate.solids_fraction=[0.3,0.4,0.45]").returncode, DONE)
         self.assertEqual(len(list((self.folder / "boxes/boxes").iterdir())), 3)
         self.assertEqual(json.loads(first.read_text())["pressure_Pa"], whole["pressure_Pa"], "the same bits")
+
+    def test_ctrl_c_ends_the_boxes_and_keeps_those_that_are_finished(self):
+        case = self.write("case.toml", DRY)
+        directory = self.folder / "boxes"
+        long = ["--set", "calibrate.strain=4000", "--set", "calibrate.discard_strain=4000"]
+        self.assertEqual(self.calibrate(DRY, "--set", "calibrate.solids_fraction=[0.1,0.2]", "-j", "2").returncode, DONE)
+        for stop in (signal.SIGINT, signal.SIGTERM):
+            with self.start("calibrate", case, "-o", directory, "-j", "2", *long) as running:
+                program.wait_until(running, lambda: len(self.children(running.pid)) == 3)  # two boxes, and who knows the case
+                children = self.children(running.pid)
+                refused = program.run("calibrate", case, "-o", directory, "--quiet")
+                self.assertEqual(refused.returncode, program.FILE)
+                self.assertRegex(refused.stderr, "process [0-9]+ on .* writes into it")
+                running.send_signal(stop)
+                said = running.communicate(timeout=program.LONGEST)[1]
+            self.assertEqual(running.returncode, program.STOPPED, said)
+            self.assertIn("boxes that are finished are kept, the same command goes on", said)
+            self.assertFalse([child for child in children if pathlib.Path(f"/proc/{child}").exists()])
+        with self.start("calibrate", case, "-o", directory, "-j", "2", *long) as running:
+            program.wait_until(running, lambda: len(self.children(running.pid)) == 3)
+            children = self.children(running.pid)
+            running.kill()
+        for _ in range(500):
+            left = [child for child in children if self.state(child) not in (None, "Z")]
+            if not left:
+                break
+            time.sleep(0.01)
+        self.assertFalse(left, "a command that is killed leaves no box behind")
+        self.assertEqual(len(list((directory / "boxes").iterdir())), 2)
+
+    def children(self, process):
+        return [int(child) for task in pathlib.Path(f"/proc/{process}/task").iterdir() for child in (task / "children").read_text().split()]
+
+    def state(self, process):
+        try:
+            return pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0]
+        except OSError:
+            return None
+
+    def test_a_full_standard_output_is_told_once_the_table_is_there(self):
+        with open("/dev/full", "w") as full:
+            case = self.write("case.toml", DRY)
+            done = program.run("calibrate", case, "-o", self.folder / "boxes", "--quiet", stdout=full)
+        self.assertEqual(done.returncode, program.FILE)
+        self.assertIn("standard output: cannot be written (No space left on device)", done.stderr)
+        self.assertTrue((self.folder / "boxes/table.h5").exists())
+
+    def test_wrong_words(self):
+        for words in ([], ["no.toml", "--jsn"], ["no.toml", "-j", "0"], ["no.toml", "--plan", "--check", "table.h5"]):
+            done = program.run("calibrate", *words)
+            self.assertEqual((done.returncode, done.stdout), (WRONG_CASE, ""), words)
+            self.assertIn("usage: polybed calibrate", done.stderr)
+        self.assertIn("-j JOBS", self.ends(DONE, "calibrate", "--help").stdout)
+        self.assertIn("no.toml", self.ends(program.FILE, "calibrate", "no.toml").stderr)
 
     def test_a_plan_runs_nothing_and_a_case_that_cannot_be_planned_is_told(self):
         plan = program.strict_json(self.calibrate(WET, "--plan", "--json", "--set", 'effects.drag="auto"').stdout)

@@ -57,6 +57,14 @@ class AmongStrangersFiles(Scratch):
         self.assertEqual(done.returncode, DONE, f"{words}\n{done.stdout}\n{done.stderr}")
         return done.stdout + done.stderr
 
+    def test_a_calibration(self):
+        few = ("particles=100", "strain=1", "discard_strain=0.5", "doublings=0", "seeds=1", "solids_fraction=[0.3,0.45]")
+        words = [word for setting in few for word in ("--set", f"calibrate.{setting}")]
+        for ranks in ([], ["-n", "2"]):
+            said = self.runs_ours_alone(program.PROGRAM, *ranks, "calibrate", ROOT / "cases/shear-box/case.toml", *words, "-o",
+                                        self.folder / f"boxes{len(ranks)}")
+            self.assertIn("table.h5", said)
+
     def test_a_run_and_its_pictures(self):
         self.assertIn("picture.png", self.runs_ours_alone(program.PROGRAM, "tfm", self.case, "-o", "run"))
         run = self.place / "run"

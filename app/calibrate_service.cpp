@@ -1,0 +1,237 @@
+#include "app/calibrate_service.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/case/file.hpp"
+#include "core/error.hpp"
+#include "core/output/directory.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/output/json_value.hpp"
+#include "core/print.hpp"
+#include "core/version.hpp"
+#include "fluid/properties.hpp"
+#include "fluid/solids_table.hpp"
+#include "multiscale/calibrate/box_result.hpp"
+#include "multiscale/calibrate/table_shape.hpp"
+#include "multiscale/effects/choice.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+/// Particle-steps per second of sheared boxes, looked at every fourth step, on the development machine.
+constexpr double particle_steps_per_second = 1.5e7;
+
+BoxPoint point_of(const std::string& text) {
+  BoxPoint p;
+  char regime[8] = {};
+  int binary = 0, pushed = 0;
+  if (std::sscanf(text.c_str(), "%7s %lf %lf %lf %lf %lf %d %d %d", regime, &p.phi, &p.stokes, &p.restitution,
+                  &p.friction, &p.share, &binary, &pushed, &p.seed) != 9)
+    throw core::CaseError(fmt::format("calibrate: \"{}\" is no box", text));
+  p.regime = regime;
+  p.binary = binary != 0;
+  p.pushed = pushed != 0;
+  return p;
+}
+
+void write_numbers(core::Json& json, const std::vector<double>& values) {
+  json.begin_array();
+  for (const double value : values) json.value(value);
+  json.end_array();
+}
+
+class Service {
+ public:
+  Service(std::shared_ptr<const core::Ranks> ranks, std::function<void()> show)
+      : ranks_(std::move(ranks)), show_(std::move(show)) {}
+
+  /// \param words  the question and what it is about
+  std::string answer(const Texts& words) {
+    using Answer = void (Service::*)(core::Json&, const Texts&);
+    static const std::map<std::string, Answer> answers{{"case", &Service::read_case},   {"take", &Service::take},
+                                                       {"boxes", &Service::name_boxes}, {"run", &Service::run},
+                                                       {"table", &Service::read},       {"bed", &Service::read_bed},
+                                                       {"ratios", &Service::ratios}};
+    core::Json json;
+    (this->*answers.at(words.at(0)))(json, Texts(words.begin() + 1, words.end()));
+    return json.text();
+  }
+
+ private:
+  void read_case(core::Json& json, const Texts& words) {
+    scene_ = read_chosen_case(words.at(0), Texts(words.begin() + 1, words.end()));
+    const Plan plan = plan_of(scene_);
+    const MeanSphere mean = mean_sphere(scene_.species, scene_.bed.volume_share);
+    json.begin_object().member("regime", plan.regime.name).member("reason", plan.regime.reason);
+    json.member("reference", plan.regime.name == "wet" ? "viscous" : fluid::effective_reference);
+    json.key("numbers").begin_array();
+    for (const fluid::RegimeNumbers& n : plan.regime.numbers) {
+      json.begin_object().member("species", n.species).member("shear_times_relaxation", n.shear_times_relaxation);
+      json.member("stokes_least", n.stokes_least).member("stokes_most", n.stokes_most);
+      json.member("stokes_of_shear", n.stokes_of_shear).member("voidage", n.voidage);
+      json.member("shear_rate", n.shear_rate).end_object();
+    }
+    json.end_array().key("axes").begin_object();
+    write_numbers(json.key("phi"), plan.axes.phi);
+    write_numbers(json.key("stokes"), plan.axes.stokes);
+    write_numbers(json.key("e"), plan.axes.restitution);
+    write_numbers(json.key("mu_p"), plan.axes.friction);
+    write_numbers(json.key("x2"), plan.axes.share);
+    json.end_object().member("binary", plan.binary).member("seeds", scene_.calibrate.seeds);
+    json.member("size_ratio", plan.binary ? scene_.species[1].diameter / scene_.species[0].diameter : 1);
+    if (plan.regime.name == "bed")  // |rho_p - rho_f| g D/rho_p
+      json.member("weight_m2_s2", std::abs(1 - fluid::fluid_constants(scene_.fluid).density / mean.density) *
+                                      scene_.column.gravity * mean.diameter);
+    json.member("ranks", ranks_ ? ranks_->count() : 1).member("git_commit", core::git_commit());
+    json.member("case_hash", core::text_hash(core::resolved_case(scene_))).end_object();
+  }
+
+  void take(core::Json& json, const Texts& words) {
+    core::on_first(ranks_.get(), [&] {
+      taken_.emplace(words.at(0));
+      core::make_folder(std::filesystem::path(words.at(0)) / "boxes");
+    });
+    json.null();
+  }
+
+  [[nodiscard]] double expected(const BoxPoint& point) const {
+    return particle_steps_of(scene_, point) / particle_steps_per_second;
+  }
+
+  void name_boxes(core::Json& json, const Texts& words) {
+    json.begin_array();
+    for (const std::string& word : words) {
+      const BoxPoint point = point_of(word);
+      json.begin_array().value(box_hash(scene_, point)).value(expected(point)).end_array();
+    }
+    json.end_array();
+  }
+
+  /// A fluidised box is shared by all ranks; of sheared boxes, which one rank runs, the next one goes to the rank that
+  /// has least to do.
+  void run(core::Json& json, const Texts& words) {
+    std::vector<double> load(std::size_t(ranks_ ? ranks_->count() : 1), 0.0);
+    std::vector<std::int64_t> failed(words.size() / 2, 0);
+    const auto here = std::size_t(ranks_ ? ranks_->rank() : 0);
+    for (std::size_t n = 0; n < failed.size(); ++n) {
+      const BoxPoint point = point_of(words[2 * n + 1]);
+      const bool shared = point.regime == "bed";
+      const auto who = std::size_t(std::min_element(load.begin(), load.end()) - load.begin());
+      load[who] += expected(point);
+      if (!shared && who != here) continue;
+      try {
+        const BoxResult result = run_box(scene_, point, shared ? ranks_ : nullptr);
+        core::on_first(shared ? ranks_.get() : nullptr, [&] { write_box(words[2 * n], result); });
+        if (here == 0) show_();
+      } catch (const core::NumericsError& error) {
+        core::print(stderr, "{}\n", error.what());
+        failed[n] = 1;
+      }
+    }
+    core::add_over_ranks(ranks_.get(), failed);
+    json.begin_array();
+    for (std::size_t n = 0; n < failed.size(); ++n)
+      if (failed[n] != 0) json.value(std::uint64_t(n));
+    json.end_array();
+  }
+
+  void read(core::Json& json, const Texts& words) {
+    core::on_first(ranks_.get(), [&] {
+      const fluid::SolidsTable table = fluid::read_solids_table(words.at(0));
+      json.begin_object().key("falls").begin_array();
+      for (const std::string& fall : falls_of(table)) json.value(fall);
+      json.end_array().member("falls_in_shear_up_to", falls_in_shear_up_to(table));
+      write_numbers(json.key("a"), structure_coefficients(table));
+      json.end_object();
+    });
+  }
+
+  void read_bed(core::Json& json, const Texts& words) {
+    core::on_first(ranks_.get(), [&] {
+      if (fluid::regime_of_table(words.at(0)) != "bed")
+        throw core::CaseError(words[0] + ": no table of fluidised boxes, as --bed takes one");
+      (void)fluid::read_bed_table(words[0]);
+    });
+    json.null();
+  }
+
+  void ratios(core::Json& json, const Texts& words) {
+    core::on_first(ranks_.get(), [&] {
+      const fluid::SolidsTable table = fluid::read_solids_table(words.at(0));
+      json.begin_array();
+      for (std::size_t n = 1; n < words.size(); ++n) {
+        const BoxPoint p = point_of(words[n]);
+        const auto at = [&](double sigma) {
+          return fluid::ratios_at(table, {p.restitution, p.friction, p.share, sigma})(p.phi, p.stokes);
+        };
+        const closures::RatioValues mean = at(0), up = at(1);
+        write_numbers(json,
+                      {mean.pressure.pressure, up.pressure.pressure, mean.viscosity.pressure, up.viscosity.pressure});
+      }
+      json.end_array();
+    });
+  }
+
+  std::shared_ptr<const core::Ranks> ranks_;
+  std::function<void()> show_;  ///< that the first rank has finished a box
+  core::Scene scene_;
+  std::optional<core::OutputDirectory> taken_;  ///< by the first rank
+};
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using Stream = std::unique_ptr<std::FILE, Close>;
+
+/// The next line; empty at the end.
+std::string next_line(std::FILE* stream) {
+  std::string line;
+  for (int c = std::fgetc(stream); c != EOF && c != '\n'; c = std::fgetc(stream)) line.push_back(char(c));
+  return line;
+}
+
+Texts words_of(const std::string& line) {
+  Texts words;
+  const core::JsonValue question = core::parse_json(line);
+  for (const core::JsonValue& word : question.array()) words.push_back(word.text());
+  return words;
+}
+
+}  // namespace
+
+void answer_calibration(int questions, int answers, std::shared_ptr<const core::Ranks> ranks) {
+  const bool first = core::is_first(ranks.get());
+  const Stream in(first ? ::fdopen(::dup(questions), "r") : nullptr);
+  const Stream out(first ? ::fdopen(::dup(answers), "w") : nullptr);
+  const auto show = [&out](const std::string& text) {
+    core::put(out.get(), text + "\n");
+    std::fflush(out.get());
+  };
+  Service service(ranks, [&show] { show("null"); });
+  for (;;) {
+    const std::string line = core::said_by(ranks.get(), 0, first ? next_line(in.get()) : "");
+    if (line.empty()) return;
+    const std::string answer = service.answer(words_of(line));
+    if (first) show(answer);
+  }
+}
+
+void run_box_into(const std::string& file, const std::string& case_path, const std::vector<std::string>& overrides,
+                  const std::string& point) {
+  write_box(file, run_box(read_chosen_case(case_path, overrides), point_of(point)));
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,203 @@
+"""Runs boxes of particles and makes a table of the solids stress: what `polybed calibrate` hands over to.
+
+    python3 -m polybed.calibration CASE [-o DIR] [-j N] [--set KEY=VALUE] [--plan | --check TABLE] [--bed TABLE] [--json] [--quiet]
+
+Exit codes are those of polybed: 0 done, 2 a wrong case or command, 3 a box failed or the table may not be used, 4 a file, 130 stopped.
+"""
+
+import argparse
+import json
+import signal
+import sys
+import time
+from pathlib import Path
+
+from polybed.packages import needed
+
+with needed(__name__ == "__main__"):
+    from polybed.calibration import bed, fit
+    from polybed.calibration.boxes import Boxes
+    from polybed.calibration.check import deviation, deviation_lines, points_between
+    from polybed.calibration.output import ERR, OUT, duration, refusals, say, write_text
+    from polybed.calibration.plan import Plan
+    from polybed.calibration.service import FILE, STOPPED, WRONG_CASE, Failure, Service
+    from polybed.calibration.text import box_lines, table_toml
+    from polybed.files import FAULTS
+    from polybed.in_place import in_place
+    from polybed.solids_table import read_table
+
+
+def jobs(text):
+    count = int(text)
+    if not 1 <= count <= 1024:
+        raise argparse.ArgumentTypeError(f"{count} is not in range 1 to 1024")
+    return count
+
+
+def parsed(arguments):
+    parser = argparse.ArgumentParser(prog="polybed calibrate", allow_abbrev=False,
+                                     description="Runs boxes of particles and makes a table of the solids stress for the two-fluid model.")
+    parser.add_argument("case", metavar="CASE", help="the case file")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="in place of what the file says")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="directory (default: runs/<case name>-calibrate)")
+    parser.add_argument("-j", "--jobs", type=jobs, default=1, help="boxes at once (default: 1)")
+    only = parser.add_mutually_exclusive_group()
+    only.add_argument("--plan", action="store_true", help="which boxes, and how long; nothing is run")
+    only.add_argument("--check", metavar="TABLE", help="run a few points that it was not fitted to, and compare")
+    parser.add_argument("--bed", metavar="TABLE", help="of fluidised boxes (regime bed): its p_bed is put beside what is sheared")
+    parser.add_argument("--quiet", action="store_true", help="no progress")
+    parser.add_argument("--json", action="store_true", help="one JSON object")
+    parser.add_argument("--on-ranks", action="store_true", help=argparse.SUPPRESS)
+    options = parser.parse_args(arguments)
+    case = Path(options.case).absolute()  # called by its folder, which may be a link
+    options.output = options.output or Path("runs") / f"{case.parent.name if case.stem == 'case' else case.stem}-calibrate"
+    options.people = ERR if options.json else OUT  # with --json standard output is the object's alone
+    return options
+
+
+def say_object(found):
+    say(json.dumps(found, ensure_ascii=False) + "\n")
+
+
+def show_plan(options, plan, boxes):
+    case, axes, at_once = plan.case, plan.axes, plan.case["ranks"] if options.on_ranks else options.jobs
+    text = f"regime {plan.regime}: {case['reason']}\n"
+    for n in case["numbers"]:
+        text += (f"  {n['species']}: gamma tau_p {n['shear_times_relaxation']:.2g}, St* {n['stokes_least']:.2g} to {n['stokes_most']:.2g}, "
+                 f"St_gamma {n['stokes_of_shear']:.2g} (voidage {n['voidage']:.3f}, {n['shear_rate']:.3g} 1/s)\n")
+    if case["binary"] and not plan.pushed:
+        text += ("no beta_12: it is measured in dry boxes alone. Here a push would meet drag towards the flow and films, whose part the "
+                 "drag law of the two-fluid model has already\n")
+    counts = ", ".join(f"{name} {len(values)}" for name, values in axes.items())
+    expected = boxes.expected_left() / at_once
+    say(f"{text}{len(boxes.points)} boxes: {counts}, seeds {min(plan.seeds)}; {len(boxes.left())} left, about {duration(expected)} on "
+        f"{at_once} at once\n", options.people)
+    if options.plan and options.json:
+        say_object({"regime": plan.regime, "reason": case["reason"], "boxes": len(boxes.points), "left": len(boxes.left()),
+                    "expected_s": expected})
+
+
+def check_table(options, service, plan):
+    """Runs points between the knots of a table and says how they compare."""
+    service.ask("table", options.check)  # ends for what is none
+    table = read_table(options.check)
+    if table.attributes["regime"] != plan.regime:
+        raise Failure(WRONG_CASE, f"{options.check} is a {table.attributes['regime']} table, the boxes of the case are {plan.regime}: "
+                                  f"{plan.case['reason']}")
+    points = points_between(table, plan.case["binary"])
+    boxes = Boxes(service, options, points).run()
+    ratios = service.ask("ratios", options.check, *(point.text() for point in points))
+    lines = deviation_lines(points, [deviation(box, read, table.attributes["lambda"]) for box, read in zip(boxes, ratios)])
+    say(lines, options.people)
+    write_text(options.output / "check.txt", lines)
+
+
+def identify(table, plan):
+    """Says in a table which program made it, of which case and when."""
+    table.attributes |= {"filetype": "polybed solids table", "version": 1, "git_commit": plan.case["git_commit"],
+                         "created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "case_hash": plan.case["case_hash"]}
+
+
+def say_table(options, plan, count, tested):
+    path = options.output / "table.h5"
+    say(f"table: {path}\n", options.people)
+    if options.json:
+        say_object({"table": str(path), "regime": plan.regime, "reason": plan.case["reason"], "boxes": count, **tested})
+
+
+def finish_bed(options, plan, boxes):
+    """Fluidised boxes: p_bed by both measures, and the table of that by slabs."""
+    table = bed.bed_table(plan.seeds, boxes, plan.case["weight_m2_s2"])
+    lines = bed.bed_lines(boxes) + "\n" + bed.bed_rows(table)
+    say(lines, options.people)
+    write_text(options.output / "boxes.txt", lines)
+    bed.require_usable(table)
+    identify(table, plan)
+    with in_place(options.output / "table.h5") as path:
+        table.write(path)
+    say_table(options, plan, len(boxes), {"greatest_error": None, "fit_residual": None, "left_out_residual": None})
+
+
+def tested_by(table, plan):
+    """What a fit was tested by: by no scatter where a point has one box, and by no curve where there are too few solids fractions."""
+    by_curve = len(table["phi"]) >= fit.LEAST_TO_LEAVE_OUT
+    return {"greatest_error": float(max(fit.relative_errors(table))) if min(plan.seeds) > 1 else None,
+            "fit_residual": table.attributes["fit_residual"] if by_curve else None,
+            "left_out_residual": table.attributes["left_out_residual"] if by_curve else None}
+
+
+def finish_sheared(options, service, plan, boxes, table):
+    """Sheared boxes: what they have measured, and the fitted table if it may be used."""
+    if options.bed:
+        of_bed = read_table(options.bed)
+        table.arrays |= {"phi_bed": of_bed["phi"], "p_bed": of_bed["p_bed"]}
+        table.arrays |= {"p_bed_se": of_bed["p_bed_se"]} if "p_bed_se" in of_bed.names() else {}
+    lines = box_lines(boxes)
+    say(lines, options.people)
+    write_text(options.output / "boxes.txt", lines)
+    tested = tested_by(table, plan)
+    error, residual, left_out = ("-" if share is None else f"{100 * share:.2f} %" for share in tested.values())
+    say(f"standard errors up to {error}; with a solids fraction left out {left_out} off, {residual} beyond two standard errors\n",
+        options.people)
+    identify(table, plan)
+    table.attributes |= {"size_ratio": float(plan.case["size_ratio"]), "units": "ratios to the reference; p_bed over |rho_p - rho_f| g D"}
+    fit.require_exchange(table)
+    with in_place(options.output / "table.h5") as path:
+        table.write(path)
+        shape = service.ask("table", path)
+        if shape["falls_in_shear_up_to"] > 0:
+            say(f"at fixed shear rate without a fluid the pressure falls up to phi = {shape['falls_in_shear_up_to']:.3f}, as a dilute gas "
+                "does\n", options.people)
+        fit.require_usable(table, shape["falls"])
+    write_text(options.output / "table.toml", table_toml(table, plan, boxes, shape["a"]))
+    say_table(options, plan, len(boxes), tested)
+
+
+def calibrate(options, service):
+    plan = Plan.of_case(service.ask("case", options.case, *options.set))
+    if options.bed:
+        service.ask("bed", options.bed)  # ends for what is none
+    if options.on_ranks and options.jobs > 1:
+        raise Failure(WRONG_CASE, "-j starts processes of its own: under mpirun the ranks run the boxes, leave it out")
+    if not options.plan:
+        service.ask("take", options.output)
+    if options.check:
+        return check_table(options, service, plan)
+    boxes = Boxes(service, options, plan.boxes())
+    show_plan(options, plan, boxes)
+    if options.plan:
+        return None
+    results = boxes.run()
+    if plan.regime == "bed":
+        return finish_bed(options, plan, results)
+    table = fit.fitted(plan, results)
+    while fit.add_seeds(plan, table):
+        results = Boxes(service, options, plan.boxes()).run()
+        table = fit.fitted(plan, results)
+    return finish_sheared(options, service, plan, results, table)
+
+
+def main(arguments=None):
+    options = parsed(arguments)
+    for stop in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(stop, signal.default_int_handler)
+    try:
+        with Service(options.on_ranks) as service:
+            calibrate(options, service)
+    except Failure as failure:
+        say(f"{failure}\n" if str(failure) else "", ERR)
+        return failure.code
+    except FAULTS as fault:
+        say(f"{fault}\n", ERR)
+        return FILE
+    except KeyboardInterrupt:
+        say("stopped by the user; boxes that are finished are kept, the same command goes on\n", ERR)
+        return STOPPED
+    if refusals:
+        say(f"standard output: cannot be written ({refusals[0].strerror})\n", ERR)
+        return FILE
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

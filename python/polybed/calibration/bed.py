@@ -1,0 +1,61 @@
+"""The table of fluidised boxes: p_bed(phi), measured twice."""
+
+import math
+
+from polybed.calibration.fit import Table, grouped, mean_of_seeds
+from polybed.calibration.service import NUMBERS, Failure
+
+AGREEMENT = 0.05  # what both measures of the pressure may differ by
+UNITS = "p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity m/s"
+
+
+def bed_table(seeds, boxes, weight):
+    """Means over the seeds of each point, in rising phi. weight: |rho_p - rho_f| g D/rho_p, m2/s2"""
+    points = list(grouped(boxes, seeds))
+    slabs, balance = ([mean_of_seeds([tuple(box[name]) for box in point]) for point in points] for name in ("p_bed", "p_bed_by_balance"))
+    return Table({
+        "phi": [sum(box["bed_phi"] / len(point) for box in point) for point in points],
+        "p_bed": [mean for mean, _ in slabs], "p_bed_se": [error for _, error in slabs],
+        "p_bed_n": [float(len(point)) for point in points],
+        "p_bed_by_balance": [mean for mean, _ in balance], "p_bed_by_balance_se": [error for _, error in balance],
+        "theta_bed": [sum(box["theta_m2_s2"][0] / len(point) for box in point) / weight for point in points],
+        "velocity": [point[0]["velocity_m_s"] for point in points],
+    }, {"regime": "bed", "units": UNITS})
+
+
+def rows(table):
+    """(phi, p_bed by slabs, its error, by the balance of forces, its error) of each row."""
+    return list(zip(*(table[name] for name in ("phi", "p_bed", "p_bed_se", "p_bed_by_balance", "p_bed_by_balance_se"))))
+
+
+def require_usable(table):
+    """Raises Failure where the pressure does not rise, or where both measures differ by more than AGREEMENT and two standard errors."""
+    last = None
+    for phi, slabs, slabs_error, balance, balance_error in rows(table):
+        off = abs(balance - slabs)
+        if off > AGREEMENT * abs(slabs) and off > 2 * math.hypot(slabs_error, balance_error):
+            raise Failure(NUMBERS, f"at phi = {phi:.3f} the pressure is {slabs:.4g} by slabs and {balance:.4g} by the balance of forces, "
+                                   f"over the unit: {100 * off / abs(slabs):.0f} % apart, {100 * AGREEMENT:.0f} % are allowed")
+        if last and not (phi > last[0] and slabs > last[1]):
+            raise Failure(NUMBERS, f"p_bed falls between phi = {last[0]:.3f} and {phi:.3f}: {last[1]:.4g} and {slabs:.4g}")
+        last = phi, slabs
+
+
+def bed_lines(boxes):
+    """One line for each box, for people."""
+    lines = f"{'planned':>8} {'phi':>8} {'seed':>5} {'p_bed by slabs':>20} {'by balance':>20} {'slabs/balance':>12}\n"
+    for box in boxes:
+        slabs, balance = (f"{mean:.4g}+-{error:.1g}" for mean, error in (box["p_bed"], box["p_bed_by_balance"]))
+        lines += (f"{box['solids_fraction']:>8g} {box['bed_phi']:>8.4f} {box['seed']:>5} {slabs:>20} {balance:>20} "
+                  f"{box['p_bed'][0] / box['p_bed_by_balance'][0]:>12.3f}\n")
+    return lines
+
+
+def bed_rows(table):
+    """One line for each row of the table, for people."""
+    lines = f"{'mm/s':>8} {'phi':>8} {'p_bed by slabs':>20} {'by balance':>20} {'difference':>12} {'theta':>8}\n"
+    for row, velocity, theta in zip(rows(table), table["velocity"], table["theta_bed"]):
+        phi, slabs, slabs_error, balance, balance_error = row
+        lines += (f"{1e3 * velocity:>8.3f} {phi:>8.4f} {f'{slabs:.4g}+-{slabs_error:.1g}':>20} {f'{balance:.4g}+-{balance_error:.1g}':>20} "
+                  f"{f'{100 * (balance / slabs - 1):+.1f} %':>12} {theta:>8.3g}\n")
+    return lines

@@ -1,0 +1,198 @@
+"""From boxes to a table: means over seeds, their errors, and whether the table may be used."""
+
+import math
+from dataclasses import dataclass, field
+
+import h5py
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+
+from polybed.calibration.service import NUMBERS, Failure
+from polybed.solids_table import AXES, checksum
+
+# Half-width of the two-sided 68.27 % interval of Student's distribution by degrees of freedom, what one standard error is of a normal one.
+STUDENT = (1.837, 1.321, 1.197, 1.142, 1.111, 1.091, 1.077, 1.067, 1.059)
+SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean; points that scatter get more seeds
+MOST_SEEDS = 10  # of a point
+GREATEST_RESIDUAL = 0.05  # of a fit that may be used, and the greatest standard error of its points
+LEAST_TO_LEAVE_OUT = 4  # solids fractions from which on one can be left out and read from the others
+
+
+@dataclass
+class Table:
+    """A table of the solids stress, named as in its file."""
+    arrays: dict = field(default_factory=dict)  # axes, and quantities [phi][stokes][e][mu_p][x2]
+    attributes: dict = field(default_factory=dict)
+
+    def __getitem__(self, name):
+        return self.arrays[name]
+
+    def put(self, name, values):
+        """Adds a quantity, one value for each point."""
+        self.arrays[name] = np.reshape(values, [len(self.arrays[axis]) for axis in AXES])
+
+    def points(self, name):
+        """A quantity, or the solids fraction, of each point."""
+        values = self.arrays[name]
+        return np.repeat(values, self.arrays["S"].size // len(values)) if name == "phi" else values.ravel()
+
+    def lines(self, name):
+        """A quantity along phi, one row for each place in the other axes."""
+        return self.arrays[name].reshape(len(self.arrays["phi"]), -1).T
+
+    def write(self, path):
+        """Writes the file, with its checksum."""
+        with h5py.File(path, "w") as file:
+            for name, values in self.arrays.items():
+                file[name] = np.asarray(values, float)
+            file.attrs.update(self.attributes)
+            file.attrs["crc32"] = checksum(self.arrays)
+
+
+def student_one_sigma(degrees):
+    """Student's factor of one standard error; beyond the table the first terms of its series 1 + 1/(2 n) + 1/(4 n^2) (Abramowitz and
+    Stegun 1964, 26.7.5, at 1), within 1e-4 of it."""
+    if degrees < 1:
+        raise ValueError("no degrees of freedom")
+    return STUDENT[degrees - 1] if degrees <= len(STUDENT) else 1 + 1 / (2 * degrees) + 1 / (4 * degrees**2)
+
+
+def mean_of_seeds(seeds):
+    """Mean over seeds, (mean, error) of each, and its error: t s/sqrt(n), s the standard deviation of the n boxes about their mean and t
+    Student's factor. Seeds are independent, and blocks of one are not: they remember the start, which makes their error too small, and
+    count as error what all boxes lose on their way, which makes it too great. Of two seeds, the error of the boxes' own together if it is
+    more; of one that."""
+    n = len(seeds)
+    mean = sum(m for m, _ in seeds) / n
+    inner = math.sqrt(sum(error * error for _, error in seeds)) / n
+    if n < 2:
+        return mean, inner
+    outer = student_one_sigma(n - 1) * math.sqrt(sum((m - mean) * (m - mean) for m, _ in seeds) / (n * (n - 1)))
+    return mean, max(inner, outer) if n < SCATTER_SEEDS else outer
+
+
+def grouped(boxes, seeds):
+    """The boxes of each point."""
+    first = 0
+    for count in seeds:
+        yield boxes[first:first + count]
+        first += count
+
+
+def fitted_inertia(stokes, pressure):
+    """lambda of p = mu_f gamma V (1 + lambda St): slope over intercept of p/(mu_f gamma V) in St, by relative deviations, the median over
+    the solids fractions; 0 where it would not be positive. pressure: [phi][stokes]"""
+    found = []
+    for row in pressure:
+        weight = [1 / (value * value) for value in row]
+        n, x, y = sum(weight), sum(w * s for w, s in zip(weight, stokes)), sum(w * v for w, v in zip(weight, row))
+        xx, xy = sum(w * s * s for w, s in zip(weight, stokes)), sum(w * s * v for w, s, v in zip(weight, stokes, row))
+        slope = (n * xy - x * y) / (n * xx - x * x)
+        intercept = (y - slope * x) / n
+        found.append(slope / intercept if intercept > 0 else 0.0)
+    return max(sorted(found)[len(found) // 2], 0.0)
+
+
+def shear_number(box):
+    """S = gamma d/sqrt(theta)."""
+    return box["shear_rate_1_s"] * box["diameter_m"] / math.sqrt(box["theta_m2_s2"][0])
+
+
+def fitted(plan, boxes):
+    """The table of sheared boxes in the order of a plan. Its curves pass through the means of the seeds."""
+    axes = {name: list(map(float, plan.axes[name])) for name in AXES}
+    points = list(grouped(boxes, plan.seeds))
+    plain = [sum(box["p_ratio"][0] / len(point) for box in point) for point in points]
+    inertia = 0.0
+    if plan.regime == "wet" and len(axes["stokes"]) > 1:  # of the first restitution, friction and share
+        inertia = fitted_inertia(axes["stokes"], np.reshape(plain, (len(axes["phi"]), len(axes["stokes"]), -1))[:, :, 0].tolist())
+    table = Table(axes, {"regime": plan.regime, "reference": plan.case["reference"], "lambda": inertia})
+    per = [1 / (1 + inertia * point.stokes) for point in plan.points()]
+    add_means(table, "p_ratio", "p_ratio", points, per)
+    add_means(table, "mu_ratio", "mu_ratio", points, per)
+    add_means(table, "gamma_ratio", "gamma_ratio", points, per)
+    add_means(table, "T_ratio_12", "temperature_ratio", points)
+    table.put("S", [sum(shear_number(box) / len(point) for box in point) for point in points])
+    if plan.pushed:
+        pushed = list(grouped(boxes[sum(plan.seeds):], plan.seeds))
+        add_means(table, "beta_12_ratio", "exchange_ratio", pushed)
+        # the drift over sqrt(theta) up to which all points were measured
+        table.arrays["beta_12_drift"] = [min(max(abs(box["slip_over_sqrt_theta"]) for box in point) for point in pushed)]
+    table.attributes["left_out_residual"], table.attributes["fit_residual"] = left_out(table)
+    return table
+
+
+def add_means(table, name, of_box, points, per=None):
+    per = per or [1.0] * len(points)
+    means = [mean_of_seeds([tuple(box[of_box]) for box in point]) for point in points]
+    table.put(name, [mean * share for (mean, _), share in zip(means, per)])
+    table.put(f"{name}_se", [error * share for (_, error), share in zip(means, per)])
+    table.put(f"{name}_n", [float(len(point)) for point in points])
+
+
+def curve(x, y):
+    """The monotone cubic by which a run reads a table: slopes of Fritsch and Carlson, 0 at both ends. y: one column for each curve"""
+    slopes = PchipInterpolator(x, y).derivative()(x)
+    slopes[[0, -1]] = 0
+    return CubicHermiteSpline(x, y, slopes)
+
+
+def missed_at(phi, value, error, p):
+    """What a curve through all knots but one misses there, over the value: in all, and beyond two standard errors of both."""
+    knots, others, errors = (np.delete(values, p) for values in (phi, value, error))
+    read, *moved = curve(knots, np.column_stack([others, others[:, None] + np.diag(errors)]))(phi[p])
+    off = abs(read - value[p])
+    both = math.sqrt(error[p]**2 + sum((one - read)**2 for one in moved))
+    return off / value[p], (off - 2 * both) / value[p]
+
+
+def left_out(table):
+    """Greatest |curve/point - 1| of p and mu where a solids fraction is left out of the curve, and the same beyond two standard errors of
+    both together; 0 where there are too few."""
+    phi = np.array(table["phi"])
+    if len(phi) < LEAST_TO_LEAVE_OUT:
+        return 0.0, 0.0
+    missed = [missed_at(phi, value, error, p) for name in ("p_ratio", "mu_ratio")
+              for value, error in zip(table.lines(name), table.lines(f"{name}_se")) for p in range(1, len(phi) - 1)]
+    return tuple(max(0.0, *(float(one[n]) for one in missed)) for n in range(2))
+
+
+def relative_errors(table):
+    """Standard error over value of p or mu at every point, whichever is more."""
+    p, p_error, mu, mu_error = (table.points(name) for name in ("p_ratio", "p_ratio_se", "mu_ratio", "mu_ratio_se"))
+    return np.maximum(p_error / p, mu_error / np.abs(mu))
+
+
+def add_seeds(plan, table):
+    """A seed more at every point whose standard error is too great and that has fewer than MOST_SEEDS, of a plan that wants its points
+    known. Returns whether there is such a point."""
+    if min(plan.seeds) < SCATTER_SEEDS:
+        return False
+    more = [error > GREATEST_RESIDUAL and seeds < MOST_SEEDS for error, seeds in zip(relative_errors(table), plan.seeds)]
+    plan.seeds = [seeds + one for seeds, one in zip(plan.seeds, more)]
+    return any(more)
+
+
+def require_exchange(table):
+    """Raises Failure where species seem to be sped up by each other."""
+    if "beta_12_ratio" not in table.arrays:
+        return
+    for phi, ratio, error in zip(*map(table.points, ("phi", "beta_12_ratio", "beta_12_ratio_se"))):
+        if not ratio > 0:
+            raise Failure(NUMBERS, f"at phi = {phi:g} beta_12 is {ratio:.3g} of its form, +- {error:.2g}: boxes too short to tell the "
+                                   "drift of species that are pushed apart; raise calibrate.particles or calibrate.strain")
+
+
+def require_usable(table, falls):
+    """Raises Failure with what is wrong with a table: where its pressure falls, its residual, or, with several seeds, a point whose
+    standard error is too great. falls: places, as the program answers"""
+    if falls:
+        raise Failure(NUMBERS, "the pressure of the table falls with the solids fraction, which no bed can follow: " + "; ".join(falls))
+    residual, allowed = table.attributes["fit_residual"], f"{100 * GREATEST_RESIDUAL:.0f} % are allowed"
+    if not residual <= GREATEST_RESIDUAL:
+        raise Failure(NUMBERS, f"the curve through the other solids fractions misses one by {100 * residual:.1f} % more than two standard "
+                               f"errors of both, {allowed}: the grid is too coarse for what it shows; add to calibrate.solids_fraction")
+    for phi, seeds, error in zip(table.points("phi"), table.points("p_ratio_n"), relative_errors(table)):
+        if seeds > 1 and not error <= GREATEST_RESIDUAL:
+            raise Failure(NUMBERS, f"at phi = {phi:g} the seeds scatter: p or mu has a standard error of {100 * error:.1f} %, {allowed}; "
+                                   "raise calibrate.seeds or calibrate.particles")

@@ -1,0 +1,340 @@
+#!/usr/bin/python3
+"""Plans, means over seeds, fits and judgements of a calibration; no box is run: calibration_test.py PROGRAM PACKAGE_DIRECTORY"""
+
+import json
+import math
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+os.environ["POLYBED"], PACKAGE = os.path.abspath(sys.argv[1]), sys.argv[2]
+sys.path.insert(0, PACKAGE)
+
+from polybed.calibration import bed, fit
+from polybed.calibration.boxes import MEANS, SINGLE, Pool, read_box
+from polybed.calibration.check import deviation, deviation_lines, points_between
+from polybed.calibration.plan import Plan, Point
+from polybed.calibration.service import NUMBERS, Failure, Service
+
+DRY = {"regime": "dry", "reference": "GD-CS e_eff", "binary": False, "seeds": 2,
+       "axes": {"phi": [0.1, 0.2, 0.3, 0.4, 0.45], "stokes": [0], "e": [0.8, 0.9], "mu_p": [0], "x2": [0]}}
+FOUR = {"axes": DRY["axes"] | {"phi": [0.1, 0.2, 0.3, 0.4], "e": [0.9]}, "seeds": 1}
+TWO = {"axes": DRY["axes"] | {"x2": [0.5]}, "binary": True}
+
+
+def plan_of(**changed):
+    return Plan.of_case(DRY | changed)
+
+
+def box_of(point, **measured):
+    """A box of S 0.5 whose ratios are 1 with an error of 0.001."""
+    ones = dict.fromkeys(("p_ratio", "mu_ratio", "gamma_ratio", "temperature_ratio"), [1.0, 0.001])
+    return {"solids_fraction": point.phi, "stokes": point.stokes, "seed": point.seed, "shear_rate_1_s": 10.0, "diameter_m": 1e-3,
+            "theta_m2_s2": [(10.0 * 1e-3 / 0.5)**2, 0.0], "slip_over_sqrt_theta": 0.0} | ones | measured
+
+
+def synthetic(plan, scatter, p=lambda point: 1.0):
+    """Boxes whose pressures scatter about p: the first seed above, the second below, further ones at p."""
+    def factor(seed):
+        return {1: 1 + scatter, 2: 1 - scatter}.get(seed, 1.0)
+    return [box_of(point, p_ratio=[p(point) * factor(point.seed), 0.001]) for point in plan.boxes()]
+
+
+class Plans(unittest.TestCase):
+    def test_every_point_with_its_seeds(self):
+        boxes = plan_of().boxes()
+        self.assertEqual(len(boxes), 5 * 2 * 2)
+        self.assertEqual([box.seed for box in boxes[:2]], [1, 2])
+        self.assertEqual((boxes[2].restitution, boxes[4].phi), (0.9, 0.2))
+        self.assertEqual(boxes[1].text(), "dry 0.1 0 0.8 0 0 0 0 2")
+
+    def test_dry_boxes_of_two_species_are_also_pushed_apart(self):
+        boxes = plan_of(binary=True, axes=DRY["axes"] | {"x2": [0.3, 0.5]}).boxes()
+        self.assertEqual(len(boxes), 2 * 5 * 2 * 2 * 2)
+        self.assertEqual((boxes[39].pushed, boxes[40].pushed, boxes[40].phi), (False, True, boxes[0].phi))
+        self.assertEqual(len(plan_of(binary=True, regime="wet").boxes()), 20, "of wet ones none is pushed")
+
+
+class Seeds(unittest.TestCase):
+    def test_three_seeds_tell_their_error_by_their_scatter(self):
+        """1, 1.1, 1.2: s = 0.1, 1.321 x 0.1/sqrt(3) whatever the boxes say; of 1 and 1.1 1.837 x 0.05 = 0.09, or the boxes'
+        0.2/sqrt(2); of one its own."""
+        seeds = [(1, 0.2), (1.1, 0.2), (1.2, 0.2)]
+        np.testing.assert_allclose(fit.mean_of_seeds(seeds), (1.1, 1.321 * 0.1 / math.sqrt(3)), rtol=1e-14)
+        self.assertAlmostEqual(fit.mean_of_seeds(seeds[:2])[1], 0.2 / math.sqrt(2), delta=1e-14)
+        self.assertAlmostEqual(fit.mean_of_seeds([(1, 0.02), (1.1, 0.02)])[1], 1.837 * 0.05, delta=1e-14)
+        self.assertEqual(fit.mean_of_seeds(seeds[:1])[1], 0.2)
+
+    def test_students_one_sigma(self):
+        """Of one degree of freedom, Cauchy's, it is tan(0.6827 pi/2) = 1.837; from tables 1.059 at 9 and 1.053 at 10, 1 at many."""
+        self.assertAlmostEqual(fit.student_one_sigma(1), math.tan(0.682689 * math.pi / 2), delta=5e-4)
+        self.assertEqual((fit.student_one_sigma(3), fit.student_one_sigma(9)), (1.197, 1.059))
+        self.assertAlmostEqual(fit.student_one_sigma(10), 1.0526, delta=2e-4)
+        self.assertAlmostEqual(fit.student_one_sigma(100000), 1, delta=1e-5)
+        self.assertRaises(ValueError, fit.student_one_sigma, 0)
+
+    def test_seeds_are_added_where_they_scatter(self):
+        """s is the scatter, the standard error 1.321 s/sqrt(3): 0.06 gives 4.6 %, 0.07 gives 5.3 % and a seed more at that point alone,
+        until there are ten."""
+        plan = plan_of(seeds=3)
+        boxes = synthetic(plan, 0.06)
+        self.assertFalse(fit.add_seeds(plan, fit.fitted(plan, boxes)))
+        boxes[9:12] = synthetic(plan, 0.07)[9:12]  # of the fourth point
+        scattered = fit.fitted(plan, boxes)
+        self.assertAlmostEqual(max(fit.relative_errors(scattered)), 1.321 * 0.07 / math.sqrt(3), delta=1e-12)
+        with self.assertRaisesRegex(Failure, "at phi = 0.2 the seeds scatter"):
+            fit.require_usable(scattered, [])
+        self.assertTrue(fit.add_seeds(plan, scattered))
+        self.assertEqual(plan.seeds, [3, 3, 3, 4, 3, 3, 3, 3, 3, 3])
+        self.assertEqual((len(plan.boxes()), plan.boxes()[12].seed, plan.boxes()[12].phi), (31, 4, plan.boxes()[11].phi))
+        boxes.insert(12, boxes[11])  # a fourth at the mean: s = 0.07 sqrt(2/3), 1.197 s/2
+        table = fit.fitted(plan, boxes)
+        self.assertAlmostEqual(table.points("p_ratio_se")[3] / table.points("p_ratio")[3], 1.197 * 0.07 * math.sqrt(2 / 3) / 2, delta=1e-12)
+        self.assertEqual(table.points("p_ratio_n")[3], 4)
+        fit.require_usable(table, [])
+        plan.seeds[3] = fit.MOST_SEEDS
+        self.assertFalse(fit.add_seeds(plan, scattered))
+        self.assertFalse(fit.add_seeds(plan_of(), fit.fitted(plan_of(), synthetic(plan_of(), 0.2))), "two seeds are no wish to know")
+
+
+class Fits(unittest.TestCase):
+    def test_a_synthetic_table_is_recovered(self):
+        """Two boxes 0.1 % off to both sides: s/sqrt(2) = 0.1 %, Student's factor of one degree of freedom is 1.837."""
+        plan = plan_of()
+        table = fit.fitted(plan, synthetic(plan, 0.001, lambda point: 1 + point.phi))
+        self.assertEqual(table["p_ratio"].shape, (5, 1, 2, 1, 1))
+        np.testing.assert_allclose(table["p_ratio"][:, 0, :, 0, 0], np.add(1, [[phi, phi] for phi in DRY["axes"]["phi"]]), rtol=1e-14)
+        np.testing.assert_allclose(table["p_ratio_se"] / table["p_ratio"], 1.837e-3, rtol=1e-12)
+        np.testing.assert_allclose(table["S"], 0.5, rtol=1e-14)
+        self.assertTrue((table["p_ratio_n"] == 2).all())
+        self.assertEqual((table.attributes["reference"], table.attributes["lambda"]), ("GD-CS e_eff", 0))
+        fit.require_usable(table, [])
+
+    def test_a_curve_is_tested_where_a_point_is_left_out(self):
+        """1 1 1.2 1 at 0.1 to 0.4: without 0.3 the curve is 1 there, 0.2/1.2 off. Its knots at 0.2 and 0.4 have errors of 0.01 and move it
+        by half of that, the point has 0.01: 2 sqrt(1.5e-4) of 1.2 is taken off. Without 0.2 it is 1.1, less off."""
+        plan = plan_of(**FOUR)
+        boxes = [box_of(point, p_ratio=[1.2 if point.phi == 0.3 else 1.0, 0.01]) for point in plan.boxes()]
+        table = fit.fitted(plan, boxes)
+        self.assertAlmostEqual(table.attributes["left_out_residual"], 0.2 / 1.2, delta=1e-12)
+        self.assertAlmostEqual(table.attributes["fit_residual"], (0.2 - 2 * math.sqrt(1.5e-4)) / 1.2, delta=1e-12)
+        with self.assertRaisesRegex(Failure, "misses one by 14.6 % more than two standard errors") as refused:
+            fit.require_usable(table, [])
+        self.assertEqual(refused.exception.code, NUMBERS)
+        for box in boxes:
+            box["p_ratio"][1] = 0.08  # two errors of both are then 0.196
+        fit.require_usable(fit.fitted(plan, boxes), [])
+        plan = plan_of(axes=DRY["axes"] | {"phi": [0.1, 0.2, 0.3]}, seeds=1)
+        self.assertEqual(fit.left_out(fit.fitted(plan, synthetic(plan, 0.3))), (0, 0), "three are too few")
+
+    def test_seeds_that_disagree_are_refused(self):
+        plan = plan_of()
+        fit.require_usable(fit.fitted(plan, synthetic(plan, 0.027)), [])  # 1.837 x 0.027 = 4.96 %
+        with self.assertRaisesRegex(Failure, "standard error of 5.1 %, 5 % are allowed"):
+            fit.require_usable(fit.fitted(plan, synthetic(plan, 0.028)), [])
+
+    def test_inertia_of_a_wet_table(self):
+        """p/(mu gamma V) = 2 (1 + 0.3 St) at St 1, 3, 10: lambda 0.3 by least squares, exactly; the ratios are then 2."""
+        stokes = [1.0, 3.0, 10.0]
+        self.assertAlmostEqual(fit.fitted_inertia(stokes, [[2 * (1 + 0.3 * s) for s in stokes]] * 2), 0.3, delta=1e-12)
+        self.assertEqual(fit.fitted_inertia(stokes, [[2 - 0.1 * s for s in stokes]] * 2), 0)
+        plan = plan_of(regime="wet", axes=DRY["axes"] | {"stokes": stokes}, seeds=1)
+        table = fit.fitted(plan, synthetic(plan, 0, lambda point: 2 * (1 + 0.3 * point.stokes)))
+        self.assertAlmostEqual(table.attributes["lambda"], 0.3, delta=1e-12)
+        np.testing.assert_allclose(table["p_ratio"], 2, rtol=1e-12)
+        np.testing.assert_allclose(table["mu_ratio"][0, :, 0, 0, 0], [1 / (1 + 0.3 * s) for s in stokes], rtol=1e-12)
+        one = plan_of(regime="wet", axes=DRY["axes"] | {"stokes": [10]}, seeds=1)
+        self.assertEqual(fit.fitted(one, synthetic(one, 0)).attributes["lambda"], 0, "one Stokes number has no slope")
+
+    def test_exchange_and_the_drift_that_all_points_had(self):
+        """Two seeds a point: the mean of 0.8 and 0.9 is 0.85. The first point's boxes drift at 0.2 and -0.3, all others at 0.4: up to 0.3
+        all points are measured."""
+        plan = plan_of(**TWO)
+        boxes = [box_of(point, exchange_ratio=[0.8 if point.seed == 1 else 0.9, 0.01], slip_over_sqrt_theta=0.4)
+                 for point in plan.boxes()]
+        first = len(boxes) // 2
+        for point, box in zip(plan.boxes()[:first], boxes):
+            box["exchange_ratio"], box["slip_over_sqrt_theta"] = [0.0, 0.0], 0.0
+        boxes[first]["slip_over_sqrt_theta"], boxes[first + 1]["slip_over_sqrt_theta"] = 0.2, -0.3
+        table = fit.fitted(plan, boxes)
+        np.testing.assert_allclose(table["beta_12_ratio"], 0.85, rtol=1e-14)
+        self.assertEqual(table["beta_12_drift"], [0.3])
+        fit.require_exchange(table)
+        table["beta_12_ratio"][1, 0, 1, 0, 0] = -0.1  # species that are sped up by each other
+        with self.assertRaisesRegex(Failure, "at phi = 0.2 beta_12 is -0.1 of its form"):
+            fit.require_exchange(table)
+
+
+class Bed(unittest.TestCase):
+    def test_both_ways_their_errors_and_their_difference(self):
+        """Two points of two seeds: p 1.00 and 1.02, s/sqrt(2) = 0.01, times 1.837; errors of the boxes 0.002/sqrt 2."""
+        boxes = []
+        for n in range(4):
+            p = (1.0 if n < 2 else 3.0) + 0.02 * (n % 2)
+            boxes.append({"bed_phi": 0.28 if n < 2 else 0.46, "p_bed": [p, 0.002], "p_bed_by_balance": [1.03 * p, 0.002],
+                          "theta_m2_s2": [2e-6, 0.0], "velocity_m_s": 0.02 if n < 2 else 0.01})
+        table = bed.bed_table([2, 2], boxes, 4e-6)
+        self.assertAlmostEqual(table["p_bed"][0], 1.01, delta=1e-14)
+        self.assertAlmostEqual(table["p_bed_se"][0], 0.01837, delta=1e-14)
+        self.assertAlmostEqual(table["p_bed_by_balance"][0] / table["p_bed"][0] - 1, 0.03, delta=1e-14)
+        self.assertAlmostEqual(table["theta_bed"][1], 0.5, delta=1e-14)
+        self.assertEqual((table["velocity"][1], table["p_bed_n"]), (0.01, [2, 2]))
+        bed.require_usable(table)
+        self.assertIn("+3.0 %", bed.bed_rows(table))
+        table["p_bed_by_balance"][1] *= 1.1
+        with self.assertRaisesRegex(Failure, "at phi = 0.460 .* 13 % apart, 5 % are allowed"):
+            bed.require_usable(table)
+        table["p_bed"][1] = table["p_bed_by_balance"][1] = 0.9
+        with self.assertRaisesRegex(Failure, "p_bed falls between phi = 0.280 and 0.460"):
+            bed.require_usable(table)
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def judged(self, table):
+        table.attributes |= {"filetype": "polybed solids table", "version": 1, "git_commit": "", "created": "", "case_hash": "",
+                             "size_ratio": 1.0}
+        table.write(self.folder / "table.h5")
+        with Service() as service:
+            return service.ask("table", self.folder / "table.h5")
+
+
+class Files(Scratch):
+    def test_a_box_is_read_back_and_no_other(self):
+        path = self.folder / "box.json"
+        box = dict.fromkeys(SINGLE, 0.999) | dict.fromkeys(MEANS, [1 / 3, 0.01]) | {"hash": "0123"}
+        path.write_text(json.dumps(box))
+        self.assertEqual(read_box(path, "0123"), box)
+        self.assertIsNone(read_box(path, "4567"), "of another box")
+        self.assertIsNone(read_box(self.folder / "none.json", "0123"))
+        for wrong in (path.read_text()[:100], "[]", "nul", json.dumps(box | {"p_ratio": [1.0]}), json.dumps(box | {"balance": None})):
+            path.write_text(wrong)
+            self.assertIsNone(read_box(path, "0123"), wrong)
+
+    def test_jobs_run_side_by_side_and_those_that_fail_are_named(self):
+        done = []
+        failed = Pool().run_all({n: ["sh", "-c", f"exit {n % 2}"] for n in range(6)}, 3, done.append)
+        self.assertEqual((sorted(done), sorted(failed)), ([0, 2, 4], [1, 3, 5]))
+
+    def test_jobs_are_ended_when_they_are_stopped(self):
+        def stop(place):
+            raise KeyboardInterrupt
+        (jobs := {n: ["sleep", "600"] for n in range(1, 4)})[0] = ["true"]
+        pool = Pool()
+        with self.assertRaises(KeyboardInterrupt):
+            pool.run_all(dict(sorted(jobs.items())), 2, stop)
+        self.assertEqual(pool.children, set())
+
+    def test_a_pressure_that_falls_is_refused_and_its_place_named(self):
+        plan = plan_of()
+        shape = self.judged(fit.fitted(plan, synthetic(plan, 0)))
+        self.assertEqual((shape["falls"], len(shape["a"])), ([], 10))
+        self.assertTrue(0.1 < shape["falls_in_shear_up_to"] < 0.2, shape)  # a dilute gas grows hotter as it thins
+        table = fit.fitted(plan, synthetic(plan, 0, lambda point: 0.3 if (point.phi, point.restitution) == (0.3, 0.8) else 1.0))
+        falls = self.judged(table)["falls"]
+        self.assertEqual(len(falls), 1)
+        self.assertIn("e = 0.8", falls[0])
+        with self.assertRaisesRegex(Failure, "falls with the solids fraction.*phi = 0.2"):
+            fit.require_usable(table, falls)
+
+    def test_a_table_that_no_run_reads_is_not_written(self):
+        plan = plan_of()
+        with self.assertRaises(Failure) as refused:
+            self.judged(fit.fitted(plan, synthetic(plan, 0, lambda point: -1.0)))
+        self.assertEqual(refused.exception.code, 4)
+
+
+def box_at(phi, stokes, **measured):
+    return box_of(Point("wet", phi, stokes, 0.9, 0.3, 0), **measured)
+
+
+class Checks(Scratch):
+    """Solids fractions 0.3 and 0.5, Stokes numbers 1 and 100, lambda 0.05. Half-way between two knots a monotone cubic with flat ends is
+    at their mean: p 0.9 +- 0.09, mu 0.5 +- 0.02."""
+
+    def table(self, regime="wet", stokes=(1, 100), p=((0.8, 0.8), (1.0, 1.0)), p_error=0.09, mu=((0.6, 0.6), (0.4, 0.4)), mu_error=0.02,
+              inertia=0.05):
+        table = fit.Table({"phi": [0.3, 0.5], "stokes": list(stokes), "e": [0.9], "mu_p": [0.3], "x2": [0]},
+                          {"regime": regime, "reference": "viscous", "lambda": inertia, "fit_residual": 0.0, "left_out_residual": 0.0})
+        ones = np.ones((2, len(stokes)))
+        for name, values, error in (("p_ratio", p, p_error), ("mu_ratio", mu, mu_error), ("gamma_ratio", ones, 0), ("T_ratio_12", ones, 0)):
+            values = np.array(values, float)[:, :len(stokes)]
+            table.put(name, values)
+            table.put(f"{name}_se", np.full_like(values, error))
+            table.put(f"{name}_n", np.full_like(values, 3))
+        table.put("S", ones)
+        return table
+
+    def deviation(self, table, box):
+        self.judged(table)
+        point = Point(table.attributes["regime"], box["solids_fraction"], box["stokes"], 0.9, 0.3, 0)
+        with Service() as service:
+            [ratios] = service.ask("ratios", self.folder / "table.h5", point.text())
+        return deviation(box, ratios, table.attributes["lambda"])
+
+    def test_a_box_over_the_table_less_one_with_the_errors_of_both(self):
+        """At St 10 the table says (1 + 0.05 10) 0.9 = 1.35 for p and 0.75 for mu. A box of 1.62 +- 0.162 is 20 % above, with
+        0.162/1.35 = 12 % of its own and 0.09/0.9 = 10 % of the table; one of 0.6 +- 0.0225 is 20 % below, with 3 and 4 %."""
+        found = self.deviation(self.table(), box_at(0.4, 10, p_ratio=[1.62, 0.162], mu_ratio=[0.6, 0.0225]))
+        np.testing.assert_allclose(found, [(0.2, math.hypot(0.12, 0.1)), (-0.2, 0.05)], atol=1e-12)
+        lines = deviation_lines([Point("wet", 0.4, 10, 0.9, 0.3, 0)], [found])
+        self.assertIn("+20.0 % +- 15.6 (1.3 se)", lines)
+        self.assertIn("-20.0 % +- 5.0 (4.0 se)", lines)
+
+    def test_between_stokes_numbers_the_table_is_taken_in_the_logarithm(self):
+        """At 10, half-way from 1 to 100, 0.9 and 1.1 give 1."""
+        table = self.table(p=((0.9, 1.1), (0.9, 1.1)))
+        self.assertAlmostEqual(self.deviation(table, box_at(0.35, 10, p_ratio=[1.5, 0.0]))[0][0], 0, delta=1e-12)
+        found = self.deviation(table, box_at(0.35, 1, p_ratio=[1.5, 0.0]))[0][0]
+        self.assertAlmostEqual(found, 1.5 / (1.05 * 0.9) - 1, delta=1e-12)
+
+    def test_a_dry_box_is_compared_with_the_ratio_itself(self):
+        """A dry table has Stokes number 0 alone and no lambda."""
+        table = self.table("dry", (0,), p_error=0.045, mu=((1.0,), (1.0,)), mu_error=0, inertia=0.0)
+        found = self.deviation(table, box_at(0.4, 0, p_ratio=[0.81, 0.0], mu_ratio=[1.02, 0.01]))
+        np.testing.assert_allclose(found, [(-0.1, 0.05), (0.02, 0.01)], atol=1e-12)
+
+    def test_the_curve_of_the_fit_is_that_of_a_run(self):
+        plan = plan_of(**FOUR)
+        values = {0.1: 1.0, 0.2: 1.1, 0.3: 1.3, 0.4: 1.2}
+        table = fit.fitted(plan, synthetic(plan, 0, lambda point: values[point.phi]))
+        self.judged(table)
+        phi = np.linspace(0.1, 0.4, 13)
+        with Service() as service:
+            read = service.ask("ratios", self.folder / "table.h5", *(Point("dry", one, 0, 0.9, 0, 0).text() for one in phi))
+        np.testing.assert_allclose([row[0] for row in read], fit.curve(list(values), list(values.values()))(phi), rtol=1e-13)
+
+    def test_points_are_those_between_the_knots(self):
+        table = self.table()
+        table.arrays |= {"phi": [0.1, 0.2, 0.3, 0.4, 0.5, 0.55], "stokes": [1, 10, 40], "e": [0.8, 0.9], "mu_p": [0.1, 0.3],
+                         "x2": [0.25, 0.75]}
+        points = points_between(table, True)
+        np.testing.assert_allclose([point.phi for point in points], [0.15, 0.35, 0.525], rtol=1e-15)
+        for point in points:
+            self.assertAlmostEqual(point.stokes, 20, delta=1e-12)  # between 10 and 40, in the logarithm
+            self.assertEqual(point[3:8] + (point.regime,), (0.8, 0.1, 0.25, True, False, "wet"))
+            self.assertGreater(point.seed, fit.MOST_SEEDS, "one that no plan has")
+        table.arrays |= {"phi": [0.3, 0.5], "stokes": [10]}
+        [one] = points_between(table, True)  # of one distance, its middle alone
+        self.assertEqual((one.phi, one.stokes), (0.4, 10))
+
+    def test_a_written_table_has_its_checksum(self):
+        self.judged(self.table())
+        with h5py.File(self.folder / "table.h5", "r+") as file:
+            file["p_ratio"][0] = 0.81
+        with Service() as service, self.assertRaises(Failure) as refused:
+            service.ask("table", self.folder / "table.h5")
+        self.assertEqual(refused.exception.code, 4)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
