@@ -37,8 +37,8 @@ struct RunQuantities {
 };
 
 /// Heights and centres: means of the rows of the history, moved by what the profiles stored in the window differ by if
-/// measured on the slabs asked for. The rest by the definitions of docs/measures.md. The interval of a mean is that of
-/// fluid::time_mean; those of a quantity of the mean profile leave out groups of profiles.
+/// measured on the slabs asked for. The rest by the definitions of docs/reference/measures.md. The interval of a mean
+/// is that of fluid::time_mean; those of a quantity of the mean profile leave out groups of profiles.
 [[nodiscard]] RunQuantities quantities_of_run(const Measured& run, const MeasureOn& on);
 
 /// Distances between the mean profiles: "composition" (of two species and more) and "profile", the mean over species.

@@ -5,7 +5,7 @@ namespace polybed::multiscale {
 namespace {
 
 /// ns each, fitted on 2026-11-21 to the timers of system B's strip by both integrators and by particles, of glass in
-/// air and of a bed that settles without a fluid, docs/cost.md. A change of one of them is a new work_version.
+/// air and of a bed that settles without a fluid, docs/record/cost.md. A change of one of them is a new work_version.
 const std::map<std::string, double>& weights() {
   static const std::map<std::string, double> all{{"rhs_evaluations x unknowns", 23},
                                                  {"pressure_iterations x unknowns", 8},
