@@ -45,7 +45,7 @@ void print_markdown() {
       "belongs "
       "to the two-fluid model; `[dem]`, `[[contact_pair]]` and a species' contact properties belong to the particle "
       "model, "
-      "with or without a fluid: [particle-cases.md](particle-cases.md) says how such a case is written.\n");
+      "with or without a fluid: [particles.md](../guide/particles.md) says how such a case is written.\n");
   std::string_view table = "?";
   for (const Key& key : core::keys()) {
     if (key.table != table) {

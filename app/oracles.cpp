@@ -96,7 +96,8 @@ measures::Profile counted_layers() {
   fill(0, 0.06, 0.6, 0);
   fill(0.06, 0.16, 0.3, 1);
   const core::ParticleSnapshot particles{ids, species, radii, places, velocities, velocities};
-  return measures::particle_profile(particles, 2, {side * side, height, std::size_t(std::lround(height / slab))}).solids;
+  return measures::particle_profile(particles, 2, {side * side, height, std::size_t(std::lround(height / slab))})
+      .solids;
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // How much each effect matters in a scene: one pure function for each number that decides, from plain numbers. A force
 // is that of the closure that a run would use, as a share of a reference force, the buoyant weight of the particle.
 //
-// Scales (docs/effects.md): slip w = U/eps, width L, shear rate, time of the scene, relaxation time of the slip.
+// Scales (docs/reference/effects.md): slip w = U/eps, width L, shear rate, time of the scene, relaxation time of the
+// slip.
 #pragma once
 
 #include <algorithm>

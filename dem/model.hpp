@@ -117,7 +117,8 @@ class Model : public core::Simulation {
  private:
   void measure(const std::vector<Particle>& all);
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
-  /// What a particle costs over what it costs to be in a contact. With a fluid 5.5 was measured (docs/parallel.md).
+  /// What a particle costs over what it costs to be in a contact. With a fluid 5.5 was measured
+  /// (docs/theory/parallel.md).
   [[nodiscard]] std::int32_t own_work() const { return coupling_ ? 5 : 1; }
   void restore(const core::Checkpoint& checkpoint, bool same_step);
   void restore_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all);

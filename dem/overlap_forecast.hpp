@@ -29,7 +29,7 @@ struct OverlapForecast {
 };
 
 /// The deepest contact to expect: of each pair the heavier one comes at the speed given and meets the other held by its
-/// neighbours, closures::mass_on_a_contact. Met were 0.4 to 1.04 of it, see docs/particle-cases.md: what is advised
+/// neighbours, closures::mass_on_a_contact. Met were 0.4 to 1.04 of it, see docs/guide/particles.md: what is advised
 /// keeps a fifth of dem.max_overlap in reserve.
 /// \param speed  of impacts, m/s
 [[nodiscard]] OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& materials,

@@ -65,7 +65,7 @@ std::optional<double> time_of_step(tfm::Model& model, double until, int most_ste
 double superficial_velocity(const tfm::Model& model) { return model.inlet().greatest(); }
 
 /// Solids fraction of a bed that is packed still but carried by the fluid: where the solids stress carries a tenth of
-/// the weight. The tenth is fitted to the steps that runs took while their beds were lifted, docs/cost.md.
+/// the weight. The tenth is fitted to the steps that runs took while their beds were lifted, docs/record/cost.md.
 double lifted_fraction(const core::Scene& scene, const tfm::Model& model) {
   const double rest = scene.bed.solids_fraction;
   if (!model.effects().solids_stress) return rest;
@@ -116,7 +116,7 @@ double growing_steps(const core::Scene& scene, const Requirements& need) {
 }
 
 TimeNeed time_need(const core::Scene& scene, const Requirements& need, double velocity, double per_step) {
-  constexpr double band = 4;  // of finished runs, docs/cost.md
+  constexpr double band = 4;  // of finished runs, docs/record/cost.md
   const double packed = packed_time(scene, need, velocity);
   TimeNeed time;
   time.steps = std::max(packed / need.lifted.step + (scene.run.until - packed) / need.expanded.step, 1.0) +

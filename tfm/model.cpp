@@ -92,9 +92,9 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
 
 Model::~Model() = default;
 
-/// The rule rests on measured costs, docs/cost.md: a liquid bed is cheaper with explicit steps unless an implicit one
-/// replaces more than 1.5 of them, because particles are fine; one that settles or is fluidised by a gas is cheaper
-/// with implicit ones.
+/// The rule rests on measured costs, docs/record/cost.md: a liquid bed is cheaper with explicit steps unless an
+/// implicit one replaces more than 1.5 of them, because particles are fine; one that settles or is fluidised by a gas
+/// is cheaper with implicit ones.
 void Model::choose_integrator(const core::Scene& scene) {
   integrator_name_ = options_.integrator;
   integrator_reason_ = "as the case says";

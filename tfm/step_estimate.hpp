@@ -40,12 +40,13 @@ struct UniformBed {
 [[nodiscard]] std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Constants& constants,
                                                         const Effects& effects, const UniformBed& bed);
 
-/// The step that the explicit integrator is expected to take: a share of the shortest scale, s. Measured, docs/cost.md.
+/// The step that the explicit integrator is expected to take: a share of the shortest scale, s. Measured,
+/// docs/record/cost.md.
 [[nodiscard]] double explicit_step(const std::vector<TimeScale>& scales);
 
 /// The step that the implicit integrator is expected to take at a tolerance: its error test follows the slower of
 /// convection, h/U, and free fall through a cell, sqrt(h/g'), g' = g |1 - rho_f/rho_s|; the error of a step of second
-/// order goes with the third power of its length. Measured, docs/cost.md.
+/// order goes with the third power of its length. Measured, docs/record/cost.md.
 /// \param velocity  of the fluid between the particles, m/s
 [[nodiscard]] double implicit_step(const Constants& constants, double velocity, double rtol);
 

@@ -19,7 +19,7 @@ struct DecisionRule {
   std::set<std::string> on, off;  ///< roles that the case itself decides
 };
 
-/// Decides rows that are not yet decided (docs/effects.md):
+/// Decides rows that are not yet decided (docs/reference/effects.md):
 ///   forces of acceleration only in transients; an uncertain number is a band and switches nothing;
 ///   R > tolerance is on; of the remaining forces the largest goes on while their sum exceeds the tolerance.
 void decide(std::vector<EffectRow>& rows, const DecisionRule& rule);

@@ -28,7 +28,8 @@ struct LeftOut {
   std::vector<LeftOutEffect> effects;
 };
 
-/// What a run of a scene leaves out, by the rules of docs/effects.md; nothing is run, it takes some milliseconds.
+/// What a run of a scene leaves out, by the rules of docs/reference/effects.md; nothing is run, it takes some
+/// milliseconds.
 /// \param scene  with its roles in words  \param model  "tfm" or "dem"
 /// Throws core::CaseError if the fluid is not known at a temperature that the chooser is to span.
 [[nodiscard]] LeftOut left_out(const core::Scene& scene, const std::string& model);

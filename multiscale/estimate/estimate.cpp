@@ -20,9 +20,9 @@ TimeBand band_of(double seconds, double middle, double factor) {
   return {seconds * middle / factor, seconds * middle, seconds * middle * factor};
 }
 
-/// Of the two-fluid model, taken over expected, from the runs of docs/cost.md: 0.4 to 2.6 of explicit ones, 0.8 to 4.4
-/// of implicit ones, which start with many Newton iterations. A probe knows what a step costs and how long the first
-/// ones are, not those of the expanded bed.
+/// Of the two-fluid model, taken over expected, from the runs of docs/record/cost.md: 0.4 to 2.6 of explicit ones, 0.8
+/// to 4.4 of implicit ones, which start with many Newton iterations. A probe knows what a step costs and how long the
+/// first ones are, not those of the expanded bed.
 constexpr double explicit_middle = 1, implicit_middle = 2.3, tfm_factor = 2.2, probe_factor = 1.6;
 double tfm_middle(const std::string& integrator) {
   return integrator == "explicit" ? explicit_middle : implicit_middle;
@@ -75,7 +75,7 @@ TimeBand with_start(const TimeBand& steps, const core::Scene& scene, const Machi
   return beyond(steps, before + output(scene, machine), before);
 }
 
-/// Bytes of a run's files, as counted from what they hold: docs/file-formats.md.
+/// Bytes of a run's files, as counted from what they hold: docs/reference/files.md.
 double disk_of(const core::Scene& scene, double cells, double particles, double state, double steps) {
   const auto species = double(scene.species.size());
   const double dimensions = scene.column.dimensions;

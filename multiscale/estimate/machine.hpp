@@ -8,7 +8,7 @@
 
 namespace polybed::multiscale {
 
-/// CPU seconds of one core. The shipped values are those of an AMD EPYC virtual machine, docs/cost.md.
+/// CPU seconds of one core. The shipped values are those of an AMD EPYC virtual machine, docs/record/cost.md.
 struct Machine {
   double explicit_step = 0.9e-6;                  ///< of the two-fluid model, per cell of a plane with two species
   double implicit_step = 5e-6;                    ///< likewise

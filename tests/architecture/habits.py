@@ -42,9 +42,9 @@ def unformatted(paths):
 
 
 def laws_without_docs():
-    page = (ROOT / "docs/closures.md").read_text()
+    page = (ROOT / "docs/theory/closures.md").read_text()
     names = re.findall(r'name = "(\w+)"', "".join(p.read_text() for p in (ROOT / "closures").glob("*.hpp")))
-    return [f"docs/closures.md does not mention the law {n}" for n in names if f"`{n}`" not in page]
+    return [f"docs/theory/closures.md does not mention the law {n}" for n in names if f"`{n}`" not in page]
 
 
 def self_test():

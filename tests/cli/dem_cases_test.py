@@ -102,7 +102,7 @@ class BounceAndRoll(Cases):
             self.assertGreater(time, first)
             top = steps.position[at, 0, 1] + steps.velocity[at, 0, 1] ** 2 / (2 * GRAVITY)
             realised = ((top - self.RADIUS) / self.FALL) ** (1 / (2 * k))
-            # 50 steps per contact realise a restitution of 0.9 to 1e-3 (docs/theory-particle-contact.md); three times that
+            # 50 steps per contact realise a restitution of 0.9 to 1e-3 (docs/theory/particle-contact.md); three times that
             self.assertAlmostEqual(realised, self.RESTITUTION, delta=3e-3)
         # sliding: slows down by mu g until it rolls at 5/7 of its speed, w R = v, after 2 v/(7 mu g) = 9.7 ms
         before, after = np.argmin(np.abs(steps.time - 0.005)), np.argmin(np.abs(steps.time - 0.05))

@@ -84,7 +84,7 @@ def stored(run):
 
 
 def measures(bed, places):
-    """Mean height of the centres, and the height of the bed by the definition of docs/measures.md, centres counted."""
+    """Mean height of the centres, and the height of the bed by the definition of docs/reference/measures.md, centres counted."""
     (_, height), (_, ny) = bed["size"], bed["cells"]
     phi, _ = np.histogram(places[:, 1], bins=ny, range=(0, height))
     return {"centre_m": float(places[:, 1].mean()),

@@ -23,7 +23,7 @@ from pathlib import Path
 CASES = Path(__file__).resolve().parents[2] / "cases"
 LIMIT = 60  # CPU s of one run
 WRONG = 1.25
-WORST = 2.8  # 1.25 times the worst choice of docs/cost.md
+WORST = 2.8  # 1.25 times the worst choice of docs/record/cost.md
 COUNTERS = ("steps", "rejected_steps", "rhs_evaluations", "linear_iterations")
 WATER, AIR = (998.2, 1.002e-3), (1.204, 1.813e-5)  # kg/m3, Pa s, 20 degC
 SYSTEM_B = [(0.807, 1395, 0.569), (2.01, 1170, 0.431)]  # mm, kg/m3, share

@@ -81,7 +81,7 @@ def rows(directory, bed):
 
 def measures(folder, bed):
     height = bed["size"][1] / bed["cells"][1]
-    """Definitions of docs/measures.md on the lateral averages; volume_<name>: its share of the column."""
+    """Definitions of docs/reference/measures.md on the lateral averages; volume_<name>: its share of the column."""
     names = [s["name"] for s in bed["solids"]]
     profiles = {name: read_scalar(folder / f"alpha.{name}", bed["cells"]).mean(axis=1) for name in names}
     y = (np.arange(bed["cells"][1]) + 0.5) * height

@@ -104,7 +104,7 @@ void both_models(Trial& trial) {
   const double weight = particles * sphere * (solids_density - liquid_density) * gravity / (12e-3 * 12e-3);
   const auto compare = [&](const std::string& what, const std::vector<double>& a, const std::vector<double>& b,
                            double scale) {
-    constexpr double drag_error = 0.025;  // mean of the law against its data, docs/accuracy.md
+    constexpr double drag_error = 0.025;  // mean of the law against its data, docs/record/accuracy.md
     const measures::TimeMean p = later_half(a), q = later_half(b);
     const double interval = std::hypot(p.error.value_or(0), q.error.value_or(0));
     trial.report(what + " of the continuum", p.mean);

@@ -10,7 +10,8 @@
 
 namespace polybed::scenes {
 
-/// Checks a number against its closed form and keeps both for docs/verification-particles.md (--gtest_output=xml:FILE).
+/// Checks a number against its closed form and keeps both for docs/record/verification-particles.md
+/// (--gtest_output=xml:FILE).
 /// \param scale  that the tolerance is a share of
 inline void compare(const std::string& what, double obtained, double expected, double tolerance, double scale) {
   testing::Test::RecordProperty(what, fmt::format("{:.8g} expected {:.8g} error {:.2g} allowed {:.2g}", obtained,

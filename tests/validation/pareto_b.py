@@ -130,7 +130,7 @@ def check_short(kept):
     by_name = {k["name"]: k for k in kept}
     rate = {name: report.rate(k["height"]) for name, k in by_name.items()}
     problems = [f"{k['name']}: {k['height']}" for k in kept if k["height"]["state"] != "done"]
-    # docs/inversion-models.md has 34.27 mm/s for the shares of the thesis, here 3116 to 153 particles.
+    # docs/record/inversion-models.md has 34.27 mm/s for the shares of the thesis, here 3116 to 153 particles.
     if abs(by_name["cello"]["inversion"]["mm_s"] - 34.27) > 0.05:
         problems.append(f"force balance: {by_name['cello']['inversion']}")
     if not rate["cello"] < rate["1x72"] < rate["2x58"] < rate["5x144"] < rate["few"]:

@@ -7,7 +7,7 @@ VELOCITY = 25e-3  # m/s, of the bed heights: nine mm/s below the inversion by fo
 # layers, and widens its range until the bed fills the column, where a second costs ten times as much.
 TURNING, TURNING_TIME = (30e-3, 34e-3, 38e-3), 100.0
 
-# The strip of system B of docs/thesis-systems.md with half of its particles: five of eighteen columns of cells, walls, 33 mm high when
+# The strip of system B of docs/record/thesis-systems.md with half of its particles: five of eighteen columns of cells, walls, 33 mm high when
 # packed, so that particles take 10 s of computing for a second and a bed comes to rest in half the time. Cells are square.
 BED = {"column.size": [16.667e-3, 0.48], "column.cells": [5, 144], "column.depth": 4.422e-3, "bed.particles": [3116, 153],
        "dem.skin": 2e-4, "dem.youngs_modulus": 1e5, "dem.fixed_step": 4.5e-5, "dem.fluid_every": 10, "dem.ledger": False,

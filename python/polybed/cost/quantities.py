@@ -102,7 +102,7 @@ def fluctuations(drop, time):
 
 def quantities_of_run(run, on):
     """Heights and centres: means of the rows of the history, moved by what the profiles stored in the window differ by if measured on the
-    slabs asked for. The rest by the definitions of docs/measures.md. The interval of a mean is that of time_mean(); that of a quantity of
+    slabs asked for. The rest by the definitions of docs/reference/measures.md. The interval of a mean is that of time_mean(); that of a quantity of
     the mean profile leaves out groups of profiles."""
     history, species, found = run.history, species_of(run.history), RunQuantities()
     profiles = WindowProfiles(run.profiles, species, on.window)

@@ -154,7 +154,7 @@ std::string page() {
 }
 
 TEST(Accuracy, PageIsWhatTheTablesGive) {
-  const std::string path = std::string(POLYBED_SOURCE_DIR) + "/docs/accuracy.md";
+  const std::string path = std::string(POLYBED_SOURCE_DIR) + "/docs/record/accuracy.md";
   if (std::getenv("POLYBED_WRITE_DOCS") != nullptr) std::ofstream(path) << page();
   std::stringstream committed;
   committed << std::ifstream(path).rdbuf();

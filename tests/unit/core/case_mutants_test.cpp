@@ -1,5 +1,5 @@
 // Changed case files, in process: each is read or refused with a reason, and what is read comes out whole.
-// POLYBED_MUTANTS sets their number; docs/stability.md has the result of 100,000 under the sanitizers.
+// POLYBED_MUTANTS sets their number; docs/record/stability.md has the result of 100,000 under the sanitizers.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -174,7 +174,7 @@ TEST(Neglected, IsNotKeptWhereNothingCouldBeEvaluated) {
 
 // What had been missed of system B: the fluid rushes through a bed that is lifted as a whole, 30 mm/s over a voidage of
 // 0.38, along walls that it sticks to; vorticity in a cell of 60/18 mm beside one is 0.079 m/s over its width, 23.7
-// 1/s. Particles of 0.807 mm spin at 92 1/s from touching (seen in runs of particles, docs/effects.md).
+// 1/s. Particles of 0.807 mm spin at 92 1/s from touching (seen in runs of particles, docs/reference/effects.md).
 TEST(Neglected, BoundsWhatARunMayMeet) {
   const core::Scene scene =
       core::read_case(POLYBED_SOURCE_DIR "/cases/matsuura-akehata/case.toml", {}, all_roles(), size_classes);

@@ -39,8 +39,8 @@ const LeftOutEffect* find(const LeftOut& all, const std::string& effect) {
   return nullptr;
 }
 
-// The pull of two asperities of 200 nm, A R*/(6 z^2) with R* half of that and z the gap of contact (docs/effects.md),
-// over the weight.
+// The pull of two asperities of 200 nm, A R*/(6 z^2) with R* half of that and z the gap of contact
+// (docs/reference/effects.md), over the weight.
 TEST(LeftOut, BoundsAForceThatTheCaseHasOff) {
   const LeftOut all = left_out(scene_of({"dem.roughness=2e-7", "chooser.hamaker=3e-20"}), "dem");
   const LeftOutEffect* cohesion = find(all, "cohesion");
