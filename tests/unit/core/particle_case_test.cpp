@@ -84,11 +84,10 @@ TEST(ParticleCase, KeysOfDemReachTheScene) {
 /// What the table of keys calls the default is what a scene has, key by key of [dem].
 TEST(ParticleCase, DefaultsOfDemAreThoseOfTheTable) {
   Lines lines;
-  for (const Key& key : keys()) {
-    if (key.table != "dem" || key.standard.empty()) continue;
-    const bool bare = std::holds_alternative<Place<bool>>(key.place) || std::holds_alternative<Place<int>>(key.place);
-    const std::string value = key.standard == "2/7" ? "0.2857142857142857" : std::string(key.standard);
-    lines.dem += fmt::format("{0} = {2}{1}{2}\n", key.name, value, bare ? "" : "\"");
+  for (const Key& key : find_table("dem")->keys) {
+    if (key.standard.empty()) continue;
+    const bool bare = key.kind == Kind::truth || key.kind == Kind::count;
+    lines.dem += fmt::format("{0} = {2}{1}{2}\n", key.name, key.standard, bare ? "" : "\"");
   }
   EXPECT_THAT(lines.dem, HasSubstr("cohesion_gap"));
   EXPECT_EQ(resolved_case(parse_case(dry_case(lines), "case.toml", {}, {})),
