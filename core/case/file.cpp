@@ -7,7 +7,6 @@
 #include "core/case/depth.hpp"
 #include "core/case/keys.hpp"
 #include "core/case/override.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "core/case/values.hpp"
 #include "core/output/files.hpp"
 
@@ -190,7 +189,7 @@ void CaseReader::read(toml::table& root, std::span<const std::string> overrides)
 /// How much there is in the bed: said once.
 void CaseReader::check_amount() {
   const auto given = [&](const std::string& path) { return given_.contains(path); };
-  const bool by_particles = given("bed.particles"), list = is_list(scene_.bed);
+  const bool by_particles = given("bed.particles"), list = scene_.bed.start.kind == StartKind::list;
   for (const char* key : {"bed.volume_share", "bed.static_height"}) {
     if (by_particles && given(key))
       values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
@@ -199,7 +198,7 @@ void CaseReader::check_amount() {
     wrong_.add(key);
   }
   // A feed is held against the packing of the settled bed, whatever the bed begins as.
-  const bool anywhere = scene_.bed.start == "random" && by_particles;
+  const bool anywhere = scene_.bed.start.kind == StartKind::random && by_particles;
   if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
   if ((list || anywhere) && scene_.feeds.empty()) return;
   values_.add("bed.solids_fraction is missing: of the settled bed");
@@ -222,7 +221,7 @@ void CaseReader::check_given() {
   check_amount();
   check_fluid();
   const bool inlet = given_.contains("inlet.superficial_velocity");
-  const bool flows = scene_.fluid.name != "none" && scene_.dem.shear_rate == 0;
+  const bool flows = scene_.fluid.present() && scene_.dem.shear_rate == 0;
   if (!scene_.column.closed && !inlet && flows && wrong_.sound({"column.closed", "fluid.name", "dem.shear_rate"}))
     values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");
   if (scene_.column.closed && inlet) values_.add("inlet.superficial_velocity cannot act: column.closed = true");
@@ -236,7 +235,7 @@ void CaseReader::check_scene() {
     return !more.empty();
   };
   const bool one_size = std::all_of(scene_.species.begin(), scene_.species.end(),
-                                    [](const Species& species) { return species.sizes.kind.empty(); });
+                                    [](const Species& species) { return !species.sizes.kind; });
   const bool readable = wrong_.sound({"species.", "bed.volume_share"});
   // Without its classes a distribution has no diameter.
   if (!wrong_.sound("species.distribution") ||

@@ -6,7 +6,6 @@
 
 #include "core/case/file.hpp"
 #include "core/case/keys.hpp"
-#include "core/case/resolve_particles.hpp"
 
 namespace polybed::core {
 
@@ -45,7 +44,7 @@ struct AsToml {
 
 /// Whether a key of [bed] says nothing: it follows from particles that are counted or listed, or was not given.
 bool idle(const Scene& scene, std::string_view name) {
-  const bool follows = !scene.bed.particles.empty() || is_list(scene.bed);
+  const bool follows = !scene.bed.particles.empty() || scene.bed.start.kind == StartKind::list;
   if (name == "volume_share" || name == "static_height") return follows;
   return name == "solids_fraction" && !(scene.bed.solids_fraction > 0);
 }
@@ -54,10 +53,10 @@ std::string entries(const Scene& scene, const Table& table, std::size_t index) {
   std::string out;
   for (const Key& key : table.keys) {
     if (key.replaced || (table.name == "bed" && idle(scene, key.name))) continue;
-    std::string value = std::visit(AsToml{}, key.get(scene, index));
-    if (key.kind == Kind::word_or_number && value.find_first_of("0123456789") == 1)
-      value = value.substr(1, value.size() - 2);
-    if (!value.empty()) out += fmt::format("{} = {}\n", key.name, value);
+    const Value value = key.get(scene, index);
+    const double* number = key.kind == Kind::word_or_number ? std::get_if<double>(&value) : nullptr;
+    const std::string text = number != nullptr ? fmt::format("{}", *number) : std::visit(AsToml{}, value);
+    if (!text.empty()) out += fmt::format("{} = {}\n", key.name, text);
   }
   return out;
 }

@@ -1,8 +1,6 @@
 // How a table of keys is declared: each key a member of a plain struct, its default the member's initialiser.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <initializer_list>
 #include <optional>
 #include <type_traits>
@@ -32,12 +30,7 @@ struct Access<std::uint64_t> : Plain<std::uint64_t, Kind::count, std::int64_t> {
 template <>
 struct Access<bool> : Plain<bool, Kind::truth> {};
 template <>
-struct Access<std::string> : Plain<std::string, Kind::text> {
-  static void set(std::string& place, const Value& value) {
-    const double* number = std::get_if<double>(&value);  // of a word or a number
-    place = number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(value);
-  }
-};
+struct Access<std::string> : Plain<std::string, Kind::text> {};
 template <>
 struct Access<std::vector<double>> : Plain<std::vector<double>, Kind::numbers> {};
 template <>
@@ -47,9 +40,38 @@ struct Access<std::vector<std::string>> : Plain<std::vector<std::string>, Kind::
 template <>
 struct Access<Points> : Plain<Points, Kind::points> {};
 
+template <class Choice>
+requires std::is_enum_v<Choice>
+struct Access<Choice> {
+  static constexpr Kind kind = Kind::text;
+  static constexpr auto words = names(Choice{});
+  static Value get(Choice place) { return std::string(name_of(place)); }
+  static void set(Choice& place, const Value& value) { place = choice_of<Choice>(std::get<std::string>(value)); }
+};
+
+template <>
+struct Access<Start> {
+  static constexpr Kind kind = Kind::text;
+  static constexpr auto words = names(StartKind{});
+  static Value get(const Start& place) { return text_of(place); }
+  static void set(Start& place, const Value& value);
+};
+
+template <class Choice>
+struct Access<std::variant<Choice, double>> : Access<Choice> {
+  static constexpr Kind kind = Kind::word_or_number;
+  static Value get(const std::variant<Choice, double>& place) {
+    const double* number = std::get_if<double>(&place);
+    return number != nullptr ? Value(*number) : Access<Choice>::get(std::get<Choice>(place));
+  }
+  static void set(std::variant<Choice, double>& place, const Value& value) {
+    const double* number = std::get_if<double>(&value);
+    number != nullptr ? void(place = *number) : Access<Choice>::set(place.template emplace<Choice>(), value);
+  }
+};
+
 template <class T>
-struct Access<std::optional<T>> {
-  static constexpr Kind kind = Access<T>::kind;
+struct Access<std::optional<T>> : Access<T> {
   static Value get(const std::optional<T>& place) { return place ? Access<T>::get(*place) : Value{}; }
   static void set(std::optional<T>& place, const Value& value) { Access<T>::set(place.emplace(), value); }
 };
@@ -68,8 +90,7 @@ enum class Mark {
   required,
   given,     ///< required unless another key is given: its initialiser is no default
   replaced,  ///< not in the resolved case
-  by_size,   ///< pairs of a diameter and a value, not of a time and a value
-  or_number
+  by_size    ///< pairs of a diameter and a value, not of a time and a value
 };
 
 inline Help help(std::string_view text) { return {text}; }
@@ -100,7 +121,6 @@ struct KeyOf {
     key.replaced |= fact == Mark::replaced;
     no_default |= fact == Mark::required || fact == Mark::given;
     if (fact == Mark::by_size) key.kind = Kind::sieves;
-    if (fact == Mark::or_number) key.kind = Kind::word_or_number;
   }
 };
 
@@ -109,6 +129,7 @@ KeyOf<S> key(T S::*member, std::string_view name, const Facts&... facts) {
   KeyOf<S> made{{.table = {}, .name = name, .kind = Access<T>::kind, .help = {}}, false, {}, {}};
   made.get = [member](const S& from) { return Access<T>::get(from.*member); };
   made.set = [member](S& into, const Value& value) { Access<T>::set(into.*member, value); };
+  if constexpr (requires { Access<T>::words; }) made.key.words = {Access<T>::words.begin(), Access<T>::words.end()};
   (made.say(facts), ...);
   return made;
 }

@@ -3,6 +3,13 @@
 
 namespace polybed::core::schema {
 
+void Access<Start>::set(Start& place, const Value& value) {
+  const std::string& text = std::get<std::string>(value);
+  const auto word = std::find_if(words.begin(), words.end(), [&](std::string_view w) { return fits_word(w, text); });
+  place.kind = static_cast<StartKind>(word - words.begin());
+  place.file = text.substr(std::min(text.size(), word->find("FILE")));
+}
+
 namespace {
 
 Table title_table() {
@@ -20,15 +27,14 @@ Table column_table() {
               help("number of cells along each direction of size")),
           key(&Column::depth, "depth", dimension::length, above(0, 1e3),
               help("of a 2-D column; default: twice the largest diameter and twice dem.skin")),
-          key(&Column::sides, "sides", choices("wall", "periodic"),
+          key(&Column::sides, "sides",
               help("walls: no slip for the fluid, free slip for solids unless said; or joined")),
-          key(&Column::ends, "ends", choices("wall", "periodic"),
-              help("bottom and top; joined for the DEM only, without a fluid")),
+          key(&Column::ends, "ends", help("bottom and top; joined for the DEM only, without a fluid")),
           key(&Column::gravity, "gravity", dimension::acceleration, range(0, 1e3), help("acceleration of gravity")),
           key(&Column::gravity_direction, "gravity_direction", range(-1e6, 1e6),
               help("of gravity, of any length, in the order of size: along width and height, or width, depth "
                    "and height; default: down; for the TFM another one needs column.closed = true and walls")),
-          key(&Column::outlet, "outlet", choices("screen", "open"),
+          key(&Column::outlet, "outlet",
               help("top of the column: a screen that holds solids, or open to them: they leave and are counted")),
           key(&Column::closed, "closed", help("walls all round: no inlet and no outlet")),
       });
@@ -45,7 +51,7 @@ Table fluid_table() {
               help("water 0 to 40 degC, air 200 to 1000 K")),
           key(&Fluid::density, "density", dimension::density, above(0, 1e5), help("rho_f")),
           key(&Fluid::viscosity, "viscosity", dimension::viscosity, above(0, 1e6), help("mu")),
-          key(&Fluid::equation_of_state, "equation_of_state", choices("incompressible", "tait", "ideal_gas"),
+          key(&Fluid::equation_of_state, "equation_of_state",
               help("how density depends on pressure; a compressible fluid carries sound"),
               equation("tait: P + B = (P_out + B)(rho/rho_0)^n; ideal_gas: P = rho R T, T fixed")),
           key(&Fluid::outlet_pressure, "outlet_pressure", dimension::pressure, range(1, 1e9),
@@ -66,7 +72,7 @@ Table species_table() {
           key(&Species::diameter, "diameter", dimension::length, range(1e-8, 1), Mark::given,
               help("D_j of its spheres; or give a distribution")),
           within(&Species::sizes,
-                 key(&SizeDistribution::kind, "distribution", choices("lognormal", "sieves"), Mark::replaced,
+                 key(&SizeDistribution::kind, "distribution", Mark::replaced,
                      help("of sizes by volume, in place of one diameter: it becomes the species name.1, name.2, ... "
                           "from fine to coarse, which have its moments"),
                      equation("sum x_j D_j^k = integral X D^k dD, k = -N ... N-1"))),
@@ -108,7 +114,7 @@ Table bed_table() {
               help("of the bed at the start, with the mass of the settled bed; default: solids_fraction")),
           key(&Bed::particles, "particles", range(0, 1e12),
               help("numbers of particles of each species, instead of volume_share and static_height")),
-          key(&Bed::start, "start", choices("mixed", "layered", "settled", "random", "checkpoint:FILE", "list:FILE"),
+          key(&Bed::start, "start",
               help("the bed at time zero; layered: in the order of the species, the first at the bottom; "
                    "settled: in equilibrium; for the DEM only: random: anywhere in the column, list: particles "
                    "one by one, SI, columns species, x, y, z and if not zero vx, vy, vz, wx, wy, wz, y upward")),
@@ -146,7 +152,7 @@ Table feed_table() {
       {
           key(&Feed::species, "species", Mark::required,
               help("name of the species that is fed; of one with a distribution: all classes, by their shares")),
-          key(&Feed::at, "at", choices("bottom", "top"), help("end of the column")),
+          key(&Feed::at, "at", help("end of the column")),
           key(&Feed::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3), Mark::required,
               help("volume of solids per area of the feed and time, into the column, besides the fluid of the "
                    "inlet; a velocity or a table as there")),

@@ -9,22 +9,20 @@ Table tfm_table() {
   return table(
       "tfm", &Scene::tfm,
       {
-          key(&Tfm::integrator, "integrator", choices("auto", "explicit", "implicit"),
+          key(&Tfm::integrator, "integrator",
               help("explicit for a bed fluidised by a liquid, implicit for gas, compressible fluids and "
                    "settling; auto chooses so")),
           key(&Tfm::rtol, "rtol", range(1e-12, 0.1), help("relative tolerance of the time integration")),
-          key(&Tfm::flux, "flux", choices("limited", "upwind"),
-              help("solids fractions at faces: second order with a limiter, or first order")),
-          key(&Tfm::momentum, "momentum", choices("auto", "upwind", "limited", "conservative", "conservative_limited"),
+          key(&Tfm::flux, "flux", help("solids fractions at faces: second order with a limiter, or first order")),
+          key(&Tfm::momentum, "momentum",
               help("convection of velocities: first order, or second with a limiter; as (U.grad)U, or in the "
                    "conservative form; auto: conservative, for particles conservative_limited")),
-          key(&Tfm::solids_wall, "solids_wall", choices("free_slip", "no_slip", "johnson_jackson"),
+          key(&Tfm::solids_wall, "solids_wall",
               help("velocity of the solids along walls; johnson_jackson: partial slip, with a viscosity of the "
                    "solids"),
               equation("johnson_jackson: mu_s dU_t/dn = -[pi sqrt(3 theta) s rho phi g0/(6 phi_max) + p_f "
                        "tan(delta_w)/abs(U_t)] U_t")),
-          key(&Tfm::max_packing, "max_packing", above(0, 1), choices("auto", "fedors_landel", "yu_standish"),
-              Mark::or_number,
+          key(&Tfm::max_packing, "max_packing", above(0, 1),
               help("phi_max of the frictional pressure: a number; auto: the settled bed then has "
                    "bed.solids_fraction; or of the mixture in each cell, from species.max_packing")),
           key(&Tfm::frictional_pressure, "frictional_pressure", dimension::pressure, above(0, 1e6), help("Fr"),
@@ -43,9 +41,8 @@ Table tfm_table() {
               help("greatest frictional viscosity, which solids at rest have: they creep")),
           key(&Tfm::least_shear_rate, "least_shear_rate", dimension::rate, above(0, 1e6),
               help("gamma_0 of the frictional viscosity"), equation("abs(gamma) = sqrt(2 D':D' + gamma_0^2)")),
-          key(&Tfm::kinetic_theory, "kinetic_theory", choices("garzo_dufty", "lun"),
-              help("viscosity and dissipation of solids_stress = kinetic")),
-          key(&Tfm::radial_distribution, "radial_distribution", choices("torquato", "carnahan_starling"),
+          key(&Tfm::kinetic_theory, "kinetic_theory", help("viscosity and dissipation of solids_stress = kinetic")),
+          key(&Tfm::radial_distribution, "radial_distribution",
               help("g0 of solids_stress = kinetic; torquato: above 0.49 growing towards 0.64"),
               equation("g0 = (1 - phi/2)/(1 - phi)^3; above 0.49 CS(0.49) 0.15/(0.64 - phi)")),
           key(&Tfm::start_temperature, "start_temperature", dimension::speed_squared, range(0, 1e6),
@@ -79,31 +76,31 @@ Table dem_table() {
           key(&Dem::friction, "friction", range(0, 10), help("likewise; the TFM's species exchange reads it too")),
           key(&Dem::restitution, "restitution", above(0, 1), help("likewise; the TFM's species exchange reads it too")),
           key(&Dem::fluid_every, "fluid_every", range(1, 1e6), help("solid steps per fluid step")),
-          key(&Dem::kernel, "kernel", choices("auto", "bilinear", "diffusion"),
+          key(&Dem::kernel, "kernel",
               help("how particles are averaged for the fluid: bilinear in the cells around them; diffusion: "
                    "with a width of its own; auto: diffusion where a cell is smaller than 1.5 of the largest "
                    "diameters, for fewer than 10 particles 5")),
           key(&Dem::kernel_width, "kernel_width", dimension::length, above(0, 10),
               help("of the diffusion kernel, full width at half height; default: 4 of the largest diameters, of "
                    "fewer than 10 particles 6")),
-          key(&Dem::own_share, "own_share", choices("kept", "removed"),
+          key(&Dem::own_share, "own_share",
               help("what a particle counts for in the averages that its drag follows from, less the neighbours "
                    "that it keeps away: kept as the thesis has it, or removed, as drag laws are made of means "
                    "of the mixture")),
           key(&Dem::held, "held", help("particles stay where they are: a fixed bed, for its pressure drop")),
-          key(&Dem::fluid_ranks, "fluid_ranks", choices("auto", "each", "shared"),
+          key(&Dem::fluid_ranks, "fluid_ranks",
               help("on several ranks: each solves for the whole fluid, and particles have the same bits on any "
                    "number of ranks; shared: each solves for a block of it, to the solver's tolerance; auto: "
                    "shared from 20000 cells on")),
-          key(&Dem::tangential, "tangential", choices("hdd", "mindlin", "mindlin_deresiewicz", "linear"),
+          key(&Dem::tangential, "tangential",
               help("tangential force with contact = hertz_mindlin: hdd after Di Renzo and Di Maio, mindlin "
                    "incremental, mindlin_deresiewicz with partial slip; linear: a spring of tangential_ratio "
                    "times k_n"),
               equation("hdd: F_t = -(2/3) 8 G* a xi - c_t v_t")),
-          key(&Dem::tail, "tail", choices("clip", "keep"),
+          key(&Dem::tail, "tail",
               help("near separation the dashpot would pull: clip: F_n >= 0, with the damping that then realises "
                    "the restitution; keep: it pulls")),
-          key(&Dem::integrator, "integrator", choices("auto", "thesis", "synchronised"),
+          key(&Dem::integrator, "integrator",
               help("thesis: forces from half-step velocities; synchronised: velocities at the time of the "
                    "positions; auto: synchronised with friction and a ratio of diameters of at least 3")),
           key(&Dem::normal_stiffness, "normal_stiffness", dimension::stiffness, above(0, 1e12),
@@ -152,7 +149,7 @@ Table calibrate_table() {
   return table(
       "calibrate", &Scene::calibrate,
       {
-          key(&Calibrate::regime, "regime", choices("auto", "dry", "wet", "bed"),
+          key(&Calibrate::regime, "regime",
               help("boxes of polybed calibrate: dry: collisions alone; wet: sheared, with drag towards the flow "
                    "and films; bed: fluidised; auto: dry where the shear rate times the relaxation time of the "
                    "slip is 1 or more, else wet")),

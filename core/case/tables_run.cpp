@@ -11,8 +11,7 @@ Table chooser_table() {
       {
           key(&Chooser::tolerance, "tolerance", range(1e-6, 1),
               help("what is left out sums to at most this share of the buoyant weight")),
-          key(&Chooser::purpose, "purpose", choices("steady", "transient"),
-              help("steady leaves out forces of acceleration, whose means vanish")),
+          key(&Chooser::purpose, "purpose", help("steady leaves out forces of acceleration, whose means vanish")),
           key(&Chooser::roughness, "roughness", dimension::length, above(0, 1),
               help("radius of asperities of the surfaces; default: dem.roughness")),
           key(&Chooser::hamaker, "hamaker", dimension::energy, above(0, 1e-6),
@@ -32,7 +31,7 @@ Table chooser_table() {
               help("likewise of the fluid")),
           key(&Chooser::zones, "zones", choices("packed", "bulk", "wall", "freeboard"),
               help("where effects are weighed: packed, bulk, wall, freeboard; default: all")),
-          key(&Chooser::monitor, "monitor", choices("auto", "off", "warn", "stop", "enable"),
+          key(&Chooser::monitor, "monitor",
               help("what to do where forces that were left out exceed the tolerance during the run; enable: "
                    "lift and magnus are switched on at the next output time, of particles alone; auto: warn "
                    "where a role is auto, else off")),

@@ -56,14 +56,16 @@ Axis grid_axis(const core::Scene& scene) {
 
 Axis scheme_axis(const core::Scene& scene) {
   Axis axis{"scheme", AxisKind::numerics, {}, 0, {}};
-  if (scene.tfm.integrator != "auto" || scene.tfm.flux != "limited")
-    axis.levels.push_back({scene.tfm.integrator + " " + scene.tfm.flux, 0, {}, "", 1});
+  if (scene.tfm.integrator != core::TfmIntegrator::automatic || scene.tfm.flux != core::FractionFlux::limited)
+    axis.levels.push_back(
+        {fmt::format("{} {}", core::name_of(scene.tfm.integrator), core::name_of(scene.tfm.flux)), 0, {}, "", 1});
   for (const char* integrator : {"auto", "explicit", "implicit"})
-    if (integrator != scene.tfm.integrator || scene.tfm.flux != "limited")
+    if (integrator != core::name_of(scene.tfm.integrator) || scene.tfm.flux != core::FractionFlux::limited)
       axis.levels.push_back({integrator, 0, {key("tfm.integrator", integrator), key("tfm.flux", "limited")}, "", 1});
     else if (axis.levels.empty())
       axis.levels.push_back({integrator, 0, {}, "", 1});
-  if (scene.tfm.flux == "limited") axis.levels.push_back({"upwind", 0, {key("tfm.flux", "upwind")}, "", 1});
+  if (scene.tfm.flux == core::FractionFlux::limited)
+    axis.levels.push_back({"upwind", 0, {key("tfm.flux", "upwind")}, "", 1});
   return axis;
 }
 
@@ -180,7 +182,7 @@ const std::vector<Maker>& makers() {
 /// Coupling and kernel are those of a fluid.
 bool acts(const Maker& maker, const core::Scene& scene, const std::string& model) {
   const bool of_fluid = maker.name == "coupling" || maker.name == "kernel";
-  return maker.models.find(model) != std::string::npos && !(of_fluid && scene.fluid.name == "none");
+  return maker.models.find(model) != std::string::npos && !(of_fluid && !scene.fluid.present());
 }
 
 }  // namespace

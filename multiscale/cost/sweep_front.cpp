@@ -172,7 +172,7 @@ void Sweeper::run_solver() {
     row.note = "pressure to a hundredth";
     row.order.overrides.push_back(fmt::format("tfm.pressure_tolerance={:.17g}", given / 100));
   } else {
-    if (scene_.fluid.name == "none") return;
+    if (!scene_.fluid.present()) return;
     row.note = "fluid 8 times as often";
     row.order.overrides.push_back(fmt::format("dem.fluid_every={}", std::max(1, scene_.dem.fluid_every / 8)));
   }

@@ -76,7 +76,8 @@ RunOrder Sweeper::tight(const std::vector<std::string>& more) const {
 /// An integrator of another family than the one that a run had.
 std::vector<std::string> Sweeper::other_family(const Row& row) const {
   if (sweep_.options.model == "dem")
-    return {scene_.dem.integrator == "synchronised" ? "dem.integrator=thesis" : "dem.integrator=synchronised"};
+    return {scene_.dem.integrator == core::DemIntegrator::synchronised ? "dem.integrator=thesis"
+                                                                       : "dem.integrator=synchronised"};
   const bool implicit = row.outcome.counters.contains("jacobian_products x unknowns");
   return {implicit ? "tfm.integrator=explicit" : "tfm.integrator=implicit"};
 }

@@ -35,7 +35,7 @@ double number_of_one(const core::Dimension& dimension, const UnitSystem& units) 
 }
 
 core::Scene in_units(core::Scene scene, const UnitSystem& units) {
-  if (scene.fluid.name != "none") {
+  if (scene.fluid.present()) {
     const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
     scene.fluid.name = "test fluid";
     scene.fluid.density = fluid.density;
