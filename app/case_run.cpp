@@ -30,12 +30,11 @@ CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::
 void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& resume,
                       const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& start_from) {
   core::Checkpoint checkpoint;
-  const std::string word = "checkpoint:";
   if (options_.resume) {
     core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, case_); });
     resume(checkpoint, checkpoint_path(directory_));
-  } else if (scene_.bed.start.starts_with(word)) {
-    const std::filesystem::path path = scene_.bed.start.substr(word.size());
+  } else if (scene_.bed.start.kind == core::StartKind::checkpoint) {
+    const std::filesystem::path path = scene_.bed.start.file;
     core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(path); });
     start_from(checkpoint, path);
   }

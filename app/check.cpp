@@ -65,7 +65,7 @@ std::vector<Inflow> inflows_of(const core::Scene& scene) {
   };
   std::vector<Inflow> inflows{
       {"the inlet", greatest(scene.inlet.superficial_velocity),
-       std::string("it will be carried to the top") + (scene.column.outlet == "open" ? ", and out" : "")}};
+       std::string("it will be carried to the top") + (scene.column.outlet == core::Outlet::open ? ", and out" : "")}};
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
     inflows.push_back({fmt::format("jet {}", n + 1), greatest(scene.jets[n].superficial_velocity),
                        "it will be carried up as far as the jet keeps together"});
@@ -77,7 +77,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
   Derived derived;
   derived.notes = scene_warnings(scene);
   derived.fluid = constants.fluid;
-  if (scene.fluid.equation_of_state != "incompressible")
+  if (scene.fluid.compressible())
     derived.sound = fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, constants.fluid.density),
                                           scene.fluid.outlet_pressure);
   if (model.effects().solids_stress) derived.max_packing = model.effects().solids_stress->max_packing();
@@ -112,8 +112,8 @@ void write_state(core::Json& json, const char* name, const BedState& bed) {
 
 void write_requirements(core::Json& json, const Requirements& need) {
   constexpr double mega = 1e-6;
-  json.member("integrator", need.integrator)
-      .member("momentum", need.momentum.name)
+  json.member("integrator", core::name_of(need.integrator))
+      .member("momentum", core::name_of(need.momentum.form))
       .member("unknowns", std::uint64_t(need.unknowns));
   json.member("cells", std::uint64_t(need.cells)).member("memory_MB", mega * need.memory.total());
   json.key("memory").begin_object().member("state_MB", mega * need.memory.state);
@@ -150,8 +150,9 @@ std::string time_text(double seconds) {
 void print_requirements(const core::Scene& scene, const Requirements& need) {
   constexpr double mega = 1e-6;
   const MemoryNeed& m = need.memory;
-  core::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, need.integrator, need.reason);
-  core::print("# convection of momentum {} ({})\n", need.momentum.name, need.momentum.reason);
+  core::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns,
+              core::name_of(need.integrator), need.reason);
+  core::print("# convection of momentum {} ({})\n", core::name_of(need.momentum.form), need.momentum.reason);
   core::print("# memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
               mega * m.total(), mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
   core::print("# time scales of the bed, from the case alone:\n");
@@ -174,8 +175,9 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
 void print_size_classes(const core::Scene& scene) {
   for (const core::SizeClasses& record : scene.size_classes) {
     const double sauter = closures::sauter_diameter(record.share, record.diameter);
-    core::print("# {}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species, record.given.kind,
-                record.diameter.size(), sauter, closures::poly_index_mean(record.share, record.diameter));
+    core::print("# {}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species,
+                core::name_of(record.given.kind.value()), record.diameter.size(), sauter,
+                closures::poly_index_mean(record.share, record.diameter));
     for (std::size_t k = 0; k < record.diameter.size(); ++k)
       core::print("#   {}.{}: diameter {:.6g} m, share {:.6g}, y {:.4g}\n", record.species, k + 1, record.diameter[k],
                   record.share[k], record.diameter[k] / sauter);

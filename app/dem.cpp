@@ -50,7 +50,7 @@ class DemRun final : public CaseRun {
         [&](core::Checkpoint& checkpoint, const fs::path&) { model_.start_from(checkpoint); });
     for (const std::string& line : warnings_before())
       if (first_ && !options_.quiet) core::print(stderr, "warning: {}\n", line);
-    if (scene_.bed.start == "settled" && !options_.resume) {
+    if (scene_.bed.start.kind == core::StartKind::settled && !options_.resume) {
       if (!options_.quiet) core::print(stderr, "the bed settles first\n");
       const core::Checkpoint rest = dem::settled(scene_, model_.limits().dt, ranks_);
       if (!options_.quiet) core::print(stderr, "at rest after {:.3g} s\n", rest.time("time"));

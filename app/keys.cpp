@@ -46,18 +46,13 @@ void print_markdown() {
       "to the two-fluid model; `[dem]`, `[[contact_pair]]` and a species' contact properties belong to the particle "
       "model, "
       "with or without a fluid: [particles.md](../guide/particles.md) says how such a case is written.\n");
-  std::string_view table = "?";
-  for (const Key& key : core::keys()) {
-    if (key.table != table) {
-      table = key.table;
-      const bool array = core::is_array_of_tables(table);
-      core::print(
-          "\n## {}\n\n| key | kind | range | default | meaning |\n| --- | --- | --- | --- | --- |\n",
-          table.empty() ? "At the top" : fmt::format("`{}{}{}`", array ? "[[" : "[", table, array ? "]]" : "]"));
-    }
-    core::print("| `{}` | {} | {} | {} | {}{} |\n", key.name, core::kind_name(key), cell(core::range_text(key)),
-                key.required ? "required" : cell(key.standard), cell(key.help),
-                key.equation.empty() ? "" : fmt::format("; `{}`", key.equation));
+  for (const core::Table& table : core::tables()) {
+    core::print("\n## {}\n\n| key | kind | range | default | meaning |\n| --- | --- | --- | --- | --- |\n",
+                table.name.empty() ? "At the top" : fmt::format("`{}`", core::header(table)));
+    for (const Key& key : table.keys)
+      core::print("| `{}` | {} | {} | {} | {}{} |\n", key.name, core::kind_name(key), cell(core::range_text(key)),
+                  key.required ? "required" : cell(key.standard), cell(key.help),
+                  key.equation.empty() ? "" : fmt::format("; `{}`", key.equation));
   }
   core::print(
       "\n## `[effects]`\n\nrole = law; a role left out is off.\n\n| role | acts in | laws |\n| --- | --- | "

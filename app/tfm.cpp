@@ -124,8 +124,10 @@ class TfmRun final : public CaseRun {
                 work.steps, work.rejected_steps, work.right_hand_sides, work.pressure_iterations,
                 work.newton_iterations, work.krylov_iterations);
     core::print(stderr, "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
-                simulated, simulated > 0 ? cpu / simulated : 0.0, model_.integrator_name(), model_.integrator_reason());
-    core::print(stderr, "convection of momentum: {} ({})\n", model_.momentum().name, model_.momentum().reason);
+                simulated, simulated > 0 ? cpu / simulated : 0.0, core::name_of(model_.integrator_kind()),
+                model_.integrator_reason());
+    core::print(stderr, "convection of momentum: {} ({})\n", core::name_of(model_.momentum().form),
+                model_.momentum().reason);
     print_invariants(observers_->invariants().worst());
     for (const tfm::ClosureUse& use : totals_.closures)
       core::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,

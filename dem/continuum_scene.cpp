@@ -11,7 +11,7 @@ std::vector<std::string> only_for_continuum(const core::Scene& scene) {
   const auto add = [&](bool set, const char* what, const char* remedy) {
     if (set) found.push_back(fmt::format("{} is for the TFM only: {}", what, remedy));
   };
-  add(scene.column.outlet == "open", "column.outlet = \"open\"",
+  add(scene.column.outlet == core::Outlet::open, "column.outlet = \"open\"",
       "particles leave through dem.opening, where there is no fluid; use \"screen\", which holds them");
   add(!scene.feeds.empty(), "[[feed]]", "particles cannot enter the column yet; give them all in [bed]");
   return found;

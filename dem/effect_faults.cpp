@@ -37,18 +37,20 @@ void add_forces(const core::Scene& scene, Faults& faults) {
 }
 
 void add_contact(const core::Scene& scene, Faults& faults) {
-  const std::string contact = chosen(scene, "contact"), &tangential = scene.dem.tangential;
+  const std::string contact = chosen(scene, "contact");
+  const core::Tangential tangential = scene.dem.tangential;
   if (contact == "linear" && !scene.dem.normal_stiffness)
     faults.push_back({"effects.contact",
                       {"dem.normal_stiffness"},
                       "dem.normal_stiffness: effects.contact = \"linear\" needs it, as in \"1000 N/m\""});
-  if (contact == "linear" && (tangential == "mindlin" || tangential == "mindlin_deresiewicz"))
+  if (contact == "linear" &&
+      (tangential == core::Tangential::mindlin || tangential == core::Tangential::mindlin_deresiewicz))
     faults.push_back({"dem.tangential",
                       {"effects.contact"},
-                      "dem.tangential = \"" + tangential +
+                      "dem.tangential = \"" + std::string(core::name_of(tangential)) +
                           "\" needs the radius of a contact, which effects.contact = \"linear\" has not: use "
                           "hertz_mindlin, or dem.tangential = \"linear\""});
-  if (contact == "hertz_mindlin" && tangential == "linear")
+  if (contact == "hertz_mindlin" && tangential == core::Tangential::linear)
     faults.push_back({"dem.tangential",
                       {"effects.contact"},
                       "dem.tangential = \"linear\" is a share of dem.normal_stiffness: it goes with effects.contact = "

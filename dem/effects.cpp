@@ -20,7 +20,7 @@ namespace {
 /// What acts through the fluid needs one, and what turns with it has to be able to turn.
 void require_fluid(const core::Scene& scene) {
   for (const char* role : {"lift", "magnus", "history", "brownian", "gas_slip", "lubrication"})
-    if (const std::string law = core::law_of(scene, role); law != "none" && scene.fluid.name == "none")
+    if (const std::string law = core::law_of(scene, role); law != "none" && !scene.fluid.present())
       throw core::CaseError(fmt::format(
           "effects.{} = \"{}\" is what a fluid does, and there is none: name it under [fluid], or leave it out", role,
           law));
@@ -31,7 +31,7 @@ void require_fluid(const core::Scene& scene) {
 }
 
 std::unique_ptr<NormalLaw> make_dry(const core::Scene& scene, const Materials& materials, const std::string& contact,
-                                    const std::string& tail) {
+                                    core::Tail tail) {
   if (contact == "none")
     throw core::CaseError("effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear");
   if (contact != "linear") return std::make_unique<HertzContact>(materials, tail);
@@ -45,19 +45,19 @@ std::unique_ptr<NormalLaw> make_normal(const core::Scene& scene, const Materials
     return make_dry(scene, materials, contact, scene.dem.tail);
   const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
   const Materials whole = materials.with_restitution(0);  // whose damping ratio is 1, with the tail kept
-  return std::make_unique<WetContact>(make_dry(scene, whole, contact, "keep"), materials,
+  return std::make_unique<WetContact>(make_dry(scene, whole, contact, core::Tail::keep), materials,
                                       WetContact::Fluid{fluid.density, fluid.viscosity}, scene.dem.tail, 0);
 }
 
 std::unique_ptr<TangentialLaw> make_tangential(const core::Scene& scene, const Materials& materials,
                                                const std::string& contact, int place) {
-  const std::string& law = scene.dem.tangential;
+  const core::Tangential law = scene.dem.tangential;
   if (contact == "hertz") return nullptr;
   if (contact == "linear")
     return std::make_unique<SpringFriction>(materials, scene.dem.normal_stiffness.value(), scene.dem.tangential_ratio,
                                             place);
-  if (law == "mindlin") return std::make_unique<MindlinFriction>(materials, place);
-  if (law == "mindlin_deresiewicz") return std::make_unique<PartialSlipFriction>(materials, place);
+  if (law == core::Tangential::mindlin) return std::make_unique<MindlinFriction>(materials, place);
+  if (law == core::Tangential::mindlin_deresiewicz) return std::make_unique<PartialSlipFriction>(materials, place);
   return std::make_unique<SpringFriction>(materials, place);
 }
 

@@ -76,7 +76,7 @@ Model::~Model() = default;
 
 /// The fluid between the particles, if there is one. A sheared box has no room for its motion: there it is the flow.
 void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
-  if (scene.fluid.name == "none") return;
+  if (!scene.fluid.present()) return;
   double volume = 0;
   std::vector<double> share(scene.species.size(), 0.0);
   for (const Particle& p : all) {

@@ -65,14 +65,14 @@ std::vector<Layer> layers(const core::Scene& scene, const Materials& materials, 
                           const std::vector<std::int64_t>& numbers) {
   const std::vector<double> height = heights(scene, materials, box, numbers);
   double sum = std::accumulate(height.begin(), height.end(), 0.0);
-  if (scene.bed.start == "random") sum = box.size[1];
+  if (scene.bed.start.kind == core::StartKind::random) sum = box.size[1];
   if (sum > box.size[1])
     throw core::CaseError(fmt::format(
         "column.size: the particles fill {:.4g} m of its height at a solids fraction of {:.3g}, which is more than it "
         "has, {:.4g} m",
         sum, start_fraction(scene), box.size[1]));
   std::vector<Layer> layers(numbers.size(), {0, sum});
-  if (scene.bed.start != "layered") return layers;
+  if (scene.bed.start.kind != core::StartKind::layered) return layers;
   double low = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     layers[j] = {low, low + height[j]};
@@ -119,14 +119,15 @@ std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Mater
 }
 
 double start_height(const core::Scene& scene, const Materials& materials, const Box& box) {
-  const std::string& start = scene.bed.start;
-  if (start != "mixed" && start != "layered" && start != "settled") return box.size[1];
+  const core::StartKind start = scene.bed.start.kind;
+  if (start != core::StartKind::mixed && start != core::StartKind::layered && start != core::StartKind::settled)
+    return box.size[1];
   const std::vector<double> height = heights(scene, materials, box, particle_numbers(scene, materials, box));
   return std::min(box.size[1], std::accumulate(height.begin(), height.end(), 0.0));
 }
 
 std::vector<Particle> start_particles(const core::Scene& scene, const Materials& materials, const Box& box) {
-  if (scene.bed.start.starts_with("list:")) return listed(scene, materials);
+  if (scene.bed.start.kind == core::StartKind::list) return listed(scene, materials);
   const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);
   const std::vector<Layer> layer = layers(scene, materials, box, numbers);
   const std::uint64_t seed = scene.bed.seed;

@@ -9,7 +9,6 @@
 #include "closures/contact_pair.hpp"
 #include "closures/drag_turton_levenspiel.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "core/error.hpp"
 #include "dem/packing.hpp"
 #include "fluid/properties.hpp"
@@ -64,7 +63,7 @@ double fall_height(const core::Scene& scene, const Materials& materials, const B
     if (!box.periodic[k]) longest = std::max(longest, box.size[k]);
   if (box.periodic[1] || scene.column.down[1] != -1) return longest;
   double top = 0;
-  if (core::is_list(scene.bed))
+  if (scene.bed.start.kind == core::StartKind::list)
     for (const Particle& p : start) top = std::max(top, p.place.x[1]);
   else
     top = start_height(scene, materials, box);
@@ -78,8 +77,8 @@ Box box_of(const core::Scene& scene) {
   const core::Column& column = scene.column;
   Box box;
   box.size = column.size;
-  box.periodic = {column.sides == "periodic", column.ends == "periodic",
-                  column.dimensions == 2 || column.sides == "periodic"};
+  box.periodic = {column.sides == core::Boundary::periodic, column.ends == core::Boundary::periodic,
+                  column.dimensions == 2 || column.sides == core::Boundary::periodic};
   box.shear_rate = scene.dem.shear_rate;
   if (scene.dem.opening)
     box.opening = Opening{0.5 * box.size[0], 0.5 * box.size[2], 0.5 * *scene.dem.opening, column.dimensions == 3};
@@ -88,7 +87,7 @@ Box box_of(const core::Scene& scene) {
     box.walls.push_back({axis, 0, 0});
     // The top of a column without a fluid lets particles fly beyond it, and gravity bring them back, unless it is
     // closed; the screen of one with a fluid stops them.
-    if (axis != 1 || column.closed || scene.fluid.name != "none")
+    if (axis != 1 || column.closed || scene.fluid.present())
       box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
   }
   return box;
@@ -112,7 +111,7 @@ Speeds known_speeds(const core::Scene& scene, const Materials& materials, const 
   const double fall = std::sqrt(first * first + 2 * scene.column.gravity * fall_height(scene, materials, box, start));
   const double shear = std::abs(box.image_speed());
   const Speeds dry{std::max(fall, shear), std::max(fall * most_passed_on(materials), shear)};
-  if (scene.fluid.name == "none" || scene.dem.shear_rate != 0) return dry;
+  if (!scene.fluid.present() || scene.dem.shear_rate != 0) return dry;
   const double wet = speed_in_fluid(scene, first);
   return {std::min(dry.impact, wet), std::min(dry.greatest, wet)};
 }

@@ -27,7 +27,7 @@ constexpr double falls = 100;
 constexpr std::int64_t steps_to_a_stop = 64;  ///< as often as a run asks whether the user wants to stop
 
 core::Scene falling(core::Scene scene, double step) {
-  scene.bed.start = "mixed";
+  scene.bed.start = {core::StartKind::mixed};
   scene.dem.fixed_step = step;
   scene.dem.opening.reset();
   scene.inlet.superficial_velocity.clear();
@@ -55,7 +55,7 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
   constexpr double until_rest = 2.2, in_fluid = 1.5;  // of the falls below, measured
   const double height = start_height(scene, materials, box), g = scene.column.gravity;
   const double dry = until_rest * std::sqrt(2 * height / g);
-  if (scene.fluid.name == "none") return dry;
+  if (!scene.fluid.present()) return dry;
   const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
   double slowest = std::numeric_limits<double>::infinity(), solids = 0;
   const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);

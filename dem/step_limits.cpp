@@ -52,12 +52,13 @@ StepLimits step_limits(const core::Scene& scene, const Materials& materials, con
   StepLimits limits;
   limits.greatest_speed = speed;
   const double ratio = materials.greatest_diameter() / materials.least_diameter();
-  const std::string& integrator = scene.dem.integrator;
+  const core::DemIntegrator integrator = scene.dem.integrator;
   const auto& kinds = materials.kinds();
   const bool rough = std::any_of(kinds.begin(), kinds.end(), [](const PairMaterial& m) { return m.friction > 0; });
   const bool unequal = laws.tangential && rough && ratio >= 3;
-  limits.synchronised = integrator == "synchronised" || (integrator == "auto" && unequal);
-  limits.integrator_reason = integrator != "auto"
+  limits.synchronised =
+      integrator == core::DemIntegrator::synchronised || (integrator == core::DemIntegrator::automatic && unequal);
+  limits.integrator_reason = integrator != core::DemIntegrator::automatic
                                  ? "as the case says"
                                  : (unequal ? fmt::format("friction and a size ratio of {:.3g}, at least 3", ratio)
                                             : fmt::format("no friction or a size ratio of {:.3g}, below 3", ratio));

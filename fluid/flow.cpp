@@ -37,8 +37,8 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       gravity_(scene.column.gravity),
       tolerance_(tolerance),
       viscous_(core::law_of(scene, "fluid_stress") != "none"),
-      conservative_(scene.tfm.momentum != "upwind" && scene.tfm.momentum != "limited"),
-      limited_(scene.tfm.momentum != "upwind" && scene.tfm.momentum != "conservative"),
+      conservative_(scene.tfm.momentum != core::Momentum::upwind && scene.tfm.momentum != core::Momentum::limited),
+      limited_(scene.tfm.momentum != core::Momentum::upwind && scene.tfm.momentum != core::Momentum::conservative),
       solver_(grid),
       fluid_(grid),
       convected_(core::make_face_field(grid)),
@@ -50,7 +50,7 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       mobility_(core::make_face_field(grid)),
       source_(core::make_field(grid)),
       change_(core::make_field(grid)) {
-  const bool compressible = scene.fluid.equation_of_state != "incompressible";
+  const bool compressible = scene.fluid.compressible();
   if (conservative_ || compressible) own_flux_ = core::make_face_field(grid);
   if (!compressible) return;
   compressible_.emplace(grid, boundaries_, equation_of_state(scene.fluid, constants_.density),

@@ -71,7 +71,7 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
     parts_.push_back(std::move(part));
   }
   for (const core::Feed& feed : scene.feeds)
-    if (feed.at == "bottom")
+    if (feed.at == core::FeedEnd::bottom)
       parts_.push_back({Ramp(feed.superficial_velocity), face_shares(grid, feed.from, feed.to), 0});
   for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
 }

@@ -14,7 +14,7 @@ using core::Index;
 
 Openings::Openings(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
   if (scene.column.closed) return;
-  open_ = scene.column.outlet == "open";
+  open_ = scene.column.outlet == core::Outlet::open;
   for (const core::Feed& feed : scene.feeds) greatest_ = std::max(greatest_, std::abs(feed.velocity));
   for (std::size_t j = 0; j < scene.species.size(); ++j) {
     for (const Side side : {bottom, top}) add_gate(scene, j, side);
@@ -34,7 +34,7 @@ void Openings::add_gate(const core::Scene& scene, std::size_t species, Side side
   std::vector<double> covered(faces, 0.0), velocity(faces, 0.0);
   std::vector<Gate::Part> parts;
   for (const core::Feed& feed : scene.feeds) {
-    if (feed.species != scene.species[species].name || (feed.at == "top") != (side == top)) continue;
+    if (feed.species != scene.species[species].name || (feed.at == core::FeedEnd::top) != (side == top)) continue;
     Gate::Part part{Ramp(feed.superficial_velocity, upward), face_shares(grid_, feed.from, feed.to)};
     for (std::size_t f = 0; f < faces; ++f) {
       covered[f] += part.share[f];

@@ -13,7 +13,7 @@ namespace {
 /// Of water at the outlet's pressure, where it is compressible; the tables are for 1 atm.
 double water_density(const core::Fluid& fluid, double kelvin) {
   const double at_atmosphere = closures::water_density(kelvin);
-  if (fluid.equation_of_state != "tait") return at_atmosphere;
+  if (fluid.equation_of_state != core::Compressibility::tait) return at_atmosphere;
   return closures::TaitLiquid{at_atmosphere, 101325, fluid.tait_stiffness, fluid.tait_exponent}.density(
       fluid.outlet_pressure);
 }
@@ -23,9 +23,9 @@ double water_density(const core::Fluid& fluid, double kelvin) {
 FluidConstants fluid_constants(const core::Fluid& fluid) {
   FluidConstants constants{fluid.density.value_or(0), fluid.viscosity.value_or(0)};
   if (fluid.density && fluid.viscosity) return constants;
-  if (fluid.name == "none") throw core::CaseError("fluid.name = \"none\": this needs a fluid");
-  const bool water = fluid.name == "water", air = fluid.name == "air";
-  if (!water && !air)
+  if (!fluid.present()) throw core::CaseError("fluid.name = \"none\": this needs a fluid");
+  const bool water = fluid.substance() == core::Substance::water;
+  if (fluid.substance() == core::Substance::other)
     throw core::CaseError("fluid '" + fluid.name +
                           "': give fluid.density and fluid.viscosity; only water and air know theirs");
   if (!fluid.temperature)

@@ -62,9 +62,10 @@ RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, doub
 }
 
 Regime shear_regime(const core::Scene& scene) {
-  if (scene.fluid.name == "none") return {"dry", "there is no fluid", {}};
-  const std::string& given = scene.calibrate.regime;
-  Regime regime{given == "dry" || given == "wet" ? given : "", "as the case says", {}};
+  if (!scene.fluid.present()) return {"dry", "there is no fluid", {}};
+  const core::BoxRegime given = scene.calibrate.regime;
+  const bool sheared = given == core::BoxRegime::dry || given == core::BoxRegime::wet;
+  Regime regime{std::string(sheared ? core::name_of(given) : ""), "as the case says", {}};
   const double velocity = greatest_velocity(scene);
   for (std::size_t j = 0; velocity > 0 && j < scene.species.size(); ++j)
     regime.numbers.push_back(regime_numbers(scene, j, velocity, 0));

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/case/resolve_particles.hpp"
 #include "core/memory.hpp"
 #include "core/numerics/blocks.hpp"
 #include "core/print.hpp"
@@ -36,7 +35,7 @@ double fastest_of(double speed, std::int64_t n) {
 /// Particles that stand for those at the start in what depends on the fastest: the list itself, or one of each species.
 std::vector<dem::Particle> fastest_at_start(const core::Scene& scene, const dem::Materials& materials,
                                             const dem::Box& box, std::int64_t count) {
-  if (scene.bed.start.starts_with("list:")) return dem::start_particles(scene, materials, box);
+  if (scene.bed.start.kind == core::StartKind::list) return dem::start_particles(scene, materials, box);
   std::vector<dem::Particle> particles;
   for (const dem::Species& species : materials.species()) {
     dem::Particle particle{};
@@ -48,7 +47,7 @@ std::vector<dem::Particle> fastest_at_start(const core::Scene& scene, const dem:
 }
 
 std::vector<std::int64_t> numbers_of(const core::Scene& scene, const dem::Materials& materials, const dem::Box& box) {
-  if (!scene.bed.start.starts_with("list:")) return dem::particle_numbers(scene, materials, box);
+  if (scene.bed.start.kind != core::StartKind::list) return dem::particle_numbers(scene, materials, box);
   std::vector<std::int64_t> numbers(materials.species().size(), 0);
   for (const dem::Particle& particle : dem::start_particles(scene, materials, box))
     ++numbers[std::size_t(particle.species)];
@@ -63,7 +62,7 @@ constexpr double mega = 1e-6;
 
 std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materials& materials, std::int64_t particles,
                                     double dt, double steps) {
-  if (scene.fluid.name == "none" || scene.dem.shear_rate != 0) return {};
+  if (!scene.fluid.present() || scene.dem.shear_rate != 0) return {};
   const core::Grid grid = core::grid_of(scene.column, nullptr);
   FluidNeed need;
   need.every = scene.dem.fluid_every;
@@ -121,7 +120,7 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   need.steps = std::ceil(scene.run.until / need.limits.dt);
   need.particle_steps = need.steps * double(need.count());
   need.fluid = fluid_need(scene, materials, need.count(), need.limits.dt, need.steps);
-  if (scene.bed.start == "settled") need.settling = dem::settling_time(scene, materials, box);
+  if (scene.bed.start.kind == core::StartKind::settled) need.settling = dem::settling_time(scene, materials, box);
   need.before = expected_time(need, speed, need.settling / need.limits.dt);
   need.expected = need.before + expected_time(need, speed, need.steps);
   need.least = need.expected / band;
@@ -138,7 +137,8 @@ void choose_stiffness(core::Scene& scene) {
     return;
   const dem::Box box = dem::box_of(scene);
   const dem::Materials materials(scene);
-  const std::int64_t count = core::is_list(scene.bed) ? 0 : sum_of(dem::particle_numbers(scene, materials, box));
+  const std::int64_t count =
+      scene.bed.start.kind == core::StartKind::list ? 0 : sum_of(dem::particle_numbers(scene, materials, box));
   const dem::Speeds speeds = dem::known_speeds(scene, materials, box, fastest_at_start(scene, materials, box, count));
   const dem::HertzContact hertz(materials, scene.dem.tail);
   const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, hertz, speeds.impact);

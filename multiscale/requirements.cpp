@@ -83,7 +83,7 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
   const auto state = [&](double solids_fraction) {
     BedState bed{solids_fraction,
                  tfm::time_scales_of_bed(scene, constants, model.effects(), {solids_fraction, velocity}), 0};
-    bed.step = need.integrator == "explicit"
+    bed.step = need.integrator == core::TfmIntegrator::explicit_steps
                    ? scene.tfm.fixed_step.value_or(tfm::explicit_step(bed.scales))
                    : tfm::implicit_step(constants, velocity / (1 - solids_fraction), scene.tfm.rtol);
     return bed;
@@ -108,7 +108,7 @@ double packed_time(const core::Scene& scene, const Requirements& need, double ve
 /// Steps of an implicit run while its step grows to that of the bed: from its start, and after each checkpoint, where
 /// the integrator forgets its history. For each ten-fold beyond 0.1 ms; measured on packed beds in three dimensions.
 double growing_steps(const core::Scene& scene, const Requirements& need) {
-  if (need.integrator == "explicit") return 0;
+  if (need.integrator == core::TfmIntegrator::explicit_steps) return 0;
   constexpr double from = 1e-4, of_start = 30, of_restart = 7;
   const double tenfolds = std::max(0.0, std::log10(need.expanded.step / from));
   const double restarts = std::max(0.0, std::ceil(scene.run.until / *scene.output.checkpoint_every * (1 - 1e-9)) - 1);
@@ -187,7 +187,8 @@ core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
   if (share() < far_too_high) {
     draw_in(part, 1, fewer(cells[1], share(), least));
     // The packing that holds the bed's weight follows from its height, which is no longer that of the case.
-    if (part.tfm.max_packing == "auto") part.tfm.max_packing = fmt::format("{}", part.bed.solids_fraction + 0.05);
+    if (part.tfm.max_packing == core::MaxPacking(core::PackingRule::automatic))
+      part.tfm.max_packing = part.bed.solids_fraction + 0.05;
   }
   return part;
 }
@@ -198,7 +199,7 @@ Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std
   const core::Scene part = narrow_part(scene, sample_cells);
   const Sample small = small_sample(part);
   model = std::make_unique<tfm::Model>(part, timers);
-  need.integrator = model->integrator_name();
+  need.integrator = model->integrator_kind();
   need.reason = model->integrator_reason();
   need.momentum = model->momentum();
   need.unknowns = unknowns_of(scene, *model);
@@ -217,7 +218,7 @@ Requirements expected_of(const core::Scene& scene, const tfm::Model& model, doub
   Requirements need;
   need.cells = cell_count(scene);
   need.unknowns = model.unknowns();
-  need.integrator = model.integrator_name();
+  need.integrator = model.integrator_kind();
   need.reason = model.integrator_reason();
   need.momentum = model.momentum();
   estimate_steps(scene, model, need);

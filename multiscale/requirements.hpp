@@ -36,7 +36,8 @@ struct BedState {
 
 struct Requirements {
   std::size_t unknowns = 0, cells = 0;
-  std::string integrator, reason;
+  core::TfmIntegrator integrator{};
+  std::string reason;
   tfm::MomentumForm momentum;
   MemoryNeed memory;
   BedState rest;                 ///< settled, as bed.solids_fraction says

@@ -17,7 +17,7 @@ std::vector<core::Role> all_roles() {
 
 std::vector<std::pair<double, double>> size_classes(const core::SizeDistribution& given) {
   std::vector<closures::SizeClass> classes;
-  if (given.kind == "sieves") {
+  if (given.kind == core::SizeLaw::sieves) {
     std::vector<double> opening, share;
     for (const auto& [d, x] : given.sieves) {
       opening.push_back(d);

@@ -152,7 +152,9 @@ void write_size_classes(Json& json, const core::Scene& scene) {
   if (scene.size_classes.empty()) return;
   json.key("size_classes").begin_array();
   for (const core::SizeClasses& record : scene.size_classes) {
-    json.begin_object().member("species", record.species).member("distribution", record.given.kind);
+    json.begin_object()
+        .member("species", record.species)
+        .member("distribution", core::name_of(record.given.kind.value()));
     if (record.given.median) json.member("median_m", *record.given.median);
     if (record.given.mean) json.member("mean_m", *record.given.mean);
     if (record.given.deviation) json.member("deviation", *record.given.deviation);
@@ -221,8 +223,9 @@ std::string run_record_text(const RunRecord& record) {
   const double simulated = model.time() - record.begin;
   Json json;
   begin_record(json, record.scene, "tfm", record.state, record.totals.ranks);
-  json.member("integrator", model.integrator_name()).member("integrator_reason", model.integrator_reason());
-  json.member("momentum", model.momentum().name).member("momentum_reason", model.momentum().reason);
+  json.member("integrator", core::name_of(model.integrator_kind()))
+      .member("integrator_reason", model.integrator_reason());
+  json.member("momentum", core::name_of(model.momentum().form)).member("momentum_reason", model.momentum().reason);
   json.member("unknowns", std::uint64_t(model.unknowns())).member("time_s", model.time());
   json.member("cpu_s", record.totals.cpu_seconds)
       .member("wall_s", record.totals.wall_seconds)

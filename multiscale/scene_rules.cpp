@@ -29,7 +29,7 @@ using Faults = std::vector<SceneFault>;
 const double densest_of_one_size = std::numbers::pi / std::sqrt(18.0);  ///< spheres in a crystal
 
 void add_fluid(const core::Scene& scene, Faults& faults) {
-  if (scene.fluid.name == "none") return;
+  if (!scene.fluid.present()) return;
   try {
     (void)fluid::fluid_constants(scene.fluid);
   } catch (const core::CaseError& error) {
@@ -73,15 +73,15 @@ double share_of_column(const core::Scene& scene) {
 /// stops where they lie above it by as much.
 void add_start_packing(const core::Scene& scene, Faults& faults) {
   const core::Bed& bed = scene.bed;
-  const double given = std::strtod(scene.tfm.max_packing.c_str(), nullptr);  // 0 of a word
-  if (core::law_of(scene, "solids_stress") == "none" || !(given > 0)) return;
-  if (bed.start_solids_fraction - given <= tfm::most_above_packing) return;
+  const double* given = std::get_if<double>(&scene.tfm.max_packing);
+  if (core::law_of(scene, "solids_stress") == "none" || given == nullptr) return;
+  if (bed.start_solids_fraction - *given <= tfm::most_above_packing) return;
   faults.push_back(
       {"tfm.max_packing",
        {"bed.solids_fraction", "bed.start_solids_fraction", "bed.start"},
        fmt::format("tfm.max_packing = {}: the bed at its start, with a solids fraction of {:.4g}, lies more "
                    "than {:g} above; lower bed.start_solids_fraction",
-                   scene.tfm.max_packing, bed.start_solids_fraction, tfm::most_above_packing)});
+                   *given, bed.start_solids_fraction, tfm::most_above_packing)});
 }
 
 void add_packing(const core::Scene& scene, Faults& faults) {
@@ -93,7 +93,7 @@ void add_packing(const core::Scene& scene, Faults& faults) {
                       fmt::format("bed.solids_fraction = {}: spheres of these sizes fill at most {:.3g} of the volume, "
                                   "and about 0.6 when they settle",
                                   scene.bed.solids_fraction, densest)});
-  if (scene.bed.start == "random" && share_of_column(scene) > densest)
+  if (scene.bed.start.kind == core::StartKind::random && share_of_column(scene) > densest)
     faults.push_back(
         {"bed.start",
          {"species.diameter", "bed.volume_share", "bed.particles", "column.", "dem.skin", "bed.static_height",
@@ -145,7 +145,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
     drawn(fmt::format("superficial_velocity of [[jet]] number {}", n + 1),
           least_velocity(scene.jets[n].superficial_velocity));
-  if (scene.fluid.name == "none" || !(scene.column.gravity > 0) || !flows_in(scene)) return warnings;
+  if (!scene.fluid.present() || !(scene.column.gravity > 0) || !flows_in(scene)) return warnings;
   const double density = fluid::fluid_constants(scene.fluid).density;
   for (const core::Species& species : scene.species)
     if (species.density < density)
@@ -153,7 +153,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
           fmt::format("species \"{}\" ({:.4g} kg/m3) is lighter than the fluid ({:.4g} kg/m3), which flows in "
                       "from below: it floats up and {}",
                       species.name, species.density, density,
-                      scene.column.outlet == "open" ? "leaves at the top" : "gathers under the screen"));
+                      scene.column.outlet == core::Outlet::open ? "leaves at the top" : "gathers under the screen"));
   return warnings;
 }
 

@@ -37,7 +37,7 @@ void add_stress(const core::Scene& scene, Faults& faults) {
                           {"effects.granular_temperature", "species.restitution", "dem.restitution"},
                           "effects.granular_temperature = \"algebraic\" needs a restitution below 1: species \"" +
                               species.name + "\""});
-  if (scene.tfm.solids_wall == "johnson_jackson" && viscosity == "none" && !may_collide(stress) &&
+  if (scene.tfm.solids_wall == core::SolidsWall::johnson_jackson && viscosity == "none" && !may_collide(stress) &&
       stress != core::automatic)
     faults.push_back({"tfm.solids_wall",
                       {"effects.solids_viscosity", "effects.solids_stress"},
@@ -46,20 +46,16 @@ void add_stress(const core::Scene& scene, Faults& faults) {
 }
 
 void add_packing(const core::Scene& scene, Faults& faults) {
-  const std::string& packing = scene.tfm.max_packing;
-  if (core::law_of(scene, "solids_stress") == "none" || packing == "auto" || packing == "yu_standish") return;
-  if (packing == "fedors_landel") {
-    if (scene.species.size() != 2)
-      faults.push_back({"tfm.max_packing",
-                        {"species.diameter"},
-                        "tfm.max_packing = \"fedors_landel\" is for two species; yu_standish is for any number"});
-    return;
-  }
-  const double most = std::strtod(packing.c_str(), nullptr);
-  if (most <= scene.tfm.frictional_onset + closures::FrictionalLaw::margin)
+  if (core::law_of(scene, "solids_stress") == "none") return;
+  if (scene.tfm.max_packing == core::MaxPacking(core::PackingRule::fedors_landel) && scene.species.size() != 2)
+    faults.push_back({"tfm.max_packing",
+                      {"species.diameter"},
+                      "tfm.max_packing = \"fedors_landel\" is for two species; yu_standish is for any number"});
+  const double* most = std::get_if<double>(&scene.tfm.max_packing);
+  if (most != nullptr && *most <= scene.tfm.frictional_onset + closures::FrictionalLaw::margin)
     faults.push_back({"tfm.max_packing",
                       {"tfm.frictional_onset"},
-                      fmt::format("tfm.max_packing = {} must lie above tfm.frictional_onset = {}", packing,
+                      fmt::format("tfm.max_packing = {} must lie above tfm.frictional_onset = {}", *most,
                                   scene.tfm.frictional_onset)});
 }
 

@@ -153,7 +153,7 @@ void make_solids_stress(const core::Scene& scene, const Constants& constants, co
   else if (temperature != "none" && dynamic_cast<KineticStress*>(effects.collisions.get()) == nullptr)
     throw core::CaseError("effects.granular_temperature = \"" + temperature +
                           "\" acts only with solids_stress = \"kinetic\" or a dry table");
-  if (scene.tfm.solids_wall == "johnson_jackson")
+  if (scene.tfm.solids_wall == core::SolidsWall::johnson_jackson)
     effects.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);
 }
 
@@ -193,7 +193,7 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
   } else if (name != "none") {
     refuse("species_exchange", name);
   }
-  if (scene.fluid.equation_of_state != "incompressible") {
+  if (scene.fluid.compressible()) {
     const double density = constants.fluid.density;
     effects.compressible = std::make_unique<fluid::Compressible>(
         constants.grid, boundaries, fluid::equation_of_state(scene.fluid, density), scene.fluid.outlet_pressure,

@@ -84,7 +84,7 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
     throw core::CaseError(fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size",
                                       total / bed.start_solids_fraction, height));
   std::vector<double> column;
-  if (bed.start == "settled") {
+  if (bed.start.kind == core::StartKind::settled) {
     if (stress == nullptr)
       throw core::CaseError("bed.start = \"settled\" needs a solids_stress in [effects]: nothing else holds a bed up");
     double excess = 0;
@@ -103,8 +103,8 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
       const double layer_begin = layer_end;
       layer_end += bed.volume_share[j] * total;
       const double overlap = std::max(0.0, std::min(below + here, layer_end) - std::max(below, layer_begin));
-      const double phi =
-          bed.start == "layered" ? overlap / grid.spacing[1] : bed.volume_share[j] * column[std::size_t(y)];
+      const double phi = bed.start.kind == core::StartKind::layered ? overlap / grid.spacing[1]
+                                                                    : bed.volume_share[j] * column[std::size_t(y)];
       fill_layer(grid, y - grid.before[1], phi, solids.fraction[j]);
     }
     below += here;

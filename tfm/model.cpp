@@ -42,12 +42,12 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
 /// Absolute tolerance of the fractions.
 double fraction_tolerance(double rtol) { return 0.1 * rtol; }
 
-Discretisation make_discretisation(const core::Tfm& options, const std::string& momentum) {
-  const auto scheme = [](const std::string& name) { return name == "limited" ? Scheme::limited : Scheme::upwind; };
-  const bool conservative = momentum.rfind("conservative", 0) == 0;
-  const bool limited = momentum == "limited" || momentum == "conservative_limited";
-  return {scheme(options.flux), limited ? Scheme::limited : Scheme::upwind,
-          options.solids_wall == "no_slip" ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip, conservative};
+Discretisation make_discretisation(const core::Tfm& options, core::Momentum momentum) {
+  const auto scheme = [](bool limited) { return limited ? Scheme::limited : Scheme::upwind; };
+  const bool both = momentum == core::Momentum::conservative_limited;
+  return {scheme(options.flux == core::FractionFlux::limited), scheme(both || momentum == core::Momentum::limited),
+          options.solids_wall == core::SolidsWall::no_slip ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip,
+          both || momentum == core::Momentum::conservative};
 }
 
 }  // namespace
@@ -56,14 +56,15 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
     : timers_(timers),
       options_(scene.tfm),
       momentum_((refuse_particle_scene(scene), momentum_form(scene))),
-      equations_(
-          scene, make_constants(scene, ranks),
-          fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed, scene.column.outlet == "open"),
-          fluid::Inlet(core::grid_of(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_.name),
-          timers) {
+      equations_(scene, make_constants(scene, ranks),
+                 fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed,
+                                   scene.column.outlet == core::Outlet::open),
+                 fluid::Inlet(core::grid_of(scene.column, ranks), scene),
+                 make_discretisation(scene.tfm, momentum_.form), timers) {
   choose_integrator(scene);
   const Constants& constants = equations_.constants();
-  layout_ = StateLayout(constants.grid, int(constants.species()), integrator_name_ == "implicit" || compressible(),
+  layout_ = StateLayout(constants.grid, int(constants.species()),
+                        integrator_kind_ == core::TfmIntegrator::implicit_steps || compressible(),
                         transports_temperature(), constants.openings.passages());
   column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
@@ -84,7 +85,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);
   project_jump(even);
-  if (options_.flux == "limited") fallback_.emplace(constants, boundaries(), fraction_tolerance(options_.rtol));
+  if (options_.flux == core::FractionFlux::limited)
+    fallback_.emplace(constants, boundaries(), fraction_tolerance(options_.rtol));
   if (compressible()) start_compressible();
   make_integrator();
   begin_integration();
@@ -96,22 +98,23 @@ Model::~Model() = default;
 /// implicit one replaces more than 1.5 of them, because particles are fine; one that settles or is fluidised by a gas
 /// is cheaper with implicit ones.
 void Model::choose_integrator(const core::Scene& scene) {
-  integrator_name_ = options_.integrator;
+  integrator_kind_ = options_.integrator;
   integrator_reason_ = "as the case says";
-  if (integrator_name_ == "auto") {
+  if (integrator_kind_ == core::TfmIntegrator::automatic) {
     const bool gas = equations_.constants().fluid.density < 100;
     const bool still = scene.column.closed || inlet().greatest() == 0;
     // Between 1.6 and 2.2 beds differ: there explicit steps took from 0.5 to 6 times as long as implicit ones.
     constexpr double dear_above = 1.5;
     const double replaced = explicit_steps_per_implicit(scene, equations_.constants(), effects(), inlet().greatest());
-    integrator_name_ = compressible() || gas || still || replaced > dear_above ? "implicit" : "explicit";
+    integrator_kind_ = compressible() || gas || still || replaced > dear_above ? core::TfmIntegrator::implicit_steps
+                                                                               : core::TfmIntegrator::explicit_steps;
     integrator_reason_ = compressible() ? "compressible: sound is faster than anything that matters"
                          : gas          ? "gas: drag relaxes faster than anything moves"
                          : still        ? "nothing flows in: the bed settles"
                                  : fmt::format("in a liquid, an implicit step for {:.1f} explicit ones", replaced);
   }
   constexpr double coarsest_implicit = 2e-3;
-  if (integrator_name_ == "implicit" && options_.rtol > coarsest_implicit)
+  if (integrator_kind_ == core::TfmIntegrator::implicit_steps && options_.rtol > coarsest_implicit)
     throw core::CaseError(
         fmt::format("tfm.rtol = {} with the implicit integrator: at most {} (its predictor jumps beyond packing)",
                     options_.rtol, coarsest_implicit));
@@ -139,7 +142,7 @@ core::TolerancesAt Model::tolerances_at() const {
 }
 
 void Model::make_integrator() {
-  if (integrator_name_ == "implicit") {
+  if (integrator_kind_ == core::TfmIntegrator::implicit_steps) {
     implicit_ = std::make_unique<ImplicitProblem>(equations_, layout_, timers_);
     core::ImplicitOptions options;
     options.rtol = options_.rtol;

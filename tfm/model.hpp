@@ -71,7 +71,8 @@ class Model : public core::Simulation {
   [[nodiscard]] std::vector<double> breakpoints() const;
   /// Volume of each species that has come in and gone out since the start, m3, of the fields last shown.
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
-  [[nodiscard]] const std::string& integrator_name() const { return integrator_name_; }
+  /// Explicit or implicit steps.
+  [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_kind_; }
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_reason_; }
   [[nodiscard]] const MomentumForm& momentum() const { return momentum_; }
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
@@ -119,7 +120,8 @@ class Model : public core::Simulation {
   core::Tfm options_;
   MomentumForm momentum_;
   RightHandSide equations_;
-  std::string integrator_name_, integrator_reason_;
+  core::TfmIntegrator integrator_kind_{};
+  std::string integrator_reason_;
   StateLayout layout_;
   std::unique_ptr<ExplicitProblem> explicit_;
   std::unique_ptr<ImplicitProblem> implicit_;

@@ -82,7 +82,7 @@ core::Checkpoint Model::checkpoint() const {
     if (c.arrays.contains(name)) c.parts[name] = std::move(parts);
   c.numbers["time_s"] = time_;
   c.numbers["step_s"] = step_;
-  c.texts["integrator"] = integrator_name_;
+  c.texts["integrator"] = core::name_of(integrator_kind_);
   if (const auto account = fluid_account(time_)) {
     c.numbers["fluid_start_kg"] = account->start;
     c.numbers["fluid_in_kg"] = account->in;
@@ -128,7 +128,7 @@ void Model::check_fits(const core::Checkpoint& checkpoint) const {
   const bool first = core::is_first(constants().grid.ranks.get());  // texts are the first rank's
   if (state == checkpoint.arrays.end() || state->second.size() != y_.size() || pressure == checkpoint.arrays.end() ||
       pressure->second.size() != constants().grid.cell_count() ||
-      (first && (kind == checkpoint.texts.end() || kind->second != integrator_name_)))
+      (first && (kind == checkpoint.texts.end() || kind->second != core::name_of(integrator_kind_))))
     throw core::FileError("the checkpoint belongs to another case: its unknowns or its integrator differ");
   core::require_numbers(checkpoint);
   for (const StateLayout::Entry& entry : layout_.entries()) {

@@ -3,8 +3,8 @@
 namespace polybed::tfm {
 
 MomentumForm momentum_form(const core::Scene& scene) {
-  if (scene.tfm.momentum != "auto") return {scene.tfm.momentum, "as the case says"};
-  return {"conservative", "(U.grad)U would show beds heavier than they are"};
+  if (scene.tfm.momentum != core::Momentum::automatic) return {scene.tfm.momentum, "as the case says"};
+  return {core::Momentum::conservative, "(U.grad)U would show beds heavier than they are"};
 }
 
 }  // namespace polybed::tfm

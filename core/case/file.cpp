@@ -7,7 +7,6 @@
 #include "core/case/depth.hpp"
 #include "core/case/keys.hpp"
 #include "core/case/override.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "core/case/values.hpp"
 #include "core/output/files.hpp"
 
@@ -25,7 +24,7 @@ class CaseReader {
   Scene finish();
 
  private:
-  void read_table(const toml::table& table, std::string_view name, std::size_t index);
+  void read_table(const toml::table& table, const Table& known, std::size_t index);
   void read_entry(std::string_view table, const toml::key& name, const toml::node& node);
   void read_effects(const toml::node& node);
   void read_key(const Key& key, std::size_t index, const toml::node& node);
@@ -47,79 +46,53 @@ class CaseReader {
   WrongKeys wrong_;
 };
 
-/// A name as people write it: [table] or [[array]].
-std::string bracketed(std::string_view table) {
-  return is_array_of_tables(table) ? fmt::format("[[{}]]", table) : fmt::format("[{}]", table);
-}
-
 void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& node) {
   given_.emplace(key.path(), node.source());
   const std::size_t problems = values_.problems().size();
-  const auto store = [&]<class T>(T& place, const auto& value) {
-    if (value) place = static_cast<T>(*value);
-  };
-  std::visit(
-      [&](auto at) {
-        auto& place = at(scene_, index);
-        using T = std::remove_reference_t<decltype(place)>;
-        if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>)
-          store(place, values_.number(key, node));
-        else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::uint64_t>)
-          store(place, values_.count(key, node));
-        else if constexpr (std::is_same_v<T, bool>)
-          store(place, values_.truth(key, node));
-        else if constexpr (std::is_same_v<T, std::string>)
-          store(place, values_.text(key, node));
-        else if constexpr (std::is_same_v<T, std::vector<double>>)
-          store(place, values_.numbers(key, node));
-        else if constexpr (std::is_same_v<T, std::vector<std::int64_t>>)
-          store(place, values_.counts(key, node));
-        else if constexpr (std::is_same_v<T, std::vector<std::string>>)
-          store(place, values_.texts(key, node));
-        else
-          store(place, key.by_size ? values_.sieves(key, node) : values_.points(key, node));
-      },
-      key.place);
+  const Value value = values_.read(key, node);
+  if (!std::holds_alternative<std::monostate>(value)) key.set(scene_, index, value);
   if (values_.problems().size() > problems) wrong_.add(key.path());
 }
 
 /// A table that cannot be read: none of its keys has a value.
 void CaseReader::wrong_table(std::string_view table, const toml::source_region& place, const std::string& message) {
   values_.add(place, message);
-  for (const Key& key : keys())
-    if (key.table == table) wrong_.add(key.path());
+  for (const Key& key : find_table(table)->keys) wrong_.add(key.path());
 }
 
 void CaseReader::wrong_key(const toml::key& key, std::string_view table) {
   std::vector<std::string> names;
-  for (const Key& k : keys())
-    if (k.table == table) names.emplace_back(k.name);
+  const Table* known = find_table(table);
+  if (known != nullptr)
+    for (const Key& k : known->keys) names.emplace_back(k.name);
   if (table == "effects")
     for (const Role& role : roles_) names.push_back(role.name);
   if (table.empty())
-    for (const Key& k : keys()) names.emplace_back(k.table.empty() ? k.name : k.table);
+    for (const Table& t : tables()) names.emplace_back(t.name);
   const std::string near = nearest_name(key.str(), names);
-  values_.add(key.source(),
-              fmt::format("unknown key '{}'{}{}", key.str(), table.empty() ? "" : " in " + bracketed(table),
-                          near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  values_.add(
+      key.source(),
+      fmt::format("unknown key '{}'{}{}", key.str(),
+                  table.empty() ? "" : " in " + (known == nullptr ? fmt::format("[{}]", table) : header(*known)),
+                  near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
-void CaseReader::read_table(const toml::table& table, std::string_view name, std::size_t index) {
+void CaseReader::read_table(const toml::table& table, const Table& known, std::size_t index) {
   for (const auto& [key, node] : table) {
-    const auto found = std::find_if(keys().begin(), keys().end(),
-                                    [&](const Key& k) { return k.table == name && k.name == key.str(); });
-    if (found == keys().end())
-      wrong_key(key, name);
+    const auto found =
+        std::find_if(known.keys.begin(), known.keys.end(), [&](const Key& k) { return k.name == key.str(); });
+    if (found == known.keys.end())
+      wrong_key(key, known.name);
     else
       read_key(*found, index, node);
   }
-  for (const Key& key : keys())
-    if (key.required && key.table == name && !table.contains(key.name)) {
+  for (const Key& key : known.keys)
+    if (key.required && !table.contains(key.name)) {
       values_.add(table.source(), fmt::format("{} is missing: {}", key.path(), key.help));
       wrong_.add(key.path());
     }
   const std::size_t problems = values_.problems().size();
-  if (name == "species") check_sizes(table);
+  if (known.name == "species") check_sizes(table);
   if (values_.problems().size() > problems) wrong_.add("species.diameter");
 }
 
@@ -183,45 +156,40 @@ void CaseReader::read_effects(const toml::node& node) {
 }
 
 void CaseReader::read_entry(std::string_view table, const toml::key& name, const toml::node& node) {
-  const bool known = std::any_of(keys().begin(), keys().end(), [&](const Key& k) { return k.table == table; });
-  if (!known) return wrong_key(name, "");
-  if (is_array_of_tables(table)) {
-    const toml::array* entries = node.as_array();
-    if (entries == nullptr || !entries->is_homogeneous<toml::table>())
-      return wrong_table(table, node.source(), fmt::format("{} is an array of tables: write [[{}]]", table, table));
-    if (table == "species") scene_.species.resize(entries->size());
-    if (table == "contact_pair") scene_.contact_pairs.resize(entries->size());
-    if (table == "jet") scene_.jets.resize(entries->size());
-    if (table == "feed") scene_.feeds.resize(entries->size());
-    for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), table, n);
-    return;
+  const Table* known = find_table(table);
+  if (known == nullptr) return wrong_key(name, "");
+  if (!known->array) {
+    if (!node.is_table())
+      return wrong_table(table, node.source(), fmt::format("{} is a table: write [{}]", table, table));
+    return read_table(*node.as_table(), *known, 0);
   }
-  if (!node.is_table())
-    return wrong_table(table, node.source(), fmt::format("{} is a table: write [{}]", table, table));
-  read_table(*node.as_table(), table, 0);
+  const toml::array* entries = node.as_array();
+  if (entries == nullptr || !entries->is_homogeneous<toml::table>())
+    return wrong_table(table, node.source(), fmt::format("{} is an array of tables: write [[{}]]", table, table));
+  known->resize(scene_, entries->size());
+  for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), *known, n);
 }
 
 void CaseReader::read(toml::table& root, std::span<const std::string> overrides) {
   for (const std::string& given : overrides) apply_override(root, given, values_);
   scene_.overrides.assign(overrides.begin(), overrides.end());
+  const Key& title = find_table("")->keys.front();
   for (const auto& [name, node] : root) {
     if (name.str() == "effects")
       read_effects(node);
-    else if (const auto top = std::find_if(keys().begin(), keys().end(),
-                                           [&](const Key& k) { return k.table.empty() && k.name == name.str(); });
-             top != keys().end())
-      read_key(*top, 0, node);
+    else if (name.str() == title.name)
+      read_key(title, 0, node);
     else
       read_entry(name.str(), name, node);
   }
   for (std::string_view table : {"column", "fluid", "species", "bed", "run"})
-    if (!root.contains(table)) wrong_table(table, {}, fmt::format("{} is missing", bracketed(table)));
+    if (!root.contains(table)) wrong_table(table, {}, fmt::format("{} is missing", header(*find_table(table))));
 }
 
 /// How much there is in the bed: said once.
 void CaseReader::check_amount() {
   const auto given = [&](const std::string& path) { return given_.contains(path); };
-  const bool by_particles = given("bed.particles"), list = is_list(scene_.bed);
+  const bool by_particles = given("bed.particles"), list = scene_.bed.start.kind == StartKind::list;
   for (const char* key : {"bed.volume_share", "bed.static_height"}) {
     if (by_particles && given(key))
       values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
@@ -230,7 +198,7 @@ void CaseReader::check_amount() {
     wrong_.add(key);
   }
   // A feed is held against the packing of the settled bed, whatever the bed begins as.
-  const bool anywhere = scene_.bed.start == "random" && by_particles;
+  const bool anywhere = scene_.bed.start.kind == StartKind::random && by_particles;
   if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
   if ((list || anywhere) && scene_.feeds.empty()) return;
   values_.add("bed.solids_fraction is missing: of the settled bed");
@@ -253,7 +221,7 @@ void CaseReader::check_given() {
   check_amount();
   check_fluid();
   const bool inlet = given_.contains("inlet.superficial_velocity");
-  const bool flows = scene_.fluid.name != "none" && scene_.dem.shear_rate == 0;
+  const bool flows = scene_.fluid.present() && scene_.dem.shear_rate == 0;
   if (!scene_.column.closed && !inlet && flows && wrong_.sound({"column.closed", "fluid.name", "dem.shear_rate"}))
     values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");
   if (scene_.column.closed && inlet) values_.add("inlet.superficial_velocity cannot act: column.closed = true");
@@ -267,7 +235,7 @@ void CaseReader::check_scene() {
     return !more.empty();
   };
   const bool one_size = std::all_of(scene_.species.begin(), scene_.species.end(),
-                                    [](const Species& species) { return species.sizes.kind.empty(); });
+                                    [](const Species& species) { return !species.sizes.kind; });
   const bool readable = wrong_.sound({"species.", "bed.volume_share"});
   // Without its classes a distribution has no diameter.
   if (!wrong_.sound("species.distribution") ||

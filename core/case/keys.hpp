@@ -1,6 +1,7 @@
 // The one table of the keys of a case file: it drives reading, checking, the schema, explanations and the docs.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -15,38 +16,55 @@ namespace polybed::core {
 
 using Points = std::vector<std::pair<double, double>>;
 
-/// Where a key's value lives in a scene. The index chooses the entry of an array of tables, e.g. the species.
-template <class T>
-using Place = T& (*)(Scene&, std::size_t index);
-using AnyPlace = std::variant<Place<double>, Place<std::optional<double>>, Place<int>, Place<std::uint64_t>,
-                              Place<bool>, Place<std::string>, Place<std::vector<double>>,
-                              Place<std::vector<std::int64_t>>, Place<std::vector<std::string>>, Place<Points>>;
+/// A key's value; nothing if it is not set. A choice is its word.
+using Value = std::variant<std::monostate, double, std::int64_t, bool, std::string, std::vector<double>,
+                           std::vector<std::int64_t>, std::vector<std::string>, Points>;
+
+enum class Kind { number, count, truth, text, word_or_number, numbers, counts, texts, points, sieves };
+
+struct Range {
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+  bool above_least = false;  ///< the least value itself is not allowed
+};
 
 struct Key {
   std::string_view table, name;
-  AnyPlace place;
-  std::string_view help;
+  Kind kind{};
+  std::string_view help, equation{};
   Dimension dimension{};
-  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
-  bool above_least = false;               ///< the least value itself is not allowed
-  std::string_view standard{};            ///< default as text; empty: none
+  Range range{};
   std::vector<std::string_view> words{};  ///< allowed texts; empty: any
   bool required = false;
-  std::string_view equation{};
-  bool or_number = false;  ///< a text that may also be a number, of this dimension and range
-  bool by_size = false;    ///< pairs of a diameter and a value, not of a time and a value
   bool replaced = false;   ///< the resolved case has what it stands for, and not it
+  std::string standard{};  ///< default as text that a case could give; empty: none
+  std::function<Value(const Scene&, std::size_t index)>
+      get{};  ///< index: entry of an array of tables, e.g. the species
+  std::function<void(Scene&, std::size_t index, const Value&)> set{};
 
   [[nodiscard]] std::string path() const {
     return table.empty() ? std::string(name) : std::string(table) + "." + std::string(name);
   }
 };
 
-/// All keys, table by table. [effects] has a key for each role and is not listed.
+struct Table {
+  std::string_view name;
+  bool array = false;  ///< as [[species]]
+  std::vector<Key> keys;
+  std::function<std::size_t(const Scene&)> count;           ///< entries in a scene; 1 if it is no array
+  std::function<void(Scene&, std::size_t count)> resize{};  ///< of an array
+};
+
+/// All tables and their keys. [effects] has a key for each role and is not listed.
+[[nodiscard]] std::span<const Table> tables();
+
+/// The keys of all tables, table by table.
 [[nodiscard]] std::span<const Key> keys();
 
-/// The tables that are arrays, [[species]] and [[contact_pair]].
-[[nodiscard]] bool is_array_of_tables(std::string_view table);
+/// A table by its name, null if there is none.
+[[nodiscard]] const Table* find_table(std::string_view name);
+
+/// A table as a case file heads it: "[column]", "[[species]]".
+[[nodiscard]] std::string header(const Table& table);
 
 /// Kind of a key's value for people: "length, m", "list of counts", "text" ...
 [[nodiscard]] std::string kind_name(const Key& key);

@@ -13,7 +13,6 @@
 #include <string_view>
 
 #include "core/case/keys.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 
@@ -187,9 +186,10 @@ ParticleList ListReader::read(std::istream& in) {
 }  // namespace
 
 ParticleList read_particle_list(const Scene& scene) {
-  if (!is_list(scene.bed))
-    throw CaseError("bed.start = \"" + scene.bed.start + "\" names no list of particles: write \"list:FILE.csv\"");
-  const std::string file = scene.bed.start.substr(std::string_view("list:").size());
+  if (scene.bed.start.kind != StartKind::list)
+    throw CaseError("bed.start = \"" + text_of(scene.bed.start) +
+                    "\" names no list of particles: write \"list:FILE.csv\"");
+  const std::string& file = scene.bed.start.file;
   (void)bytes_of_file(file, longest_file);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(fmt::format("{}: cannot be read ({})", file, std::strerror(errno)));

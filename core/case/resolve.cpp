@@ -180,7 +180,7 @@ void Checker::jets() {
 
 void Checker::feeds() {
   const bool closed = scene_.column.closed;
-  if (closed && scene_.column.outlet == "open") add("column.outlet = \"open\" cannot act: column.closed = true");
+  if (closed && scene_.column.outlet == Outlet::open) add("column.outlet = \"open\" cannot act: column.closed = true");
   if (closed && !scene_.feeds.empty()) add("[[feed]] cannot act: column.closed = true");
   bool lie = true;
   for (const Feed& feed : scene_.feeds) {
@@ -204,7 +204,7 @@ void Checker::feeds() {
 
 void Checker::bed(bool by_particles) {
   Bed& bed = scene_.bed;
-  if (is_list(bed)) return;  // which says itself how much there is
+  if (bed.start.kind == StartKind::list) return;  // which says itself how much there is
   const std::size_t species = scene_.species.size();
   const double area = scene_.column.size[0] * scene_.column.size[2];
   if (by_particles) {
@@ -237,10 +237,10 @@ void Checker::bed(bool by_particles) {
 
 void Checker::fluid() {
   const Fluid& fluid = scene_.fluid;
-  const std::string& law = fluid.equation_of_state;
-  if (law == "ideal_gas" && fluid.name == "water")
+  const Substance substance = fluid.substance();
+  if (fluid.equation_of_state == Compressibility::ideal_gas && substance == Substance::water)
     add("fluid.equation_of_state = \"ideal_gas\": water is a liquid; \"tait\" is the law of a compressible liquid");
-  if (law == "tait" && fluid.name == "air")
+  if (fluid.equation_of_state == Compressibility::tait && substance == Substance::air)
     add("fluid.equation_of_state = \"tait\": air is a gas; \"ideal_gas\" is its law");
 }
 
@@ -255,13 +255,14 @@ void Checker::chooser() {
 
 void Checker::numerics() {
   const Tfm& tfm = scene_.tfm;
-  if (tfm.fixed_step && tfm.integrator == "implicit") add("tfm.fixed_step works with the explicit integrator only");
-  if (tfm.integrator == "implicit" && tfm.rtol > 2e-3)
+  const bool implicit = tfm.integrator == TfmIntegrator::implicit_steps;
+  if (tfm.fixed_step && implicit) add("tfm.fixed_step works with the explicit integrator only");
+  if (implicit && tfm.rtol > 2e-3)
     add("tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past "
         "packing",
         tfm.rtol);
-  if (scene_.effects.contains("solids_stress") && tfm.max_packing == "auto" && scene_.bed.solids_fraction > 0 &&
-      scene_.bed.solids_fraction <= tfm.frictional_onset &&
+  if (scene_.effects.contains("solids_stress") && tfm.max_packing == MaxPacking(PackingRule::automatic) &&
+      scene_.bed.solids_fraction > 0 && scene_.bed.solids_fraction <= tfm.frictional_onset &&
       wrong_.sound({"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"}))
     add("bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
         scene_.bed.solids_fraction, tfm.frictional_onset);

@@ -11,8 +11,6 @@ namespace polybed::core {
 
 namespace {
 
-constexpr std::string_view list_prefix = "list:";
-
 using Messages = std::vector<std::string>;
 
 void gravity(Column& column, Messages& wrong) {
@@ -36,14 +34,14 @@ void gravity(Column& column, Messages& wrong) {
 
 void periodic_ends(const Scene& scene, Messages& wrong) {
   const Column& column = scene.column;
-  if (column.ends != "periodic") return;
+  if (column.ends != Boundary::periodic) return;
   const auto contradicts = [&](bool set, const char* what) {
     if (set) wrong.push_back(fmt::format("column.ends = \"periodic\" and {} contradict each other", what));
   };
   contradicts(column.closed, "column.closed = true");
-  contradicts(column.outlet == "open", "column.outlet = \"open\"");
+  contradicts(column.outlet == Outlet::open, "column.outlet = \"open\"");
   contradicts(!scene.feeds.empty(), "[[feed]]");
-  if (scene.fluid.name != "none" && scene.dem.shear_rate == 0)
+  if (scene.fluid.present() && scene.dem.shear_rate == 0)
     wrong.push_back(
         "column.ends = \"periodic\" is for particles without a fluid, or for a sheared box whose fluid moves with its "
         "flow: set fluid.name = \"none\", or dem.shear_rate");
@@ -54,17 +52,17 @@ void shear(const Scene& scene, Messages& wrong) {
   const auto needs = [&](bool met, const std::string& what) {
     if (!met) wrong.push_back(fmt::format("dem.shear_rate = {:g} 1/s needs {}", scene.dem.shear_rate, what));
   };
-  needs(scene.column.sides == "periodic", "column.sides = \"periodic\"");
-  needs(scene.column.ends == "periodic", "column.ends = \"periodic\"");
+  needs(scene.column.sides == Boundary::periodic, "column.sides = \"periodic\"");
+  needs(scene.column.ends == Boundary::periodic, "column.ends = \"periodic\"");
   needs(scene.column.gravity == 0, fmt::format("column.gravity = 0, it is {:g} m/s2", scene.column.gravity));
-  if (scene.fluid.name == "none") return;
+  if (!scene.fluid.present()) return;
   const auto idle = [&](bool set, const char* what) {
     if (set) wrong.push_back(fmt::format("{} cannot act in a sheared box: its fluid moves with its flow", what));
   };
   idle(!scene.inlet.superficial_velocity.empty(), "inlet.superficial_velocity");
   idle(!scene.jets.empty(), "[[jet]]");
   idle(scene.dem.held, "dem.held = true");
-  idle(scene.fluid.equation_of_state != "incompressible", "fluid.equation_of_state");
+  idle(scene.fluid.compressible(), "fluid.equation_of_state");
   for (const char* role : {"fluid_stress", "added_mass", "lift", "magnus", "history"})
     idle(scene.effects.contains(role), (std::string("effects.") + role).c_str());
 }
@@ -77,8 +75,8 @@ void opening(const Scene& scene, Messages& wrong) {
   const auto say = [&](bool set, const std::string& what) {
     if (set) wrong.push_back(fmt::format("dem.opening = {:g} m: {}", width, what));
   };
-  say(scene.fluid.name != "none", "particles cannot leave a column with a fluid; set fluid.name = \"none\"");
-  say(column.ends == "periodic", "column.ends = \"periodic\" leaves no bottom to open");
+  say(scene.fluid.present(), "particles cannot leave a column with a fluid; set fluid.name = \"none\"");
+  say(column.ends == Boundary::periodic, "column.ends = \"periodic\" leaves no bottom to open");
   say(width >= column.size[0],
       fmt::format("it must be narrower than the bottom, which is {:g} m wide", column.size[0]));
   say(column.dimensions == 3 && width >= depth,
@@ -94,16 +92,16 @@ void in_fluid(const Scene& scene, Messages& wrong) {
     if (set) wrong.emplace_back(what);
   };
   const Column& column = scene.column;
-  const bool fluid = scene.fluid.name != "none", drag = scene.effects.contains("drag");
+  const bool fluid = scene.fluid.present(), drag = scene.effects.contains("drag");
   const bool tilted = column.down[0] != 0 || column.down[2] != 0 || !(column.down[1] < 0);
   const bool inflow = !scene.inlet.superficial_velocity.empty() || !scene.jets.empty();
   say(scene.dem.held && !fluid, "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"");
   say(scene.dem.held && fluid && !drag,
       "dem.held = true without drag: nothing resists the flow through the bed; name a law in effects.drag");
-  say(scene.dem.kernel == "bilinear" && scene.dem.kernel_width.has_value(),
+  say(scene.dem.kernel == Kernel::bilinear && scene.dem.kernel_width.has_value(),
       "dem.kernel_width cannot act: dem.kernel = \"bilinear\" has the width of the cells; use \"diffusion\" or "
       "\"auto\"");
-  say(fluid && tilted && scene.fluid.equation_of_state != "incompressible",
+  say(fluid && tilted && scene.fluid.compressible(),
       "column.gravity_direction other than down and a compressible fluid contradict each other: its density at rest "
       "falls with height; use fluid.equation_of_state = \"incompressible\"");
   say(fluid && tilted && inflow && !column.closed,
@@ -113,7 +111,7 @@ void in_fluid(const Scene& scene, Messages& wrong) {
 }
 
 void no_fluid(const Scene& scene, Messages& wrong) {
-  if (scene.fluid.name != "none") return;
+  if (scene.fluid.present()) return;
   const auto idle = [&](bool set, const char* what) {
     if (set) wrong.push_back(fmt::format("{} cannot act: fluid.name = \"none\"", what));
   };
@@ -125,7 +123,7 @@ void no_fluid(const Scene& scene, Messages& wrong) {
   idle(scene.fluid.temperature.has_value(), "fluid.temperature");
   idle(scene.fluid.density.has_value(), "fluid.density");
   idle(scene.fluid.viscosity.has_value(), "fluid.viscosity");
-  idle(scene.fluid.equation_of_state != "incompressible", "fluid.equation_of_state");
+  idle(scene.fluid.compressible(), "fluid.equation_of_state");
 }
 
 /// A path of a list is meant from the working directory or, if nothing is there, from the folder of the case.
@@ -135,23 +133,23 @@ void place_of_list(Bed& bed, const std::string& case_name, Messages& wrong) {
     std::error_code error;
     return fs::exists(path, error) && !fs::is_directory(path, error);
   };
-  const fs::path given = bed.start.substr(list_prefix.size());
+  const fs::path given = bed.start.file;
   if (is_file(given)) return;
   const fs::path beside = fs::path(case_name).parent_path() / given;
   if (is_file(beside))
-    bed.start = std::string(list_prefix) + beside.string();
+    bed.start.file = beside.string();
   else
-    wrong.push_back(
-        fmt::format("bed.start = \"{}\": no such file in the working directory or beside the case file", bed.start));
+    wrong.push_back(fmt::format("bed.start = \"{}\": no such file in the working directory or beside the case file",
+                                text_of(bed.start)));
 }
 
 void bed(Scene& scene, const std::string& case_name, Messages& wrong) {
   Bed& bed = scene.bed;
-  const bool list = is_list(bed);
+  const bool list = bed.start.kind == StartKind::list;
   const auto idle = [&](bool set, const char* key) {
-    if (set) wrong.push_back(fmt::format("bed.{} cannot act: bed.start = \"{}\"", key, bed.start));
+    if (set) wrong.push_back(fmt::format("bed.{} cannot act: bed.start = \"{}\"", key, text_of(bed.start)));
   };
-  idle(bed.start_fraction && (list || bed.start == "random"), "start_solids_fraction");
+  idle(bed.start_fraction && (list || bed.start.kind == StartKind::random), "start_solids_fraction");
   idle(list && !bed.volume_share.empty(), "volume_share");
   idle(list && bed.static_height > 0, "static_height");
   idle(list && !bed.particles.empty(), "particles");
@@ -159,8 +157,6 @@ void bed(Scene& scene, const std::string& case_name, Messages& wrong) {
 }
 
 }  // namespace
-
-bool is_list(const Bed& bed) { return bed.start.starts_with(list_prefix); }
 
 std::vector<std::string> resolve_particles(Scene& scene, const std::string& case_name, const WrongKeys& wrong_keys) {
   Messages wrong;

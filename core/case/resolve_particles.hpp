@@ -9,9 +9,6 @@
 
 namespace polybed::core {
 
-/// True if the bed is given particle by particle, in a file.
-[[nodiscard]] bool is_list(const Bed& bed);
-
 /// Direction of gravity, ends of the column, a scene without a fluid, shear, the place of a list of particles. Fills in
 /// Column::down and the path of the list. Returns what is wrong; column.size must have been read into the scene.
 /// \param wrong  keys with problems of their own: what rests on them is not checked

@@ -6,17 +6,21 @@
 
 #include "core/case/file.hpp"
 #include "core/case/keys.hpp"
-#include "core/case/resolve_particles.hpp"
 
 namespace polybed::core {
 
 namespace {
 
-/// One value as TOML in SI; empty if it is not set.
+/// A value as TOML in SI; empty if it is not set.
 struct AsToml {
-  Scene& scene;
-  std::size_t index;
-  static std::string quoted(const std::string& text) {
+  std::string operator()(std::monostate) const { return {}; }
+  std::string operator()(double v) const {
+    const std::string text = fmt::format("{}", v);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+  }
+  std::string operator()(std::int64_t v) const { return std::to_string(v); }
+  std::string operator()(bool v) const { return v ? "true" : "false"; }
+  std::string operator()(const std::string& text) const {
     std::string out = "\"";
     for (char c : text) {
       if (c == '"' || c == '\\') out += '\\';
@@ -27,95 +31,57 @@ struct AsToml {
     }
     return out + "\"";
   }
-  static std::string literal(double v) {
-    const std::string text = fmt::format("{}", v);
-    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+  std::string operator()(const std::pair<double, double>& point) const {
+    return fmt::format("[{}, {}]", (*this)(point.first), (*this)(point.second));
   }
-  static std::string literal(std::int64_t v) { return std::to_string(v); }
-  static std::string literal(const std::string& v) { return quoted(v); }
   template <class T>
-  static std::string literal(const std::vector<T>& values) {
+  std::string operator()(const std::vector<T>& values) const {
     std::string text;
-    for (const T& v : values) text += (text.empty() ? "" : ", ") + literal(v);
+    for (const T& v : values) text += (text.empty() ? "" : ", ") + (*this)(v);
     return values.empty() ? "" : "[" + text + "]";
-  }
-  std::string operator()(Place<double> p) const { return literal(p(scene, index)); }
-  std::string operator()(Place<std::optional<double>> p) const {
-    return p(scene, index) ? literal(*p(scene, index)) : std::string();
-  }
-  std::string operator()(Place<int> p) const { return std::to_string(p(scene, index)); }
-  std::string operator()(Place<std::uint64_t> p) const { return std::to_string(p(scene, index)); }
-  std::string operator()(Place<bool> p) const { return p(scene, index) ? "true" : "false"; }
-  std::string operator()(Place<std::string> p) const { return quoted(p(scene, index)); }
-  std::string operator()(Place<std::vector<double>> p) const { return literal(p(scene, index)); }
-  std::string operator()(Place<std::vector<std::int64_t>> p) const { return literal(p(scene, index)); }
-  std::string operator()(Place<std::vector<std::string>> p) const { return literal(p(scene, index)); }
-  std::string operator()(Place<Points> p) const {
-    std::string text;
-    for (const auto& [t, v] : p(scene, index))
-      text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", literal(t), literal(v));
-    return p(scene, index).empty() ? "" : "[" + text + "]";
   }
 };
 
-void write_table(Scene& scene, std::string_view table, std::size_t index, std::string& out) {
-  for (const Key& key : keys()) {
-    if (key.table != table || key.replaced) continue;
-    const bool follows = !scene.bed.particles.empty() || is_list(scene.bed);
-    if (follows && table == "bed" && (key.name == "volume_share" || key.name == "static_height")) continue;
-    if (key.path() == "bed.solids_fraction" && !(scene.bed.solids_fraction > 0)) continue;  // of a list: not given
-    std::string value = std::visit(AsToml{scene, index}, key.place);
-    if (key.or_number && value.find_first_of("0123456789") == 1) value = value.substr(1, value.size() - 2);
-    if (!value.empty()) out += fmt::format("{} = {}\n", key.name, value);
+/// Whether a key of [bed] says nothing: it follows from particles that are counted or listed, or was not given.
+bool idle(const Scene& scene, std::string_view name) {
+  const bool follows = !scene.bed.particles.empty() || scene.bed.start.kind == StartKind::list;
+  if (name == "volume_share" || name == "static_height") return follows;
+  return name == "solids_fraction" && !(scene.bed.solids_fraction > 0);
+}
+
+std::string entries(const Scene& scene, const Table& table, std::size_t index) {
+  std::string out;
+  for (const Key& key : table.keys) {
+    if (key.replaced || (table.name == "bed" && idle(scene, key.name))) continue;
+    const Value value = key.get(scene, index);
+    const double* number = key.kind == Kind::word_or_number ? std::get_if<double>(&value) : nullptr;
+    const std::string text = number != nullptr ? fmt::format("{}", *number) : std::visit(AsToml{}, value);
+    if (!text.empty()) out += fmt::format("{} = {}\n", key.name, text);
   }
+  return out;
 }
 
 }  // namespace
 
-std::string resolved_case(const Scene& given) {
-  Scene scene = given;
+std::string resolved_case(const Scene& scene) {
+  const Scene untouched;
   std::string out;
-  write_table(scene, "", 0, out);
-  for (const char* table : {"column", "fluid"}) {
-    out += fmt::format("\n[{}]\n", table);
-    write_table(scene, table, 0, out);
-  }
-  for (std::size_t n = 0; n < scene.species.size(); ++n) {
-    out += "\n[[species]]\n";
-    write_table(scene, "species", n, out);
-  }
-  for (const char* table : {"bed", "inlet"}) {
-    out += fmt::format("\n[{}]\n", table);
-    write_table(scene, table, 0, out);
-  }
-  for (std::size_t n = 0; n < scene.jets.size(); ++n) {
-    out += "\n[[jet]]\n";
-    write_table(scene, "jet", n, out);
-  }
-  for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
-    out += "\n[[feed]]\n";
-    write_table(scene, "feed", n, out);
-  }
-  out += "\n[effects]\n";
-  for (const auto& [role, law] : scene.effects) out += fmt::format("{} = \"{}\"\n", role, law);
-  // What is chosen by hand has no line of the chooser.
-  Scene untouched;
-  std::string chooser, standard;
-  write_table(scene, "chooser", 0, chooser);
-  write_table(untouched, "chooser", 0, standard);
-  if (chooser != standard) out += "\n[chooser]\n" + chooser;
-  for (const char* table : {"run", "output", "tfm", "dem"}) {
-    out += fmt::format("\n[{}]\n", table);
-    write_table(scene, table, 0, out);
-  }
-  std::string boxes, usual;
-  Scene bare;
-  write_table(scene, "calibrate", 0, boxes);
-  write_table(bare, "calibrate", 0, usual);
-  if (boxes != usual) out += "\n[calibrate]\n" + boxes;
-  for (std::size_t n = 0; n < scene.contact_pairs.size(); ++n) {
-    out += "\n[[contact_pair]]\n";
-    write_table(scene, "contact_pair", n, out);
+  for (std::string_view name : {"", "column", "fluid", "species", "bed", "inlet", "jet", "feed", "effects", "chooser",
+                                "run", "output", "tfm", "dem", "calibrate", "contact_pair"}) {
+    if (name == "effects") {
+      out += "\n[effects]\n";
+      for (const auto& [role, law] : scene.effects) out += fmt::format("{} = \"{}\"\n", role, law);
+      continue;
+    }
+    const Table& table = *find_table(name);
+    // What is left alone of these has no line.
+    const bool may_be_absent = name == "chooser" || name == "calibrate";
+    for (std::size_t n = 0; n < table.count(scene); ++n) {
+      const std::string text = entries(scene, table, n);
+      if (may_be_absent && text == entries(untouched, table, n)) continue;
+      if (!name.empty()) out += fmt::format("\n{}\n", header(table));
+      out += text;
+    }
   }
   return out;
 }

@@ -7,7 +7,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include "core/case/choices.hpp"
 
 namespace polybed::core {
 
@@ -18,29 +21,36 @@ struct Column {
   int dimensions = 2;                     ///< follows, as the next two do
   std::array<double, 3> size{};           ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
   std::array<int, 3> cells{1, 1, 1};      ///< along x, y, z; 1 along z in 2-D
-  std::string sides = "wall";             ///< wall | periodic
-  std::string ends = "wall";              ///< wall | periodic: bottom and top; periodic for the DEM only
+  Boundary sides = Boundary::wall;
+  Boundary ends = Boundary::wall;         ///< bottom and top; periodic for the DEM only
   double gravity = 9.81;                  ///< m/s2, along `down`
   std::vector<double> gravity_direction;  ///< as the case gives it, in the order of given_size; empty: down
   std::array<double, 3> down{0, -1, 0};   ///< follows: its unit vector on the axes x, y, z
-  std::string outlet = "screen";          ///< screen | open: whether solids leave at the top
-  bool closed = false;                    ///< walls all round: no inlet, no outlet
+  Outlet outlet = Outlet::screen;
+  bool closed = false;  ///< walls all round: no inlet, no outlet
 };
+
+/// A fluid whose properties are known by its name, another, or none.
+enum class Substance { none, water, air, other };
 
 struct Fluid {
   std::string name;                   ///< water | air | none, or any name with density and viscosity given
   std::optional<double> temperature;  ///< K
   std::optional<double> density;      ///< kg/m3
   std::optional<double> viscosity;    ///< Pa s
-  std::string equation_of_state = "incompressible";
+  Compressibility equation_of_state = Compressibility::incompressible;
   double outlet_pressure = 101325;  ///< absolute, at the top of the column, Pa
   double tait_stiffness = 3.0e8;    ///< B of the Tait liquid, Pa
   double tait_exponent = 7;         ///< its n
+
+  [[nodiscard]] Substance substance() const;
+  [[nodiscard]] bool present() const { return substance() != Substance::none; }
+  [[nodiscard]] bool compressible() const { return equation_of_state != Compressibility::incompressible; }
 };
 
 /// Sizes of a species by volume, as a case gives them; its classes stand in its place once the case is resolved.
 struct SizeDistribution {
-  std::string kind;                               ///< lognormal | sieves; empty: one diameter
+  std::optional<SizeLaw> kind;                    ///< none: one diameter
   std::optional<double> median, mean, deviation;  ///< lognormal: m, m, standard deviation of ln D
   std::vector<std::pair<double, double>> sieves;  ///< (opening m, share retained on it), openings rising
   int classes = 3;
@@ -55,6 +65,15 @@ struct Species {
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;  ///< else those of [dem]
 };
 
+/// The bed at time zero, and the file of a checkpoint or a list of particles.
+struct Start {
+  StartKind kind = StartKind::mixed;
+  std::string file{};
+};
+
+/// As a case file writes it: "mixed", "list:FILE" ...
+[[nodiscard]] std::string text_of(const Start& start);
+
 struct Bed {
   std::vector<double> volume_share;      ///< x_j, sums to 1
   double static_height = 0;              ///< m, of the settled bed
@@ -62,7 +81,7 @@ struct Bed {
   std::optional<double> start_fraction;  ///< as the case gives it
   double start_solids_fraction = 0;      ///< of the bed at the start; the mass is that of the settled bed
   std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
-  std::string start = "mixed";           ///< mixed | layered | settled | random | checkpoint:FILE | list:FILE
+  Start start;
   std::uint64_t seed = 1;
 };
 
@@ -80,7 +99,7 @@ struct Jet {
 /// Solids of one species that are fed through the bottom or the top, everywhere or in a part of it.
 struct Feed {
   std::string species;
-  std::string at = "bottom";  ///< bottom | top
+  FeedEnd at = FeedEnd::bottom;
   std::vector<std::pair<double, double>>
       superficial_velocity;      ///< solids volume per area and time, m/s, into the column
   double velocity = 0;           ///< of the particles as they enter, m/s
@@ -89,18 +108,18 @@ struct Feed {
 
 /// How effects that a case gives as "auto" are chosen, and how what is left out is watched.
 struct Chooser {
-  double tolerance = 0.02;                       ///< what is left out sums to at most this share
-  std::string purpose = "steady";                ///< steady | transient
-  std::optional<double> roughness;               ///< radius of asperities, m; else dem.roughness
-  std::optional<double> hamaker;                 ///< A, J; else 1e-20 in a liquid, 1e-19 in a gas
-  std::optional<double> free_liquid;             ///< surface tension of a liquid that wets the particles, N/m
-  bool static_heap = false;                      ///< a heap at rest is what the scene is about
-  std::optional<double> charge;                  ///< of a particle, C
-  std::optional<double> voidage;                 ///< of the bulk; else by the balance of forces
-  std::vector<double> velocity_range;            ///< superficial, m/s: widens what the case itself says
-  std::vector<double> temperature_range;         ///< K
-  std::vector<std::string> zones;                ///< packed, bulk, wall, freeboard; empty: all
-  std::string monitor = "auto";                  ///< auto (warn where a role is "auto", else off) | off | warn | ...
+  double tolerance = 0.02;  ///< what is left out sums to at most this share
+  Purpose purpose = Purpose::steady;
+  std::optional<double> roughness;        ///< radius of asperities, m; else dem.roughness
+  std::optional<double> hamaker;          ///< A, J; else 1e-20 in a liquid, 1e-19 in a gas
+  std::optional<double> free_liquid;      ///< surface tension of a liquid that wets the particles, N/m
+  bool static_heap = false;               ///< a heap at rest is what the scene is about
+  std::optional<double> charge;           ///< of a particle, C
+  std::optional<double> voidage;          ///< of the bulk; else by the balance of forces
+  std::vector<double> velocity_range;     ///< superficial, m/s: widens what the case itself says
+  std::vector<double> temperature_range;  ///< K
+  std::vector<std::string> zones;         ///< packed, bulk, wall, freeboard; empty: all
+  MonitorMode monitor = MonitorMode::automatic;
   int monitor_every = 200, monitor_sample = 64;  ///< steps; one in so many particles or cells
   std::vector<std::string> chosen;               ///< the roles that were "auto": a record
 };
@@ -115,28 +134,31 @@ struct OutputPlan {
   std::optional<double> checkpoint_every;  ///< s, between checkpoints; else a tenth of the run
 };
 
+/// A rule, or a number.
+using MaxPacking = std::variant<PackingRule, double>;
+
 struct Tfm {
-  std::string integrator = "auto";  ///< auto | explicit | implicit
+  TfmIntegrator integrator = TfmIntegrator::automatic;
   double rtol = 1e-4;
-  std::string flux = "limited";                  ///< limited | upwind: the volume fractions
-  std::string momentum = "auto";                 ///< convection of momentum
-  std::string solids_wall = "free_slip";         ///< free_slip | no_slip | johnson_jackson
-  std::string max_packing = "auto";              ///< auto (from bed.solids_fraction) | a number
-  double frictional_pressure = 0.05;             ///< Fr of p_f, Pa
-  double frictional_onset = 0.5;                 ///< solids fraction above which p_f acts
-  std::optional<double> bulk_viscosity;          ///< alpha; else 1 over the number of directions with cells
-  double friction_angle = 28.5;                  ///< delta of Schaeffer's viscosity, degrees
-  double viscosity_cap = 10;                     ///< greatest frictional viscosity, Pa s
-  double least_shear_rate = 1;                   ///< gamma_0 of the frictional viscosity, 1/s
-  std::string kinetic_theory = "garzo_dufty";    ///< garzo_dufty | lun
-  std::string radial_distribution = "torquato";  ///< torquato | carnahan_starling
-  double start_temperature = 1e-6;               ///< theta_j at the start where it is transported, m2/s2
-  double specularity = 0.1;                      ///< s of Johnson and Jackson's wall
-  double wall_restitution = 0.9;                 ///< e_w likewise
-  double wall_friction = 0.2;                    ///< tan(delta_w) of Johnson and Jackson's wall
-  double exchange_pressure = 0;                  ///< C_s of species exchange, s/m2
-  std::optional<double> fixed_step;              ///< s: steps of one length, without error control (explicit only)
-  std::optional<double> pressure_tolerance;      ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
+  FractionFlux flux = FractionFlux::limited;
+  Momentum momentum = Momentum::automatic;
+  SolidsWall solids_wall = SolidsWall::free_slip;
+  MaxPacking max_packing = PackingRule::automatic;
+  double frictional_pressure = 0.05;     ///< Fr of p_f, Pa
+  double frictional_onset = 0.5;         ///< solids fraction above which p_f acts
+  std::optional<double> bulk_viscosity;  ///< alpha; else 1 over the number of directions with cells
+  double friction_angle = 28.5;          ///< delta of Schaeffer's viscosity, degrees
+  double viscosity_cap = 10;             ///< greatest frictional viscosity, Pa s
+  double least_shear_rate = 1;           ///< gamma_0 of the frictional viscosity, 1/s
+  KineticTheory kinetic_theory = KineticTheory::garzo_dufty;
+  RadialDistribution radial_distribution = RadialDistribution::torquato;
+  double start_temperature = 1e-6;           ///< theta_j at the start where it is transported, m2/s2
+  double specularity = 0.1;                  ///< s of Johnson and Jackson's wall
+  double wall_restitution = 0.9;             ///< e_w likewise
+  double wall_friction = 0.2;                ///< tan(delta_w) of Johnson and Jackson's wall
+  double exchange_pressure = 0;              ///< C_s of species exchange, s/m2
+  std::optional<double> fixed_step;          ///< s: steps of one length, without error control (explicit only)
+  std::optional<double> pressure_tolerance;  ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
 };
 
 /// E of particles whose case gives none, where they are slow, Pa.
@@ -147,14 +169,14 @@ struct Dem {
   std::optional<double> youngs_modulus;  ///< Pa; else chosen for the speeds to expect, at least least_modulus
   double poisson_ratio = 0.25, friction = 0.3, restitution = 0.9;
   int fluid_every = 16;
-  std::string kernel = "auto";             ///< auto | bilinear | diffusion: how particles are averaged for the fluid
-  std::optional<double> kernel_width;      ///< of diffusion, full width at half height, m
-  std::string own_share = "kept";          ///< kept | removed: a particle's own part in the averages it feels
-  std::string fluid_ranks = "auto";        ///< auto | each | shared: who solves for the fluid
-  bool held = false;                       ///< particles do not move: a fixed bed
-  std::string tangential = "hdd";          ///< hdd | mindlin | mindlin_deresiewicz | linear
-  std::string tail = "clip";               ///< clip | keep: whether a dashpot may pull
-  std::string integrator = "auto";         ///< auto | thesis | synchronised
+  Kernel kernel = Kernel::automatic;
+  std::optional<double> kernel_width;  ///< of diffusion, full width at half height, m
+  OwnShare own_share = OwnShare::kept;
+  FluidRanks fluid_ranks = FluidRanks::automatic;
+  bool held = false;  ///< particles do not move: a fixed bed
+  Tangential tangential = Tangential::hdd;
+  Tail tail = Tail::clip;
+  DemIntegrator integrator = DemIntegrator::automatic;
   std::optional<double> normal_stiffness;  ///< k_n of contact = linear, N/m
   double tangential_ratio = 2.0 / 7;       ///< k_t/k_n of tangential = linear
   double rolling_friction = 0;             ///< mu_r
@@ -176,7 +198,7 @@ struct Dem {
 
 /// Boxes of particles that are run for a table of the solids stress; what is empty has a default of the plan.
 struct Calibrate {
-  std::string regime = "auto";                                 ///< auto | dry | wet | bed
+  BoxRegime regime = BoxRegime::automatic;
   std::vector<double> solids_fraction, restitution, friction;  ///< axes
   std::vector<double> stokes;                                  ///< rho d^2 gamma/mu_f, of wet boxes
   std::vector<double> share;                                   ///< of the second species in the solids

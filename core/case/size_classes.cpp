@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "core/case/resolve_particles.hpp"
-
 namespace polybed::core {
 
 namespace {
@@ -19,7 +17,7 @@ struct Expanded {
 };
 
 Expanded expanded(const Species& given, const ClassRule& rule, std::vector<SizeClasses>& records) {
-  if (given.sizes.kind.empty()) return {{given}, {1.0}};
+  if (!given.sizes.kind) return {{given}, {1.0}};
   Expanded result;
   SizeClasses record{given.name, given.sizes, {}, {}};
   for (const auto& [diameter, share] : rule(given.sizes)) {
@@ -88,7 +86,7 @@ std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vect
 std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule, const std::string& case_name) {
   std::vector<CaseProblem> problems;
   const auto add = [&](std::string message) { problems.push_back({case_name, 0, 0, std::move(message)}); };
-  if (std::none_of(scene.species.begin(), scene.species.end(), [](const auto& s) { return !s.sizes.kind.empty(); }))
+  if (std::none_of(scene.species.begin(), scene.species.end(), [](const auto& s) { return s.sizes.kind.has_value(); }))
     return problems;
   if (!rule) return {{case_name, 0, 0, "species.distribution: this program knows no classes"}};
   if (!scene.bed.particles.empty())
@@ -109,7 +107,7 @@ std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule
       if (shares_fit) shares.push_back(bed.volume_share[n] * classes.share[k]);
     }
   }
-  if (!shares_fit && !is_list(bed)) return problems;
+  if (!shares_fit && bed.start.kind != StartKind::list) return problems;
   scene.feeds = expanded_feeds(scene.feeds, scene.size_classes);
   scene.contact_pairs = expanded_pairs(scene.contact_pairs, scene.size_classes);
   scene.species = std::move(species);

@@ -19,14 +19,16 @@ std::string shown(const toml::node& node) {
 
 namespace {
 
-template <class T, class Read>
-std::optional<std::vector<T>> list(CaseValues& values, const Key& key, const toml::node& node, Read&& read) {
+/// A list of what `read` reads of each entry.
+template <class Read>
+auto list(CaseValues& values, const Key& key, const toml::node& node, const Read& read)
+    -> std::optional<std::vector<typename decltype(read(node))::value_type>> {
   const toml::array* array = node.as_array();
   if (array == nullptr) {
     values.add(node.source(), fmt::format("{} = {}: expected a list in [ ]", key.path(), shown(node)));
     return std::nullopt;
   }
-  std::vector<T> entries;
+  std::vector<typename decltype(read(node))::value_type> entries;
   for (const toml::node& entry : *array) {
     const auto value = read(entry);
     if (!value) return std::nullopt;
@@ -35,7 +37,38 @@ std::optional<std::vector<T>> list(CaseValues& values, const Key& key, const tom
   return entries;
 }
 
+template <class T>
+Value value_or_none(std::optional<T> read) {
+  return read ? Value(std::move(*read)) : Value{};
+}
+
 }  // namespace
+
+Value CaseValues::read(const Key& key, const toml::node& node) {
+  switch (key.kind) {
+    case Kind::number:
+      return value_or_none(number(key, node));
+    case Kind::count:
+      return value_or_none(count(key, node));
+    case Kind::truth:
+      return value_or_none(truth(key, node));
+    case Kind::text:
+      return value_or_none(text(key, node));
+    case Kind::word_or_number:
+      return node.is_number() ? value_or_none(number(key, node)) : value_or_none(text(key, node));
+    case Kind::numbers:
+      return value_or_none(list(*this, key, node, [&](const toml::node& n) { return number(key, n); }));
+    case Kind::counts:
+      return value_or_none(list(*this, key, node, [&](const toml::node& n) { return count(key, n); }));
+    case Kind::texts:
+      return value_or_none(list(*this, key, node, [&](const toml::node& n) { return text(key, n); }));
+    case Kind::points:
+      return value_or_none(points(key, node));
+    case Kind::sieves:
+      return value_or_none(sieves(key, node));
+  }
+  return {};
+}
 
 void CaseValues::add(const toml::source_region& place, std::string message) {
   CaseProblem problem{file_, 0, 0, std::move(message)};
@@ -72,10 +105,11 @@ std::optional<double> CaseValues::number(const Key& key, const toml::node& node)
     expected(key, node, "a number, or a text with a unit");
     return std::nullopt;
   }
-  const bool low = key.above_least ? !(q.value > key.least) : !(q.value >= key.least);
-  if (!std::isfinite(q.value) || low || q.value > key.most) {
+  const auto& [least, most, above_least] = key.range;
+  const bool low = above_least ? !(q.value > least) : !(q.value >= least);
+  if (!std::isfinite(q.value) || low || q.value > most) {
     std::string hint;
-    if (key.dimension == dimension::length && !q.has_unit && q.value * 1e-3 <= key.most && q.value > key.most)
+    if (key.dimension == dimension::length && !q.has_unit && q.value * 1e-3 <= most && q.value > most)
       hint = fmt::format("; did you mean \"{:g} mm\"?", q.value);
     add(node.source(), fmt::format("{} = {} is out of range: {}{}", key.path(), shown(node), range_text(key), hint));
     return std::nullopt;
@@ -94,7 +128,7 @@ std::optional<std::int64_t> CaseValues::count(const Key& key, const toml::node& 
     expected(key, node, "a whole number");
     return std::nullopt;
   }
-  if (double(*value) < key.least || double(*value) > key.most) {
+  if (double(*value) < key.range.least || double(*value) > key.range.most) {
     add(node.source(), fmt::format("{} = {} is out of range: {}", key.path(), *value, range_text(key)));
     return std::nullopt;
   }
@@ -108,13 +142,9 @@ std::optional<bool> CaseValues::truth(const Key& key, const toml::node& node) {
 }
 
 std::optional<std::string> CaseValues::text(const Key& key, const toml::node& node) {
-  if (key.or_number && node.is_number()) {
-    const auto value = number(key, node);
-    return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
-  }
   const auto value = node.value_exact<std::string>();
   if (!value) {
-    expected(key, node, key.or_number ? "a number, or a text in quotes" : "a text in quotes");
+    expected(key, node, key.kind == Kind::word_or_number ? "a number, or a text in quotes" : "a text in quotes");
     return std::nullopt;
   }
   if (!key.words.empty() && !is_word(key, *value)) {
@@ -126,21 +156,10 @@ std::optional<std::string> CaseValues::text(const Key& key, const toml::node& no
   return value;
 }
 
-std::optional<std::vector<double>> CaseValues::numbers(const Key& key, const toml::node& node) {
-  return list<double>(*this, key, node, [&](const toml::node& n) { return number(key, n); });
-}
-
-std::optional<std::vector<std::int64_t>> CaseValues::counts(const Key& key, const toml::node& node) {
-  return list<std::int64_t>(*this, key, node, [&](const toml::node& n) { return count(key, n); });
-}
-
-std::optional<std::vector<std::string>> CaseValues::texts(const Key& key, const toml::node& node) {
-  return list<std::string>(*this, key, node, [&](const toml::node& n) { return text(key, n); });
-}
-
 std::optional<Points> CaseValues::points(const Key& key, const toml::node& node) {
   const toml::array* rows = node.as_array();
-  if (rows == nullptr && key.by_size) {
+  const bool by_size = key.kind == Kind::sieves;
+  if (rows == nullptr && by_size) {
     expected(key, node, "a table of pairs [opening, share]");
     return std::nullopt;
   }
@@ -148,9 +167,10 @@ std::optional<Points> CaseValues::points(const Key& key, const toml::node& node)
     const auto value = number(key, node);
     return value ? std::optional(Points{{0.0, *value}}) : std::nullopt;
   }
-  const Key first = key.by_size ? Key{key.table, key.name, key.place, "", dimension::length, 1e-8, 1}
-                                : Key{key.table, key.name, key.place, "", dimension::time, 0, 1e9};
-  const std::string pair_name = key.by_size ? "a pair [opening, share]" : "a pair [time, velocity]";
+  Key first = key;
+  first.dimension = by_size ? dimension::length : dimension::time;
+  first.range = by_size ? Range{1e-8, 1} : Range{0, 1e9};
+  const std::string pair_name = by_size ? "a pair [opening, share]" : "a pair [time, velocity]";
   Points table;
   for (const toml::node& row : *rows) {
     const toml::array* pair = row.as_array();
@@ -161,8 +181,8 @@ std::optional<Points> CaseValues::points(const Key& key, const toml::node& node)
     const auto t = number(first, *pair->get(0)), v = number(key, *pair->get(1));
     if (!t || !v) return std::nullopt;
     const bool falls = !table.empty() && *t < table.back().first;
-    if (falls || (key.by_size && !table.empty() && *t == table.back().first)) {
-      add(row.source(), fmt::format("{}: {}", key.path(), key.by_size ? "openings must rise" : "times must not fall"));
+    if (falls || (by_size && !table.empty() && *t == table.back().first)) {
+      add(row.source(), fmt::format("{}: {}", key.path(), by_size ? "openings must rise" : "times must not fall"));
       return std::nullopt;
     }
     table.emplace_back(*t, *v);

@@ -17,23 +17,13 @@ namespace polybed::core {
 /// A node's text for messages, one line, cut when long.
 [[nodiscard]] std::string shown(const toml::node& node);
 
-/// Reads values and collects what is wrong with them. Each reader returns nothing after it has noted a problem.
+/// Reads values and collects what is wrong with them.
 class CaseValues {
  public:
   explicit CaseValues(std::string file) : file_(std::move(file)) {}
 
-  std::optional<double> number(const Key& key, const toml::node& node);
-  std::optional<std::int64_t> count(const Key& key, const toml::node& node);
-  std::optional<bool> truth(const Key& key, const toml::node& node);
-  std::optional<std::string> text(const Key& key, const toml::node& node);
-  std::optional<std::vector<double>> numbers(const Key& key, const toml::node& node);
-  std::optional<std::vector<std::int64_t>> counts(const Key& key, const toml::node& node);
-  std::optional<std::vector<std::string>> texts(const Key& key, const toml::node& node);
-  /// A table in time: a number (for all times), or pairs [time, value] with times that do not fall.
-  std::optional<Points> points(const Key& key, const toml::node& node);
-
-  /// A sieve analysis: pairs [opening, share] with rising openings; shares sum to 1, the last is 0.
-  std::optional<Points> sieves(const Key& key, const toml::node& node);
+  /// What a node says, as the kind of the key asks; nothing after a problem.
+  Value read(const Key& key, const toml::node& node);
 
   /// Notes a problem at a place; a region without a line (a command line's value) has none.
   void add(const toml::source_region& place, std::string message);
@@ -42,6 +32,14 @@ class CaseValues {
   [[nodiscard]] std::vector<CaseProblem>& problems() { return problems_; }
 
  private:
+  std::optional<double> number(const Key& key, const toml::node& node);
+  std::optional<std::int64_t> count(const Key& key, const toml::node& node);
+  std::optional<bool> truth(const Key& key, const toml::node& node);
+  std::optional<std::string> text(const Key& key, const toml::node& node);
+  /// A table in time: a number (for all times), or pairs [time, value] with times that do not fall.
+  std::optional<Points> points(const Key& key, const toml::node& node);
+  /// A sieve analysis: pairs [opening, share] with rising openings; shares sum to 1, the last is 0.
+  std::optional<Points> sieves(const Key& key, const toml::node& node);
   void expected(const Key& key, const toml::node& node, std::string_view what);
   std::string file_;
   std::vector<CaseProblem> problems_;

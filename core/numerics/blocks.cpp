@@ -73,8 +73,8 @@ Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks) {
   grid.dimensions = column.dimensions;
   grid.cells = column.cells;
   for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.size[d] / column.cells[d];
-  grid.periodic[0] = column.sides == "periodic";
-  grid.periodic[2] = column.sides == "periodic" && column.dimensions == 3;
+  grid.periodic[0] = column.sides == core::Boundary::periodic;
+  grid.periodic[2] = column.sides == core::Boundary::periodic && column.dimensions == 3;
   return block_of(grid, ranks);
 }
 

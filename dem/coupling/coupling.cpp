@@ -34,14 +34,14 @@ double width_of(const core::Scene& scene, const Materials& materials, std::int64
 /// Whether each rank solves for a block of the fluid. The kernel's smoothing wants the whole column.
 bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int64_t count) {
   constexpr std::size_t worth_sharing = 20'000;  // cells: below, messages cost more than they save
-  const std::string& wish = scene.dem.fluid_ranks;
+  const core::FluidRanks wish = scene.dem.fluid_ranks;
   const bool wide = width_of(scene, materials, count) > 0;
-  if (wish == "shared" && wide)
+  if (wish == core::FluidRanks::shared && wide)
     throw core::CaseError(
         "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
         "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"");
-  if (wide || wish == "each") return false;
-  return wish == "shared" || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
+  if (wide || wish == core::FluidRanks::each) return false;
+  return wish == core::FluidRanks::shared || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
-  if (scene.dem.own_share == "removed")
+  if (scene.dem.own_share == core::OwnShare::removed)
     own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials));
   for (Field& component : vorticity_)
     if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());

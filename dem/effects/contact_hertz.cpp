@@ -29,11 +29,11 @@ POLYBED_ALL_VECTOR_WIDTHS void hertz(ContactBatch& b, const ContactBatch::Row& r
 
 }  // namespace
 
-HertzContact::HertzContact(const Materials& materials, const std::string& tail)
-    : least_force_(tail == "clip" ? 0 : -std::numeric_limits<double>::infinity()) {
+HertzContact::HertzContact(const Materials& materials, core::Tail tail)
+    : least_force_(tail == core::Tail::clip ? 0 : -std::numeric_limits<double>::infinity()) {
   for (const PairMaterial& m : materials.kinds()) {
-    const double beta =
-        tail == "clip" ? closures::damping_ratio_clipped(m.restitution) : closures::damping_ratio_kept(m.restitution);
+    const double beta = tail == core::Tail::clip ? closures::damping_ratio_clipped(m.restitution)
+                                                 : closures::damping_ratio_kept(m.restitution);
     const double damping = closures::hertz_damping(beta, closures::hertz_stiffness(m.youngs_modulus, 1), m.mass);
     constants_.push_back(
         {m.mass, m.radius, m.youngs_modulus, damping, closures::hertz_coefficient(m.youngs_modulus, m.radius), beta});

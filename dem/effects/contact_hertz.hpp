@@ -9,8 +9,8 @@ namespace polybed::dem {
 
 class HertzContact final : public NormalLaw {
  public:
-  /// \param tail  "clip": no force pulls the particles together; "keep": the dashpot may
-  HertzContact(const Materials& materials, const std::string& tail);
+  /// \param tail  clip: no force pulls the particles together; keep: the dashpot may
+  HertzContact(const Materials& materials, core::Tail tail);
   void act(ContactBatch& batch) const override;
   [[nodiscard]] double energy(int kind, double overlap) const override;
   [[nodiscard]] double force_at(int kind, double overlap) const override;

@@ -27,11 +27,11 @@ POLYBED_ALL_VECTOR_WIDTHS void linear(ContactBatch& b, double stiffness, const C
 
 }  // namespace
 
-LinearContact::LinearContact(const Materials& materials, double stiffness, const std::string& tail)
-    : stiffness_(stiffness), least_force_(tail == "clip" ? 0 : -std::numeric_limits<double>::infinity()) {
+LinearContact::LinearContact(const Materials& materials, double stiffness, core::Tail tail)
+    : stiffness_(stiffness), least_force_(tail == core::Tail::clip ? 0 : -std::numeric_limits<double>::infinity()) {
   for (const PairMaterial& m : materials.kinds()) {
-    const double beta =
-        tail == "clip" ? closures::damping_ratio_clipped(m.restitution) : closures::damping_ratio_kept(m.restitution);
+    const double beta = tail == core::Tail::clip ? closures::damping_ratio_clipped(m.restitution)
+                                                 : closures::damping_ratio_kept(m.restitution);
     constants_.push_back({m.mass, closures::linear_damping(beta, stiffness, m.mass), beta});
   }
 }

@@ -10,7 +10,7 @@ namespace polybed::dem {
 class LinearContact final : public NormalLaw {
  public:
   /// \param stiffness  N/m  \param tail  as of HertzContact
-  LinearContact(const Materials& materials, double stiffness, const std::string& tail);
+  LinearContact(const Materials& materials, double stiffness, core::Tail tail);
   void act(ContactBatch& batch) const override;
   [[nodiscard]] double energy(int, double overlap) const override;
   [[nodiscard]] double force_at(int, double overlap) const override { return stiffness_ * overlap; }

@@ -26,10 +26,10 @@ POLYBED_ALL_VECTOR_WIDTHS void damp(ContactBatch& b, int place, const Row& dry, 
 }  // namespace
 
 WetContact::WetContact(std::unique_ptr<NormalLaw> whole, const Materials& materials, const Fluid& fluid,
-                       const std::string& tail, int place)
+                       core::Tail tail, int place)
     : whole_(std::move(whole)),
-      table_(tail == "clip"),
-      least_force_(tail == "clip" ? 0 : -std::numeric_limits<double>::infinity()),
+      table_(tail == core::Tail::clip),
+      least_force_(tail == core::Tail::clip ? 0 : -std::numeric_limits<double>::infinity()),
       place_(place) {
   for (const PairMaterial& m : materials.kinds()) {
     const double log = -std::log(std::min(m.restitution, 1.0));

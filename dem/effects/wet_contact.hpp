@@ -20,7 +20,7 @@ class WetContact final : public NormalLaw {
   };
   /// \param whole  the law of dry contacts with a damping ratio of 1 and its tail kept  \param tail  as of HertzContact
   /// \param place  of its memory in a batch
-  WetContact(std::unique_ptr<NormalLaw> whole, const Materials& materials, const Fluid& fluid, const std::string& tail,
+  WetContact(std::unique_ptr<NormalLaw> whole, const Materials& materials, const Fluid& fluid, core::Tail tail,
              int place);
   void act(ContactBatch& batch) const override;
   [[nodiscard]] int memory_size() const override { return 1; }

@@ -163,8 +163,8 @@ core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
   box.column.cells = {across, cells, across};
   box.column.given_cells = {across, across, cells};
   box.column.gravity = scene.column.gravity;
-  box.column.sides = "periodic";
-  box.bed.start = "mixed";
+  box.column.sides = core::Boundary::periodic;
+  box.bed.start = {core::StartKind::mixed};
   box.bed.solids_fraction = 0.6;
   box.bed.start_solids_fraction = std::min(point.phi, most_at_start);
   box.bed.static_height = height * point.phi / box.bed.solids_fraction;
@@ -180,7 +180,7 @@ core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
   box.dem.friction = point.friction;
   box.dem.restitution = point.restitution;
   box.dem.skin = std::nullopt;
-  box.dem.kernel = "bilinear";
+  box.dem.kernel = core::Kernel::bilinear;
   box.dem.kernel_width = std::nullopt;
   box.dem.greatest_speed = scene.dem.greatest_speed.value_or(4 * velocity / (1 - point.phi));
   box.dem.ledger = false;

@@ -54,12 +54,13 @@ TableAxes axes_of(const core::Scene& scene, const std::string& regime) {
 
 /// As calibrate.regime says, or by the numbers of the scene.
 fluid::Regime regime_of(const core::Scene& scene) {
-  const std::string& given = scene.calibrate.regime;
-  if (scene.fluid.name == "none" && (given == "wet" || given == "bed"))
-    throw core::CaseError("calibrate.regime = \"" + given + "\" needs a fluid: fluid.name is \"none\"");
+  const core::BoxRegime given = scene.calibrate.regime;
+  if (!scene.fluid.present() && (given == core::BoxRegime::wet || given == core::BoxRegime::bed))
+    throw core::CaseError(
+        fmt::format("calibrate.regime = \"{}\" needs a fluid: fluid.name is \"none\"", core::name_of(given)));
   fluid::Regime regime = fluid::shear_regime(scene);
-  if (given == "bed") {
-    regime.name = given;
+  if (given == core::BoxRegime::bed) {
+    regime.name = core::name_of(given);
     regime.reason = "as the case says";
   }
   if (regime.name.empty())
@@ -72,7 +73,7 @@ fluid::Regime regime_of(const core::Scene& scene) {
 Plan plan_of(const core::Scene& scene) {
   if (scene.bed.volume_share.size() != scene.species.size())
     throw core::CaseError(
-        fmt::format("calibrate needs bed.volume_share; bed.start = \"{}\" has none", scene.bed.start));
+        fmt::format("calibrate needs bed.volume_share; bed.start = \"{}\" has none", text_of(scene.bed.start)));
   Plan plan{regime_of(scene), {}, !scene.calibrate.share.empty()};
   plan.axes = axes_of(scene, plan.regime.name);
   for (const double x : plan.axes.share)

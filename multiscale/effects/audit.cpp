@@ -32,7 +32,7 @@ std::vector<Vec3> vectors(const core::DataSet& data) {
 FluidMap map_of(const core::FieldReader& reader, const core::Scene& scene, std::size_t step) {
   FluidMap map;
   map.dimensions = scene.column.dimensions;
-  map.walls = scene.column.sides == "wall";
+  map.walls = scene.column.sides == core::Boundary::wall;
   for (int axis = 0; axis < map.dimensions; ++axis) {
     const std::vector<double> faces = reader.faces(axis);
     map.cells[std::size_t(axis)] = int(faces.size()) - 1;

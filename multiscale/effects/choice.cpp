@@ -48,7 +48,7 @@ std::vector<EffectRow> weigh(const core::Scene& scene, const Survey& of_scene) {
 
 /// The roles that the case decides itself. What it does not name is off.
 DecisionRule rule_of(const core::Scene& scene, bool free) {
-  DecisionRule rule{scene.chooser.tolerance, scene.chooser.purpose == "transient", {}, {}};
+  DecisionRule rule{scene.chooser.tolerance, scene.chooser.purpose == core::Purpose::transient, {}, {}};
   if (free) return rule;
   for (const core::Role& role : all_roles()) {
     const std::string law = core::law_of(scene, role.name);
@@ -99,7 +99,7 @@ core::Scene with_choice(core::Scene scene) {
     if (on) entry->second = row->model;
     entry = on ? std::next(entry) : scene.effects.erase(entry);
   }
-  if (scene.chooser.monitor == core::automatic) scene.chooser.monitor = "warn";
+  if (scene.chooser.monitor == core::MonitorMode::automatic) scene.chooser.monitor = core::MonitorMode::warn;
   return scene;
 }
 

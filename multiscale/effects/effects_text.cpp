@@ -57,7 +57,7 @@ std::string effects_table(const core::Scene& scene, const Choice& choice) {
   }
   text += fmt::format(
       "\nforces on particles left out by this choice sum to {:.2g} of the buoyant weight (promise {:.2g}, {}){}\n",
-      choice.neglected_sum, choice.tolerance, scene.chooser.purpose,
+      choice.neglected_sum, choice.tolerance, core::name_of(scene.chooser.purpose),
       choice.neglected_sum > choice.tolerance ? ": more than promised, since what would be needed is not to be had"
                                               : "");
   const double two_fluid = neglected_sum(choice.rows, "tfm"), of_case = neglected_sum(choice.of_case, "tfm");
@@ -106,7 +106,7 @@ void write_effects(core::Json& json, const core::Scene& scene, const Choice& cho
   };
   by_model("neglected_sum_by_model", choice.rows);
   by_model("neglected_sum_of_case_by_model", choice.of_case);
-  json.member("tolerance", choice.tolerance).member("purpose", scene.chooser.purpose);
+  json.member("tolerance", choice.tolerance).member("purpose", core::name_of(scene.chooser.purpose));
 }
 
 }  // namespace polybed::multiscale

@@ -63,7 +63,7 @@ LeftOut left_out(const core::Scene& scene, const std::string& model) {
   const Choice choice = choose(scene);
   LeftOut all;
   all.model = model;
-  all.purpose = scene.chooser.purpose;
+  all.purpose = core::name_of(scene.chooser.purpose);
   all.promise = choice.tolerance;
   all.sum = neglected_sum(choice.of_case, model);
   all.up_to = neglected_up_to(choice.of_case, model);

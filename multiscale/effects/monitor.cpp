@@ -44,8 +44,8 @@ bool in_sample(std::int64_t number, int sample) {
 }
 
 std::unique_ptr<Monitor> Monitor::of(const core::Scene& scene, const std::string& model) {
-  const std::string& wish = scene.chooser.monitor;
-  if (wish == "off" || wish == core::automatic || scene.fluid.name == "none") return nullptr;
+  const core::MonitorMode wish = scene.chooser.monitor;
+  if (wish == core::MonitorMode::off || wish == core::MonitorMode::automatic || !scene.fluid.present()) return nullptr;
   return std::make_unique<Monitor>(scene, model);
 }
 
@@ -56,13 +56,13 @@ Monitor::Monitor(const core::Scene& scene, const std::string& model)
       empty_(seen_),
       samples_above_(seen_.observed().size(), 0),
       since_(seen_.observed().size(), 0.0),
-      enables_(scene.chooser.monitor == "enable" && model == "dem") {}
+      enables_(scene.chooser.monitor == core::MonitorMode::enable && model == "dem") {}
 
 std::vector<std::string> Monitor::look(const dem::Model& model) {
   latest_ = empty_;
   const dem::Particles& particles = model.particles();
   const auto& load = model.coupling()->motion().load;
-  const FluidMap map = map_of(model.coupling()->column(), scene_.column.sides == "wall");
+  const FluidMap map = map_of(model.coupling()->column(), scene_.column.sides == core::Boundary::wall);
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!in_sample(particles.id[i], scene_.chooser.monitor_sample)) continue;
     const auto& u = load[i].velocity;
@@ -130,7 +130,7 @@ std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
     if (enables_) want(o.effect);
   }
   warnings_.insert(warnings_.end(), lines.begin(), lines.end());
-  if (!lines.empty() && scene_.chooser.monitor == "stop")
+  if (!lines.empty() && scene_.chooser.monitor == core::MonitorMode::stop)
     throw core::NumericsError(lines.front() + "; chooser.monitor = \"stop\"");
   return lines;
 }

@@ -11,7 +11,6 @@
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case/particle_list.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "core/error.hpp"
 #include "fluid/properties.hpp"
 
@@ -27,7 +26,7 @@ std::vector<double> solids_volumes(const core::Scene& scene) {
   std::vector<double> volume(scene.species.size(), 0.0);
   const auto one = [&](std::size_t j) { return closures::sphere_volume(0.5 * scene.species[j].diameter); };
   const double whole = bed.static_height * bed.solids_fraction * scene.column.size[0] * scene.column.size[2];
-  if (core::is_list(bed))
+  if (bed.start.kind == core::StartKind::list)
     for (const std::int32_t j : core::read_particle_list(scene).species) volume[std::size_t(j)] += one(std::size_t(j));
   else
     for (std::size_t j = 0; j < volume.size(); ++j)
@@ -45,7 +44,7 @@ void measure_bed(const core::Scene& scene, Survey& s) {
   const double all = std::accumulate(volume.begin(), volume.end(), 0.0);
   s.mean_fraction = std::min(all / (area * s.column_height), 1.0);
   s.solids_fraction = scene.bed.start_solids_fraction;
-  const bool spread = core::is_list(scene.bed) || scene.bed.start == "random";
+  const bool spread = scene.bed.start.kind == core::StartKind::list || scene.bed.start.kind == core::StartKind::random;
   if (spread || !(s.solids_fraction > 0)) s.solids_fraction = std::max(s.mean_fraction, 1e-9);
   s.height = s.mean_fraction * s.column_height / s.solids_fraction;
   for (const double v : volume) s.share.push_back(all > 0 ? v / all : 1.0 / double(volume.size()));
@@ -155,7 +154,7 @@ class BedInFluid {
 
   void add_bulk(double velocity, double voidage) {
     add("bulk", velocity, voidage);
-    if (scene_.column.sides == "wall") add("wall", velocity, voidage);
+    if (scene_.column.sides == core::Boundary::wall) add("wall", velocity, voidage);
   }
 
   /// One particle above the bed: carried up, or falling back.
@@ -246,7 +245,7 @@ Survey survey(const core::Scene& scene) {
   Survey s;
   measure_bed(scene, s);
   find_velocities(scene, s);
-  s.has_fluid = scene.fluid.name != "none";
+  s.has_fluid = scene.fluid.present();
   if (!s.has_fluid) {
     if (scene.column.gravity > 0) s.dry = dry_bed(scene);
     return s;
@@ -257,8 +256,8 @@ Survey survey(const core::Scene& scene) {
   s.viscosity = fluid.viscosity;
   s.temperature = scene.fluid.temperature.value_or(0);
   find_scales_of_run(scene, fluid.density, s);
-  s.is_gas =
-      scene.fluid.name == "air" || scene.fluid.equation_of_state == "ideal_gas" || fluid.density < lightest_liquid;
+  s.is_gas = scene.fluid.substance() == core::Substance::air ||
+             scene.fluid.equation_of_state == core::Compressibility::ideal_gas || fluid.density < lightest_liquid;
   const std::string named = core::law_of(scene, "drag");
   s.drag_law = named == "none" || named == core::automatic ? "cello" : named;
   const closures::DragLaw law = closures::drag_law(s.drag_law, closures::Guard::on);

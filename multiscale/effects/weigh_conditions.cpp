@@ -47,7 +47,7 @@ EffectRow equation_of_state(const core::Scene& scene, const Survey& survey) {
   const double sound2 = survey.is_gas ? p0 / rho : sound_in_liquids * sound_in_liquids;
   const double mach2 = greatest_slip(survey) * greatest_slip(survey) / sound2;
   row.value = std::max({0.5 * mach2, drop / (rho * sound2), rho * g * survey.column_height / (rho * sound2)});
-  const bool calls = *row.value > *row.threshold, set = scene.fluid.equation_of_state != "incompressible";
+  const bool calls = *row.value > *row.threshold, set = scene.fluid.compressible();
   row.state = set ? State::on : State::off;
   if (!set) row.neglected = *row.value;
   row.reason = calls == set ? (set ? "fluid.equation_of_state is set" : "density hardly changes")
@@ -67,16 +67,16 @@ EffectRow coupling(const Survey& survey) {
 }
 
 EffectRow walls(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = effect_row("walls", scene.column.sides.c_str(), "L/d of the coarsest", Kind::condition);
+  EffectRow row = effect_row("walls", core::name_of(scene.column.sides).data(), "L/d of the coarsest", Kind::condition);
   double coarsest = 0;
   for (const core::Species& s : scene.species) coarsest = std::max(coarsest, s.diameter);
   row.value = survey.width / coarsest;
   row.threshold = 50;
   row.below = true;
-  row.state = scene.column.sides == "wall" ? State::on : State::off;
+  row.state = scene.column.sides == core::Boundary::wall ? State::on : State::off;
   row.reason = *row.value < 50 ? "narrow: walls order and slow the bed, and results depend on the width"
                                : "wide enough for walls to be local";
-  if (scene.column.sides != "wall") row.reason = "periodic: there are none";
+  if (scene.column.sides != core::Boundary::wall) row.reason = "periodic: there are none";
   return row;
 }
 

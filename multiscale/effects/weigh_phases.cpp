@@ -137,14 +137,14 @@ EffectRow species_exchange(const core::Scene& scene, const Survey& survey) {
 
 EffectRow contact(const core::Scene& scene, const Survey& survey) {
   EffectRow row = phase_row("contact", "hertz_mindlin", "dem", "solids fraction");
-  const bool walls = scene.column.sides == "wall" || scene.column.ends == "wall";
+  const bool walls = scene.column.sides == core::Boundary::wall || scene.column.ends == core::Boundary::wall;
   row.value = std::max(survey.mean_fraction, survey.solids_fraction);
   row.threshold = 1e-3;
   row.state = State::on;  // the particle model has no other way to keep particles apart
   double friction = scene.dem.friction;
   for (const core::Species& s : scene.species) friction = std::max(friction, s.friction.value_or(0));
   for (const core::ContactPair& p : scene.contact_pairs) friction = std::max(friction, p.friction.value_or(0));
-  const bool rubs = friction > 0 && (*row.value > 0.3 || scene.column.sides == "wall");
+  const bool rubs = friction > 0 && (*row.value > 0.3 || scene.column.sides == core::Boundary::wall);
   if (!rubs) row.model = "hertz";
   row.reason = fmt::format("{}; {}", *row.value > 1e-3 ? "particles meet" : (walls ? "walls" : "never left out"),
                            rubs ? "friction: dense, or sheared by walls" : "no friction: neither dense nor sheared");

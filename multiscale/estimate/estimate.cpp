@@ -24,8 +24,8 @@ TimeBand band_of(double seconds, double middle, double factor) {
 /// to 4.4 of implicit ones, which start with many Newton iterations. A probe knows what a step costs and how long the
 /// first ones are, not those of the expanded bed.
 constexpr double explicit_middle = 1, implicit_middle = 2.3, tfm_factor = 2.2, probe_factor = 1.6;
-double tfm_middle(const std::string& integrator) {
-  return integrator == "explicit" ? explicit_middle : implicit_middle;
+double tfm_middle(core::TfmIntegrator integrator) {
+  return integrator == core::TfmIntegrator::explicit_steps ? explicit_middle : implicit_middle;
 }
 /// Of the particles: a dilute bed is up to four times as fast as the dense ones that were measured.
 constexpr double dem_middle = 1, dem_factor = 2;
@@ -59,7 +59,8 @@ double output(const core::Scene& scene, const Machine& machine) {
 
 /// CPU seconds before the first step of particles: the program's start, their places, and until they have settled.
 double before_particles(const core::Scene& scene, const Machine& machine, const ParticleRequirements& need) {
-  const bool placed = !scene.bed.start.starts_with("list:") && !scene.bed.start.starts_with("checkpoint:");
+  const bool placed =
+      scene.bed.start.kind != core::StartKind::list && scene.bed.start.kind != core::StartKind::checkpoint;
   return machine.start + (placed ? machine.placed_particle * double(need.count()) : 0) + need.before;
 }
 
@@ -124,9 +125,9 @@ TimeBand TimeBand::part(double share, bool from_start) const {
 
 TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine) {
   const double cells = double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2];
-  const double step = tfm_step_seconds(machine, model.integrator_name() != "explicit", cells, scene.species.size(),
-                                       scene.column.dimensions);
-  return with_start(band_of(expected_of(scene, model, step).time->expected, tfm_middle(model.integrator_name()),
+  const double step = tfm_step_seconds(machine, model.integrator_kind() != core::TfmIntegrator::explicit_steps, cells,
+                                       scene.species.size(), scene.column.dimensions);
+  return with_start(band_of(expected_of(scene, model, step).time->expected, tfm_middle(model.integrator_kind()),
                             factor_of(tfm_factor, machine)),
                     scene, machine);
 }
@@ -158,9 +159,10 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
   const auto& scales = need.expanded.scales;
   const auto shortest = std::min_element(scales.begin(), scales.end(),
                                          [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
-  e.limited_by = need.integrator != "explicit" ? fmt::format("accuracy, tfm.rtol = {:.2g}", scene.tfm.rtol)
-                 : shortest != scales.end()    ? shortest->process
-                                               : "accuracy";
+  e.limited_by = need.integrator != core::TfmIntegrator::explicit_steps
+                     ? fmt::format("accuracy, tfm.rtol = {:.2g}", scene.tfm.rtol)
+                 : shortest != scales.end() ? shortest->process
+                                            : "accuracy";
   if (probe > 0) {
     const double begin = core::cpu_seconds();
     tfm::Model model(scene, timers);
@@ -171,7 +173,7 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
   }
   e.wall = wall_of(e.time.expected, ranks);
   e.disk = disk_of(scene, double(need.cells), 0, need.memory.state / 8, e.steps);
-  e.ways = tfm_ways(scene, need.integrator != "explicit", ranks, cores());
+  e.ways = tfm_ways(scene, need.integrator != core::TfmIntegrator::explicit_steps, ranks, cores());
   return e;
 }
 

@@ -188,7 +188,8 @@ BinaryBed binary_bed(const core::Scene& scene) {
   if (scene.species.size() != 2)
     throw core::CaseError(fmt::format("inversion needs two species, the case has {}", scene.species.size()));
   if (scene.bed.volume_share.size() != 2)
-    throw core::CaseError("inversion needs bed.volume_share: bed.start = \"" + scene.bed.start + "\" has none");
+    throw core::CaseError("inversion needs bed.volume_share: bed.start = \"" + text_of(scene.bed.start) +
+                          "\" has none");
   BinaryBed bed;
   for (std::size_t j = 0; j < 2; ++j) {
     bed.diameter[j] = scene.species[j].diameter;

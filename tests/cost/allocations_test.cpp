@@ -35,7 +35,7 @@ namespace {
 core::Scene everything(int nx, int ny, bool closed) {
   core::Scene scene = scenes::binary_bed(nx, ny, 1.5e-3 * nx, 1.5e-3 * ny);
   scene.effects["fluid_stress"] = "newtonian";
-  scene.tfm.max_packing = "yu_standish";
+  scene.tfm.max_packing = core::PackingRule::yu_standish;
   scene.column.closed = closed;
   if (closed) scene.inlet.superficial_velocity = {{0.0, 0.0}};
   scene.jets.clear();
@@ -63,7 +63,7 @@ struct Setting {
   Setting(bool closed, const std::string& integrator)
       : scene([&] {
           core::Scene s = everything(10, 30, closed);
-          s.tfm.integrator = integrator;
+          s.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
           return s;
         }()),
         model(scene, timers),
@@ -120,7 +120,7 @@ TEST(Memory, PerCell) {
   for (const auto& [integrator, most] : {std::pair{"explicit", 2170.0}, {"implicit", 7100.0}}) {
     const auto total = [&, name = integrator](int ny) {
       core::Scene scene = everything(40, ny, false);
-      scene.tfm.integrator = name;
+      scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(name);
       core::Timers timers;
       const double before = bytes_in_use();
       tfm::Model model(scene, timers);

@@ -35,7 +35,7 @@ std::vector<Bead> strewn(double side, int number, double speed_scale) {
 /// D9: a gas cools in a joined box: its momentum stays.
 void cooling_gas(Trial& trial) {
   core::Scene scene = dry_box(radius, glass, {5e-3, 5e-3, 5e-3});
-  scene.column.sides = scene.column.ends = "periodic";
+  scene.column.sides = scene.column.ends = core::Boundary::periodic;
   scene.dem.youngs_modulus = 5e6;
   scene.dem.greatest_speed = 0.5;
   const std::vector<Bead> start = strewn(5e-3, 40, 0.1);
@@ -73,7 +73,7 @@ void too_fast(Trial& trial) {
 void shallow_box(Trial& trial) {
   const auto box = [](double depth) {
     core::Scene scene = dry_box(radius, glass, {8e-3, 8e-3, depth});
-    scene.column.sides = scene.column.ends = "periodic";
+    scene.column.sides = scene.column.ends = core::Boundary::periodic;
     scene.dem.skin = 0.05e-3;
     return scene;
   };
@@ -102,7 +102,7 @@ void shallow_box(Trial& trial) {
 void on_the_edge(Trial& trial) {
   const auto run_from = [](double x, double length) {
     core::Scene scene = dry_box(radius, glass, {length, 5e-3, 5e-3});
-    scene.column.sides = scene.column.ends = "periodic";
+    scene.column.sides = scene.column.ends = core::Boundary::periodic;
     scene.dem.youngs_modulus = 5e6;
     const double other = x + 1.1e-3;
     Beads run(scene, {{"a", {x, 2e-3, 2e-3}, {0.1, 0, 0}},

@@ -133,7 +133,7 @@ void no_slip(Trial& trial) {
   if (trial.naive()) return;
   core::Scene scene = two_species(30, 0.06, true);
   scene.column.gravity = 0;
-  scene.tfm.max_packing = "0.64";
+  scene.tfm.max_packing = 0.64;
   scene.bed.static_height = 0.03;
   scene.bed.start_solids_fraction = 0.4;
   const auto run = trial.begin(scene);

@@ -42,16 +42,16 @@ void near_flooding(Trial& trial) {
   const double flooding = flooding_flux(flux), falling = slip_at(1.0);
   core::Scene scene = uniform_bed(fine, water + excess, water, viscosity, 0.55, 24, 0.048);
   scene.effects["solids_stress"] = "frictional";
-  scene.tfm.max_packing = "0.62";
+  scene.tfm.max_packing = 0.62;
   scene.bed.static_height = 0.004;
   scene.column.cells[0] = 6;
   scene.column.size[0] = 0.012;
-  scene.column.sides = "wall";
-  scene.column.outlet = "open";
+  scene.column.sides = core::Boundary::wall;
+  scene.column.outlet = core::Outlet::open;
   scene.inlet.superficial_velocity = {{0, flux}, {6.02, flux}, {6.02, 1.2 * falling}, {7.02, 1.2 * falling}, {7.02, 0}};
   const double below = 3 * 0.95 * flooding, beyond = 3 * 1.3 * flooding;
   scene.feeds.push_back({"solid",
-                         "top",
+                         core::FeedEnd::top,
                          {{0, below}, {2.02, below}, {2.02, beyond}, {4.02, beyond}, {4.02, below}},
                          falling,
                          {0.004},
@@ -81,10 +81,10 @@ void flat_and_tall_cells(Trial& trial) {
   for (const bool flat : {true, false}) {
     core::Scene scene = uniform_bed(1e-3, 2200, 998.207, 1.00157e-3, 0.58, flat ? 120 : 12, flat ? 0.12 : 0.24);
     scene.effects["solids_stress"] = "frictional";
-    scene.tfm.max_packing = "0.62";
+    scene.tfm.max_packing = 0.62;
     scene.column.cells[0] = 6;
     scene.column.size[0] = flat ? 0.12 : 0.006;
-    scene.column.sides = "wall";
+    scene.column.sides = core::Boundary::wall;
     scene.bed.static_height = flat ? 0.04 : 0.08;
     scene.bed.start_solids_fraction = 0.4;
     scene.inlet.superficial_velocity = {{0.0, 0.03}};
@@ -140,7 +140,7 @@ Slope drift_apart(Trial& trial, double velocity) {
   core::Scene scene = two_species(72, 0.216, false);
   scene.column.cells[0] = 8;
   scene.column.size[0] = 0.024;
-  scene.column.sides = "wall";
+  scene.column.sides = core::Boundary::wall;
   scene.bed.static_height = 0.03;
   scene.bed.start_solids_fraction = 0.1;
   scene.inlet.superficial_velocity = {{0.0, velocity}};

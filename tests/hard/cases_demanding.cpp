@@ -123,7 +123,7 @@ void viscosities(Trial& trial) {
     for (const double gravity : {9.81, 0.0}) {
       core::Scene scene = uniform_bed(1e-3, 2200, 998.207, viscosity, 0.58, 30, 0.09);
       scene.effects["solids_stress"] = "frictional";
-      scene.tfm.max_packing = "0.62";
+      scene.tfm.max_packing = 0.62;
       scene.column.gravity = gravity;
       scene.inlet.superficial_velocity = {{0.0, viscosity < 1e3 ? 0.03 : 1e-6}};
       scene.bed.static_height = 0.03;

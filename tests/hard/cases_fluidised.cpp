@@ -17,7 +17,7 @@ double exchange_left_over(const core::Scene& scene, const tfm::Model& model, con
   without.effects.erase("drag");
   core::Timers timers;
   const tfm::StateLayout layout(model.constants().grid, int(model.constants().species()),
-                                model.integrator_name() == "implicit");
+                                model.integrator_kind() == core::TfmIntegrator::implicit_steps);
   tfm::RightHandSide with_drag(scene, model.constants(), model.boundaries(), model.inlet(), {}, timers);
   tfm::RightHandSide no_drag(without, model.constants(), model.boundaries(), model.inlet(), {}, timers);
   if (!with_drag.evaluate(model.time(), layout, state) || !no_drag.evaluate(model.time(), layout, state)) return 1;
@@ -106,7 +106,7 @@ void nearly_neutral(Trial& trial) {
   trial.report("condition, d ln excess / d ln density", 1.001 / 0.001);
   core::Scene scene = uniform_bed(1e-3, 998.207 * 1.001, 998.207, 1.00157e-3, 0.4, 40, 0.08);
   scene.effects = {{"drag", "cello"}, {"solids_stress", "frictional"}};
-  scene.tfm.max_packing = "0.62";
+  scene.tfm.max_packing = 0.62;
   scene.bed.static_height = 0.03;
   scene.inlet.superficial_velocity = {{0.0, low}};
   const auto run = trial.begin(scene, [&](tfm::Model& model) {
@@ -120,7 +120,7 @@ void nearly_neutral(Trial& trial) {
 std::vector<double> bed_of(Trial& trial, double excess, double gravity, double inlet, double until, double fixed_step) {
   core::Scene scene = uniform_bed(1e-3, 998.207 + excess, 998.207, 1.00157e-3, 0.58, 30, 0.12);
   scene.effects["solids_stress"] = "frictional";
-  scene.tfm.max_packing = "0.62";
+  scene.tfm.max_packing = 0.62;
   scene.column.gravity = gravity;
   scene.inlet.superficial_velocity = {{0.0, inlet}};
   if (fixed_step > 0) scene.tfm.fixed_step = fixed_step;

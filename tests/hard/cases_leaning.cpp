@@ -21,11 +21,11 @@ core::Scene leaning_channel(double angle, int cells, double viscosity) {
   core::Scene scene = uniform_bed(1e-4, 2500, 998.207, viscosity, fraction, 60, length);
   scene.column.size = {width, length, width / 3};
   scene.column.cells = {cells, 60, 1};
-  scene.column.sides = "wall";
+  scene.column.sides = core::Boundary::wall;
   scene.column.closed = true;
   scene.column.down = {std::sin(angle), -std::cos(angle), 0};
   scene.effects = {{"drag", "wen_yu"}, {"solids_stress", "frictional"}, {"fluid_stress", "newtonian"}};
-  scene.tfm.max_packing = "0.62";
+  scene.tfm.max_packing = 0.62;
   scene.tfm.rtol = 1e-3;
   return scene;
 }

@@ -30,13 +30,13 @@ core::Scene bed_of_beads() {
   core::Scene scene =
       scenes::wet_box(diameter, solids_density, {liquid_density, liquid_viscosity}, {12e-3, 48e-3, 12e-3}, {4, 16, 4});
   scene.column.closed = false;
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.column.gravity = gravity;
   scene.inlet.superficial_velocity = {{0.0, velocity}};
   scene.effects = {{"drag", "cello"}, {"contact", "hertz_mindlin"}, {"solids_stress", "frictional"}};
   scene.dem.youngs_modulus = 1e6;
-  scene.dem.kernel = "diffusion";
-  scene.dem.own_share = "removed";
+  scene.dem.kernel = core::Kernel::diffusion;
+  scene.dem.own_share = core::OwnShare::removed;
   scene.dem.fluid_every = 8;
   scene.dem.greatest_speed = 0.15;
   scene.dem.ledger = false;

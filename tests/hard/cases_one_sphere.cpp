@@ -39,8 +39,8 @@ void crosses_cells(Trial& trial) {
   constexpr double d = 1e-3, cell = 1.5e-3, speed = 10e-3;
   constexpr int to_a_cell = 40;
   core::Scene scene = scene_of(d, 1e12, water, cell, {8, 16, 8}, 1);
-  scene.column.sides = "periodic";
-  scene.dem.kernel = trial.naive() ? "bilinear" : "diffusion";
+  scene.column.sides = core::Boundary::periodic;
+  scene.dem.kernel = trial.naive() ? core::Kernel::bilinear : core::Kernel::diffusion;
   if (!trial.naive()) scene.dem.kernel_width = 6 * d;
   const auto run = begin_suspension(trial, scene, {{"a", {4.1 * cell, 10.3 * cell, 3.9 * cell}, {0, -speed, 0}}},
                                     cell / speed / to_a_cell);
@@ -65,7 +65,7 @@ void feels_itself(Trial& trial) {
     core::Scene scene = scene_of(glass.diameter, glass.density, water, cell, {n, n, n}, 4);
     scene.column.gravity = glass.gravity;
     scene.effects["fluid_stress"] = "newtonian";
-    scene.dem.kernel = trial.naive() ? "bilinear" : "diffusion";
+    scene.dem.kernel = trial.naive() ? core::Kernel::bilinear : core::Kernel::diffusion;
     if (!trial.naive()) scene.dem.kernel_width = 6 * glass.diameter;
     const auto run = begin_suspension(trial, scene, {{"a", {0.52 * n * cell, (n - 4) * cell, 0.47 * n * cell}}}, 1e-4);
     for (int k = 0; k < 250; ++k) run->step();

@@ -31,8 +31,8 @@ void at_the_limit(Trial& trial) {
       core::Scene scene = dry_box(radius, {1e6, 0.25, 2600}, {0.01, 0.01, 0.01});
       scene.effects["contact"] = "linear";
       scene.dem.normal_stiffness = 1000;
-      scene.dem.tail = "keep";
-      scene.dem.integrator = integrator;
+      scene.dem.tail = core::Tail::keep;
+      scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
       scene.dem.restitution = std::exp(-scenes::pi * damping / std::sqrt(1 - damping * damping));
       scene.column.gravity = gravity;
       const double sag = scenes::mass_of(radius, 2600) * gravity / 1000;
@@ -155,8 +155,8 @@ void corner_of_three(Trial& trial) {
 /// D7: a dense box is sheared: the ledger closes over many lists of pairs.
 void dense_shear(Trial& trial) {
   core::Scene scene = dry_box(radius, {5e6, 0.25, 2500}, {6e-3, 6e-3, 6e-3});
-  scene.column.sides = scene.column.ends = "periodic";
-  scene.bed.start = "random";
+  scene.column.sides = scene.column.ends = core::Boundary::periodic;
+  scene.bed.start = {core::StartKind::random};
   scene.bed.particles = {247};  // a solids fraction of 0.60
   scene.dem.shear_rate = 20;
   scene.dem.friction = 0.5;

@@ -188,7 +188,7 @@ void killed(Trial& trial) {
 /// P9: spheres pressed together are listed in another order, as those of other ranks would be: the same bits.
 void order_of_sums(Trial& trial) {
   core::Scene scene = scenes::dry_box(0.5e-3, {5e6, 0.25, 2500}, {4e-3, 4e-3, 4e-3});
-  scene.column.sides = scene.column.ends = "periodic";
+  scene.column.sides = scene.column.ends = core::Boundary::periodic;
   std::vector<scenes::Bead> beads;
   constexpr std::int64_t number = 125;
   for (std::uint64_t n = 0; n < number; ++n) {

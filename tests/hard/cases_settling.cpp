@@ -14,7 +14,7 @@ namespace {
 /// the lower half of the bed, the coarse one from the upper half.
 double height_after_settling(Trial& trial, double trace) {
   core::Scene scene = two_species(50, 0.1, true);
-  scene.bed.start = "layered";
+  scene.bed.start = {core::StartKind::layered};
   scene.bed.static_height = 0.02;
   scene.bed.start_solids_fraction = 0.3;
   const auto run = trial.begin(scene, [&](tfm::Model& model) {
@@ -84,7 +84,7 @@ double height_at_rest(core::Scene& scene, double near) {
   core::Timers timers;
   const tfm::Model model(scene, timers);
   const tfm::StressEffect& stress = *model.effects().solids_stress;
-  scene.tfm.max_packing = fmt::format("{}", stress.max_packing());
+  scene.tfm.max_packing = stress.max_packing();
   const double dy = model.constants().grid.spacing[1], weight = (2700 - 998.207) * 9.81 * dy;
   double phi = 0, carried = 0, solids = 0;
   while (solids < near * scene.bed.solids_fraction) {
@@ -103,7 +103,7 @@ double height_at_rest(core::Scene& scene, double near) {
 /// T17: a settled bed, restarted after some steps, stays at rest.
 void rest_and_restart(Trial& trial) {
   core::Scene scene = closed_column(20, 0.2);
-  scene.bed.start = "settled";
+  scene.bed.start = {core::StartKind::settled};
   scene.bed.static_height = height_at_rest(scene, 0.15);
   scene.tfm.fixed_step = 5e-4;  // half of what the elastic waves allow
   const auto run = trial.begin(scene);

@@ -24,7 +24,7 @@ core::Scene pipe(int cells) {
   scene.bed.static_height = 0;
   scene.effects.clear();
   scene.column.gravity = 0;
-  scene.fluid.equation_of_state = "tait";
+  scene.fluid.equation_of_state = core::Compressibility::tait;
   scene.inlet.superficial_velocity = {{0.0, 0.0}, {start, 0.0}, {driven_at, driven}};
   return scene;
 }
@@ -36,7 +36,7 @@ struct Heard {
 };
 
 Heard of_product(const std::string& integrator, core::Scene scene, double step, int steps) {
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   core::Timers timers;
   tfm::Model model(scene, timers);
   const auto cell = std::size_t(model.constants().grid.index(0, 0));

@@ -32,7 +32,7 @@ void larger_than_cells(Trial& trial) {
     core::Scene scene = scene_of(diameter, 2800, scenes::water, cell, {7, 9, 7}, 1);
     // There is no kernel in the textbook's treatment.
     if (!trial.naive()) scene.dem.kernel_width = 6 * diameter;
-    scene.dem.kernel = trial.naive() ? "bilinear" : "diffusion";
+    scene.dem.kernel = trial.naive() ? core::Kernel::bilinear : core::Kernel::diffusion;
     for (int n = 0; n < 10; ++n) {
       core::Field before;
       for (const double step : {-0.5e-6, 0.5e-6}) {
@@ -84,7 +84,7 @@ void stiff_drag(Trial& trial) {
 void many_steps_to_one(Trial& trial) {
   for (const int every : {1, 7, 16, 1000}) {
     core::Scene scene = scene_of(0.5e-3, 2500, scenes::water, 2e-3, {4, 3, 4}, every);
-    scene.column.sides = "periodic";
+    scene.column.sides = core::Boundary::periodic;
     scene.dem.greatest_speed = 0.01;
     const double phi = scenes::pi / 6 / 64, relaxation = 2500 * 0.25e-6 / 18e-3;
     const auto beads = scenes::cubic_lattice("a", 2e-3, scene.column.size, {1e-3, 0, 0});
@@ -135,7 +135,7 @@ void held_bed(Trial& trial) {
   for (const auto& [law, velocity] : {std::pair{"ergun", 1e-4}, {"ergun", 0.5}, {"gidaspow", 0.2}, {"cello", 0.5}}) {
     core::Scene scene = scenes::wet_box(d, 2500, scenes::water, size, {2, 4, 1});
     scene.column.closed = false;
-    scene.column.sides = "periodic";
+    scene.column.sides = core::Boundary::periodic;
     scene.inlet.superficial_velocity = {{0.0, velocity}};
     scene.effects["drag"] = law;
     scene.dem.held = true;
@@ -163,7 +163,7 @@ void impact_in_liquid(Trial& trial) {
     scene.effects["contact"] = "hertz_mindlin";
     if (!trial.naive()) scene.effects["lubrication"] = "wet_restitution";
     scene.dem.restitution = 0.9;
-    scene.dem.tail = "keep";            // a clipped one leaves 0.05 at least, where less than 0.001 is asked for
+    scene.dem.tail = core::Tail::keep;  // a clipped one leaves 0.05 at least, where less than 0.001 is asked for
     scene.dem.steps_per_contact = 400;  // a strongly damped impact to 1 %
     scene.dem.max_overlap = 0.2;
     scene.dem.greatest_speed = 2 * speed;

@@ -16,10 +16,10 @@ void interface_of_one_cell(Trial& trial) {
   scene.species.push_back(scene.species[0]);
   scene.species[1].name = "upper";
   scene.bed.volume_share = {0.5, 0.5};
-  scene.bed.start = "layered";
+  scene.bed.start = {core::StartKind::layered};
   scene.column.closed = true;
   scene.effects["solids_stress"] = "frictional";
-  scene.tfm.max_packing = "0.64";
+  scene.tfm.max_packing = 0.64;
   scene.tfm.fixed_step = 5e-4;
   scene.tfm.pressure_tolerance = 1e-9;  // what is left of div J compresses the fractions; the flux is on trial here
   const auto run = trial.begin(scene);
@@ -74,7 +74,7 @@ void extreme_grids(Trial& trial) {
     scene.column.cells = {nx, ny, 1};
     const double cell = 0.1 / ny;
     scene.column.size = {nx * cell, 0.1, cell};
-    scene.column.sides = nx > 1 ? "wall" : "periodic";
+    scene.column.sides = nx > 1 ? core::Boundary::wall : core::Boundary::periodic;
     scene.bed.static_height = 0.03;
     scene.bed.start_solids_fraction = 0.45;
     scene.inlet.superficial_velocity = {{0.0, 0.02}};

@@ -50,7 +50,7 @@ core::Scene gas_bed() {
                    {"granular_temperature", "transported"},
                    {"solids_viscosity", "schaeffer"},
                    {"species_exchange", "syamlal"}};
-  scene.tfm.solids_wall = "johnson_jackson";
+  scene.tfm.solids_wall = core::SolidsWall::johnson_jackson;
   scene.bed.static_height = 0.03;
   scene.bed.start_solids_fraction = 0.55;
   scene.inlet.superficial_velocity = {{0.0, 0.6}};

@@ -47,7 +47,8 @@ void on_five_grids(Trial& trial) {
 void put_on(tfm::Model& model, int cells, const Wave& wave, double velocity) {
   using Kind = tfm::StateLayout::Entry::Kind;
   core::Checkpoint start = model.checkpoint();
-  const tfm::StateLayout layout(model.constants().grid, 1, model.integrator_name() == "implicit");
+  const tfm::StateLayout layout(model.constants().grid, 1,
+                                model.integrator_kind() == core::TfmIntegrator::implicit_steps);
   std::vector<double> y = scenes::small_wave(layout, cells, wave, velocity);
   for (const tfm::StateLayout::Entry& entry : layout.entries())
     if (entry.kind == Kind::velocity && entry.axis == 1) y[entry.begin] = y[entry.begin + entry.size - 1] = 0;

@@ -80,10 +80,10 @@ std::vector<Treatment> all_schemes() {
 
 std::unique_ptr<Run> Trial::begin(core::Scene scene, const std::function<void(tfm::Model&)>& start) {
   if (treatment_.integrator != "case") {  // which is run as it stands
-    scene.tfm.integrator = treatment_.integrator;
-    scene.tfm.flux = treatment_.flux;
+    scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(treatment_.integrator);
+    scene.tfm.flux = core::choice_of<core::FractionFlux>(treatment_.flux);
   }
-  if (scene.tfm.integrator == "implicit") scene.tfm.fixed_step.reset();
+  if (scene.tfm.integrator == core::TfmIntegrator::implicit_steps) scene.tfm.fixed_step.reset();
   rtol_ = scene.tfm.rtol;
   std::unique_ptr<Run> run;
   if (naive()) run = textbook::run(treatment_.naive, scene, timers_, start);

@@ -9,37 +9,22 @@ namespace polybed::hard {
 
 namespace {
 
-/// How often a table stands in a scene.
-std::size_t count_of(const core::Scene& scene, std::string_view table) {
-  if (table == "species") return scene.species.size();
-  if (table == "jet") return scene.jets.size();
-  if (table == "feed") return scene.feeds.size();
-  if (table == "contact_pair") return scene.contact_pairs.size();
-  return 1;
-}
-
 /// Multiplies what a key holds.
 struct Scale {
-  core::Scene& scene;
-  std::size_t index;
   double factor, time;
-  bool by_size;
 
-  void operator()(core::Place<double> place) const { place(scene, index) *= factor; }
-  void operator()(core::Place<std::optional<double>> place) const {
-    if (auto& value = place(scene, index)) *value *= factor;
+  void operator()(double& value) const { value *= factor; }
+  void operator()(std::vector<double>& values) const {
+    for (double& value : values) value *= factor;
   }
-  void operator()(core::Place<std::vector<double>> place) const {
-    for (double& value : place(scene, index)) value *= factor;
-  }
-  void operator()(core::Place<core::Points> place) const {
-    for (auto& [at, value] : place(scene, index)) {
-      if (!by_size) at *= time;
+  void operator()(core::Points& points) const {
+    for (auto& [at, value] : points) {
+      at *= time;
       value *= factor;
     }
   }
   template <class Other>
-  void operator()(core::Place<Other>) const {}
+  void operator()(Other&) const {}
 };
 
 }  // namespace
@@ -50,17 +35,20 @@ double number_of_one(const core::Dimension& dimension, const UnitSystem& units) 
 }
 
 core::Scene in_units(core::Scene scene, const UnitSystem& units) {
-  if (scene.fluid.name != "none") {
+  if (scene.fluid.present()) {
     const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
     scene.fluid.name = "test fluid";
     scene.fluid.density = fluid.density;
     scene.fluid.viscosity = fluid.viscosity;
   }
-  for (const core::Key& key : core::keys()) {
-    const double factor = number_of_one(key.dimension, units);
-    for (std::size_t n = 0; n < count_of(scene, key.table); ++n)
-      std::visit(Scale{scene, n, factor, units.time, key.by_size}, key.place);
-  }
+  for (const core::Table& table : core::tables())
+    for (const core::Key& key : table.keys)
+      for (std::size_t n = 0; n < table.count(scene); ++n) {
+        core::Value value = key.get(scene, n);
+        const bool by_size = key.kind == core::Kind::sieves;
+        std::visit(Scale{number_of_one(key.dimension, units), by_size ? 1.0 : units.time}, value);
+        if (!std::holds_alternative<std::monostate>(value)) key.set(scene, n, value);
+      }
   for (double& side : scene.column.size)
     side *= units.length;  // follows from given_size, which the scene need not have
   return scene;

@@ -31,7 +31,7 @@ inline core::Scene two_species(int cells, double height, bool closed) {
 [[nodiscard]] inline core::Scene between_walls(core::Scene scene, int cells) {
   scene.column.cells[0] = cells;
   scene.column.size[0] *= cells;
-  scene.column.sides = "wall";
+  scene.column.sides = core::Boundary::wall;
   return scene;
 }
 

@@ -109,7 +109,7 @@ class Beads {
     for (const Bead& b : beads)
       file << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", b.species,
                           b.x[0], b.x[1], b.x[2], b.v[0], b.v[1], b.v[2], b.w[0], b.w[1], b.w[2]);
-    scene.bed.start = "list:" + (folder_.path() / "beads.csv").string();
+    scene.bed.start = {core::StartKind::list, (folder_.path() / "beads.csv").string()};
     return scene;
   }
 

@@ -34,7 +34,7 @@ inline core::Scene binary_bed(int nx, int ny, double width, double height) {
   scene.inlet.superficial_velocity = {{0.0, 0.03}};
   scene.effects = {{"drag", "cello"}, {"solids_stress", "frictional"}, {"species_exchange", "syamlal"}};
   scene.run.until = 1;
-  scene.tfm.integrator = "explicit";
+  scene.tfm.integrator = core::TfmIntegrator::explicit_steps;
   return scene;
 }
 
@@ -45,7 +45,7 @@ inline core::Scene uniform_bed(double diameter, double density, double fluid_den
   scene.title = "uniform bed";
   scene.column.size = {height / cells, height, height / cells};
   scene.column.cells = {1, cells, 1};
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.fluid.name = "test fluid";
   scene.fluid.density = fluid_density;
   scene.fluid.viscosity = viscosity;
@@ -57,7 +57,7 @@ inline core::Scene uniform_bed(double diameter, double density, double fluid_den
   scene.bed.solids_fraction = scene.bed.start_solids_fraction = solids_fraction;
   scene.bed.static_height = height;
   scene.effects = {{"drag", "cello"}};
-  scene.tfm.integrator = "explicit";
+  scene.tfm.integrator = core::TfmIntegrator::explicit_steps;
   return scene;
 }
 
@@ -78,7 +78,7 @@ inline core::Scene two_species_box(int dimensions, int cells, double length, dou
                    {"species_exchange", "syamlal"},
                    {"fluid_stress", "newtonian"}};
   scene.tfm.frictional_onset = 0.1;
-  scene.tfm.max_packing = "0.64";
+  scene.tfm.max_packing = 0.64;
   return scene;
 }
 

@@ -20,7 +20,7 @@ inline core::Scene sphere_in_water(double diameter, double density, dem::Vector 
   scene.fluid.density = 1000;
   scene.fluid.viscosity = 1e-3;
   scene.effects["drag"] = "stokes";
-  scene.dem.kernel = "bilinear";
+  scene.dem.kernel = core::Kernel::bilinear;
   scene.dem.fluid_every = 4;
   return scene;
 }

@@ -38,8 +38,8 @@ inline double stiffness_of(const Gas& gas) {
 inline core::Scene scene_of(const Gas& gas) {
   const double length = gas.length();
   core::Scene scene = dry_box(0.5 * Gas::diameter, {1e6, 0.25, Gas::density}, {length, length, length});
-  scene.column.sides = scene.column.ends = "periodic";
-  scene.bed.start = "random";
+  scene.column.sides = scene.column.ends = core::Boundary::periodic;
+  scene.bed.start = {core::StartKind::random};
   scene.bed.particles = {gas.number};
   scene.bed.start_solids_fraction = gas.fraction;
   scene.bed.seed = gas.seed;
@@ -47,7 +47,7 @@ inline core::Scene scene_of(const Gas& gas) {
   scene.dem.normal_stiffness = stiffness_of(gas);
   scene.dem.restitution = gas.restitution;
   scene.dem.friction = 0;
-  scene.dem.tail = "keep";
+  scene.dem.tail = core::Tail::keep;
   scene.dem.max_overlap = 0.2;
   scene.dem.shear_rate = gas.shear_rate;
   scene.dem.start_speed = std::sqrt(gas.temperature);

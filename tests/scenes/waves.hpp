@@ -25,7 +25,7 @@ inline core::Scene uniform_liquid_bed(int cells, double height = wavelength) {
 inline void add_stress(core::Scene& scene, double slope) {
   scene.effects["solids_stress"] = "frictional";
   scene.tfm.frictional_onset = 0.1;
-  scene.tfm.max_packing = "0.64";
+  scene.tfm.max_packing = 0.64;
   scene.tfm.frictional_pressure = slope / closures::FrictionalLaw{1.0, 0.1, 0.64}(1 - voidage).slope;
 }
 

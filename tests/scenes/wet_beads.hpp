@@ -26,7 +26,7 @@ inline core::Scene wet_box(double diameter, double density, const Liquid& fluid,
   scene.fluid.density = fluid.density;
   scene.fluid.viscosity = fluid.viscosity;
   scene.effects["drag"] = "schiller_naumann";
-  scene.dem.kernel = "bilinear";
+  scene.dem.kernel = core::Kernel::bilinear;
   scene.dem.fluid_every = 1;
   return scene;
 }

@@ -20,7 +20,7 @@ core::Scene cavity() {
   core::Scene scene = uniform_bed(1e-3, 1e15, 1.0, 0.01, 0.5, cells, 1.0);
   scene.column.size = {1.0, 1.0, 1.0};
   scene.column.cells = {cells, cells, 1};
-  scene.column.sides = "wall";
+  scene.column.sides = core::Boundary::wall;
   scene.column.closed = true;
   scene.column.gravity = 0;
   scene.bed.static_height = 0;

@@ -20,7 +20,7 @@ core::Scene hopper() {
   scene.dem.restitution = 0.8;
   scene.dem.greatest_speed = 0.8;
   scene.dem.ledger = false;
-  scene.bed.start = "settled";
+  scene.bed.start = {core::StartKind::settled};
   scene.bed.start_solids_fraction = 0.5;
   scene.bed.solids_fraction = 0.6;
   scene.bed.particles = {9200};

@@ -25,7 +25,7 @@ core::Scene silo(std::uint64_t seed) {
   scene.dem.friction = 0.5;
   scene.dem.restitution = 0.5;
   scene.contact_pairs = {{{"a", "wall"}, {}, {}, wall_friction, {}}};
-  scene.bed.start = "mixed";
+  scene.bed.start = {core::StartKind::mixed};
   scene.bed.start_solids_fraction = 0.4;
   scene.bed.solids_fraction = 0.6;
   scene.bed.particles = {1833};

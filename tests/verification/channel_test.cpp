@@ -17,7 +17,7 @@ Channel channel(int nx, int dimensions) {
   core::Scene scene = uniform_bed(1e-3, 2000, 1000, 0.1, 0.5, 5 * nx, 5 * width);
   scene.column.size = {width, 5 * width, width};
   scene.column.cells = {nx, 5 * nx, 1};
-  scene.column.sides = "wall";
+  scene.column.sides = core::Boundary::wall;
   scene.bed.static_height = 0;
   scene.bed.start_solids_fraction = 0.5;
   if (dimensions == 3) {  // the gap along z, the flow even along x

@@ -39,11 +39,11 @@ struct Darcy {
 Darcy gas_through_a_packed_bed(int cells) {
   constexpr double gas_rt = 84148.7, mu = 1.8e-5, eps = 0.4, diameter = 0.2e-3, density = 101325 / gas_rt;
   core::Scene scene = uniform_bed(diameter, 1e15, density, mu, 1 - eps, cells, 1.0);
-  scene.fluid.equation_of_state = "ideal_gas";
+  scene.fluid.equation_of_state = core::Compressibility::ideal_gas;
   scene.effects["drag"] = "ergun";
   scene.column.gravity = 0;
   scene.inlet.superficial_velocity = {{0.0, 0.2}};
-  scene.tfm.integrator = "implicit";
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
   scene.tfm.rtol = 1e-6;
   core::Timers timers;
   tfm::Model model(scene, timers);
@@ -80,8 +80,8 @@ TEST(CompressibleBed, GasThroughAPackedBedLosesPressureInSquares) {
 /// A small bed of system B, settled loosely, in water that is stiff to its true speed of sound or wholly.
 double centre_of_the_fine(const char* law, double& error) {
   core::Scene scene = binary_bed(6, 20, 0.03, 0.1);
-  scene.fluid.equation_of_state = law;
-  scene.tfm.integrator = "implicit";
+  scene.fluid.equation_of_state = core::choice_of<core::Compressibility>(law);
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
   core::Timers timers;
   tfm::Model model(scene, timers);
   advance(model, 1.0);
@@ -103,13 +103,13 @@ core::Scene gas_bed(const char* law) {
   core::Scene scene = uniform_bed(0.5e-3, 2500, 1.204118, 1.813e-5, 0.6, 48, 0.12);
   scene.column.size[0] = 0.03;
   scene.column.cells[0] = 12;
-  scene.column.sides = "wall";
-  scene.fluid.equation_of_state = law;
+  scene.column.sides = core::Boundary::wall;
+  scene.fluid.equation_of_state = core::choice_of<core::Compressibility>(law);
   scene.bed.static_height = 0.05;
   scene.bed.start_solids_fraction = 0.55;
   scene.inlet.superficial_velocity = {{0.0, 0.5}};
   scene.effects = {{"drag", "gidaspow"}, {"solids_stress", "frictional"}};
-  scene.tfm.integrator = "implicit";
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
   scene.tfm.rtol = 1e-3;
   return scene;
 }
@@ -142,18 +142,18 @@ core::Scene crossed_ends(const char* law, const char* integrator) {
                           : uniform_bed(0.2e-3, 2200, 1000, 1e-3, 0.3, 16, 0.08);
   scene.column.size[0] = 0.02;
   scene.column.cells[0] = 4;
-  scene.column.sides = "wall";
-  scene.column.outlet = "open";
-  scene.fluid.equation_of_state = law;
+  scene.column.sides = core::Boundary::wall;
+  scene.column.outlet = core::Outlet::open;
+  scene.fluid.equation_of_state = core::choice_of<core::Compressibility>(law);
   scene.fluid.tait_stiffness = 1e6;  // Pa: sound of 85 m/s, so that explicit steps are few
   scene.bed.static_height = 0.06;
-  scene.tfm.max_packing = "0.64";
+  scene.tfm.max_packing = 0.64;
   const double velocity = gas ? 1.5 : 0.1;
   scene.inlet.superficial_velocity = {{0.0, velocity}};
-  scene.feeds.push_back({"solid", "bottom", {{0.0, 0.02 * velocity}}, velocity, {0.0}, {0.01}});
-  scene.feeds.push_back({"solid", "top", {{0.0, 0.01 * velocity}}, velocity, {0.015}, {0.02}});
+  scene.feeds.push_back({"solid", core::FeedEnd::bottom, {{0.0, 0.02 * velocity}}, velocity, {0.0}, {0.01}});
+  scene.feeds.push_back({"solid", core::FeedEnd::top, {{0.0, 0.01 * velocity}}, velocity, {0.015}, {0.02}});
   scene.effects = {{"drag", "gidaspow"}, {"solids_stress", "frictional"}};
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   return scene;
 }
 
@@ -186,7 +186,7 @@ class CompressibleRestart : public testing::TestWithParam<const char*> {};
 
 TEST_P(CompressibleRestart, ResumedRunGivesTheSameBits) {
   core::Scene scene = gas_bed("ideal_gas");
-  scene.tfm.integrator = GetParam();
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
   scene.inlet.superficial_velocity = {{0.0, 0.4}, {0.001, 0.4}, {0.001, 0.5}};  // a jump at the checkpoint
   const TwoEnds ends = through_and_resumed(scene, 0.001, 0.002);
   EXPECT_EQ(ends.through.arrays, ends.resumed.arrays);

@@ -15,7 +15,7 @@ core::Scene pipe(const char* law, int cells, double length, double density) {
   scene.bed.static_height = 0;
   scene.effects.clear();
   scene.column.gravity = 0;
-  scene.fluid.equation_of_state = law;
+  scene.fluid.equation_of_state = core::choice_of<core::Compressibility>(law);
   return scene;
 }
 
@@ -42,7 +42,7 @@ Hammer water_hammer(const char* integrator) {
   constexpr double length = 1, sound = 1450.683, crossing = length / sound, at = 1e-4;
   core::Scene scene = pipe("tait", cells, length, 998.207);
   scene.inlet.superficial_velocity = {{0.0, 0.0}, {at, 0.0}, {at + 0.2 * crossing, 0.1}};
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   core::Timers timers;
   tfm::Model model(scene, timers);
   const double step = 0.05 * length / cells / sound;
@@ -124,7 +124,7 @@ class StandingWave : public testing::TestWithParam<const char*> {};
 TEST_P(StandingWave, OfAGasHasTheIsothermalToneAndLasts) {
   constexpr double period = 2 / air_sound;
   core::Scene scene = closed_pipe_of_air(32, 1);
-  scene.tfm.integrator = GetParam();
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
   scene.tfm.rtol = 1e-6;
   core::Timers timers;
   tfm::Model model(scene, timers);

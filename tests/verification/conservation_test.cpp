@@ -13,7 +13,7 @@ class Conservation : public testing::TestWithParam<const char*> {};
 
 TEST_P(Conservation, MassBoundsAndVolume) {
   core::Scene scene = binary_bed(10, 60, 0.03, 0.18);
-  scene.tfm.integrator = GetParam();
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
   scene.tfm.rtol = 1e-3;
   core::Timers timers;
   tfm::Model model(scene, timers);
@@ -42,7 +42,7 @@ TEST_P(Conservation, MassBoundsAndVolume) {
 
 TEST_P(Conservation, ResumedRunGivesTheSameBits) {
   core::Scene scene = binary_bed(6, 40, 0.018, 0.12);
-  scene.tfm.integrator = GetParam();
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
   scene.tfm.rtol = 1e-3;
   const TwoEnds ends = through_and_resumed(scene, 0.2, 0.4);
   EXPECT_EQ(ends.through.arrays.at("state"), ends.resumed.arrays.at("state"));
@@ -57,7 +57,7 @@ TEST(Integrators, AgreeAtTightTolerance) {
   scene.tfm.rtol = 1e-6;
   core::Timers timers;
   tfm::Model by_steps(scene, timers);
-  scene.tfm.integrator = "implicit";
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
   tfm::Model by_newton(scene, timers);
   advance(by_steps, 0.1);
   advance(by_newton, 0.1);

@@ -10,7 +10,7 @@ core::Scene falling(double restitution) {
   scene.effects["contact"] = "linear";
   scene.column.gravity = 9.81;
   scene.dem.normal_stiffness = 1e4;
-  scene.dem.tail = "keep";
+  scene.dem.tail = core::Tail::keep;
   scene.dem.max_overlap = 0.9;
   scene.dem.restitution = restitution;
   return scene;
@@ -121,7 +121,7 @@ TEST(DemBounce, OfTwoSpheresBetweenPlates) {
     scene.column.gravity = 9.81;
     scene.effects["contact"] = "linear";
     scene.dem.normal_stiffness = 1000;
-    scene.dem.tail = "keep";
+    scene.dem.tail = core::Tail::keep;
     scene.dem.max_overlap = 0.5;
     scene.dem.restitution = r.restitution;
     scene.dem.fixed_step = r.time / 5000;
@@ -153,7 +153,7 @@ TEST(DemRest, OfAStackAfterHertz) {
 /// A sphere that rests on the floor of a long periodic box, pressed on it by gravity along a direction (x, y).
 core::Scene lying(double friction, double down, double along) {
   core::Scene scene = dry_box(0.5e-3, {5e7, 0.25, 2500}, {0.2, 0.02, 0.02});
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.column.gravity = std::hypot(down, along);
   scene.column.down = {along / scene.column.gravity, -down / scene.column.gravity, 0};
   scene.dem.friction = friction;

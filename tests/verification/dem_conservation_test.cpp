@@ -9,15 +9,15 @@ namespace {
 /// 400 beads in motion in a periodic box, a solids fraction of 0.42.
 core::Scene gas(const std::string& tail, const std::string& integrator, double dt) {
   core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {8e-3, 8e-3, 8e-3});
-  scene.column.sides = scene.column.ends = "periodic";
-  scene.bed.start = "random";
+  scene.column.sides = scene.column.ends = core::Boundary::periodic;
+  scene.bed.start = {core::StartKind::random};
   scene.bed.particles = {400};
   scene.dem.youngs_modulus = 5e6;
   scene.dem.start_speed = 0.05;
   scene.dem.friction = 0.5;
   scene.dem.restitution = 0.9;
-  scene.dem.tail = tail;
-  scene.dem.integrator = integrator;
+  scene.dem.tail = core::choice_of<core::Tail>(tail);
+  scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
   scene.dem.fixed_step = dt;
   scene.dem.greatest_speed = 0.15;
   return scene;
@@ -66,14 +66,14 @@ TEST(DemConservation, TheEnergyLedgerCloses) {
 /// 60 beads that fall into a heap, where a constant moment against rolling flickers with the sign of their spins.
 core::Scene heap(const std::string& contact, double dt) {
   core::Scene scene = gas("clip", "synchronised", dt);
-  scene.column.sides = scene.column.ends = "walls";
+  scene.column.sides = scene.column.ends = core::Boundary::wall;
   scene.column.gravity = 9.81;
   scene.column.size = {5e-3, 10e-3, 5e-3};
   scene.bed.particles = {60};
   scene.dem.start_speed = 0;
   scene.effects = {{"contact", contact}, {"rolling", "cdt"}};
   scene.dem.normal_stiffness = 1000;
-  scene.dem.tangential = contact == "linear" ? "linear" : "hdd";
+  scene.dem.tangential = contact == "linear" ? core::Tangential::linear : core::Tangential::hdd;
   scene.dem.rolling_friction = 0.1;
   return scene;
 }
@@ -122,7 +122,7 @@ TEST(DemConservation, OfAngularMomentum) {
     scene.species.push_back(sphere("b", 1e-3, {5e6, 0.25, 1500}));
     scene.dem.friction = 0.4;
     scene.dem.restitution = 0.6;
-    scene.dem.integrator = integrator;
+    scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
     Beads beads(scene, {{"a", {0.01, 0.01, 0.01}, {0.3, 0.1, 0}, {0, 0, 200}},
                         {"b", {0.0114, 0.0106, 0.01}, {-0.2, 0, 0}, {0, 0, -50}}});
     const double before = angular_momentum(beads), spin = beads.motion(0).w[2];
@@ -192,7 +192,7 @@ class FrozenPair {
  private:
   static core::Scene scene(const std::string& law) {
     core::Scene s = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.01, 0.01, 0.01});
-    s.dem.tangential = law;
+    s.dem.tangential = core::choice_of<core::Tangential>(law);
     s.dem.friction = 10;
     return s;
   }

@@ -35,7 +35,7 @@ void stay_bounded(double ratio, const std::string& added_mass) {
   dem::Vector size;
   const std::vector<Bead> lattice = dense_lattice(1e-3, 0.55, {4, 8, 4}, size);
   core::Scene scene = wet_box(1e-3, ratio * water.density, water, size, {4, 8, 4});
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.column.gravity = g;
   scene.effects["drag"] = "cello";
   scene.effects["fluid_stress"] = "newtonian";
@@ -77,7 +77,7 @@ TEST(DemBed, PressureCarriesTheBuoyantWeight) {
   core::Scene scene = wet_box(2e-3, 2500, syrup, {side, 46e-3, side}, {2, 10, 2});
   scene.column.dimensions = 3;
   scene.column.closed = false;
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.column.gravity = g;
   scene.effects["drag"] = "cello";
   scene.inlet.superficial_velocity = {{0.0, 9e-3}};
@@ -113,11 +113,11 @@ double weight_carried(const std::string& momentum) {
   scene.column.closed = false;
   scene.column.gravity = g;
   scene.effects["drag"] = "cello";
-  scene.bed.start = "mixed";
+  scene.bed.start = {core::StartKind::mixed};
   scene.bed.particles = {900, 44};
   scene.bed.solids_fraction = 0.22;
   scene.inlet.superficial_velocity = {{0.0, 20e-3}};
-  scene.tfm.momentum = momentum;
+  scene.tfm.momentum = core::choice_of<core::Momentum>(momentum);
   scene.dem.fluid_every = 16;
   scene.dem.youngs_modulus = 1e5;
   scene.dem.max_overlap = 0.1;

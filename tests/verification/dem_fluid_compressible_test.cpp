@@ -23,7 +23,7 @@ double fluid_mass(const dem::Model& model) {
 
 Fallen fall(const Liquid& fluid, const std::string& law, double density, double diameter, double cell, double time) {
   core::Scene scene = wet_box(diameter, density, fluid, {5 * cell, 6 * cell, 5 * cell}, {5, 6, 5});
-  scene.fluid.equation_of_state = law;
+  scene.fluid.equation_of_state = core::choice_of<core::Compressibility>(law);
   scene.column.gravity = 9.81;
   scene.dem.fixed_step = time / 2400;
   scene.dem.greatest_speed = 1;

@@ -14,7 +14,7 @@ namespace {
 core::Scene two_species(int every, const std::string& added_mass) {
   core::Scene scene = wet_box(0.5e-3, 2500, water, {12e-3, 12e-3, 12e-3}, {4, 4, 4});
   scene.species.push_back(sphere("b", 0.4e-3, {1e6, 0.25, 1200}));
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.effects["drag"] = "cello";
   if (!added_mass.empty()) scene.effects["added_mass"] = added_mass;
   scene.dem.fluid_every = every;
@@ -109,7 +109,7 @@ struct Relaxation {
   Relaxation(const std::vector<core::Species>& species, const std::vector<double>& speed) {
     scene = wet_box(species[0].diameter, species[0].density, water, {8e-3, 6e-3, 8e-3}, {4, 3, 4});
     scene.species = species;
-    scene.column.sides = "periodic";
+    scene.column.sides = core::Boundary::periodic;
     scene.effects["drag"] = "stokes";
     for (std::size_t j = 0; j < species.size(); ++j) {
       std::vector<Bead> more = cubic_lattice(species[j].name, spacing, scene.column.size, {speed[j], 0, 0});

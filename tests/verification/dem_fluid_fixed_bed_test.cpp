@@ -11,7 +11,7 @@ constexpr dem::Vector size{20e-3, 40e-3, 10e-3};
 core::Scene held_bed(const std::string& law, double velocity, const Liquid& fluid) {
   core::Scene scene = wet_box(diameter, 2500, fluid, size, {4, 8, 1});
   scene.column.closed = false;
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.inlet.superficial_velocity = {{0.0, velocity}};
   scene.effects["drag"] = law;
   scene.dem.held = true;
@@ -56,7 +56,7 @@ TEST(DemFixedBed, HasItAtAllVelocities) {
 TEST(DemFixedBed, DoesNotDependOnWallsAndDepth) {
   const double expected = expected_drop("ergun", 0.02, water);
   core::Scene walls = held_bed("ergun", 0.02, water);
-  walls.column.sides = "wall";
+  walls.column.sides = core::Boundary::wall;
   compare("walls", drop_of(walls), expected, solver);
   core::Scene deep = held_bed("ergun", 0.02, water);
   deep.column.dimensions = 3;
@@ -70,7 +70,7 @@ TEST(DemFixedBed, DoesNotDependOnTheCellsUnderAKernel) {
   core::Scene scene = held_bed("ergun", 0.02, water);
   scene.column.size[1] = 80e-3;
   scene.column.cells = {16, 64, 1};
-  scene.dem.kernel = "diffusion";
+  scene.dem.kernel = core::Kernel::diffusion;
   scene.dem.fixed_step = *scene.dem.fixed_step / 4;
   Beads bed(scene, cubic_lattice("a", spacing, scene.column.size));
   bed.steps(30 * scene.dem.fluid_every);

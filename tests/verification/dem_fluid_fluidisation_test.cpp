@@ -16,7 +16,7 @@ core::Scene bed_scene() {
   core::Scene scene = wet_box(diameter, density, water, size, {2, rows, 2});
   scene.species[0].youngs_modulus = 1e7;
   scene.column.closed = false;
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.column.gravity = g;
   scene.effects["drag"] = "ergun";
   scene.dem.greatest_speed = 0.1;

@@ -14,7 +14,7 @@ const double voidage = 1 - pi / 6 * std::pow(diameter / spacing, 3);
 core::Scene open_box(const std::string& law, double velocity, const Liquid& fluid) {
   core::Scene scene = wet_box(diameter, density, fluid, size, {4, 8, 1});
   scene.column.closed = false;
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.inlet.superficial_velocity = {{0.0, velocity}};
   scene.effects["drag"] = law;
   return scene;

@@ -16,7 +16,7 @@ core::Scene small_bed(const std::string& integrator) {
   scene.effects["drag"] = "cello";
   scene.effects["added_mass"] = "zuber";
   scene.effects["fluid_stress"] = "newtonian";
-  scene.dem.integrator = integrator;
+  scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
   scene.dem.fluid_every = 16;
   scene.dem.greatest_speed = 0.2;
   return scene;
@@ -68,11 +68,11 @@ TEST(DemRestart, HasTheSameBitsAmidAStepOfTheFluid) {
 
 TEST(DemRestart, HasTheSameBitsUnderAKernelAndInACompressibleFluid) {
   core::Scene scene = small_bed("thesis");
-  scene.dem.kernel = "diffusion";
+  scene.dem.kernel = core::Kernel::diffusion;
   scene.column.cells = {10, 20, 1};
   resumes(scene, 487);
   core::Scene tait = small_bed("synchronised");
-  tait.fluid.equation_of_state = "tait";
+  tait.fluid.equation_of_state = core::Compressibility::tait;
   resumes(tait, 487);
 }
 

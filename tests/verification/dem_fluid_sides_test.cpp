@@ -290,7 +290,7 @@ TEST(SideForces, NeedAFluid) {
 TEST(SideForces, OfNoStrengthAreAsIfTheyWereOff) {
   core::Scene scene = sphere_in_water(1e-3, 2500, {0.01, 0.04, 0.003}, {1, 16, 1});
   scene.column.dimensions = 2;
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.column.gravity = 9.81;
   scene.dem.fixed_step = 1e-4;
   std::vector<core::Checkpoint> ends;

@@ -22,7 +22,7 @@ TEST(DemSphere, SettlesAgainstRisingGas) {
   const Sphere sphere{1e-4, 2000, gas, 9.80665, 0.40};
   core::Scene scene = box_of(sphere, 0.2, {5, 5, 5});
   scene.column.closed = false;
-  scene.column.sides = "periodic";
+  scene.column.sides = core::Boundary::periodic;
   scene.inlet.superficial_velocity = {{0.0, 0.40}};
   scene.dem.fixed_step = 5e-6;
   scene.dem.fluid_every = 320;
@@ -78,7 +78,7 @@ double stirred(double cells, int n, double width) {
   scene.dem.fluid_every = 4;
   scene.effects["fluid_stress"] = "newtonian";
   if (width > 0) {
-    scene.dem.kernel = "diffusion";
+    scene.dem.kernel = core::Kernel::diffusion;
     scene.dem.kernel_width = width * glass.diameter;
   }
   Beads beads(scene, {{"a", {0.52 * n * cell, (n - 1) * cell, 0.47 * n * cell}}});

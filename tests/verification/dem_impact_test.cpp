@@ -105,8 +105,8 @@ double worst_error(double restitution, const std::string& tail, int steps) {
   const double radius = 2.5e-3, speed = 3.9;
   core::Scene scene = dry_box(radius, {380e9, 0.23, 4000}, {0.05, 0.05, 0.05});
   scene.dem.restitution = restitution;
-  scene.dem.tail = tail;
-  scene.dem.integrator = "thesis";
+  scene.dem.tail = core::choice_of<core::Tail>(tail);
+  scene.dem.integrator = core::DemIntegrator::thesis;
   double worst = 0;
   for (int k = 0; k < 16; ++k)
     worst = std::max(

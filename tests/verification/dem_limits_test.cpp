@@ -30,8 +30,8 @@ Rest resting(double damping, const std::string& integrator) {
   core::Scene scene = dry_box(0.5e-3, {1e6, 0.25, 2600}, {0.01, 0.01, 0.01});
   scene.effects["contact"] = "linear";
   scene.dem.normal_stiffness = 1000;
-  scene.dem.tail = "keep";
-  scene.dem.integrator = integrator;
+  scene.dem.tail = core::Tail::keep;
+  scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
   // beta of the restitution, turned round: zeta of the linear law.
   scene.dem.restitution = std::exp(-pi * damping / std::sqrt(1 - damping * damping));
   scene.column.gravity = 9.81;
@@ -207,7 +207,7 @@ int memory(const std::string& contact, const std::string& tangential, bool ledge
   core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.05, 0.05, 0.05});
   scene.effects["contact"] = contact;
   scene.dem.normal_stiffness = 1000;
-  scene.dem.tangential = tangential;
+  scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
   scene.dem.ledger = ledger;
   const Beads beads(scene, {{"a", {0.02, 0.02, 0.02}}});
   EXPECT_EQ(beads.model.pairs().memory_size, beads.model.walls().memory_size);

@@ -29,7 +29,7 @@ core::Scene alumina(const std::string& tangential) {
   core::Scene scene = dry_box(2.5e-3, {380e9, 0.23, 4000}, {0.05, 0.05, 0.05});
   scene.dem.restitution = 0.98;
   scene.dem.friction = 0.092;
-  scene.dem.tangential = tangential;
+  scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
   return scene;
 }
 
@@ -76,7 +76,7 @@ double test_5(double modulus, const std::string& tangential, double ratio) {
   core::Scene scene = dry_box(radius, {modulus, nu, 7850}, {2e-4, 2e-4, 2e-4});
   scene.dem.restitution = 1;
   scene.dem.friction = mu;
-  scene.dem.tangential = tangential;
+  scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
   const Rebound out = impact(scene, radius, 5 * ratio, 5, 0, 200);
   return 2 * (1 - nu) * (out.along + radius * out.spin) / (mu * (2 - nu) * 5);
 }
@@ -102,7 +102,7 @@ core::Scene aluminium(const std::string& tangential) {
   core::Scene scene = dry_box(0.1, {70e9, 0.33, 2700}, {2, 2, 2});
   scene.dem.restitution = 0.5;
   scene.dem.friction = 0.4;
-  scene.dem.tangential = tangential;
+  scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
   return scene;
 }
 

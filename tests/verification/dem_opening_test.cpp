@@ -84,7 +84,7 @@ core::Scene crowd() {
   scene.column.size = {0.012, 0.03, 3.2e-3};
   scene.species.push_back(sphere("b", 0.7 * r, {youngs_modulus, poisson_ratio, density}));
   scene.column.gravity = 9.81;
-  scene.bed.start = "mixed";
+  scene.bed.start = {core::StartKind::mixed};
   scene.bed.particles = {150, 150};
   scene.bed.start_solids_fraction = 0.5;
   scene.dem.youngs_modulus = youngs_modulus;

@@ -10,7 +10,7 @@ constexpr double diameter = 1e-3, skin = 0.1e-3, depth = 2 * diameter, side = 5e
 
 core::Scene periodic_box(dem::Vector size) {
   core::Scene scene = dry_box(0.5 * diameter, {5e6, 0.25, 2500}, size);
-  scene.column.sides = scene.column.ends = "periodic";
+  scene.column.sides = scene.column.ends = core::Boundary::periodic;
   scene.dem.skin = skin;
   scene.dem.friction = 0.5;
   scene.dem.restitution = 0.9;

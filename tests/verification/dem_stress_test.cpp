@@ -7,12 +7,12 @@ namespace {
 /// A periodic cube of 10 mm with two spheres of 1 mm, 2500 kg/m3 (1.3089969390e-6 kg), springs of 1000 N/m.
 core::Scene cube() {
   core::Scene scene = dry_box(0.5e-3, {1e6, 0.25, 2500}, {0.01, 0.01, 0.01});
-  scene.column.sides = scene.column.ends = "periodic";
+  scene.column.sides = scene.column.ends = core::Boundary::periodic;
   scene.effects["contact"] = "linear";
   scene.dem.normal_stiffness = 1000;
   scene.dem.restitution = 1;
   scene.dem.friction = 0;
-  scene.dem.tail = "keep";
+  scene.dem.tail = core::Tail::keep;
   return scene;
 }
 

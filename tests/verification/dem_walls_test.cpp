@@ -38,7 +38,7 @@ TEST(DemWalls, AreSpheresOfInfiniteRadius) {
       scene.species.push_back(sphere("b", 0.5e11, glass));
       scene.effects["contact"] = contact;
       scene.dem.normal_stiffness = 1000;
-      scene.dem.tangential = law;
+      scene.dem.tangential = core::choice_of<core::Tangential>(law);
       scene.dem.youngs_modulus = glass.youngs_modulus;
       scene.dem.poisson_ratio = glass.poisson_ratio;
       const Two two = laws_of_wall_and_sphere(scene);
@@ -57,7 +57,7 @@ std::array<double, 3> after_impact(double ratio) {
   scene.dem.youngs_modulus = glass.youngs_modulus;
   scene.dem.poisson_ratio = glass.poisson_ratio;
   scene.dem.fixed_step = 1e-6;
-  scene.dem.integrator = "thesis";  // "auto" is another one for unequal spheres
+  scene.dem.integrator = core::DemIntegrator::thesis;  // "auto" is another one for unequal spheres
   const dem::Vector v{0.1, -0.2, 0}, w{0, 0, 30};
   if (ratio == 0) {
     Beads beads(scene, {{"a", {0.5, r, 0.5}, v, w}});

@@ -40,7 +40,7 @@ core::Scene gas(const std::string& exchange, double phi) {
   scene.column.closed = true;
   scene.dem.friction = 0.3;
   scene.dem.restitution = 0.9;
-  scene.calibrate.regime = "dry";
+  scene.calibrate.regime = core::BoxRegime::dry;
   scene.effects = {{"drag", "gidaspow"}, {"solids_stress", "kinetic"}, {"species_exchange", exchange}};
   return scene;
 }
@@ -148,7 +148,7 @@ TEST(ExchangeTable, WhatCannotBeIsRefused) {
   scene.bed.volume_share = {1};
   refused(scene, "of two species, the case has 1");
   scene = gas(dry, 0.3);
-  scene.calibrate.regime = "auto";
+  scene.calibrate.regime = core::BoxRegime::automatic;
   scene.column.closed = false;
   scene.fluid.density = 1000;
   scene.fluid.viscosity = 1e-3;

@@ -13,7 +13,7 @@ double drift(double superficial_velocity, double voidage, const std::string& int
   constexpr int cells = 40;
   core::Scene scene = uniform_bed(1e-3, 2200, 998.207, 1.00157e-3, 1 - voidage, cells, 0.4);
   scene.inlet.superficial_velocity = {{0.0, superficial_velocity}};
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   scene.tfm.rtol = 1e-6;
   core::Timers timers;
   tfm::Model model(scene, timers);
@@ -48,7 +48,7 @@ double voidage_after(double superficial_velocity, double start, const std::strin
   scene.inlet.superficial_velocity = {{0.0, superficial_velocity}};
   scene.bed.static_height = 0.05;
   scene.bed.start_solids_fraction = start;
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   core::Timers timers;
   tfm::Model model(scene, timers);
   advance(model, 20.0);
@@ -71,7 +71,7 @@ double ripple_left(const std::string& integrator) {
   constexpr int cells = 40;
   core::Scene scene = uniform_bed(1e-3, 2200, 998.207, 1.00157e-3, 1 - 0.63991, cells, 0.4);
   scene.inlet.superficial_velocity = {{0.0, 0.030}};
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   core::Timers timers;
   tfm::Model model(scene, timers);
   make_uneven(model, [](int, int j, int) { return j % 2 == 0 ? 1.03 : 0.97; });

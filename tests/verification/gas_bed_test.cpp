@@ -28,7 +28,7 @@ core::Scene gas_bed(const std::string& temperature) {
                    {"granular_temperature", temperature},
                    {"solids_viscosity", "schaeffer"},
                    {"species_exchange", "syamlal"}};
-  scene.tfm.solids_wall = "johnson_jackson";
+  scene.tfm.solids_wall = core::SolidsWall::johnson_jackson;
   scene.tfm.rtol = 1e-4;
   return scene;
 }
@@ -39,7 +39,7 @@ TEST_P(GasBed, IsTheSameByBothIntegrators) {
   core::Scene scene = gas_bed(GetParam());
   core::Timers timers;
   tfm::Model by_steps(scene, timers);
-  scene.tfm.integrator = "implicit";
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
   tfm::Model by_newton(scene, timers);
   const std::vector<double> mass = tfm::masses(by_steps);
   for (tfm::Model* model : {&by_steps, &by_newton}) {
@@ -85,7 +85,7 @@ TEST_P(GasBed, ASpeciesCutInTwoMovesAsOne) {
 TEST_P(GasBed, ResumedRunGivesTheSameBits) {
   for (const char* integrator : {"explicit", "implicit"}) {
     core::Scene scene = gas_bed(GetParam());
-    scene.tfm.integrator = integrator;
+    scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
     scene.tfm.rtol = 1e-3;
     const TwoEnds ends = through_and_resumed(scene, 5e-3, 0.01);
     EXPECT_EQ(ends.through.arrays.at("state"), ends.resumed.arrays.at("state")) << integrator;
@@ -99,7 +99,7 @@ core::Scene box_of_gas(const std::string& temperature, int nx, int nz, const std
   scene.column.cells = {nx, 16, nz};
   scene.column.size = {5e-3 * nx, 0.08, 5e-3 * nz};
   scene.bed.static_height = 0.03;
-  scene.column.sides = sides;
+  scene.column.sides = core::choice_of<core::Boundary>(sides);
   scene.tfm.fixed_step = 5e-5;
   scene.tfm.pressure_tolerance = 1e-13;
   scene.tfm.bulk_viscosity = 1;  // its default knows the number of directions
@@ -155,7 +155,7 @@ TEST(GasBed, WithoutKineticStressHasNoTemperature) {
   EXPECT_TRUE(without.fields().solids.temperature.empty());
   EXPECT_TRUE(without.fields().stress.wall.empty());
   scene.effects.erase("solids_viscosity");
-  scene.tfm.solids_wall = "free_slip";
+  scene.tfm.solids_wall = core::SolidsWall::free_slip;
   const tfm::Model bare(scene, timers);
   EXPECT_FALSE(bare.fields().stress.viscous());
   EXPECT_TRUE(bare.fields().stress.strain.empty());
@@ -176,7 +176,7 @@ TEST(GasBed, RefusesWhatCannotAct) {
   });
   refused([](core::Scene& s) {
     s.effects = {{"drag", "gidaspow"}, {"solids_viscosity", "mu_i"}};  // a viscosity of no pressure
-    s.tfm.solids_wall = "free_slip";
+    s.tfm.solids_wall = core::SolidsWall::free_slip;
   });
 }
 

@@ -32,9 +32,9 @@ core::Scene grains(double solids, std::size_t species, const std::string& stress
   }
   scene.effects = {{"solids_stress", stress}};
   if (stress == "kinetic") scene.effects["granular_temperature"] = "algebraic";
-  scene.tfm.kinetic_theory = "lun";
-  scene.tfm.radial_distribution = "carnahan_starling";
-  scene.tfm.max_packing = "0.64";
+  scene.tfm.kinetic_theory = core::KineticTheory::lun;
+  scene.tfm.radial_distribution = core::RadialDistribution::carnahan_starling;
+  scene.tfm.max_packing = 0.64;
   return scene;
 }
 

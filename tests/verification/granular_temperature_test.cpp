@@ -20,8 +20,8 @@ core::Scene collisions(double solids, int cells, double height, const std::strin
   scene.column.closed = true;
   scene.column.gravity = 0;
   scene.effects = {{"solids_stress", "kinetic"}, {"granular_temperature", temperature}};
-  scene.tfm.max_packing = "0.64";
-  scene.tfm.radial_distribution = "carnahan_starling";
+  scene.tfm.max_packing = 0.64;
+  scene.tfm.radial_distribution = core::RadialDistribution::carnahan_starling;
   scene.tfm.rtol = 1e-7;
   return scene;
 }
@@ -34,7 +34,7 @@ struct Prepared {
     const core::Grid& grid = model.constants().grid;
     core::Checkpoint start = model.checkpoint();
     const bool transported = !model.fields().solids.temperature_rate.empty();
-    const tfm::StateLayout layout(grid, 1, scene.tfm.integrator == "implicit", transported);
+    const tfm::StateLayout layout(grid, 1, scene.tfm.integrator == core::TfmIntegrator::implicit_steps, transported);
     for (const auto& entry : layout.entries()) {
       const bool moves = (entry.kind == Kind::velocity || entry.kind == Kind::flux) && entry.axis == 0;
       if (!moves && entry.kind != Kind::temperature) continue;
@@ -74,8 +74,8 @@ TEST_P(Cooling, ByCollisionsAndDragFollowsTheExactSolution) {
   scene.effects["drag"] = "stokes";
   scene.fluid.viscosity = 2500 * 1e-6 / (18 * 0.8 * 0.05);  // b = 18 mu eps/D^2
   scene.fluid.density = 1000;
-  scene.tfm.kinetic_theory = "lun";
-  scene.tfm.integrator = GetParam().integrator;
+  scene.tfm.kinetic_theory = core::KineticTheory::lun;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam().integrator);
   scene.tfm.rtol = GetParam().rtol;
   Prepared run(scene, rest, even(0.01));
   const auto expect = [&](double time, double expected) {
@@ -102,7 +102,7 @@ struct Row {
 core::Scene sheared(const Row& row, const std::string& temperature, int cells) {
   core::Scene scene = collisions(row.phi, cells, 0.01 * cells, temperature);
   scene.species[0].restitution = row.e;
-  scene.tfm.kinetic_theory = row.theory;
+  scene.tfm.kinetic_theory = core::choice_of<core::KineticTheory>(row.theory);
   return scene;
 }
 
@@ -196,7 +196,7 @@ TEST(GranularTemperature, IsCarriedAlong) {
 // apart; the wall gives 1.22218902 W/m2 to fluctuations, (2/3) of it over phi rho h to theta.
 TEST(JohnsonJackson, WallHasTheStressAndEnergyByHand) {
   core::Scene scene = collisions(0.5, 4, 0.004, "transported");
-  scene.tfm.solids_wall = "johnson_jackson";
+  scene.tfm.solids_wall = core::SolidsWall::johnson_jackson;
   const Prepared run(scene, even(0.2), even(0.01));
   const tfm::Fields& fields = run.model.fields();
   const double stress = 18.920927542198797, per_area = 0.5 * 2500 * 1e-3;

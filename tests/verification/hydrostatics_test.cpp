@@ -33,7 +33,7 @@ core::Scene column(int cells) {
   core::Scene scene = uniform_bed(1.2e-3, 2700, 998.207, 1.00157e-3, 0.6, cells, 0.2);
   scene.column.closed = true;
   scene.effects["solids_stress"] = "frictional";
-  scene.bed.start = "settled";
+  scene.bed.start = {core::StartKind::settled};
   return scene;
 }
 
@@ -42,7 +42,7 @@ TEST(Hydrostatics, AFluidAtRestHasNoNetPressureToTheBit) {
   scene.column.closed = true;
   scene.inlet.superficial_velocity = {{0.0, 0.0}};
   scene.bed.static_height = 0;
-  scene.tfm.max_packing = "0.64";
+  scene.tfm.max_packing = 0.64;
   core::Timers timers;
   tfm::Model model(scene, timers);
   advance(model, 0.5);
@@ -63,7 +63,7 @@ TEST(Hydrostatics, ASettledBedCarriesItsWeightAndStays) {
   {
     scene.bed.static_height = 0.15;  // 90 mm of solids: a model to take the stress from
     const tfm::Model model(scene, timers);
-    scene.tfm.max_packing = fmt::format("{}", model.effects().solids_stress->max_packing());
+    scene.tfm.max_packing = model.effects().solids_stress->max_packing();
     const auto pressure = [&](double phi) { return model.effects().solids_stress->pressure_at(phi); };
     const auto settle = [&](double above_phi, double above_pressure) {
       double low = 0.5, high = 0.7;
@@ -103,7 +103,7 @@ class BedAtRest : public testing::TestWithParam<const char*> {};
 TEST_P(BedAtRest, OfAnyMassRestsBelowItsTopLayer) {
   core::Scene scene = column(50);
   scene.bed.static_height = 0.15;
-  scene.tfm.integrator = GetParam();
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
   core::Timers timers;
   tfm::Model model(scene, timers);
   model.show(0);

@@ -22,7 +22,7 @@ class Jet : public testing::TestWithParam<const char*> {};
 // exact as the pressure solve (its tolerance is 1e-8 here), and solids rise above the jet.
 TEST_P(Jet, EveryLevelCarriesWhatFlowsIn) {
   core::Scene scene = binary_bed(9, 40, 0.03, 0.16);
-  scene.tfm.integrator = GetParam();
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
   scene.tfm.pressure_tolerance = 1e-8;
   scene.tfm.rtol = 1e-3;
   scene.bed.start_solids_fraction = 0.5;
@@ -46,7 +46,7 @@ TEST_P(Jet, EveryLevelCarriesWhatFlowsIn) {
 // After a ramp, too, every level carries exactly what the inlet says, whatever the tolerance in time.
 TEST_P(Jet, ARampEndsWhereItShould) {
   core::Scene scene = binary_bed(4, 40, 0.012, 0.16);
-  scene.tfm.integrator = GetParam();
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
   scene.tfm.pressure_tolerance = 1e-8;
   scene.tfm.rtol = 1e-3;
   scene.inlet.superficial_velocity = {{0.0, 0.01}, {0.1, 0.04}};

@@ -13,7 +13,7 @@ std::vector<core::Field> settled_for_a_while(bool on_its_side, core::Grid& grid)
   scene.inlet.superficial_velocity.clear();
   scene.effects["fluid_stress"] = "newtonian";
   scene.bed.solids_fraction = scene.bed.start_solids_fraction = 0.3;
-  scene.tfm.max_packing = "0.62";
+  scene.tfm.max_packing = 0.62;
   scene.tfm.fixed_step = 1e-3;
   scene.tfm.pressure_tolerance = 1e-13;
   scene.bed.static_height = 36e-3;

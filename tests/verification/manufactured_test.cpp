@@ -57,8 +57,8 @@ TEST(Manufactured, FirstOrderInTwoDimensionsWithUpwindSchemes) {
 // The schemes that a case has unless it says otherwise, fractions with slopes and momentum without: of first order.
 TEST(Manufactured, FirstOrderInTwoDimensionsWithTheSchemesOfACase) {
   const core::Tfm defaults;
-  ASSERT_EQ(defaults.flux, "limited");
-  ASSERT_EQ(tfm::momentum_form({}).name, "conservative");
+  ASSERT_EQ(defaults.flux, core::FractionFlux::limited);
+  ASSERT_EQ(tfm::momentum_form({}).form, core::Momentum::conservative);
   expect_order(errors(liquid_bed, 2, 32, {tfm::Scheme::limited, tfm::Scheme::upwind}), 1.8);
 }
 

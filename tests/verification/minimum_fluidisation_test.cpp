@@ -12,11 +12,11 @@ core::Scene gas_bed(double superficial_velocity) {
   core::Scene scene = uniform_bed(1e-3, 2500, 1.2, 1.8e-5, 0.6, 60, 0.12);
   scene.effects = {{"drag", "ergun"}, {"solids_stress", "frictional"}};
   scene.bed.static_height = 0.06;
-  scene.bed.start = "settled";
+  scene.bed.start = {core::StartKind::settled};
   scene.tfm.frictional_onset = 0.5995;
-  scene.tfm.max_packing = "0.606";
+  scene.tfm.max_packing = 0.606;
   scene.inlet.superficial_velocity = {{0.0, 0.0}, {0.05, superficial_velocity}};
-  scene.tfm.integrator = "implicit";
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
   return scene;
 }
 

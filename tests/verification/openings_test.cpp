@@ -55,9 +55,9 @@ double transport_velocity(double excess, double flux) {
 
 core::Scene transport(const std::string& integrator) {
   core::Scene scene = uniform_bed(0.2e-3, 2200, 1000, 1e-3, transport_fraction, 20, transport_height);
-  scene.column.outlet = "open";
+  scene.column.outlet = core::Outlet::open;
   scene.inlet.superficial_velocity = {{0.0, transport_flux}};
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   scene.tfm.rtol = 1e-5;
   return scene;
 }
@@ -76,7 +76,7 @@ TEST_P(Openings, ATransportColumnPassesOnWhatItIsFed) {
   core::Scene scene = transport(GetParam());
   const double velocity = transport_velocity(1200, transport_flux), flux = transport_fraction * velocity;
   scene.inlet.superficial_velocity = {{0.0, transport_flux - flux}};
-  scene.feeds.push_back({"solid", "bottom", {{0.0, flux}}, velocity, {}, {}});
+  scene.feeds.push_back({"solid", core::FeedEnd::bottom, {{0.0, flux}}, velocity, {}, {}});
   core::Timers timers;
   tfm::Model model(scene, timers);
   const std::vector<double> start = volumes(model);
@@ -126,8 +126,8 @@ TEST_P(Openings, LightSolidsRiseOutOfStillWater) {
 /// Everything at once: two species, an outlet open to them, a feed from below beside a jet, one from above in a part.
 core::Scene busy(const std::string& integrator) {
   core::Scene scene = binary_bed(9, 40, 0.03, 0.16);
-  scene.column.outlet = "open";
-  scene.tfm.integrator = integrator;
+  scene.column.outlet = core::Outlet::open;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   scene.tfm.rtol = 1e-3;
   scene.tfm.pressure_tolerance = 1e-8;
   scene.bed.start_solids_fraction = 0.5;
@@ -135,8 +135,8 @@ core::Scene busy(const std::string& integrator) {
   scene.jets.push_back({{0.01}, {0.02}, {{0.0, 0.09}, {0.1, 0.09}, {0.1, 0.18}}});
   scene.jets.push_back({{0.0}, {0.005}, {{0.0, 0.03}, {0.2, 0.06}}});
   scene.feeds.push_back(
-      {"fine", "bottom", {{0.0, 0.0}, {0.1, 0.004}, {0.15, 0.004}, {0.15, 0.001}}, 0.05, {0.012}, {0.02}});
-  scene.feeds.push_back({"coarse", "top", {{0.0, 0.001}}, 0.06, {0.005}, {0.0125}});
+      {"fine", core::FeedEnd::bottom, {{0.0, 0.0}, {0.1, 0.004}, {0.15, 0.004}, {0.15, 0.001}}, 0.05, {0.012}, {0.02}});
+  scene.feeds.push_back({"coarse", core::FeedEnd::top, {{0.0, 0.001}}, 0.06, {0.005}, {0.0125}});
   return scene;
 }
 
@@ -152,7 +152,8 @@ TEST_P(Openings, TheLedgerClosesWhateverTheSteps) {
   record("ledger", ledger_error(model, start));
   EXPECT_LT(ledger_error(model, start), 1e-12);
   const std::vector<fluid::Passed> passed = model.passed();
-  const double exact = scene.tfm.integrator == "explicit" ? 1e-12 : 1e-2, depth = scene.column.size[2];
+  const double exact = scene.tfm.integrator == core::TfmIntegrator::explicit_steps ? 1e-12 : 1e-2,
+               depth = scene.column.size[2];
   EXPECT_NEAR(passed[0].in / (4.4e-6 * depth), 1, exact);
   EXPECT_NEAR(passed[1].in / (2.25e-6 * depth), 1, 1e-12);
   model.step(1.0);
@@ -202,10 +203,10 @@ TEST_P(Openings, AResumedRunGivesTheSameBits) {
 void expect_nothing_in(const std::string& integrator, const std::string& momentum) {
   core::Scene scene = uniform_bed(0.2e-3, 2200, 1000, 1e-3, 0.2, 20, 0.1);
   scene.effects["solids_stress"] = "frictional";
-  scene.tfm.max_packing = "0.64";
-  scene.column.outlet = "open";
-  scene.tfm.integrator = integrator;
-  scene.tfm.momentum = momentum;
+  scene.tfm.max_packing = 0.64;
+  scene.column.outlet = core::Outlet::open;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
+  scene.tfm.momentum = core::choice_of<core::Momentum>(momentum);
   scene.tfm.rtol = 1e-3;
   scene.inlet.superficial_velocity = {{0.0, -0.01}};
   core::Timers timers;
@@ -234,11 +235,11 @@ TEST_P(Openings, NearFloodingNoSolidsComeFromNowhere) {
     scene.bed.volume_share = {0.0, 1.0};
     scene.bed.static_height = 0.01;
     scene.effects.erase("species_exchange");
-    scene.column.outlet = "open";
-    scene.tfm.integrator = GetParam();
+    scene.column.outlet = core::Outlet::open;
+    scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
     scene.tfm.rtol = 1e-3;
     scene.inlet.superficial_velocity = {{0.0, velocity}};
-    scene.feeds.push_back({"heavy", "top", {{0.0, 0.0}, {0.1, 0.005}}, 0.1, {0.008}, {0.02}});
+    scene.feeds.push_back({"heavy", core::FeedEnd::top, {{0.0, 0.0}, {0.1, 0.005}}, 0.1, {0.008}, {0.02}});
     core::Timers timers;
     tfm::Model model(scene, timers);
     const std::vector<double> start = volumes(model);
@@ -265,9 +266,9 @@ TEST(OpeningsOfAScreen, CostNothing) {
   const auto unknowns = [&] { return tfm::Model(scene, timers).unknowns(); };
   const std::size_t closed = unknowns();
   EXPECT_EQ(closed, 2U * 120 + 3U * (7 * 20 + 6 * 21));
-  scene.feeds.push_back({"fine", "bottom", {{0.0, 0.001}}, 0.1, {}, {}});
+  scene.feeds.push_back({"fine", core::FeedEnd::bottom, {{0.0, 0.001}}, 0.1, {}, {}});
   EXPECT_EQ(unknowns(), closed + 6);
-  scene.column.outlet = "open";
+  scene.column.outlet = core::Outlet::open;
   EXPECT_EQ(unknowns(), closed + 6 + 12);
 }
 

@@ -19,10 +19,11 @@ core::Scene suspension(double solids_fraction) {
   scene.effects = {{"drag", "richardson_zaki"}, {"solids_stress", "frictional"}};
   scene.bed.solids_fraction = 0.62;
   scene.bed.static_height = height * solids_fraction / 0.62;
-  scene.tfm.integrator = "implicit";  // drag relaxes in 0.5 ms: explicit steps would be as short
+  scene.tfm.integrator =
+      core::TfmIntegrator::implicit_steps;  // drag relaxes in 0.5 ms: explicit steps would be as short
   scene.tfm.rtol = 1e-3;
   scene.tfm.frictional_onset = 0.615;
-  scene.tfm.max_packing = "0.63";
+  scene.tfm.max_packing = 0.63;
   return scene;
 }
 

@@ -42,7 +42,7 @@ core::Scene sheared(const std::string& stress) {
   scene.column.closed = true;
   scene.effects["solids_stress"] = stress;
   scene.dem.friction = 0.3;
-  scene.tfm.max_packing = "0.62";
+  scene.tfm.max_packing = 0.62;
   return scene;
 }
 
@@ -88,13 +88,13 @@ TEST(ShearTable, DryStressOverKineticTheory) {
     const std::string file = (scratch.path() / name).string();
     fluid::write_solids_table(file, table_of("dry", p, mu, gamma));
     core::Scene scene = sheared("table:" + file);
-    scene.calibrate.regime = "dry";
+    scene.calibrate.regime = core::BoxRegime::dry;
     scene.effects.erase("drag");
     return seen(scene, 20);
   };
   core::Scene kinetic = sheared("kinetic");
   kinetic.effects.erase("drag");
-  kinetic.tfm.radial_distribution = "carnahan_starling";
+  kinetic.tfm.radial_distribution = core::RadialDistribution::carnahan_starling;
   const Seen reference = seen(kinetic, 20), one = written("one.h5", 1, 1, 1), two = written("two.h5", 2, 1, 1),
              four = written("four.h5", 1, 2, 2);
   EXPECT_GT(reference.pressure, 0);

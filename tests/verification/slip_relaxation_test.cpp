@@ -31,7 +31,7 @@ struct Velocities {
 
 Velocities velocities_after(double time, const std::string& integrator) {
   core::Scene scene = sideways();
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   core::Timers timers;
   tfm::Model model(scene, timers);
   core::Checkpoint start = model.checkpoint();

@@ -22,9 +22,9 @@ core::Scene packed_box(int cells, const std::string& wall, const std::string& la
   scene.column.closed = true;
   scene.column.gravity = 0;
   scene.effects = {{"solids_stress", "frictional"}, {"solids_viscosity", law}};
-  scene.tfm.max_packing = "0.64";
+  scene.tfm.max_packing = 0.64;
   scene.tfm.viscosity_cap = viscosity;
-  scene.tfm.solids_wall = wall;
+  scene.tfm.solids_wall = core::choice_of<core::SolidsWall>(wall);
   scene.tfm.rtol = 1e-6;
   scene.tfm.pressure_tolerance = 1e-10;
   return scene;
@@ -39,7 +39,7 @@ double share_left(core::Scene scene, const Flow& flow, double time) {
   tfm::Model model(scene, timers);
   const core::Grid& grid = model.constants().grid;
   core::Checkpoint start = model.checkpoint();
-  const tfm::StateLayout layout(grid, 1, scene.tfm.integrator == "implicit");
+  const tfm::StateLayout layout(grid, 1, scene.tfm.integrator == core::TfmIntegrator::implicit_steps);
   double before = 0;
   for (const auto& entry : layout.entries()) {
     if (entry.kind != Kind::velocity && entry.kind != Kind::flux) continue;
@@ -100,7 +100,7 @@ TEST(ShearOfSolids, DecaysBetweenWallsOfPartialSlip) {
     core::Scene scene = packed_box(cells, "johnson_jackson", "schaeffer");
     const double pressure = 0.05 * 0.01 / std::pow(0.04, 5);
     scene.tfm.wall_friction = 2 * viscosity / side * 1e-3 / pressure;
-    scene.tfm.integrator = integrator;
+    scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
     return error_of_rate(scene, flow, kinematic * k * k);
   };
   const double coarse = error(8, "explicit"), fine = error(16, "explicit");
@@ -118,7 +118,7 @@ TEST(VortexOfSolids, DecaysInSecondOrder) {
   };
   const auto error = [&](int cells) {
     core::Scene scene = packed_box(cells, "free_slip", "schaeffer");
-    scene.column.sides = "wall";
+    scene.column.sides = core::Boundary::wall;
     scene.column.size[0] = side;
     scene.column.cells[0] = cells;
     return error_of_rate(scene, flow, 2 * kinematic * k * k);

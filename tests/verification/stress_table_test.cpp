@@ -27,7 +27,7 @@ core::Scene column(const std::string& file) {
   core::Scene scene = uniform_bed(1.2e-3, 2700, 998.207, 1.00157e-3, 0.6, 20, 0.2);
   scene.column.closed = true;
   scene.effects["solids_stress"] = "table:" + file;
-  scene.bed.start = "settled";
+  scene.bed.start = {core::StartKind::settled};
   scene.bed.static_height = 0.1;
   return scene;
 }

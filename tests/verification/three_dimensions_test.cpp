@@ -13,7 +13,7 @@ core::Scene box_bed(int nx, int ny, int nz, const std::string& sides) {
   scene.column.dimensions = nz > 1 ? 3 : 2;
   scene.column.cells[2] = nz;
   scene.column.size[2] = 3e-3 * nz;
-  scene.column.sides = sides;
+  scene.column.sides = core::choice_of<core::Boundary>(sides);
   scene.tfm.fixed_step = 2.5e-4;
   scene.tfm.pressure_tolerance = 1e-13;
   scene.tfm.bulk_viscosity = 1;  // its default knows the number of directions
@@ -80,8 +80,8 @@ TEST(JoinedSides, TheOriginDoesNotMatter) {
   };
   for (const char* integrator : {"explicit", "implicit"}) {
     core::Scene scene = box_bed(6, 24, 1, "periodic");
-    scene.tfm.integrator = integrator;
-    if (scene.tfm.integrator == "implicit") {
+    scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
+    if (scene.tfm.integrator == core::TfmIntegrator::implicit_steps) {
       scene.tfm.fixed_step.reset();
       scene.tfm.rtol = 1e-7;
     }
@@ -106,7 +106,7 @@ TEST(ThreeDimensions, BothIntegratorsAgreeAndKeepMass) {
   scene.bed.start_solids_fraction = 0.45;
   scene.tfm.rtol = 1e-5;
   const Finished by_steps(scene, even);
-  scene.tfm.integrator = "implicit";
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
   const Finished by_newton(scene, even);
   const core::Grid& grid = by_steps.model.constants().grid;
   const double apart =

@@ -9,7 +9,7 @@ namespace {
 /// Fractions of the first species after 80 ms of an expanding bed, below the onset of the frictional stress.
 core::Field fractions(double fixed_step, double rtol, const std::string& integrator = "explicit") {
   core::Scene scene = binary_bed(6, 24, 0.03, 0.12);
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   scene.bed.start_solids_fraction = 0.45;
   if (fixed_step > 0) scene.tfm.fixed_step = fixed_step;
   scene.tfm.rtol = rtol;

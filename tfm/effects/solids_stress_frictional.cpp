@@ -51,8 +51,12 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
 }
 
 void FrictionalStress::choose_packing(const core::Scene& scene) {
-  const std::string& given = scene.tfm.max_packing;
-  if (given == "auto") {
+  if (const double* number = std::get_if<double>(&scene.tfm.max_packing)) {
+    law_.max_packing = *number;
+    return;
+  }
+  const auto rule = std::get<core::PackingRule>(scene.tfm.max_packing);
+  if (rule == core::PackingRule::automatic) {
     if (scene.bed.solids_fraction <= law_.onset)
       throw core::CaseError("bed.solids_fraction must lie above tfm.frictional_onset, or give tfm.max_packing");
     law_.max_packing = packing_of_bed(scene, constants_);
@@ -62,13 +66,10 @@ void FrictionalStress::choose_packing(const core::Scene& scene) {
           "0.64");
     return;
   }
-  if (given != "fedors_landel" && given != "yu_standish") {
-    law_.max_packing = std::stod(given);
-    return;
-  }
-  if (given == "fedors_landel" && constants_.species() != 2)
+  const bool two = rule == core::PackingRule::fedors_landel;
+  if (two && constants_.species() != 2)
     throw core::CaseError("tfm.max_packing = \"fedors_landel\" is for two species; yu_standish is for any number");
-  mixture_packing_ = given == "fedors_landel" ? closures::packing_fedors_landel : closures::packing_yu_standish;
+  mixture_packing_ = two ? closures::packing_fedors_landel : closures::packing_yu_standish;
   for (const core::Species& species : scene.species) species_packing_.push_back(species.max_packing);
   law_.max_packing = mixture_packing_(constants_.bed_share, constants_.diameter, species_packing_);
 }

@@ -36,8 +36,9 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
                              bool transported, double max_packing, Fields& fields)
     : constants_(constants),
       boundaries_(boundaries),
-      model_(scene.tfm.kinetic_theory == "lun" ? closures::KineticModel::lun : closures::KineticModel::garzo_dufty),
-      dense_(scene.tfm.radial_distribution == "torquato"),
+      model_(scene.tfm.kinetic_theory == core::KineticTheory::lun ? closures::KineticModel::lun
+                                                                  : closures::KineticModel::garzo_dufty),
+      dense_(scene.tfm.radial_distribution == core::RadialDistribution::torquato),
       transported_(transported),
       specularity_(scene.tfm.specularity),
       wall_restitution_(scene.tfm.wall_restitution),
@@ -52,7 +53,7 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
   const std::vector<core::Field> per_species(constants.species(), core::make_field(constants.grid));
   fields.stress.make_viscous(constants);
   fields.solids.temperature = per_species;
-  if (scene.tfm.solids_wall == "johnson_jackson") fields.stress.wall = core::make_field(constants.grid);
+  if (scene.tfm.solids_wall == core::SolidsWall::johnson_jackson) fields.stress.wall = core::make_field(constants.grid);
   if (!transported) return;
   fields.solids.temperature_rate = fields.granular.conductivity = fields.granular.decay = per_species;
   for (core::Field& theta : fields.solids.temperature)

@@ -15,11 +15,9 @@ using core::Index;
 namespace {
 
 tfm::Discretisation discretisation_of(const core::Tfm& options, const tfm::Model& model) {
-  const auto scheme = [](const std::string& name) {
-    return name == "limited" ? tfm::Scheme::limited : tfm::Scheme::upwind;
-  };
-  return {scheme(options.flux), scheme(options.momentum), fluid::WallSlip::free_slip,
-          model.momentum().name == "conservative"};
+  const auto scheme = [](bool limited) { return limited ? tfm::Scheme::limited : tfm::Scheme::upwind; };
+  return {scheme(options.flux == core::FractionFlux::limited), scheme(options.momentum == core::Momentum::limited),
+          fluid::WallSlip::free_slip, model.momentum().form == core::Momentum::conservative};
 }
 
 /// dphi_j/dt = -div(U_j at(phi_j)) with other values on faces.

@@ -65,7 +65,8 @@ void Spheres::find_forces() {
   std::fill(force_.begin(), force_.end(), Vector{});
   std::fill(torque_.begin(), torque_.end(), Vector{});
   for (auto& [key, memory] : memory_) memory.seen = false;
-  const bool sides = scene_.column.sides == "periodic", ends = scene_.column.ends == "periodic";
+  const bool sides = scene_.column.sides == core::Boundary::periodic,
+             ends = scene_.column.ends == core::Boundary::periodic;
   const std::array<bool, 3> joined{sides, ends, sides};
   const bool nearest = name_ == "one_image";
   std::array<int, 3> reach{};
@@ -100,7 +101,7 @@ void Spheres::add_walls(std::size_t i) {
   const core::Column& c = scene_.column;
   std::vector<std::pair<Touch, int>> pressed;
   for (std::size_t k = 0; k < 3; ++k) {
-    if ((k == 1 ? c.ends : c.sides) == "periodic") continue;
+    if ((k == 1 ? c.ends : c.sides) == core::Boundary::periodic) continue;
     for (const int side : {-1, 1}) {
       if (k == 1 && side > 0 && !c.closed) continue;  // the open top
       const double gap = side < 0 ? place_[i].x[k] : c.size[k] - place_[i].x[k];

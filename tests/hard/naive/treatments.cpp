@@ -31,7 +31,8 @@ class NaiveRun : public hard::Run {
       : scene_(scene),
         timers_(timers),
         model_(scene, timers),
-        layout_(model_.constants().grid, int(model_.constants().species()), scene.tfm.integrator == "implicit") {
+        layout_(model_.constants().grid, int(model_.constants().species()),
+                scene.tfm.integrator == core::TfmIntegrator::implicit_steps) {
     if (start) start(model_);
   }
   [[nodiscard]] double time() const override { return time_; }
@@ -174,7 +175,7 @@ std::unique_ptr<hard::Run> make_run(const std::string& name, core::Scene scene, 
   if (name == "cold_restart") return nullptr;
   const bool implicit =
       name == "clip_rhs" || name == "jacobi_preconditioner" || name == "divide_by_phi" || name == "nothing implicit";
-  scene.tfm.integrator = implicit ? "implicit" : "explicit";
+  scene.tfm.integrator = implicit ? core::TfmIntegrator::implicit_steps : core::TfmIntegrator::explicit_steps;
   if (implicit) {
     scene.tfm.fixed_step.reset();
     return std::make_unique<ImplicitRun>(scene, timers, start, name);
@@ -192,7 +193,7 @@ std::unique_ptr<hard::Run> make_run(const std::string& name, core::Scene scene, 
   if (name == "central_flux") return explicit_run({}, central_flux);
   if (name == "unbalanced_gravity") return explicit_run({}, unbalanced_gravity);
   if (name == "advective_momentum") {
-    scene.tfm.momentum = "upwind";
+    scene.tfm.momentum = core::Momentum::upwind;
     return explicit_run({}, {});
   }
   if (name == "hidden_unit") return explicit_run({}, hidden_unit);

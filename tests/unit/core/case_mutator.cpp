@@ -153,9 +153,8 @@ std::string CaseMutator::value_of(const Key& key) {
   const std::size_t kind = below(8);
   if (kind == 0) return odd_values[below(odd_values.size())];
   if (!key.words.empty()) return fmt::format("\"{}\"", key.words[below(key.words.size())]);
-  const std::string standard(key.standard);
-  if (kind < 3 && !standard.empty()) return is_word_like(standard) ? "\"" + standard + "\"" : standard;
-  const double least = std::max(key.least, -1e9), most = std::min(key.most, 1e9);
+  if (kind < 3 && !key.standard.empty()) return is_word_like(key.standard) ? "\"" + key.standard + "\"" : key.standard;
+  const double least = std::max(key.range.least, -1e9), most = std::min(key.range.most, 1e9);
   if (kind == 3) return fmt::format("{:.6g}", least);
   if (kind == 4) return fmt::format("{:.6g}", most);
   const double low = least > 0 ? least : 1e-6 * std::max(most, 1e-3), high = most > low ? most : 10 * low;
@@ -165,7 +164,7 @@ std::string CaseMutator::value_of(const Key& key) {
 
 std::string CaseMutator::with_a_key(const std::string& text) {
   const Key& key = keys()[below(keys().size())];
-  return with_entry(text, std::string(key.table), is_array_of_tables(key.table), std::string(key.name), value_of(key));
+  return with_entry(text, std::string(key.table), find_table(key.table)->array, std::string(key.name), value_of(key));
 }
 
 std::string CaseMutator::with_a_law(const std::string& text) {

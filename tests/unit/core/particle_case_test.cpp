@@ -60,9 +60,9 @@ TEST(ParticleCase, KeysOfDemReachTheScene) {
       "ledger = false\ncohesion_energy = \"50 mJ/m2\"\nhamaker_constant = 1e-19\ncohesion_gap = \"1 nm\"\n";
   const Scene scene = parse_case(dry_case(lines), "case.toml", {}, {});
   const Dem& dem = scene.dem;
-  EXPECT_EQ(dem.tangential, "mindlin");
-  EXPECT_EQ(dem.tail, "keep");
-  EXPECT_EQ(dem.integrator, "synchronised");
+  EXPECT_EQ(dem.tangential, Tangential::mindlin);
+  EXPECT_EQ(dem.tail, Tail::keep);
+  EXPECT_EQ(dem.integrator, DemIntegrator::synchronised);
   EXPECT_DOUBLE_EQ(dem.normal_stiffness.value(), 2000);
   EXPECT_EQ(dem.tangential_ratio, 0.5);
   EXPECT_EQ(dem.rolling_friction, 0.01);
@@ -84,11 +84,10 @@ TEST(ParticleCase, KeysOfDemReachTheScene) {
 /// What the table of keys calls the default is what a scene has, key by key of [dem].
 TEST(ParticleCase, DefaultsOfDemAreThoseOfTheTable) {
   Lines lines;
-  for (const Key& key : keys()) {
-    if (key.table != "dem" || key.standard.empty()) continue;
-    const bool bare = std::holds_alternative<Place<bool>>(key.place) || std::holds_alternative<Place<int>>(key.place);
-    const std::string value = key.standard == "2/7" ? "0.2857142857142857" : std::string(key.standard);
-    lines.dem += fmt::format("{0} = {2}{1}{2}\n", key.name, value, bare ? "" : "\"");
+  for (const Key& key : find_table("dem")->keys) {
+    if (key.standard.empty()) continue;
+    const bool bare = key.kind == Kind::truth || key.kind == Kind::count;
+    lines.dem += fmt::format("{0} = {2}{1}{2}\n", key.name, key.standard, bare ? "" : "\"");
   }
   EXPECT_THAT(lines.dem, HasSubstr("cohesion_gap"));
   EXPECT_EQ(resolved_case(parse_case(dry_case(lines), "case.toml", {}, {})),
@@ -312,7 +311,7 @@ class CaseWithAList : public testing::Test {
 TEST_F(CaseWithAList, FindsItBesideTheCaseAndNeedsNothingElseOfTheBed) {
   const std::string text = dry_case({}, "start = \"list:beads.csv\"\n");
   const Scene scene = parse_case(text, case_name(), {}, {});
-  EXPECT_EQ(scene.bed.start, "list:" + (scratch_.path() / "beads.csv").string());
+  EXPECT_EQ(text_of(scene.bed.start), "list:" + (scratch_.path() / "beads.csv").string());
   const std::string resolved = resolved_case(scene);
   EXPECT_THAT(resolved, Not(HasSubstr("solids_fraction")));
   EXPECT_EQ(resolved_case(parse_case(resolved, "elsewhere/again.toml", {}, {})), resolved);
@@ -325,7 +324,7 @@ TEST_F(CaseWithAList, TakesTheOneOfTheWorkingDirectoryFirst) {
   std::filesystem::current_path(here.path());
   const Scene scene = parse_case(dry_case({}, "start = \"list:beads.csv\"\n"), case_name(), {}, {});
   std::filesystem::current_path(before);
-  EXPECT_EQ(scene.bed.start, "list:beads.csv");
+  EXPECT_EQ(text_of(scene.bed.start), "list:beads.csv");
 }
 
 TEST_F(CaseWithAList, ThatIsFedNeedsThePackingOfTheFeed) {

@@ -22,7 +22,7 @@ class ListOfParticles : public testing::Test {
     scene_.species[0].name = "fine";
     scene_.species[1].name = "coarse";
     scene_.column.size = {0.06, 0.6, 0.004};
-    scene_.bed.start = "list:" + file().string();
+    scene_.bed.start = {core::StartKind::list, file().string()};
   }
   [[nodiscard]] std::filesystem::path file() const { return scratch_.path() / "beads.csv"; }
   ParticleList read(const std::string& text) {
@@ -104,7 +104,7 @@ TEST_F(ListOfParticles, TellsAHundredProblemsAndTheNumberOfTheRest) {
 TEST_F(ListOfParticles, ThatCannotBeReadSaysWhy) {
   EXPECT_THAT([&] { (void)read_particle_list(scene_); },
               testing::ThrowsMessage<FileError>(HasSubstr("beads.csv: No such file")));
-  scene_.bed.start = "mixed";
+  scene_.bed.start = {core::StartKind::mixed};
   EXPECT_THROW((void)read_particle_list(scene_), CaseError);
 }
 

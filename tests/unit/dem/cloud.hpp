@@ -20,7 +20,7 @@ inline core::Scene cloud_scene(int dimensions, bool periodic) {
   scene.column.dimensions = dimensions;
   scene.column.size = {12e-3, 10e-3, 8e-3};
   scene.column.cells = {6, 5, dimensions == 3 ? 4 : 1};
-  scene.column.sides = periodic ? "periodic" : "wall";
+  scene.column.sides = periodic ? core::Boundary::periodic : core::Boundary::wall;
   scene.column.closed = true;
   scene.column.gravity = 0;
   scene.fluid.name = "test fluid";

@@ -82,7 +82,7 @@ TEST(Cohesion, FrictionForgetsWhatWasBeforeTheGap) {
   // In reach of cohesion a pair stays in the list; a new contact must begin as one all the same.
   for (const char* tangential : {"hdd", "mindlin", "mindlin_deresiewicz"}) {
     core::Scene scene = cohesive("van_der_waals");
-    scene.dem.tangential = tangential;
+    scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
     scene.dem.friction = 10;
     Bench kept(scene, 1e-6), fresh(scene, 1e-6);
     placed(kept);

@@ -13,7 +13,7 @@ TEST(ContinuumScene, IsToldWithAllItsKeysAtOnce) {
   core::Scene scene;
   EXPECT_THAT(only_for_continuum(scene), testing::IsEmpty());
   EXPECT_NO_THROW(refuse_continuum_scene(scene));
-  scene.column.outlet = "open";
+  scene.column.outlet = core::Outlet::open;
   scene.feeds.emplace_back();
   try {
     refuse_continuum_scene(scene);

@@ -24,7 +24,7 @@ constexpr Named laws[] = {{"hertz", "hdd", Law::none},
 
 core::Scene scene_of(const Named& named, double restitution) {
   core::Scene scene = test::scene_of({{"contact", named.contact}});
-  scene.dem.tangential = named.tangential;
+  scene.dem.tangential = core::choice_of<core::Tangential>(named.tangential);
   scene.dem.restitution = restitution;
   scene.dem.friction = 0.3;
   return scene;

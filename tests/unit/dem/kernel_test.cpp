@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 core::Scene asking(const std::string& kernel) {
   core::Scene scene;
-  scene.dem.kernel = kernel;
+  scene.dem.kernel = core::choice_of<core::Kernel>(kernel);
   return scene;
 }
 
@@ -30,7 +30,7 @@ TEST(Kernel, IsWhatTheCaseAsksFor) {
   core::Scene scene = asking("auto");
   scene.dem.kernel_width = 5e-3;
   EXPECT_EQ(kernel_of(scene, 1, 2e-3, 1000).width, 5e-3);
-  scene.dem.kernel = "diffusion";
+  scene.dem.kernel = core::Kernel::diffusion;
   EXPECT_EQ(kernel_of(scene, 1e-3, 2e-3, 1).width, 5e-3);
 }
 

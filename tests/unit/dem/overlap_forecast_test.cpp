@@ -24,7 +24,7 @@ core::Scene spheres(const char* contact = "hertz_mindlin") {
   scene.effects["contact"] = contact;
   scene.dem.normal_stiffness = 1000;
   scene.column.size = {0.01, 0.05, 0.01};
-  scene.bed.start = "random";
+  scene.bed.start = {core::StartKind::random};
   scene.bed.particles = {10};
   return scene;
 }
@@ -86,7 +86,7 @@ TEST(Speeds, OfAFall) {
 // 1000 spheres at a fraction of 0.5 fill pi/6 1e-6/(0.5 1e-4) m = 10.47198 mm of the column: 0.453277 m/s.
 TEST(Speeds, OfAFallFromTheTopOfTheBed) {
   core::Scene scene = spheres();
-  scene.bed.start = "mixed";
+  scene.bed.start = {core::StartKind::mixed};
   scene.bed.particles = {1000};
   scene.bed.start_solids_fraction = 0.5;
   EXPECT_NEAR(start_height(scene, Materials(scene), box_of(scene)), 10.47198e-3, 10.47198e-3 * by_hand);

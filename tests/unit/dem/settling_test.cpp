@@ -20,7 +20,7 @@ core::Scene settling(const std::string& fluid) {
   scene.species = {sphere};
   scene.column.size = {20e-3, 40e-3, 2.2e-3};
   scene.column.cells = {10, 20, 1};
-  scene.bed.start = "settled";
+  scene.bed.start = {core::StartKind::settled};
   scene.bed.particles = {500};
   scene.bed.solids_fraction = 0.6;
   scene.bed.start_solids_fraction = 0.3;

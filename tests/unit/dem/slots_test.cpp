@@ -32,9 +32,9 @@ TEST(Slots, EachLawHasItsOwnMemory) {
   scene.dem.hamaker_constant = 1e-19;
   EXPECT_EQ(laws_of(scene).memory_size(), 3);
   EXPECT_EQ(Ledger::memory_size(laws_of(scene)), 6);
-  scene.dem.tangential = "mindlin";
+  scene.dem.tangential = core::Tangential::mindlin;
   EXPECT_EQ(laws_of(scene).memory_size(), 4);
-  scene.dem.tangential = "mindlin_deresiewicz";
+  scene.dem.tangential = core::Tangential::mindlin_deresiewicz;
   EXPECT_EQ(laws_of(scene).memory_size(), 8);
   scene.effects["rolling"] = "cdt";
   EXPECT_EQ(laws_of(scene).memory_size(), 8);
@@ -98,14 +98,14 @@ TEST(Slots, ContradictionsAreToldByTheirKeys) {
   EXPECT_THAT(refused(scene), HasSubstr("dem.rolling_damping"));
   scene.effects["rolling"] = "epsd";
   EXPECT_EQ(refused(scene), "");
-  scene.dem.tangential = "linear";
+  scene.dem.tangential = core::Tangential::linear;
   EXPECT_THAT(refused(scene), HasSubstr("dem.tangential = \"linear\""));
   scene.effects["contact"] = "linear";
   scene.dem.normal_stiffness = 1000;
   EXPECT_EQ(refused(scene), "");
-  scene.dem.tangential = "mindlin";
+  scene.dem.tangential = core::Tangential::mindlin;
   EXPECT_THAT(refused(scene), HasSubstr("radius of a contact"));
-  scene.dem.tangential = "hdd";
+  scene.dem.tangential = core::Tangential::hdd;
   scene.effects["cohesion"] = "jkr";
   scene.dem.cohesion_energy = 0.05;
   EXPECT_THAT(refused(scene), HasSubstr("in place of Hertz"));
@@ -125,7 +125,7 @@ TEST(Slots, BatchesOfAnySizeHaveTheSameBits) {
     for (const char* rolling : {"none", "cdt", "epsd"})
       for (const char* cohesion : {"none", "dmt", "jkr", "van_der_waals"}) {
         core::Scene scene = scene_of({{"rolling", rolling}, {"cohesion", cohesion}});
-        scene.dem.tangential = tangential;
+        scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
         scene.dem.rolling_friction = 0.1;
         scene.dem.cohesion_energy = 5;
         scene.dem.hamaker_constant = 1e-14;

@@ -60,10 +60,10 @@ TEST(Integrator, IsThatOfTheThesisForSizesAlikeOrWithoutALawOfFriction) {
 
 TEST(Integrator, IsTheOneThatTheCaseSays) {
   core::Scene scene = two_sizes(3.5);
-  scene.dem.integrator = "synchronised";
+  scene.dem.integrator = core::DemIntegrator::synchronised;
   EXPECT_TRUE(limits_of(scene).synchronised);
   scene.species[1].friction = 0.4;
-  scene.dem.integrator = "thesis";
+  scene.dem.integrator = core::DemIntegrator::thesis;
   EXPECT_FALSE(limits_of(scene).synchronised);
 }
 

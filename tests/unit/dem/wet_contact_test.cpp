@@ -20,7 +20,7 @@ core::Scene wet_scene(const std::string& contact, const std::string& tail) {
   scene.fluid.density = fluid_density;
   scene.fluid.viscosity = viscosity;
   scene.dem.restitution = 0.9;
-  scene.dem.tail = tail;
+  scene.dem.tail = core::choice_of<core::Tail>(tail);
   scene.dem.normal_stiffness = 1e4;
   return scene;
 }

@@ -17,7 +17,7 @@ core::Fluid air_at(double pressure) {
   core::Fluid fluid;
   fluid.name = "air";
   fluid.temperature = 293.15;
-  fluid.equation_of_state = "ideal_gas";
+  fluid.equation_of_state = core::Compressibility::ideal_gas;
   fluid.outlet_pressure = pressure;
   return fluid;
 }
@@ -27,7 +27,7 @@ core::Fluid water_at(double pressure) {
   fluid.name = "water";
   fluid.density = 998.207;
   fluid.viscosity = 1e-3;
-  fluid.equation_of_state = "tait";
+  fluid.equation_of_state = core::Compressibility::tait;
   fluid.outlet_pressure = pressure;
   return fluid;
 }

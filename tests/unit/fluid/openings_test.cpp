@@ -22,9 +22,9 @@ core::Scene scene_with_feeds() {
   scene.species.resize(2);
   scene.species[0].name = "a";
   scene.species[1].name = "b";
-  scene.column.outlet = "open";
-  scene.feeds.push_back({"a", "bottom", {{0.0, 0.01}, {1.0, 0.03}}, 0.1, {0.005}, {0.02}});
-  scene.feeds.push_back({"b", "top", {{0.0, 0.004}}, 0.2, {}, {}});
+  scene.column.outlet = core::Outlet::open;
+  scene.feeds.push_back({"a", core::FeedEnd::bottom, {{0.0, 0.01}, {1.0, 0.03}}, 0.1, {0.005}, {0.02}});
+  scene.feeds.push_back({"b", core::FeedEnd::top, {{0.0, 0.004}}, 0.2, {}, {}});
   return scene;
 }
 
@@ -103,9 +103,9 @@ TEST_F(Ends, WhatHasPassedIsInOrOut) {
 TEST(Screens, AreAbsent) {
   core::Scene scene = scene_with_feeds();
   scene.feeds.clear();
-  scene.column.outlet = "screen";
+  scene.column.outlet = core::Outlet::screen;
   EXPECT_FALSE(Openings(column(), scene).present());
-  scene.column.outlet = "open";
+  scene.column.outlet = core::Outlet::open;
   EXPECT_TRUE(Openings(column(), scene).present());
   scene.column.closed = true;
   EXPECT_FALSE(Openings(column(), scene).present());

@@ -55,9 +55,9 @@ TEST(ShearRegime, GasIsDryLiquidIsWetAndTheCaseMaySayOtherwise) {
   EXPECT_EQ(shear_regime(liquid).name, "wet");
   EXPECT_NE(shear_regime(liquid).reason.find("gamma tau_p"), std::string::npos);
   EXPECT_NE(shear_regime(liquid).reason.find("St*"), std::string::npos);
-  liquid.calibrate.regime = "dry";
+  liquid.calibrate.regime = core::BoxRegime::dry;
   EXPECT_EQ(shear_regime(liquid).name, "dry");
-  liquid.calibrate.regime = "auto";
+  liquid.calibrate.regime = core::BoxRegime::automatic;
   liquid.inlet.superficial_velocity.clear();
   EXPECT_EQ(shear_regime(liquid).name, "") << "nothing moves the bed";
   core::Scene none = scene_of(systems[2]);

@@ -32,7 +32,7 @@ TEST(CalibratePlan, WrongAxesAreRefused) {
   scene.calibrate.solids_fraction = {0.3, 0.63};  // smooth spheres jam at 0.636
   EXPECT_THROW((void)plan_of(scene), core::CaseError);
   scene = dry_scene();
-  scene.calibrate.regime = "wet";
+  scene.calibrate.regime = core::BoxRegime::wet;
   EXPECT_THROW((void)plan_of(scene), core::CaseError);
   scene = dry_scene();
   scene.calibrate.share = {0.3, 0.5};

@@ -53,8 +53,8 @@ core::Scene scene_of(const std::vector<Golden>& species, const std::string& purp
   core::Scene scene;
   scene.column.size = {1e-3 * g.width, 1, 1};
   scene.column.gravity = 9.81;
-  scene.column.sides = "wall";
-  scene.chooser.purpose = purpose;
+  scene.column.sides = core::Boundary::wall;
+  scene.chooser.purpose = core::choice_of<core::Purpose>(purpose);
   for (const Golden& s : species) {
     core::Species one;
     one.name = s.scene;

@@ -15,11 +15,11 @@ struct SmallBed {
   core::Timers timers;
   core::Scene scene;
   SmallBed() : scene(uniform_bed(1e-3, 2500, 1000, 1e-3, 0.5, 8, 0.04)) {
-    scene.column.sides = "wall";
+    scene.column.sides = core::Boundary::wall;
     scene.column.size[0] = 0.025;
     scene.column.cells[0] = 5;
     scene.effects["solids_stress"] = "frictional";
-    scene.tfm.max_packing = "0.62";
+    scene.tfm.max_packing = 0.62;
   }
 };
 
@@ -54,7 +54,7 @@ TEST(FirstOrderFallback, FlagsTheFacesOfACellOutOfBoundsForTwentySteps) {
 // The bound is that of the cell's own composition: a mixture packs denser than either of its species.
 TEST(FirstOrderFallback, AsksForThePackingOfTheCellsOwnComposition) {
   core::Scene scene = scenes::binary_bed(4, 10, 0.012, 0.03);
-  scene.tfm.max_packing = "yu_standish";
+  scene.tfm.max_packing = core::PackingRule::yu_standish;
   for (core::Species& species : scene.species) species.max_packing = 0.62;
   core::Timers timers;
   const tfm::Model model(scene, timers);
@@ -98,7 +98,7 @@ TEST(FirstOrderFallback, FlaggedFacesTakeTheFractionFromUpwindAndTheOthersStay) 
 /// An unsteady bed that starts with a fraction of -0.005 in one cell, ten times the bound at rtol 1e-3 (explicit: 5).
 core::Scene undershot(const char* integrator) {
   core::Scene scene = binary_bed(6, 30, 0.018, 0.09);
-  scene.tfm.integrator = integrator;
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   scene.tfm.rtol = 1e-3;
   return scene;
 }
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Fallback, testing::Values("explicit", "imp
 // Where every flux is of first order there is nothing to fall back to, and nothing is kept.
 TEST(FirstOrderFallback, IsAbsentWithUpwindFluxes) {
   core::Scene scene = undershot("explicit");
-  scene.tfm.flux = "upwind";
+  scene.tfm.flux = core::FractionFlux::upwind;
   core::Timers timers;
   tfm::Model model(scene, timers);
   undershoot(model);

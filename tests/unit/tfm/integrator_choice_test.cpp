@@ -9,14 +9,14 @@ namespace {
 
 std::string chosen(const core::Scene& scene) {
   core::Timers timers;
-  return Model(scene, timers).integrator_name();
+  return std::string(core::name_of(Model(scene, timers).integrator_kind()));
 }
 
 /// 4 x 20 cells of 2 mm of glass in water at 10 mm/s.
 core::Scene glass(double diameter) {
   core::Scene scene = scenes::uniform_bed(diameter, 2500, 998.207, 1.00157e-3, 0.5, 20, 0.04);
   scene.inlet.superficial_velocity = {{0.0, 0.01}};
-  scene.tfm.integrator = "auto";
+  scene.tfm.integrator = core::TfmIntegrator::automatic;
   scene.tfm.rtol = 1e-3;
   return scene;
 }
@@ -57,15 +57,15 @@ TEST(IntegratorChoice, GasAndSettlingBedsAreForImplicitSteps) {
 
 TEST(IntegratorChoice, CompressibleFluidsAreForImplicitSteps) {
   core::Scene scene = glass(0.8e-3);
-  scene.fluid.equation_of_state = "tait";
+  scene.fluid.equation_of_state = core::Compressibility::tait;
   EXPECT_EQ(chosen(scene), "implicit");
-  scene.tfm.integrator = "explicit";
+  scene.tfm.integrator = core::TfmIntegrator::explicit_steps;
   EXPECT_EQ(chosen(scene), "explicit");
 }
 
 TEST(IntegratorChoice, TheCaseHasTheLastWord) {
   core::Scene scene = glass(0.2e-3);
-  scene.tfm.integrator = "explicit";
+  scene.tfm.integrator = core::TfmIntegrator::explicit_steps;
   EXPECT_EQ(chosen(scene), "explicit");
 }
 
@@ -77,10 +77,11 @@ TEST(IntegratorChoice, ACoarseToleranceIsRefusedToImplicitSteps) {
 
 TEST(MomentumForm, KeepsMomentumUnlessTheCaseSaysOtherwise) {
   core::Scene scene = glass(0.8e-3);
-  EXPECT_EQ(momentum_form(scene).name, "conservative");
-  for (const std::string asked : {"upwind", "limited", "conservative_limited"}) {
+  EXPECT_EQ(momentum_form(scene).form, core::Momentum::conservative);
+  for (const core::Momentum asked :
+       {core::Momentum::upwind, core::Momentum::limited, core::Momentum::conservative_limited}) {
     scene.tfm.momentum = asked;
-    EXPECT_EQ(momentum_form(scene).name, asked);
+    EXPECT_EQ(momentum_form(scene).form, asked);
   }
 }
 
@@ -90,14 +91,14 @@ TEST(MomentumForm, OfTheModelIsThatOfTheScene) {
   core::Scene scene = glass(0.8e-3);
   scene.fluid.density = 1.2;
   scene.fluid.viscosity = 1.8e-5;
-  const auto velocities = [&](const std::string& form) {
+  const auto velocities = [&](core::Momentum form) {
     scene.tfm.momentum = form;
     Model model(scene, timers);
     scenes::advance(model, 0.02);
     return model.fields().solids.velocity[0][1];
   };
-  EXPECT_EQ(velocities("auto"), velocities("conservative"));
-  EXPECT_NE(velocities("auto"), velocities("upwind"));
+  EXPECT_EQ(velocities(core::Momentum::automatic), velocities(core::Momentum::conservative));
+  EXPECT_NE(velocities(core::Momentum::automatic), velocities(core::Momentum::upwind));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 std::string said_of(double phi, int species) {
   core::Scene scene = species == 1 ? uniform_bed(1e-3, 2500, 1000, 1e-3, 0.5, 8, 0.04) : binary_bed(4, 8, 0.02, 0.04);
   scene.effects["solids_stress"] = "frictional";
-  scene.tfm.max_packing = "0.62";
+  scene.tfm.max_packing = 0.62;
   core::Timers timers;
   const tfm::Model model(scene, timers);
   const tfm::StateLayout layout(model.constants().grid, species, false);
@@ -45,7 +45,7 @@ TEST(PackingLimit, LeavesTheStateBeforeTheStep) {
   core::Scene scene = uniform_bed(1e-3, 2500, 1000, 1e-3, 0.5, 8, 0.04);
   scene.column.closed = true;
   scene.effects["solids_stress"] = "frictional";
-  scene.tfm.max_packing = "0.62";
+  scene.tfm.max_packing = 0.62;
   scene.tfm.fixed_step = 1e-4;
   core::Timers timers;
   tfm::Model model(scene, timers);

@@ -29,33 +29,40 @@ std::string refusal(const std::function<void(core::Scene&)>& change) {
 TEST(ParticleScene, IsRefusedByTheTwoFluidModel) {
   EXPECT_EQ(refusal([](core::Scene&) {}), "");
   EXPECT_THAT(refusal([](core::Scene& s) { s.fluid.name = "none"; }), HasSubstr("fluid.name = \"none\""));
-  EXPECT_THAT(refusal([](core::Scene& s) { s.column.ends = "periodic"; }), HasSubstr("column.ends = \"periodic\""));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.column.ends = core::Boundary::periodic; }),
+              HasSubstr("column.ends = \"periodic\""));
   EXPECT_THAT(refusal([](core::Scene& s) { s.column.down = {0.6, -0.8, 0}; }), HasSubstr("column.gravity_direction"));
   EXPECT_THAT(refusal([](core::Scene& s) { s.column.down = {0, 1, 0}; }), HasSubstr("column.gravity_direction"));
   EXPECT_THAT(refusal([](core::Scene& s) { s.dem.shear_rate = -1; }), HasSubstr("dem.shear_rate"));
-  EXPECT_THAT(refusal([](core::Scene& s) { s.bed.start = "random"; }), HasSubstr("bed.start = \"random\""));
-  EXPECT_THAT(refusal([](core::Scene& s) { s.bed.start = "list:a.csv"; }), HasSubstr("bed.start = \"list:a.csv\""));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.bed.start = {core::StartKind::random}; }),
+              HasSubstr("bed.start = \"random\""));
+  EXPECT_THAT(refusal([](core::Scene& s) {
+                s.bed.start = {core::StartKind::list, "a.csv"};
+              }),
+              HasSubstr("bed.start = \"list:a.csv\""));
 }
 
 // A column that leans needs walls to lean on and a start that does not ask where down is.
 TEST(ParticleScene, MayLeanWhereItIsClosed) {
   const auto leans = [](core::Scene& s) {
     s.column.down = {0.6, -0.8, 0};
-    s.column.sides = "wall";
+    s.column.sides = core::Boundary::wall;
     s.column.closed = true;
   };
   EXPECT_EQ(refusal(leans), "");
   EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.column.closed = false; }), HasSubstr("without column.closed"));
-  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.column.sides = "periodic"; }), HasSubstr("column.sides"));
-  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.bed.start = "settled"; }), HasSubstr("bed.start"));
-  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.fluid.equation_of_state = "tait"; }),
+  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.column.sides = core::Boundary::periodic; }),
+              HasSubstr("column.sides"));
+  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.bed.start = {core::StartKind::settled}; }),
+              HasSubstr("bed.start"));
+  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.fluid.equation_of_state = core::Compressibility::tait; }),
               HasSubstr("compressible"));
 }
 
 TEST(ParticleScene, IsToldWithAllItsKeysAtOnce) {
   const std::string message = refusal([](core::Scene& s) {
     s.fluid.name = "none";
-    s.bed.start = "random";
+    s.bed.start = {core::StartKind::random};
   });
   EXPECT_THAT(message, HasSubstr("fluid.name"));
   EXPECT_THAT(message, HasSubstr("bed.start"));

@@ -1,0 +1,189 @@
+// The keys of the column, the fluid, the particles and the bed.
+#include "core/case/schema.hpp"
+
+namespace polybed::core::schema {
+
+void Access<Start>::set(Start& place, const Value& value) {
+  const std::string& text = std::get<std::string>(value);
+  const auto word = std::find_if(words.begin(), words.end(), [&](std::string_view w) { return fits_word(w, text); });
+  place.kind = static_cast<StartKind>(word - words.begin());
+  place.file = text.substr(std::min(text.size(), word->find("FILE")));
+}
+
+namespace {
+
+Table title_table() {
+  return table_of<Scene>("", false, [](auto& scene, std::size_t) -> auto& { return scene; },
+                         {key(&Scene::title, "title", help("what the case is, in one line"))});
+}
+
+Table column_table() {
+  return table(
+      "column", &Scene::column,
+      {
+          key(&Column::given_size, "size", dimension::length, above(0, 1e3), Mark::required,
+              help("width, height; three numbers make it 3-D: width, depth, height")),
+          key(&Column::given_cells, "cells", range(1, 1e6), Mark::required,
+              help("number of cells along each direction of size")),
+          key(&Column::depth, "depth", dimension::length, above(0, 1e3),
+              help("of a 2-D column; default: twice the largest diameter and twice dem.skin")),
+          key(&Column::sides, "sides",
+              help("walls: no slip for the fluid, free slip for solids unless said; or joined")),
+          key(&Column::ends, "ends", help("bottom and top; joined for the DEM only, without a fluid")),
+          key(&Column::gravity, "gravity", dimension::acceleration, range(0, 1e3), help("acceleration of gravity")),
+          key(&Column::gravity_direction, "gravity_direction", range(-1e6, 1e6),
+              help("of gravity, of any length, in the order of size: along width and height, or width, depth "
+                   "and height; default: down; for the TFM another one needs column.closed = true and walls")),
+          key(&Column::outlet, "outlet",
+              help("top of the column: a screen that holds solids, or open to them: they leave and are counted")),
+          key(&Column::closed, "closed", help("walls all round: no inlet and no outlet")),
+      });
+}
+
+Table fluid_table() {
+  return table(
+      "fluid", &Scene::fluid,
+      {
+          key(&Fluid::name, "name",
+              help("water and air know density and viscosity from the temperature; any other fluid needs both, "
+                   "and may go without a name; none: particles without a fluid, for the DEM only")),
+          key(&Fluid::temperature, "temperature", dimension::temperature, above(0, 5000),
+              help("water 0 to 40 degC, air 200 to 1000 K")),
+          key(&Fluid::density, "density", dimension::density, above(0, 1e5), help("rho_f")),
+          key(&Fluid::viscosity, "viscosity", dimension::viscosity, above(0, 1e6), help("mu")),
+          key(&Fluid::equation_of_state, "equation_of_state",
+              help("how density depends on pressure; a compressible fluid carries sound"),
+              equation("tait: P + B = (P_out + B)(rho/rho_0)^n; ideal_gas: P = rho R T, T fixed")),
+          key(&Fluid::outlet_pressure, "outlet_pressure", dimension::pressure, range(1, 1e9),
+              help("P_out, absolute, at the top of the column; a density given is that at this pressure, and "
+                   "air's follows from it")),
+          key(&Fluid::tait_stiffness, "tait_stiffness", dimension::pressure, range(1, 1e13),
+              help("B of equation_of_state = tait"), equation("c^2 = n (P + B)/rho")),
+          key(&Fluid::tait_exponent, "tait_exponent", range(1, 20), help("n of equation_of_state = tait"),
+              equation("c^2 = n (P + B)/rho")),
+      });
+}
+
+Table species_table() {
+  return table(
+      "species", &Scene::species,
+      {
+          key(&Species::name, "name", Mark::required, help("of the species; names columns and datasets")),
+          key(&Species::diameter, "diameter", dimension::length, range(1e-8, 1), Mark::given,
+              help("D_j of its spheres; or give a distribution")),
+          within(&Species::sizes,
+                 key(&SizeDistribution::kind, "distribution", Mark::replaced,
+                     help("of sizes by volume, in place of one diameter: it becomes the species name.1, name.2, ... "
+                          "from fine to coarse, which have its moments"),
+                     equation("sum x_j D_j^k = integral X D^k dD, k = -N ... N-1"))),
+          within(&Species::sizes, key(&SizeDistribution::median, "median", dimension::length, range(1e-8, 1),
+                                      Mark::replaced, help("lognormal: half of the volume is finer"))),
+          within(&Species::sizes,
+                 key(&SizeDistribution::mean, "mean", dimension::length, range(1e-8, 1), Mark::replaced,
+                     help("lognormal: mean diameter by volume, in place of the median"),
+                     equation("mean = median exp(deviation^2/2)"))),
+          within(&Species::sizes, key(&SizeDistribution::deviation, "deviation", above(0, 1), Mark::replaced,
+                                      help("lognormal: standard deviation of ln D"))),
+          within(&Species::sizes,
+                 key(&SizeDistribution::sieves, "sieves", range(0, 1), Mark::by_size, Mark::replaced,
+                     help("a table [[opening, share of the volume retained on it], ...]: openings rise, the last "
+                          "retains nothing, shares sum to 1"))),
+          within(&Species::sizes, key(&SizeDistribution::classes, "classes", range(1, 10), Mark::replaced,
+                                      help("N: number of species that stand for the distribution"))),
+          key(&Species::density, "density", dimension::density, range(1e-3, 1e16), Mark::required, help("rho_j")),
+          key(&Species::max_packing, "max_packing", range(0.3, 0.9),
+              help("P_j: random packing of this species alone, for tfm.max_packing = fedors_landel | yu_standish")),
+          key(&Species::youngs_modulus, "youngs_modulus", dimension::pressure, above(0, 1e13),
+              help("else that of [dem]")),
+          key(&Species::poisson_ratio, "poisson_ratio", range(0, 0.5), help("else that of [dem]")),
+          key(&Species::friction, "friction", range(0, 10), help("else that of [dem]")),
+          key(&Species::restitution, "restitution", above(0, 1), help("else that of [dem]")),
+      });
+}
+
+Table bed_table() {
+  return table(
+      "bed", &Scene::bed,
+      {
+          key(&Bed::volume_share, "volume_share", range(0, 1),
+              help("x_j, share of each species in the volume of the solids; sums to 1")),
+          key(&Bed::static_height, "static_height", dimension::length, range(0, 1e3), Mark::given,
+              help("of the settled bed; 0: the fluid alone")),
+          key(&Bed::solids_fraction, "solids_fraction", above(0, 0.9), Mark::given, help("of the settled bed")),
+          key(&Bed::start_fraction, "start_solids_fraction", above(0, 0.9),
+              help("of the bed at the start, with the mass of the settled bed; default: solids_fraction")),
+          key(&Bed::particles, "particles", range(0, 1e12),
+              help("numbers of particles of each species, instead of volume_share and static_height")),
+          key(&Bed::start, "start",
+              help("the bed at time zero; layered: in the order of the species, the first at the bottom; "
+                   "settled: in equilibrium; for the DEM only: random: anywhere in the column, list: particles "
+                   "one by one, SI, columns species, x, y, z and if not zero vx, vy, vz, wx, wy, wz, y upward")),
+          key(&Bed::seed, "seed", range(0, 9.2e18), help("of random numbers")),
+      });
+}
+
+Table inlet_table() {
+  return table(
+      "inlet", &Scene::inlet,
+      {
+          key(&Inlet::superficial_velocity, "superficial_velocity", dimension::velocity, range(-1e3, 1e3),
+              help("a velocity, or a table [[time, velocity], ...]: linear between, constant beyond; two equal "
+                   "times make a jump")),
+      });
+}
+
+Table jet_table() {
+  return table(
+      "jet", &Scene::jets,
+      {
+          key(&Jet::from, "from", dimension::length, range(0, 1e3), Mark::required,
+              help("low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, "
+                   "depth) in three dimensions")),
+          key(&Jet::to, "to", dimension::length, range(0, 1e3), Mark::required, help("high corner")),
+          key(&Jet::superficial_velocity, "superficial_velocity", dimension::velocity, range(-1e3, 1e3), Mark::required,
+              help("over the jet's own area, in place of inlet.superficial_velocity; a velocity or a table as "
+                   "there")),
+      });
+}
+
+Table feed_table() {
+  return table(
+      "feed", &Scene::feeds,
+      {
+          key(&Feed::species, "species", Mark::required,
+              help("name of the species that is fed; of one with a distribution: all classes, by their shares")),
+          key(&Feed::at, "at", help("end of the column")),
+          key(&Feed::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3), Mark::required,
+              help("volume of solids per area of the feed and time, into the column, besides the fluid of the "
+                   "inlet; a velocity or a table as there")),
+          key(&Feed::velocity, "velocity", dimension::velocity, above(0, 1e3), Mark::required,
+              help("of the particles as they enter; superficial_velocity over it is their volume fraction")),
+          key(&Feed::from, "from", dimension::length, range(0, 1e3),
+              help("low corner of the part of the end, as of a jet; default: the whole end")),
+          key(&Feed::to, "to", dimension::length, range(0, 1e3), help("high corner")),
+      });
+}
+
+Table contact_pair_table() {
+  return table(
+      "contact_pair", &Scene::contact_pairs,
+      {
+          key(&ContactPair::between, "between", Mark::required, help("two species, or a species and \"wall\"")),
+          key(&ContactPair::youngs_modulus, "youngs_modulus", dimension::pressure, above(0, 1e13),
+              help("of both partners in this pair; default: each has its own, a wall that of [dem]")),
+          key(&ContactPair::poisson_ratio, "poisson_ratio", range(0, 0.5),
+              help("of both partners in this pair; default: as the modulus")),
+          key(&ContactPair::friction, "friction", range(0, 10), help("of this pair; default: the mean of both")),
+          key(&ContactPair::restitution, "restitution", above(0, 1), help("of this pair; default: the mean of both")),
+      });
+}
+
+}  // namespace
+
+std::vector<Table> bed_tables() {
+  return {title_table(), column_table(), fluid_table(), species_table(), bed_table(), inlet_table()};
+}
+
+std::vector<Table> part_tables() { return {jet_table(), feed_table(), contact_pair_table()}; }
+
+}  // namespace polybed::core::schema

@@ -1,0 +1,186 @@
+// The keys of the models and of the boxes of a calibration.
+#include "core/case/schema.hpp"
+
+namespace polybed::core::schema {
+
+namespace {
+
+Table tfm_table() {
+  return table(
+      "tfm", &Scene::tfm,
+      {
+          key(&Tfm::integrator, "integrator",
+              help("explicit for a bed fluidised by a liquid, implicit for gas, compressible fluids and "
+                   "settling; auto chooses so")),
+          key(&Tfm::rtol, "rtol", range(1e-12, 0.1), help("relative tolerance of the time integration")),
+          key(&Tfm::flux, "flux", help("solids fractions at faces: second order with a limiter, or first order")),
+          key(&Tfm::momentum, "momentum",
+              help("convection of velocities: first order, or second with a limiter; as (U.grad)U, or in the "
+                   "conservative form; auto: conservative, for particles conservative_limited")),
+          key(&Tfm::solids_wall, "solids_wall",
+              help("velocity of the solids along walls; johnson_jackson: partial slip, with a viscosity of the "
+                   "solids"),
+              equation("johnson_jackson: mu_s dU_t/dn = -[pi sqrt(3 theta) s rho phi g0/(6 phi_max) + p_f "
+                       "tan(delta_w)/abs(U_t)] U_t")),
+          key(&Tfm::max_packing, "max_packing", above(0, 1),
+              help("phi_max of the frictional pressure: a number; auto: the settled bed then has "
+                   "bed.solids_fraction; or of the mixture in each cell, from species.max_packing")),
+          key(&Tfm::frictional_pressure, "frictional_pressure", dimension::pressure, above(0, 1e6), help("Fr"),
+              equation("p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5")),
+          key(&Tfm::frictional_onset, "frictional_onset", above(0, 0.9),
+              help("phi_min, above which solids press on each other"),
+              equation("p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5")),
+          key(&Tfm::bulk_viscosity, "bulk_viscosity", range(0, 10),
+              help("alpha; damps elastic waves of the packed bed; 0 is off; default: 1 over the number of "
+                   "directions with more than one cell"),
+              equation("p_s = p_f - alpha rho_s c_s h sum phi_j div U_j")),
+          key(&Tfm::friction_angle, "friction_angle", above(0, 60),
+              help("delta, angle of internal friction of schaeffer, in degrees"),
+              equation("mu_s = p_f sin(delta)/abs(gamma)")),
+          key(&Tfm::viscosity_cap, "viscosity_cap", dimension::viscosity, above(0, 1e6),
+              help("greatest frictional viscosity, which solids at rest have: they creep")),
+          key(&Tfm::least_shear_rate, "least_shear_rate", dimension::rate, above(0, 1e6),
+              help("gamma_0 of the frictional viscosity"), equation("abs(gamma) = sqrt(2 D':D' + gamma_0^2)")),
+          key(&Tfm::kinetic_theory, "kinetic_theory", help("viscosity and dissipation of solids_stress = kinetic")),
+          key(&Tfm::radial_distribution, "radial_distribution",
+              help("g0 of solids_stress = kinetic; torquato: above 0.49 growing towards 0.64"),
+              equation("g0 = (1 - phi/2)/(1 - phi)^3; above 0.49 CS(0.49) 0.15/(0.64 - phi)")),
+          key(&Tfm::start_temperature, "start_temperature", dimension::speed_squared, range(0, 1e6),
+              help("theta_j at the start, for granular_temperature = transported")),
+          key(&Tfm::specularity, "specularity", range(0, 1),
+              help("s: share of tangential momentum that a collision with the wall takes; solids_wall = "
+                   "johnson_jackson with kinetic stress")),
+          key(&Tfm::wall_restitution, "wall_restitution", range(0, 1),
+              help("e_w of collisions with that wall; granular_temperature = transported"),
+              equation("k dtheta/dn = pi sqrt(3 theta) rho phi g0/phi_max [s U_t^2/6 - (1 - e_w^2) theta/4]")),
+          key(&Tfm::wall_friction, "wall_friction", range(0, 2), help("tan(delta_w) of solids_wall = johnson_jackson")),
+          key(&Tfm::exchange_pressure, "exchange_pressure", dimension::per_pressure, range(0, 1e9),
+              help("C_s: contact friction between species in a packed bed"),
+              equation("K_jk = ... + C_s p_s phi_j phi_k/phi^2")),
+          key(&Tfm::fixed_step, "fixed_step", dimension::time, above(0, 1e3),
+              help("steps of one length without error control, for verification; explicit only")),
+          key(&Tfm::pressure_tolerance, "pressure_tolerance", range(1e-15, 0.1),
+              help("relative residual of the pressure's equation; default: the smaller of 1e-4 and rtol/10")),
+      });
+}
+
+Table dem_table() {
+  return table(
+      "dem", &Scene::dem,
+      {
+          key(&Dem::steps_per_contact, "steps_per_contact", range(5, 1e5), help("time steps in one contact")),
+          key(&Dem::youngs_modulus, "youngs_modulus", dimension::pressure, above(0, 1e13),
+              help("E of all species that do not say otherwise; default: 5 MPa, or the least at which impacts "
+                   "at dem.greatest_speed overlap by no more than dem.max_overlap")),
+          key(&Dem::poisson_ratio, "poisson_ratio", range(0, 0.5), help("likewise")),
+          key(&Dem::friction, "friction", range(0, 10), help("likewise; the TFM's species exchange reads it too")),
+          key(&Dem::restitution, "restitution", above(0, 1), help("likewise; the TFM's species exchange reads it too")),
+          key(&Dem::fluid_every, "fluid_every", range(1, 1e6), help("solid steps per fluid step")),
+          key(&Dem::kernel, "kernel",
+              help("how particles are averaged for the fluid: bilinear in the cells around them; diffusion: "
+                   "with a width of its own; auto: diffusion where a cell is smaller than 1.5 of the largest "
+                   "diameters, for fewer than 10 particles 5")),
+          key(&Dem::kernel_width, "kernel_width", dimension::length, above(0, 10),
+              help("of the diffusion kernel, full width at half height; default: 4 of the largest diameters, of "
+                   "fewer than 10 particles 6")),
+          key(&Dem::own_share, "own_share",
+              help("what a particle counts for in the averages that its drag follows from, less the neighbours "
+                   "that it keeps away: kept as the thesis has it, or removed, as drag laws are made of means "
+                   "of the mixture")),
+          key(&Dem::held, "held", help("particles stay where they are: a fixed bed, for its pressure drop")),
+          key(&Dem::fluid_ranks, "fluid_ranks",
+              help("on several ranks: each solves for the whole fluid, and particles have the same bits on any "
+                   "number of ranks; shared: each solves for a block of it, to the solver's tolerance; auto: "
+                   "shared from 20000 cells on")),
+          key(&Dem::tangential, "tangential",
+              help("tangential force with contact = hertz_mindlin: hdd after Di Renzo and Di Maio, mindlin "
+                   "incremental, mindlin_deresiewicz with partial slip; linear: a spring of tangential_ratio "
+                   "times k_n"),
+              equation("hdd: F_t = -(2/3) 8 G* a xi - c_t v_t")),
+          key(&Dem::tail, "tail",
+              help("near separation the dashpot would pull: clip: F_n >= 0, with the damping that then realises "
+                   "the restitution; keep: it pulls")),
+          key(&Dem::integrator, "integrator",
+              help("thesis: forces from half-step velocities; synchronised: velocities at the time of the "
+                   "positions; auto: synchronised with friction and a ratio of diameters of at least 3")),
+          key(&Dem::normal_stiffness, "normal_stiffness", dimension::stiffness, above(0, 1e12),
+              help("k_n of contact = linear")),
+          key(&Dem::tangential_ratio, "tangential_ratio", range(0, 1), help("k_t/k_n of tangential = linear")),
+          key(&Dem::rolling_friction, "rolling_friction", range(0, 10),
+              help("mu_r, arm of the rolling moment over R*; 0 is off"), equation("M <= mu_r R* F_n")),
+          key(&Dem::rolling_damping, "rolling_damping", range(0, 10),
+              help("of the rolling spring, over its critical damping")),
+          key(&Dem::skin, "skin", dimension::length, above(0, 1),
+              help("of the list of neighbours; default: a tenth of the smallest diameter")),
+          key(&Dem::max_overlap, "max_overlap", above(0, 1),
+              help("over the diameter of the smaller particle; above it the run stops")),
+          key(&Dem::fixed_step, "fixed_step", dimension::time, above(0, 1e3),
+              help("time step; default: from stiffness, sound and speed")),
+          key(&Dem::greatest_speed, "greatest_speed", dimension::velocity, above(0, 1e5),
+              help("expected of any particle: sets the time step")),
+          key(&Dem::start_speed, "start_speed", dimension::velocity, range(0, 1e5),
+              help("root mean square of each component of random velocities at the start")),
+          key(&Dem::shear_rate, "shear_rate", dimension::rate, range(-1e6, 1e6),
+              help("dv_x/dy of a sheared box (Lees and Edwards): needs column.sides and column.ends periodic "
+                   "and no gravity")),
+          key(&Dem::opening, "opening", dimension::length, above(0, 100),
+              help("width of an opening in the middle of the bottom, through which particles fall out and are "
+                   "counted: a slot as deep as the column, or with three numbers in column.size a round hole; "
+                   "needs fluid.name = \"none\"")),
+          key(&Dem::ledger, "ledger", help("account of the energy: kinetic, elastic, potential, dissipated, work")),
+          key(&Dem::cohesion_energy, "cohesion_energy", dimension::surface_energy, range(0, 1e6),
+              help("W of cohesion of the kinds DMT and JKR, J/m2"),
+              equation("pull-off: DMT 2 pi W R*, JKR 1.5 pi W R*")),
+          key(&Dem::hamaker_constant, "hamaker_constant", dimension::energy, range(0, 1e-6),
+              help("A of the van der Waals force"), equation("F = A R*/(6 z^2)")),
+          key(&Dem::cohesion_gap, "cohesion_gap", dimension::length, above(0, 1),
+              help("z_0, cut-off of the van der Waals force: nearer than this it grows no more"),
+              equation("F = A R*/(6 max(z, z_0)^2)")),
+          key(&Dem::asperity_radius, "asperity_radius", dimension::length, above(0, 1),
+              help("R* of the van der Waals force of rough surfaces; default: that of the spheres"),
+              equation("F = A R*/(6 max(z, z_0)^2)")),
+          key(&Dem::roughness, "roughness", dimension::length, above(0, 1),
+              help("of surfaces: the film between them is not thinner (effects.lubrication = film)"),
+              equation("F = -6 pi mu R*^2 v_n/max(h, roughness)")),
+      });
+}
+
+Table calibrate_table() {
+  return table(
+      "calibrate", &Scene::calibrate,
+      {
+          key(&Calibrate::regime, "regime",
+              help("boxes of polybed calibrate: dry: collisions alone; wet: sheared, with drag towards the flow "
+                   "and films; bed: fluidised; auto: dry where the shear rate times the relaxation time of the "
+                   "slip is 1 or more, else wet")),
+          key(&Calibrate::solids_fraction, "solids_fraction", range(0.01, 0.66),
+              help("of the boxes, rising; default: 0.1 to 0.5")),
+          key(&Calibrate::restitution, "restitution", range(0.05, 0.9999),
+              help("of dry boxes, rising; default: dem.restitution")),
+          key(&Calibrate::friction, "friction", range(0, 2), help("of the boxes, rising; default: dem.friction")),
+          key(&Calibrate::stokes, "stokes", range(1e-3, 1e4), help("of wet boxes, rising; default: 1, 3, 10"),
+              equation("St = rho_p d^2 gamma/mu")),
+          key(&Calibrate::share, "share", range(0, 1),
+              help("volume of the second species over that of both, rising; default: spheres of one size, the "
+                   "Sauter diameter of the bed")),
+          key(&Calibrate::particles, "particles", range(100, 1e6), help("of a box")),
+          key(&Calibrate::seeds, "seeds", range(1, 100),
+              help("boxes at each point, with other random starts; from 3 on a point of a sheared table gets "
+                   "more, up to 10, while its standard error is above 5 %")),
+          key(&Calibrate::strain, "strain", range(1, 1e4), help("over which a box is averaged, in 20 blocks")),
+          key(&Calibrate::discard_strain, "discard_strain", range(0, 1e4), help("before that")),
+          key(&Calibrate::doublings, "doublings", range(0, 10),
+              help("of the averaged strain, at most, while blocks are not independent")),
+          key(&Calibrate::softness, "softness", range(1e-3, 0.2),
+              help("of dry boxes: duration of a contact over the time between collisions")),
+          key(&Calibrate::film_gap, "film_gap", range(1e-5, 0.02),
+              help("of wet boxes: least thickness of a film over the diameter, if dem.roughness is not more; "
+                   "steps are as short as it needs")),
+      });
+}
+
+}  // namespace
+
+std::vector<Table> model_tables() { return {tfm_table(), dem_table(), calibrate_table()}; }
+
+}  // namespace polybed::core::schema

@@ -1,0 +1,69 @@
+// The keys of the choice of effects, the run and its output.
+#include "core/case/schema.hpp"
+
+namespace polybed::core::schema {
+
+namespace {
+
+Table chooser_table() {
+  return table(
+      "chooser", &Scene::chooser,
+      {
+          key(&Chooser::tolerance, "tolerance", range(1e-6, 1),
+              help("what is left out sums to at most this share of the buoyant weight")),
+          key(&Chooser::purpose, "purpose", help("steady leaves out forces of acceleration, whose means vanish")),
+          key(&Chooser::roughness, "roughness", dimension::length, above(0, 1),
+              help("radius of asperities of the surfaces; default: dem.roughness")),
+          key(&Chooser::hamaker, "hamaker", dimension::energy, above(0, 1e-6),
+              help("A of the van der Waals force; default: dem.hamaker_constant, else 1e-20 J in a liquid, "
+                   "1e-19 J in a gas")),
+          key(&Chooser::free_liquid, "free_liquid", dimension::stiffness, above(0, 10),
+              help("particles in a gas are wet: surface tension of the liquid between them")),
+          key(&Chooser::static_heap, "static_heap", help("a heap at rest matters: rolling needs a spring")),
+          key(&Chooser::charge, "charge", range(-1, 1),
+              help("electric charge of a particle, C; without it nothing can be said of its force")),
+          key(&Chooser::voidage, "voidage", above(0.2, 1),
+              help("of the bulk, where it is known; default: by the balance of drag and weight at each velocity")),
+          key(&Chooser::velocity_range, "velocity_range", dimension::velocity, range(-1e3, 1e3),
+              help("superficial velocities that the scene may meet, least and greatest: widens what the inlet "
+                   "says")),
+          key(&Chooser::temperature_range, "temperature_range", dimension::temperature, above(0, 5000),
+              help("likewise of the fluid")),
+          key(&Chooser::zones, "zones", choices("packed", "bulk", "wall", "freeboard"),
+              help("where effects are weighed: packed, bulk, wall, freeboard; default: all")),
+          key(&Chooser::monitor, "monitor",
+              help("what to do where forces that were left out exceed the tolerance during the run; enable: "
+                   "lift and magnus are switched on at the next output time, of particles alone; auto: warn "
+                   "where a role is auto, else off")),
+          key(&Chooser::monitor_every, "monitor_every", range(1, 1e9), help("steps between samples")),
+          key(&Chooser::monitor_sample, "monitor_sample", range(1, 1e9),
+              help("one in so many particles or cells is looked at, chosen by its number")),
+          key(&Chooser::chosen, "chosen", help("a record: the roles that were auto before the case was resolved")),
+      });
+}
+
+Table run_table() {
+  return table(
+      "run", &Scene::run,
+      {
+          key(&RunPlan::until, "until", dimension::time, above(0, 1e9), Mark::required, help("simulated time")),
+      });
+}
+
+Table output_table() {
+  return table("output", &Scene::output,
+               {
+                   key(&OutputPlan::every, "every", dimension::time, above(0, 1e9),
+                       help("between stored fields and profiles; default: a twentieth of the run")),
+                   key(&OutputPlan::history_every, "history_every", dimension::time, above(0, 1e9),
+                       help("between rows of history.csv; default: a 400th of the run")),
+                   key(&OutputPlan::checkpoint_every, "checkpoint_every", dimension::time, above(0, 1e9),
+                       help("between checkpoints; default: a tenth of the run")),
+               });
+}
+
+}  // namespace
+
+std::vector<Table> run_tables() { return {chooser_table(), run_table(), output_table()}; }
+
+}  // namespace polybed::core::schema
