@@ -47,13 +47,6 @@ struct EstimateOptions : CaseOptions {  // case_path may be empty
   bool machine = false;  ///< measure the machine
 };
 
-/// Options of what is read off profiles: one of the two is given.
-struct MeasureOptions {
-  std::filesystem::path run;  ///< a run directory
-  std::string profiles;       ///< a JSON file of profiles; "-": standard input
-  bool json = false;
-};
-
 /// Options of what is read off profiles: one of the first three is given.
 struct MeasureOptions {
   std::filesystem::path run;  ///< a run directory

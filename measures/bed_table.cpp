@@ -67,6 +67,9 @@ Table<Beside> distance_table() {
       {"profile", "1",
        "integral over z of |phi_j - phi_j,ref| over that of phi_j,ref, mean over species: 0 alike, 2 nowhere together",
        [](const Beside& beds) { return profile_distance(beds.profile, beds.reference); }, only_profiles},
+      {"profile", "1", "the same of one species",
+       [](const Beside& beds, std::size_t species) { return profile_distance(beds.profile, beds.reference, species); },
+       only_profiles},
   };
 }
 
