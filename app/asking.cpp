@@ -28,10 +28,16 @@ core::ExitCode run_effects(const EffectsOptions& options, bool audit, bool bench
 }  // namespace
 
 void add_check(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::CaseOptions>();
+  const auto options = std::make_shared<multiscale::RunOptions>();
+  const auto resolved = std::make_shared<bool>(false);
   CLI::App& command = *app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run");
   take_case(command, *options);
-  commands.push_back({&command, doing([options] { multiscale::run_check(*options); }), only_first_rank});
+  command.add_option("--until", options->until, "simulated time, e.g. \"20 s\"");
+  command.add_flag("--resolved", *resolved, "the case alone, without what it will need");
+  commands.push_back({&command, doing([options, resolved] {
+                        *resolved ? multiscale::print_resolved(*options) : multiscale::run_check(*options);
+                      }),
+                      [resolved] { return *resolved ? On::one_process : On::first_rank; }});
 }
 
 void add_effects(CLI::App& app, Commands& commands) {

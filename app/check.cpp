@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/options.hpp"
+#include "app/run_directory.hpp"
 #include "closures/drag.hpp"
 #include "closures/mixture.hpp"
 #include "core/case/file.hpp"
@@ -14,7 +14,6 @@
 #include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "dem/continuum_scene.hpp"
-#include "multiscale/effects/choice.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
@@ -223,8 +222,8 @@ std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::
 
 }  // namespace
 
-void run_check(const CaseOptions& options) {
-  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
+void run_check(const RunOptions& options) {
+  const core::Scene scene = read_scene(options);
   if (const auto reasons = tfm::only_for_particles(scene); !reasons.empty())
     return check_particle_scene(scene, reasons, options.json);
   std::vector<std::string> hindrances;

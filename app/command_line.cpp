@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "app/commands.hpp"
+#include "core/numerics/mpi_start.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/print.hpp"
 #include "core/version.hpp"
@@ -18,7 +19,7 @@ namespace {
 Commands add_commands(CLI::App& app) {
   Commands commands;
   for (const auto add : {add_tfm, add_dem, add_compare, add_check, add_effects, add_estimate, add_cost, add_drag,
-                         add_inversion, add_calibrate, add_measure, add_plot, add_stability, add_keys})
+                         add_inversion, add_move_table, add_calibrate, add_measure, add_plot, add_stability, add_keys})
     add(app, commands);
   return commands;
 }
@@ -55,11 +56,16 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
     flush_standard_output();
     return core::ExitCode::done;
   }
-  if (ranks > 1) multiscale::become_ranks(ranks, words_from_command(app, argc, argv));
   core::ExitCode code = core::ExitCode::done;
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     const On on = command.on();
+    if (on == On::study) {
+      multiscale::keep_ranks_for_runs(ranks);
+      if (core::first_by_launcher()) code = command.run();
+      continue;
+    }
+    if (ranks > 1) multiscale::become_ranks(ranks, words_from_command(app, argc, argv));
     if (on != On::one_process) mpi.emplace();
     if (on != On::first_rank || mpi->first()) code = command.run();
   }

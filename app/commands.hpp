@@ -14,7 +14,8 @@
 namespace polybed::command_line {
 
 /// Which ranks a command is for. Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
-enum class On { one_process, first_rank, all_ranks };
+/// A study goes on in the first process alone, without MPI: what it runs, it starts on as many ranks.
+enum class On { one_process, first_rank, all_ranks, study };
 
 struct Command {
   const CLI::App* app;
@@ -50,6 +51,7 @@ void add_keys(CLI::App& app, Commands& commands);
 
 void add_cost(CLI::App& app, Commands& commands);
 void add_inversion(CLI::App& app, Commands& commands);
+void add_move_table(CLI::App& app, Commands& commands);
 void add_calibrate(CLI::App& app, Commands& commands);
 void add_stability(CLI::App& app, Commands& commands);
 

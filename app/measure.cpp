@@ -69,6 +69,7 @@ struct Asked {
 
 struct Distances {
   Values composition, profile;
+  std::vector<Values> species;  ///< of the profiles of each
 };
 
 // ---- reading
@@ -255,8 +256,11 @@ Distances distances_of(const Asked& asked) {
       }
     return count > 0 ? std::optional(sum / count) : std::nullopt;
   };
+  std::vector<Values> species;
+  for (std::size_t j = 0; j < asked.species.size(); ++j)
+    species.push_back(values_of(asked, [&](const Profile& p) { return fluid::profile_distance(p, reference, j); }));
   return {values_of(asked, [&](const Profile& profile) { return fluid::composition_distance(profile, reference); }),
-          values_of(asked, of_profile)};
+          values_of(asked, of_profile), std::move(species)};
 }
 
 // ---- telling
@@ -295,6 +299,8 @@ void print_json(const Asked& asked, bool of_run) {
     const Distances distances = distances_of(asked);
     write_array(json.key("distances").begin_object().key("composition"), distances.composition);
     write_array(json.key("profile"), distances.profile);
+    for (std::size_t j = 0; j < asked.species.size(); ++j)
+      write_array(json.key("profile_" + asked.species[j]), distances.species[j]);
     json.end_object();
   }
   if (asked.laid) write_profiles(json, asked.profiles);

@@ -28,12 +28,6 @@ struct RunOptions : CaseOptions {
   bool stress_uncertainty = false;  ///< of the TFM: again with its stress table at plus and minus one standard error
 };
 
-/// Options of the comparison of both models; those of a run are for the models that it runs itself.
-struct CompareOptions : RunOptions {
-  std::filesystem::path tfm, dem;   ///< runs to compare; empty: it is run
-  std::filesystem::path inversion;  ///< folder of a scan of the case; empty: the default one, if it is of the case
-};
-
 /// Options of the pictures of a run.
 struct PlotOptions {
   std::filesystem::path run;     ///< a run directory, or a case that has one in runs/
@@ -73,6 +67,11 @@ struct InversionOptions : RunOptions {
   std::string from, to;  ///< velocities to begin the scan at; empty: about the force balance
 };
 
+struct MoveOptions {
+  std::filesystem::path table, moved;
+  double sigma = 0;  ///< standard errors
+};
+
 /// Options of the calibration: boxes of particles for a table of the solids stress.
 struct CalibrateOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-calibrate
@@ -87,9 +86,11 @@ struct CalibrateOptions : CaseOptions {
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
-void run_compare(const CompareOptions& options);
+[[noreturn]] void run_compare(const std::vector<std::string>& words);
 void run_calibrate(const CalibrateOptions& options);
-void run_check(const CaseOptions& options);
+void run_check(const RunOptions& options);
+/// The case alone, as a record of its run has it; as JSON with its hashes and why a model cannot run it.
+void print_resolved(const RunOptions& options);
 void run_effects(const CaseOptions& options);
 void run_effects_bench(int rounds, bool json);
 /// The code to end with: of numbers that failed where the promise is broken.
@@ -99,7 +100,9 @@ void run_oracles();
 void run_drag(const DragOptions& options);
 void run_measure(const MeasureOptions& options);
 void run_inversion(const InversionOptions& options);
-void run_inversion_scan(const InversionOptions& options);
+/// Writes a table of the solids stress moved by a number of its standard errors; for studies.
+void run_move_table(const MoveOptions& options);
+[[noreturn]] void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& key, bool json);
 void run_list(bool json);

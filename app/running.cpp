@@ -5,7 +5,7 @@ namespace polybed::command_line {
 
 namespace {
 
-/// A command that runs a case, by a model of that name or by both.
+/// A command that runs a case by a model of that name.
 CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& help, multiscale::RunOptions& options) {
   CLI::App& command = *app.add_subcommand(model, help);
   take_case(command, options);
@@ -16,12 +16,9 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
   command.add_flag("--permissive", options.permissive,
                    "go on where a conservation law is broken more than tenfold, which ends a run otherwise");
   command.add_flag("--quiet", options.quiet, "no progress");
-  command.add_flag("!--no-picture", options.picture,
-                   "no picture.png (or comparison.html) at the end, which takes a second");
+  command.add_flag("!--no-picture", options.picture, "no picture.png at the end, which takes a second");
   return command;
 }
-
-On always_on_ranks() { return On::all_ranks; }
 
 }  // namespace
 
@@ -42,24 +39,24 @@ void add_tfm(CLI::App& app, Commands& commands) {
   CLI::App& command = add_run(app, "tfm", "run the case as a continuum (two-fluid model)", *options);
   command.add_flag("--stress-uncertainty", options->stress_uncertainty,
                    "again with the stress table at plus and minus one standard error: the band of the bed height");
-  commands.push_back({&command, doing([options] { multiscale::run_tfm(*options); }), always_on_ranks});
+  commands.push_back({&command, doing([options] { multiscale::run_tfm(*options); }),
+                      [options] { return options->stress_uncertainty ? On::study : On::all_ranks; }});
 }
 
 void add_dem(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<multiscale::RunOptions>();
   CLI::App& command = add_run(app, "dem", "run the case particle by particle", *options);
-  commands.push_back({&command, doing([options] { multiscale::run_dem(*options); }), always_on_ranks});
+  commands.push_back({&command, doing([options] { multiscale::run_dem(*options); }), [] { return On::all_ranks; }});
 }
 
+/// Its options are those of the Python package, `polybed compare --help` included.
 void add_compare(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::CompareOptions>();
   CLI::App& command =
-      add_run(app, "compare", "run the case by both models, or take runs of it: how far they agree", *options);
-  command.add_option("--tfm", options->tfm, "directory of a run of polybed tfm, finished or not");
-  command.add_option("--dem", options->dem, "directory of a run of polybed dem, finished or not");
-  command.add_option("--inversion", options->inversion,
-                     "folder of polybed inversion --scan both; default that of the case in runs/");
-  commands.push_back({&command, doing([options] { multiscale::run_compare(*options); }), always_on_ranks});
+      *app.add_subcommand("compare", "run the case by both models, or take runs of it: how far they agree");
+  command.prefix_command();
+  command.set_help_flag();
+  commands.push_back(
+      {&command, doing([&command] { multiscale::run_compare(command.remaining()); }), [] { return On::study; }});
 }
 
 void add_plot(CLI::App& app, Commands& commands) {

@@ -6,17 +6,10 @@
 
 namespace polybed::multiscale {
 
-/// Writes the table of a scene, moved by a number of its standard errors, as directory/table-NAME.h5. Collective.
-/// Returns what to set in the case so that it is read.
-[[nodiscard]] std::string with_moved_table(const core::Scene& scene, const std::filesystem::path& directory,
-                                           const std::string& name, double sigma);
-
-/// Hash of what the file of a scene's table holds; empty if it has none.
-[[nodiscard]] std::string hash_of_table(const core::Scene& scene);
-
-/// After a run of the case with its table: runs it with the table at plus and minus one standard error, in `plus` and
-/// `minus` of its directory, and writes stress_uncertainty.json. Throws core::CaseError if the case has no table.
-void run_stress_uncertainty(const RunOptions& options);
+/// Becomes the study that runs the case with its table, and with the table at plus and minus one standard error in
+/// `plus` and `minus` of the run's directory, and writes stress_uncertainty.json. Throws core::CaseError if the case
+/// has no table.
+[[noreturn]] void run_stress_uncertainty(const RunOptions& options);
 
 /// Throws core::CaseError if the case has no table to move.
 void require_table(const core::Scene& scene);

@@ -36,7 +36,18 @@ void add_inversion(CLI::App& app, Commands& commands) {
   command.add_flag("--quiet", options->quiet, "no line for each run");
   command.add_flag("!--no-picture", options->picture, "no inversion.png at the end");
   commands.push_back({&command, doing([options] { multiscale::run_inversion(*options); }),
-                      [options] { return options->scan.empty() ? On::one_process : On::all_ranks; }});
+                      [options] { return options->scan.empty() ? On::one_process : On::study; }});
+}
+
+/// For the package's own use.
+void add_move_table(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::MoveOptions>();
+  CLI::App& command = *app.add_subcommand("move-table", "a table of the solids stress, moved by standard errors");
+  command.group("");
+  command.add_option("TABLE", options->table)->required();
+  command.add_option("--sigma", options->sigma)->required();
+  command.add_option("MOVED", options->moved)->required();
+  commands.push_back({&command, doing([options] { multiscale::run_move_table(*options); })});
 }
 
 void add_calibrate(CLI::App& app, Commands& commands) {

@@ -160,6 +160,7 @@ class TfmRun final : public CaseRun {
 }  // namespace
 
 void run_tfm(const RunOptions& options) {
+  if (options.stress_uncertainty) run_stress_uncertainty(options);
   const core::Scene scene = read_scene(options);
   const fs::path directory = run_directory(options, "tfm");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
@@ -168,13 +169,10 @@ void run_tfm(const RunOptions& options) {
     require_memory(scene);
     taken = take_directory(directory, options);
   });
-  if (options.stress_uncertainty) require_table(scene);
   std::optional<TfmRun> run;
   start_run({directory, scene, "tfm", ranks.get(), options.resume},
             [&] { run.emplace(options, scene, directory, ranks); });
   (void)run->run();
-  run.reset();
-  if (options.stress_uncertainty) run_stress_uncertainty(options);
 }
 
 }  // namespace polybed::multiscale

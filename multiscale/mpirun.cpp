@@ -26,6 +26,11 @@ constexpr std::array<std::string_view, 5> settings{
     "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "OMPI_MCA_rmaps_base_oversubscribe=1",
     "OMPI_MCA_hwloc_base_binding_policy=none", "OMPI_MCA_btl_vader_single_copy_mechanism=none"};
 
+void refuse_launcher(int ranks) {
+  if (core::started_by_launcher())
+    throw core::MpiError(fmt::format("-n {}: this is one of the ranks of a launcher already; leave out -n", ranks));
+}
+
 }  // namespace
 
 fs::path mpirun() {
@@ -50,9 +55,14 @@ std::vector<std::string> environment_of_mpirun() {
   return all;
 }
 
+void keep_ranks_for_runs(int ranks) {
+  if (ranks < 2) return;
+  refuse_launcher(ranks);
+  ::setenv("POLYBED_RANKS", std::to_string(ranks).c_str(), 1);
+}
+
 void become_ranks(int ranks, std::vector<std::string> words) {
-  if (core::started_by_launcher())
-    throw core::MpiError(fmt::format("-n {}: this is one of the ranks of a launcher already; leave out -n", ranks));
+  refuse_launcher(ranks);
   std::vector<std::string> all{mpirun(), "-q", "-n", std::to_string(ranks), this_program()};
   all.insert(all.end(), words.begin(), words.end());
   std::vector<std::string> variables = environment_of_mpirun();

@@ -15,6 +15,10 @@ namespace polybed::multiscale {
 /// has set stands.
 [[nodiscard]] std::vector<std::string> environment_of_mpirun();
 
+/// Hands the number of ranks over to a study, which starts its runs on as many, by the environment's POLYBED_RANKS.
+/// Throws core::MpiError as become_ranks does.
+void keep_ranks_for_runs(int ranks);
+
 /// Goes on as mpirun of this program; returns never. Throws core::MpiError if it cannot be started, or if this process
 /// is one of a launcher's ranks already.
 /// \param words  of the command line, behind the number of ranks

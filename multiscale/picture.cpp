@@ -1,8 +1,5 @@
 #include "multiscale/picture.hpp"
 
-#include <cstdio>
-
-#include "core/print.hpp"
 #include "multiscale/python_module.hpp"
 
 namespace polybed::multiscale {
@@ -27,16 +24,6 @@ bool draw(const std::string& module, const std::filesystem::path& directory, std
 
 bool draw_picture(const std::filesystem::path& run_directory, std::string& message) {
   return draw("polybed.plot", run_directory, message, {"--picture"});
-}
-
-void draw_and_tell(const std::string& module, const std::filesystem::path& directory, const char* what, bool quiet) {
-  std::string message;
-  const bool drawn = draw(module, directory, message);
-  if (quiet) return;
-  if (drawn)
-    core::print("{}\n", message);
-  else
-    core::print(stderr, "no {}: {}\n", what, message);
 }
 
 }  // namespace polybed::multiscale

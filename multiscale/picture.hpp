@@ -17,8 +17,4 @@ namespace polybed::multiscale {
 /// Draws picture.png into a run directory, finished or running, likewise.
 [[nodiscard]] bool draw_picture(const std::filesystem::path& run_directory, std::string& message);
 
-/// The same as draw(); says on standard output where the picture is, or on standard error why there is no `what`.
-/// \param quiet  says nothing
-void draw_and_tell(const std::string& module, const std::filesystem::path& directory, const char* what, bool quiet);
-
 }  // namespace polybed::multiscale

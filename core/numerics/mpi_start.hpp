@@ -6,6 +6,9 @@ namespace polybed::core {
 /// Whether mpirun, srun or another launcher has started this process, by what they leave in its environment.
 [[nodiscard]] bool started_by_launcher();
 
+/// Whether this process is the launcher's first rank, or was started by none.
+[[nodiscard]] bool first_by_launcher();
+
 /// Starts MPI if nobody has. A process of its own gets neither a network nor a daemon, for which Open MPI needs ssh;
 /// ranks that outnumber the cores yield while they wait. Throws MpiError.
 void open_mpi();

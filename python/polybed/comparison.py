@@ -25,6 +25,7 @@ with needed(__name__ == "__main__"):
     from polybed.files import FAULTS, contents_of, read_json
     from polybed.plot import stored_times
     from polybed.read import nearest, read
+    from polybed.study.compare_report import with_error
 
 LOOKS = """body{font:15px/1.45 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
 table{border-collapse:collapse;margin:.6rem 0}th,td{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #ddd}
@@ -33,9 +34,7 @@ overflow-x:auto;white-space:pre-wrap}.source{color:#666;font-size:85%}.missed,.w
 
 
 def number(value, error=None):
-    if value is None:
-        return "&ndash;"
-    return f"{value:.4g}" + ("" if error is None else f" &plusmn; {error:.1g}")
+    return "&ndash;" if value is None else with_error(value, error).replace("+-", "&plusmn; ")
 
 
 def table(head, rows):

@@ -6,7 +6,8 @@ from contextlib import contextmanager
 
 @contextmanager
 def in_place(path, ending=".temporary"):
-    """The path to write under a temporary name in the same folder, `path.name + ending`; renamed if all went well.
+    """The path to write under a temporary name in the same folder, `path.name + ending`; if all went well it is flushed to the disk and
+    renamed.
 
     The temporary file is new: a link that has its name, in a folder that others may write, is removed and not followed.
     """
@@ -15,6 +16,8 @@ def in_place(path, ending=".temporary"):
     os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666))
     try:
         yield temporary
+        with open(temporary, "rb") as written:
+            os.fsync(written)
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)

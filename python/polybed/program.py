@@ -106,8 +106,7 @@ def settings(overrides, until=None):
 
 def resolved(case, overrides, until):
     """The case as the record of a run of it has it, and its hash."""
-    overrides = dict(overrides or {}) | ({} if until is None else {"run.until": until})
-    found = json.loads(call("check", case, *words(overrides), "--json"))
+    found = json.loads(call("check", case, *settings(overrides, until), "--resolved", "--json"))
     return found["case"], found["hash"]
 
 

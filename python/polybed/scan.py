@@ -18,6 +18,7 @@ with needed(__name__ == "__main__"):
     from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
     from polybed.files import FAULTS, contents_of, read_json
     from polybed.plot import save
+    from polybed.study.inversion_search import known
 
 
 def read_scan(directory):
@@ -31,13 +32,6 @@ def columns(scan):
     return np.array(rows).T
 
 
-def known(scan):
-    """Between which velocities the inversion lies: the bracket where it is narrow, else the interval by the noise, m/s."""
-    if scan["outcome"] == "bracket":
-        return scan["low_m_s"], scan["high_m_s"]
-    return scan["velocity_m_s"] - scan["error_m_s"], scan["velocity_m_s"] + scan["error_m_s"]
-
-
 def draw(found):
     """Mean difference of the centres over the velocity, by each model, with what was found."""
     figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
@@ -45,7 +39,7 @@ def draw(found):
         velocity, value, error = columns(scan)
         label = NAMES[model]
         if scan["velocity_m_s"] is not None:
-            low, high = known(scan)
+            low, high = known(scan["outcome"], *(scan[f"{name}_m_s"] for name in ("low", "high", "velocity", "error")))
             axes.axvspan(low * 1e3, high * 1e3, color=COLOURS[n], alpha=0.15, linewidth=0)
             label += f": {scan['velocity_m_s'] * 1e3:.3g} mm/s"
         axes.errorbar(velocity, value, error, color=COLOURS[n], marker="os"[n % 2], markersize=4, linewidth=1, capsize=2,

@@ -6,6 +6,7 @@ import pathlib
 import re
 import shlex
 import shutil
+import signal
 import sys
 import tempfile
 
@@ -13,7 +14,7 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, ROOT, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
+from program import DONE, FILE, ROOT, STOPPED, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
 
 sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
@@ -185,7 +186,7 @@ class Comparison(Scratch):
         told = self.ends(FILE, "compare", self.case, "--tfm", dem, "--dem", dem, "-o", self.folder / "again").stderr
         self.assertIn("a run of dem, not of tfm", told)
         (dem / "run.json").write_text('{"filetype": "polybed run", ')
-        self.assertIn("run.json: no JSON at byte", self.given(code=FILE).stderr)
+        self.assertIn("run.json is damaged", self.given(code=FILE).stderr)
         (dem / "run.json").unlink()
         self.assertIn("no run", self.given(code=FILE).stderr)
 
@@ -292,6 +293,18 @@ class Comparison(Scratch):
         text = page.page(self.folder / "scanned")
         self.assertNotIn("polybed inversion", text)
         self.assertIn("does not hold what its scan was asked for", text)
+
+    def test_stopped_it_stops_its_run_which_can_be_gone_on_with(self):
+        run = self.folder / "new/tfm"
+        for signal_number in (signal.SIGINT, signal.SIGTERM):
+            running = self.start("compare", self.case, *QUIET, "-o", run.parent, "--until", "20 s", "--resume")
+            program.wait_until(running, lambda: (run / "run.json").exists() and '"running"' in (run / "run.json").read_text())
+            running.send_signal(signal_number)
+            told = running.communicate(timeout=program.LONGEST)
+            self.assertEqual(running.returncode, STOPPED, told)
+            self.assertEqual(strict_json((run / "run.json").read_text())["state"], "stopped by the user")
+            self.assertTrue((run / "checkpoint.h5").exists())
+            self.assertFalse((run.parent / "dem").exists())
 
     def test_resumed_it_goes_on_with_what_is_there(self):
         first = strict_json(self.compare(DONE, "--json", "--until", "2 ms").stdout)

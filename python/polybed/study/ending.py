@@ -48,6 +48,7 @@ def guarded(work):
         said, code = told(error), FILE
     except KeyboardInterrupt:
         said, code = "stopped by the user", STOPPED
-    with suppress(OSError):
-        print(said, file=sys.stderr, flush=True)
+    if said:  # a run that a study has made has said it itself
+        with suppress(OSError):
+            print(said, file=sys.stderr, flush=True)
     return code

@@ -59,13 +59,18 @@ class Profile:
         return Profile(plain["slab"], np.array(plain["fraction"], float), plain["pressure"])
 
 
+def history_of(run):
+    """The columns of the history of a run that has been opened."""
+    return Columns(run.directory / "history.csv", run.history)
+
+
 def measured(directory):
     """Opens what a run directory holds. Raises FileNotFoundError or FormatError."""
     run = read(directory)
     for name in ("history.csv", "profiles.h5"):
         if not (run.directory / name).exists():
             raise FileNotFoundError(f"{run.directory / name} is missing: make it again with polybed, or restore it from a copy")
-    return Measured(Columns(run.directory / "history.csv", run.history), Columns(run.directory / "profiles.h5", run.profiles))
+    return Measured(history_of(run), Columns(run.directory / "profiles.h5", run.profiles))
 
 
 def species_of(history):

@@ -1,0 +1,15 @@
+// What a study of the Python package is asked for: the options of its command as a JSON object.
+#pragma once
+
+#include <string>
+
+#include "app/options.hpp"
+#include "core/output/json.hpp"
+
+namespace polybed::multiscale {
+
+/// An object that is begun, with the options of the runs that the study makes.
+/// \param kind  of the study's folder: runs/<case name>-<kind> unless -o names another
+[[nodiscard]] core::Json begin_request(const RunOptions& options, const std::string& kind);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,90 @@
+"""Cases as the program resolves them: whole, in SI, with every key; and in what two of them differ."""
+
+import json
+import tomllib
+
+from polybed.program import call
+
+FREE = ("tfm.", "dem.", "output.")  # tables that may differ between runs of one case
+
+
+def words_of(overrides):
+    """Overrides as the program takes them."""
+    return [word for override in overrides for word in ("--set", override)]
+
+
+class Case:
+    """A case file with overrides, resolved. Raises ProgramError if it is wrong. until: simulated time, as --until has it, or None"""
+
+    def __init__(self, path, overrides, until=None):
+        end = ["--until", until] if until else []
+        found = json.loads(call("check", path, *words_of(overrides), *end, "--resolved", "--json"))
+        self.path, self.overrides = str(path), found["overrides"]  # the end among them
+        self.text, self.hash, self.scan_hash = found["case"], found["hash"], found["scan_hash"]
+        self.git_commit = found["git_commit"]  # of the program
+        self.refused = found["refused"]  # by each model: why it cannot run the case
+        self.keys = tomllib.loads(self.text)
+
+    @property
+    def velocity(self):
+        """Superficial velocity at the end, m/s; None in a closed column."""
+        points = self.keys.get("inlet", {}).get("superficial_velocity")
+        return points[-1][1] if points else None
+
+    @property
+    def species(self):
+        return [species["name"] for species in self.keys["species"]]
+
+    @property
+    def table(self):
+        """Path of its table of the solids stress, a text; None without one."""
+        law = self.keys["effects"].get("solids_stress", "")
+        return law.removeprefix("table:") if law.startswith("table:") else None
+
+
+def hash_of(content):
+    """FNV-1a hash of bytes, 64 bits, as 16 hexadecimal digits: as the program has it of the text of a case."""
+    found = 0xCBF29CE484222325
+    for byte in content:
+        found = (found ^ byte) * 0x100000001B3 % 2**64
+    return f"{found:016x}"
+
+
+def keys_of(text):
+    """Values by key of a resolved case, one key a line, as texts; tables of an array are counted from 1."""
+    keys, counted, table = {}, {}, ""
+    for line in text.splitlines():
+        if line.startswith("[["):
+            name = line[2 : line.index("]")]
+            counted[name] = counted.get(name, 0) + 1
+            table = f"{name}.{counted[name]}."
+        elif line.startswith("["):
+            table = line[1 : line.index("]")] + "."
+        elif " = " in line:
+            key, value = line.split(" = ", 1)
+            keys[table + key] = value
+    return keys
+
+
+def roles_in_both_models():
+    """Names of the effects that act in either model."""
+    models = {}
+    for role in json.loads(call("list", "--json"))["roles"]:
+        models.setdefault(role["role"], set()).update(role["models"].split(", "))
+    return {name for name, found in models.items() if {"tfm", "dem"} <= found}
+
+
+def differences(first, second, in_both):
+    """The keys in which two resolved cases differ, each with its value in both, "-" where a case has none. Left out are those that may:
+    [tfm], [dem], [output], run.until, the title, and a role of [effects] that acts in one model alone.
+
+    in_both: roles that act in both models
+    """
+    def may_differ(key):
+        if key.startswith("effects."):
+            return key.removeprefix("effects.") not in in_both
+        return key in ("title", "run.until") or key.startswith(FREE)
+
+    a, b = keys_of(first), keys_of(second)
+    found = [(key, a.get(key, "-"), b.get(key, "-")) for key in sorted(a.keys() | b.keys())]
+    return [entry for entry in found if entry[1] != entry[2] and not may_differ(entry[0])]

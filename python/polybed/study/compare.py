@@ -1,0 +1,140 @@
+"""Both models on one case, or two runs of it, measured over the same window: what `polybed compare` hands over to.
+
+    python3 -m polybed.study.compare CASE [OPTIONS]
+
+Exit codes are those of polybed.
+"""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from polybed.packages import needed
+
+with needed(__name__ == "__main__"):
+    from polybed.files import contents_of, read_json
+    from polybed.folder import read_record
+    from polybed.program import name_of
+    from polybed.study import compare_report as report
+    from polybed.study.cases import Case, differences, roles_in_both_models, words_of
+    from polybed.study.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
+    from polybed.study.measured import measured
+    from polybed.study.output_folder import taken
+    from polybed.study.record import draw, write_record
+    from polybed.study.runs import flags, has_checkpoint, run
+    from polybed.study.scores import MODELS, add_inversion, compare
+
+
+def record_of(directory, model):
+    """A run's record. Raises StudyError if it is none of this model's."""
+    path = Path(directory) / "run.json"
+    if not path.exists():
+        raise StudyError(FILE, f"{directory}: no run (it has no run.json)")
+    record = read_record(path)
+    if record["model"] != model:
+        raise StudyError(FILE, f"{path}: a run of {record['model']}, not of {model}")
+    with contents_of(path):
+        return record | {"case": str(record["case"])}
+
+
+def refuse_difference(name, text, other_name, other):
+    found = differences(text, other, roles_in_both_models())
+    if found:
+        lines = "".join(f"\n  {key}: {first} and {second}" for key, first, second in found)
+        raise StudyError(WRONG_CASE, f"{name} and {other_name} are not of one case:{lines}")
+
+
+def refuse_before_running(options, case):
+    """Refuses what one of the models to be run cannot, before the other takes its hours, and a given run that is none of this case."""
+    for model in MODELS:
+        given = getattr(options, model)
+        if given:
+            refuse_difference(case.path, case.text, given, record_of(given, model)["case"])
+        elif case.refused[model]:
+            raise StudyError(WRONG_CASE, "\n".join(case.refused[model]))
+
+
+def made(options, case, model):
+    """Runs a model into a folder of the comparison, which it returns. One that has a checkpoint there is gone on with, if asked for."""
+    output = os.path.join(options.output, model)
+    resume = ["--resume"] if options.resume and has_checkpoint(output) else []
+    run(model, case.path, *words_of(case.overrides), "-o", output, *resume, *flags(vars(options), "force", "permissive", "quiet"),
+        *([] if options.picture else ["--no-picture"]))
+    return output
+
+
+def read_scan(options, case):
+    """(inversion.json of a scan of the case by both models, its path); None without one. The scan by default may be of the case as it was
+    before."""
+    path = Path(options.inversion or Path("runs") / f"{name_of(case.path)}-inversion") / "inversion.json"
+    if not path.exists():
+        if options.inversion:
+            raise StudyError(FILE, f"{options.inversion}: no scan (it has no inversion.json)")
+        return None
+    scan = read_json(path, "polybed inversion")
+    with contents_of(path):
+        if scan["case_hash"] != case.scan_hash:
+            if options.inversion:
+                raise StudyError(WRONG_CASE, f"{path}: the scan is of another case")
+            return None
+        both = all(scan["models"].get(model, {}).get("velocity_m_s") is not None for model in MODELS)
+        return (scan, path) if both else None
+
+
+def compare_runs(options, case, directories):
+    """Compares two runs and writes comparison.json."""
+    records = {model: record_of(directories[model], model) for model in MODELS}
+    refuse_difference(directories["tfm"], records["tfm"]["case"], directories["dem"], records["dem"]["case"])
+    found = compare(*(measured(directories[model]) for model in MODELS))
+    scan = read_scan(options, case)
+    if scan:
+        with contents_of(scan[1]):
+            add_inversion(found, *scan, case.velocity)
+    states = {model: record["state"] for model, record in records.items()}
+    found.warnings += [f"{model}: the run is not done ({state})" for model, state in states.items() if state != "done"]
+    plain = report.plain(found, case, options.output, {model: (directories[model], records[model]) for model in MODELS})
+    path = Path(options.output) / "comparison.json"
+    text = write_record(path, plain)
+    answer(text if options.json else f"{report.table(plain)}\n{path}")
+    if options.picture:
+        draw("polybed.comparison", "write_page", options.output, "page", options.json or options.quiet)
+
+
+def make(options):
+    case = Case(options.case, options.set, options.until)
+    options.output = options.output or os.path.join("runs", f"{name_of(options.case)}-compare")
+    refuse_before_running(options, case)
+    with taken(Path(options.output)):
+        compare_runs(options, case, {model: getattr(options, model) or made(options, case, model) for model in MODELS})
+    return DONE
+
+
+def parsed(arguments):
+    parser = argparse.ArgumentParser(prog="polybed compare", allow_abbrev=False,
+                                     description="Runs the case by both models, or takes runs of it: how far they agree.")
+    parser.add_argument("case", metavar="CASE", help="the case file")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="in place of what the file says")
+    parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else there")
+    parser.add_argument("-o", "--output", metavar="DIR", help="run directory; default runs/<case name>-compare")
+    parser.add_argument("--until", metavar="TIME", help='simulated time, e.g. "20 s"')
+    parser.add_argument("--resume", action="store_true", help="go on from the checkpoint in the run directory")
+    parser.add_argument("--force", action="store_true", help="replace the run in the run directory")
+    parser.add_argument("--permissive", action="store_true",
+                        help="go on where a conservation law is broken more than tenfold, which ends a run otherwise")
+    parser.add_argument("--quiet", action="store_true", help="no progress")
+    parser.add_argument("--no-picture", dest="picture", action="store_false",
+                        help="no picture.png and comparison.html at the end, which take a second")
+    parser.add_argument("--tfm", metavar="DIR", help="directory of a run of polybed tfm, finished or not")
+    parser.add_argument("--dem", metavar="DIR", help="directory of a run of polybed dem, finished or not")
+    parser.add_argument("--inversion", metavar="DIR", help="folder of polybed inversion --scan both; default that of the case in runs/")
+    return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+    options = parsed(arguments)
+    return guarded(lambda: make(options))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,99 @@
+"""A comparison as it is written, comparison.json, and as tables for the screen."""
+
+import os
+
+from polybed.files import contents_of
+from polybed.study.scores import MODELS
+
+CONFIDENCE = 0.95  # of all intervals
+COUNTERS = ("rhs_evaluations", "linear_iterations", "steps", "particle_steps", "pair_checks")  # of run.json, on the screen
+
+
+def plain_measure(measure):
+    plain = {}
+    for model in MODELS:
+        mean = getattr(measure, model)
+        plain |= {model: mean and mean.mean, f"{model}_error": mean and mean.error}
+    return plain | {"difference": measure.difference, "difference_error": measure.difference_error}
+
+
+def plain_profiles(found):
+    """Means over time in the slabs; an error is null where there are too few profiles to tell it."""
+    plain = {"y_m": found.height}
+    for model in MODELS:
+        plain[model] = {f"phi_{name}": {"mean": [of.mean for of in means], "error": [of.error for of in means]}
+                        for name, means in zip(found.species, found.means[model], strict=True)}
+    return plain
+
+
+def plain_scores(found):
+    plain = {name: {"value": score.value, "error": score.error, "goal": score.goal, "reached": score.reached}
+             for name, score in found.scores.items()}
+    order = {model: top and top._asdict() for model, top in found.top.items()}
+    same = order["tfm"]["species"] == order["dem"]["species"] if all(order.values()) else None
+    return plain | {"order": order | {"same": same}}
+
+
+def counts_of(record):
+    """The counters of a run, as its record has them."""
+    return {name: count for name, count in sorted(record["work"].items()) if type(count) in (int, float)}
+
+
+def plain_run(directory, record, profiles):
+    with contents_of(os.path.join(directory, "run.json")):
+        return {"work": counts_of(record), "cpu_s": record["cpu_s"], "wall_s": record.get("wall_s"), "time_s": record["time_s"],
+                "ranks": record["ranks"], "state": record["state"], "directory": directory, "case_hash": record["case_hash"],
+                "git_commit": record["git_commit"], "profiles_in_window": profiles}
+
+
+def plain(found, case, directory, runs):
+    """comparison.json. case: a Case; directory: of the comparison; runs: (folder, record) by model"""
+    record = {"filetype": "polybed comparison", "version": 1, "git_commit": case.git_commit, "case": case.path, "directory": directory,
+              "overrides": case.overrides,
+              "window": {"begin_s": found.window.begin, "end_s": found.window.end, "shortened": found.window.shortened,
+                         "confidence": CONFIDENCE},
+              "measures": {name: plain_measure(measure) for name, measure in found.measures.items()},
+              "mean_profiles": plain_profiles(found), "scores": plain_scores(found),
+              "models": {model: plain_run(*runs[model], found.profiles[model]) for model in MODELS}}
+    if found.inversion_file:
+        record["inversion_file"] = found.inversion_file
+    return record | {"warnings": found.warnings}
+
+
+def with_error(value, error):
+    """A number with its half-width, to the digits that the half-width leaves."""
+    if value is None:
+        return "-"
+    return f"{value:.4g}" + ("" if error is None else f" +-{error:.1g}")
+
+
+def top_text(top):
+    return "-" if top is None else top["species"] + ("" if top["certain"] else " (within the uncertainty)")
+
+
+def score_line(name, score):
+    line = f"{name:26} {with_error(score['value'], score['error']):>20}"
+    if score["goal"] is None:
+        return line
+    return line + f"   goal {score['goal']:.2g}" + {True: ": reached", False: ": missed", None: ""}[score["reached"]]
+
+
+def work_line(model, run):
+    wall = "" if run["wall_s"] is None else f" {run['wall_s']:.3g} s by the clock;"
+    counts = "".join(f" {name} {run['work'][name]:.4g}" for name in COUNTERS if name in run["work"])
+    return (f"{model}: {run['state']}, {run['time_s']:.4g} s simulated, {run['cpu_s']:.3g} CPU s,{wall}{counts}  "
+            f"[{os.path.join(run['directory'], 'run.json')}]")
+
+
+def table(record):
+    """The tables of a comparison.json."""
+    window, order = record["window"], record["scores"]["order"]
+    lines = [f"means from {window['begin_s']:.4g} to {window['end_s']:.4g} s, +- 95 %",
+             f"{'':26} {'tfm':>20} {'dem':>20} {'tfm - dem':>20}"]
+    for name, of in record["measures"].items():
+        cells = [with_error(of[what], of[f"{what}_error"]) for what in (*MODELS, "difference")]
+        lines.append(" ".join([f"{name:26}", *(f"{cell:>20}" for cell in cells)]))
+    lines += [f"{'on top':26} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}", ""]
+    lines += [score_line(name, score) for name, score in record["scores"].items() if name != "order"]
+    lines += ["", *(work_line(model, run) for model, run in record["models"].items())]
+    return "\n".join([*lines, *(f"warning: {line}" for line in record["warnings"])])

@@ -1,0 +1,157 @@
+"""The inversion velocity by runs of one model or of both: what `polybed inversion --scan` hands over to.
+
+    python3 -m polybed.study.inversion REQUEST
+
+REQUEST is a JSON object: what the command line says, with velocities in m/s. The runs lie in folders called by their velocity and the
+hash of their case, so that a scan that is made again finds those that are finished.
+"""
+
+import json
+import os
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+from polybed.packages import needed
+
+with needed(__name__ == "__main__"):
+    from polybed.files import contents_of
+    from polybed.folder import read_record
+    from polybed.read import read
+    from polybed.study import inversion_report as report
+    from polybed.study.cases import Case, hash_of, words_of
+    from polybed.study.ending import DONE, WRONG_CASE, StudyError, answer, guarded
+    from polybed.study.inversion_search import Mean, search
+    from polybed.study.measured import centre_difference, drifts_in, history_of, species_of, window_of, within
+    from polybed.study.output_folder import taken
+    from polybed.study.record import draw, write_record
+    from polybed.study.runs import flags, has_checkpoint, ranks, run
+    from polybed.study.stress_uncertainty import moved_table
+    from polybed.study.time_mean import time_mean
+
+RAMP_SHARE = 0.02  # of a run, in which the velocity goes from that of the run before to its own: far from the window, the last quarter
+DIGITS = 10  # of a hash in the name of a folder
+
+
+class RunsOfModel:
+    """The runs of a scan by one model."""
+
+    def __init__(self, request, model, name, table, overrides):
+        """name: of the scan, and of its folder; table: hash of its table of the solids stress, or empty"""
+        self.request, self.model, self.name, self.table, self.overrides = request, model, name, table, overrides
+        self.runs, self.velocities = [], []
+
+    def scan(self):
+        found = search(self.request["from_m_s"], self.request["to_m_s"], self.mean_at)
+        return report.ScanOfModel(self.model, found, self.runs)
+
+    def mean_at(self, velocity, source):
+        case = Case(self.request["case"], [*self.overrides, *self.start_of(velocity, source)], self.request["until"])
+        digest = hash_of((case.text + self.table).encode())
+        directory = os.path.join(self.request["directory"], self.name, f"{1e3 * velocity:.3f}mm_s-{digest[:DIGITS]}")
+        reused = finished(directory)
+        if not reused:
+            again = "--resume" if has_checkpoint(directory) else "--force"  # replaces what a killed run has left without a checkpoint
+            run(self.model, case.path, *words_of(case.overrides), "-o", directory, again, "--quiet", "--no-picture",
+                *flags(self.request, "permissive"))
+        made = measure(directory)
+        made.reused = reused
+        self.runs.append(made)
+        self.velocities.append(velocity)
+        if speaks(self.request):
+            say(report.line(self.name, velocity, None if source is None else self.velocities[source], made))
+        return Mean(made.centre_difference, made.error)
+
+    def start_of(self, velocity, source):
+        """What a run begins with. One that goes on from another has its velocity at first, which its fields are of, and its integrator,
+        which would else be chosen by the velocity."""
+        if source is None:
+            return [f"inlet.superficial_velocity={velocity!r}"]
+        before = self.runs[source]
+        ramp = [[0.0, self.velocities[source]], [RAMP_SHARE * self.request["until_s"], velocity]]
+        start = [f"inlet.superficial_velocity={ramp}", f'bed.start="checkpoint:{os.path.join(before.directory, "checkpoint.h5")}"']
+        return start + ([f'tfm.integrator="{before.integrator}"'] if self.model == "tfm" else [])
+
+
+def speaks(request):
+    """Whether each run has a line."""
+    return not (request["json"] or request["quiet"])
+
+
+def say(line):
+    """A line in between: nobody has to read it."""
+    with suppress(StudyError):
+        answer(line)
+
+
+def finished(directory):
+    """Whether a folder holds a finished run; its name says of which case."""
+    path = Path(directory) / "run.json"
+    return path.exists() and read_record(path)["state"] == "done"
+
+
+def mean_of(directory, history, values, window):
+    mean = time_mean(within(history["time_s"], values, window))
+    if mean is None or mean.error is None:
+        raise StudyError(WRONG_CASE, f"{directory}: too few rows of its history in the last quarter to tell a mean: a smaller "
+                                     "output.history_every gives more")
+    return mean
+
+
+def measure(directory):
+    """What a finished run has measured, as a scan looks at it."""
+    found = read(directory)
+    history, record = history_of(found), found.record
+    species, window = species_of(history), window_of(history)
+    b = mean_of(directory, history, centre_difference(history, species), window)
+    height = mean_of(directory, history, history["bed_height_m"], window)
+    with contents_of(found.directory / "run.json"):
+        return report.RunOfScan(b.mean, b.error, height.mean, height.error, window.begin, window.end, record["cpu_s"], directory,
+                                record["git_commit"], drifts_in(history, species, window), record["integrator"])
+
+
+def scan_of(request, table, model):
+    """The scan by a model; with the stress uncertainty those of the two-fluid model again, its table moved both ways."""
+    digest = hash_of(Path(table).read_bytes()) if table else ""
+    scan = RunsOfModel(request, model, model, digest, request["overrides"]).scan()
+    if request["stress_uncertainty"] and model == "tfm":
+        for name, sigma in (("tfm-minus", -1), ("tfm-plus", 1)):
+            overrides = [*request["overrides"], moved_table(table, sigma, os.path.join(request["directory"], f"table-{name}.h5"))]
+            scan.moved.append(RunsOfModel(request, model, name, digest, overrides).scan())
+    return scan
+
+
+def record_of(request, case, scans):
+    """inversion.json: all that a command line needs to make the same scan again, and what was found."""
+    return {"filetype": "polybed inversion", "version": 1, "git_commit": case.git_commit, "case": request["case"],
+            "case_hash": case.scan_hash, "directory": request["directory"], "overrides": request["overrides"], "scan": request["scan"],
+            "from_m_s": request["from_m_s"], "to_m_s": request["to_m_s"], "until_s": request["until_s"], "ranks": ranks(),
+            "species": case.species, "force_balance": request["force_balance"],
+            "models": {scan.model: scan.plain() for scan in scans}, "agreement": report.agreement_of(scans)}
+
+
+def make(request):
+    """Makes the scan that is asked for, and writes inversion.json."""
+    directory = Path(request["directory"])
+    case = Case(request["case"], request["overrides"], request["until"])
+    request["until_s"] = case.keys["run"]["until"]
+    with taken(directory):
+        if speaks(request):
+            say(report.head())
+        models = ["tfm", "dem"] if request["scan"] == "both" else [request["scan"]]
+        scans = [scan_of(request, case.table, model) for model in models]
+        path = directory / "inversion.json"
+        text = write_record(path, record_of(request, case, scans))
+        answer(text if request["json"] else f"{report.findings(scans, request['force_balance'])}{path}")
+        if request["picture"]:
+            draw("polybed.scan", "picture", directory, "picture", not speaks(request))
+    return DONE
+
+
+def main(arguments=None):
+    [request] = sys.argv[1:] if arguments is None else arguments
+    return guarded(lambda: make(json.loads(request)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,41 @@
+"""What a study leaves and says: its record, whole or not at all, a picture of it, and remarks."""
+
+import importlib
+import json
+import sys
+from contextlib import suppress
+
+from polybed.in_place import in_place
+from polybed.study.ending import FILE, NUMBERS, StudyError, answer
+
+
+def write_record(path, found):
+    """Puts a JSON file in place whole and returns its text. Raises StudyError."""
+    try:
+        text = json.dumps(found, ensure_ascii=False, allow_nan=False)
+        with in_place(path) as temporary:
+            temporary.write_text(text + "\n", encoding="utf-8")
+    except ValueError as error:
+        raise StudyError(NUMBERS, "a number that is not finite was about to be written as JSON") from error
+    except OSError as error:
+        raise StudyError(FILE, f"cannot write {path}: {error.strerror}") from error
+    return text
+
+
+def remark(text):
+    """Says something on standard error, as far as that can be written."""
+    with suppress(OSError):
+        print(text, file=sys.stderr, flush=True)
+
+
+def draw(module, function, directory, what, quiet):
+    """Has a module of the package draw a record's folder, and says where the picture is, or why there is no `what`: the record is
+    complete without. quiet: says nothing"""
+    try:
+        path = getattr(importlib.import_module(module), function)(directory)
+    except Exception as error:  # whatever is wrong with a picture, the study has ended well
+        if not quiet:
+            remark(f"no {what}: {error}")
+    else:
+        if not quiet:
+            answer(path)

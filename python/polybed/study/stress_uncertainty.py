@@ -1,0 +1,82 @@
+"""What the standard errors of a table of the solids stress mean for a bed: what `polybed tfm --stress-uncertainty` hands over to.
+
+    python3 -m polybed.study.stress_uncertainty REQUEST
+
+REQUEST is a JSON object: what the command line says. The case is run with its table, and with the table at plus and minus one standard
+error; stress_uncertainty.json has the band of bed height and centre difference.
+"""
+
+import json
+import os
+import sys
+from pathlib import Path
+
+from polybed.packages import needed
+
+with needed(__name__ == "__main__"):
+    from polybed.program import call
+    from polybed.read import read
+    from polybed.study.cases import Case, words_of
+    from polybed.study.ending import DONE, guarded
+    from polybed.study.measured import centre_difference, history_of, species_of, window_of, within
+    from polybed.study.record import remark, write_record
+    from polybed.study.runs import flags, has_checkpoint, run
+    from polybed.study.time_mean import time_mean
+
+
+def moved_table(table, sigma, path):
+    """Writes a table moved by a number of its standard errors, and returns what to set in a case so that it is read."""
+    call("move-table", table, f"--sigma={sigma}", path)
+    return f'effects.solids_stress="table:{path}"'
+
+
+def late_means(directory):
+    """Means of bed height and normalised centre difference over the window in which runs are compared, by name; None for what a run has
+    not."""
+    history = history_of(read(directory))
+    series = {"bed_height_m": history["bed_height_m"], "centre_difference": centre_difference(history, species_of(history))}
+    means = {name: time_mean(within(history["time_s"], values, window_of(history))) for name, values in series.items()}
+    return {name: mean and mean.mean for name, mean in means.items()}
+
+
+def band(name, unit, minus, table, plus):
+    """A band as it is written; said on standard error."""
+    low, high = min(minus, table, plus), max(minus, table, plus)
+    remark(f"{name}: {table:.5g}{unit}, {low:.5g} to {high:.5g} within one standard error of the table")
+    return {"table": table, "minus": minus, "plus": plus, "low": low, "high": high}
+
+
+def run_again(request, case, name, sigma):
+    """The case with its table moved, in a folder of the run."""
+    output = os.path.join(request["directory"], name)
+    moved = moved_table(case.table, sigma, os.path.join(request["directory"], f"table-{name}.h5"))
+    again = "--resume" if request["resume"] and has_checkpoint(output) else "--force" if request["force"] else None
+    run("tfm", request["case"], *words_of([*case.overrides, moved]), "-o", output, "--no-picture",
+        *flags(request, "permissive", "quiet"), *([again] if again else []))
+    return output
+
+
+def make(request):
+    directory = request["directory"]
+    case = Case(request["case"], request["overrides"], request["until"])
+    picture = [] if request["picture"] else ["--no-picture"]
+    run("tfm", request["case"], *words_of(case.overrides), "-o", directory, *picture,
+        *flags(request, "resume", "force", "permissive", "quiet", "json"), answers=True)
+    means = [late_means(folder) for folder in (run_again(request, case, "minus", -1), directory, run_again(request, case, "plus", 1))]
+    found = {"filetype": "polybed stress uncertainty", "version": 1, "table": case.table, "standard_errors": 1,
+             "window": "last quarter, from where it is stationary"}
+    for name, unit in (("bed_height_m", " m"), ("centre_difference", "")):
+        values = [of[name] for of in means]
+        if None not in values:
+            found[name] = band(name, unit, *values)
+    write_record(Path(directory) / "stress_uncertainty.json", found)
+    return DONE
+
+
+def main(arguments=None):
+    [request] = sys.argv[1:] if arguments is None else arguments
+    return guarded(lambda: make(json.loads(request)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
