@@ -1,4 +1,4 @@
-"""Makes comparison.html of a comparison.json: one page that stands alone, what `polybed compare` hands over to.
+"""Makes comparison.html of a comparison.json: one page that stands alone, which `polybed compare` writes at its end.
 
     python3 -m polybed.comparison DIR
 

@@ -1,4 +1,4 @@
-"""Draws inversion.json of a scan, what `polybed inversion --scan` hands over to.
+"""Draws inversion.json of a scan, as `polybed inversion --scan` does at its end.
 
     python3 -m polybed.scan DIR
 

@@ -68,7 +68,8 @@ class OfProfiles(Scratch):
         self.assertEqual(alike, {"composition": [0], "profile": [0], "profile_a": [0], "profile_b": [0]})
         apart = measured(asked(profiles=[LAYERS, TURNED], reference=LAYERS))["distances"]
         self.assertAlmostEqual(apart["profile"][1], 2, delta=1e-14)  # nowhere together
-        fewer = measured(asked(profiles=[LAYERS | {"fraction": [LAYERS["fraction"][0], [0, 0, 0.3, 0.3, 0]]}], reference=LAYERS))["distances"]
+        thinner = LAYERS | {"fraction": [LAYERS["fraction"][0], [0, 0, 0.3, 0.3, 0]]}
+        fewer = measured(asked(profiles=[thinner], reference=LAYERS))["distances"]
         self.assertEqual(fewer["profile_a"], [0])
         self.assertAlmostEqual(fewer["profile_b"][0], 0.25, delta=1e-14)
         self.assertAlmostEqual(fewer["profile"][0], 0.125, delta=1e-14)  # the mean of both

@@ -37,9 +37,10 @@ class Ranks(Scratch):
             self.assertEqual(bare(*words).returncode, WRONG_CASE, words)
 
     def test_ranks_do_not_start_ranks(self):
-        done = bare("-n", 2, "list", OMPI_COMM_WORLD_SIZE="2")
-        self.assertEqual(done.returncode, MPI, done.stderr)
-        self.assertIn("leave out -n", done.stderr)
+        for words in (["list"], ["compare", "case.toml"]):
+            done = bare("-n", 2, *words, OMPI_COMM_WORLD_SIZE="2")
+            self.assertEqual(done.returncode, MPI, done.stderr)
+            self.assertIn("leave out -n", done.stderr)
 
     def test_mpirun_of_the_working_directory_is_not_started(self):
         trap = self.write("mpirun", "#!/bin/sh\ntouch sprung\n")

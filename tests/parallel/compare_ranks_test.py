@@ -21,9 +21,10 @@ class CompareOnRanks(Scratch):
         super().setUp()
         self.case = self.write("case.toml", BED)
 
-    def on(self, ranks, *words, code=DONE):
+    def on(self, ranks, *words, code=DONE, start=("mpirun", "-q", "-n")):
         settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
-        done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "compare", self.case, "--json", "--no-picture",
+        begin = [*start, str(ranks), *([] if program.PROGRAM in start else [program.PROGRAM])]
+        done = subprocess.run([*begin, "compare", self.case, "--json", "--no-picture",
                                "--quiet", "--until", "4 ms", "-o", self.folder / f"on-{ranks}", *words], env=settings,
                               capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, code, done.stderr[-1500:])
@@ -37,6 +38,10 @@ class CompareOnRanks(Scratch):
                 value = one["measures"][name][model]
                 self.assertAlmostEqual(two["measures"][name][model], value, delta=CLOSE * value)
         self.assertEqual(one["window"]["end_s"], two["window"]["end_s"])
+
+    def test_the_program_starts_its_runs_on_ranks(self):
+        found = strict_json(self.on(3, "--until", "1 ms", start=(program.PROGRAM, "-n")).stdout)
+        self.assertEqual([found["models"][model]["ranks"] for model in ("tfm", "dem")], [3, 3])
 
     def test_what_the_first_rank_alone_reads_ends_all(self):
         told = self.on(2, "--dem", self.folder / "nowhere", code=FILE).stderr

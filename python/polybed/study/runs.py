@@ -29,8 +29,7 @@ def left_by_launcher(name):
 
 
 def environment(count):
-    """That of a run: without what a launcher says of this process, which is none of the run's ranks. Settings of Open MPI for one process
-    alone would keep several apart."""
+    """That of a run: without what a launcher says of this process, which is none of the run's ranks."""
     kept = {name: value for name, value in os.environ.items() if not left_by_launcher(name)}
     return (OPEN_MPI if count > 1 else {}) | kept | {"PATH": search.path()}
 

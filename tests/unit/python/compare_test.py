@@ -4,6 +4,7 @@
 import os
 import sys
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -11,7 +12,7 @@ os.environ["POLYBED"] = sys.argv.pop(1)  # has the measures of profiles
 sys.path.insert(0, sys.argv.pop(1))
 
 from polybed.files import FormatError  # noqa: E402
-from polybed.study import cases, compare_report  # noqa: E402
+from polybed.study import cases, compare_report, runs  # noqa: E402
 from polybed.study.measured import Columns, Measured  # noqa: E402
 from polybed.study.scores import add_inversion, compare  # noqa: E402
 
@@ -179,8 +180,8 @@ class Cases(unittest.TestCase):
         first = ('title = "a"\n\n[column]\ncells = [3, 18]\n\n[[species]]\nname = "fine"\ndensity = 1.0\n\n[[species]]\nname = "coarse"\n'
                  'density = 2.0\n\n[effects]\ndrag = "cello"\nsolids_stress = "none"\n\n[run]\nuntil = 1.0\n\n[tfm]\nrtol = 0.1\n')
         second = ('title = "b"\n\n[column]\ncells = [6, 18]\ndepth = 0.1\n\n[[species]]\nname = "fine"\ndensity = 1.0\n\n[[species]]\n'
-                  'name = "coarse"\ndensity = 3.0\n\n[effects]\ncontact = "linear"\ndrag = "fand"\n\n[run]\nuntil = 2.0\n\n[tfm]\nrtol = 0.2\n'
-                  '\n[dem]\nfriction = 0.1\n\n[output]\nevery = 1.0\n')
+                  'name = "coarse"\ndensity = 3.0\n\n[effects]\ncontact = "linear"\ndrag = "fand"\n\n[run]\nuntil = 2.0\n\n[tfm]\nrtol'
+                  ' = 0.2\n\n[dem]\nfriction = 0.1\n\n[output]\nevery = 1.0\n')
         self.assertEqual(cases.differences(first, second, {"drag"}),
                          [("column.cells", "[3, 18]", "[6, 18]"), ("column.depth", "-", "0.1"), ("effects.drag", '"cello"', '"fand"'),
                           ("species.2.density", "2.0", "3.0")])
@@ -194,6 +195,24 @@ class Cases(unittest.TestCase):
     def test_the_hash_is_that_of_the_program(self):
         self.assertEqual(cases.hash_of(b""), "cbf29ce484222325")  # of FNV-1a itself
         self.assertEqual(cases.hash_of(b"a"), "af63dc4c8601ec8c")
+
+
+class Runs(unittest.TestCase):
+    LAUNCHER = {"OMPI_COMM_WORLD_SIZE": "3", "OMPI_MCA_ess_base_vpid": "0", "OMPI_MCA_orte_launch": "1", "PMIX_RANK": "0", "PMI_SIZE": "3"}
+
+    def test_a_run_starts_as_if_there_were_no_launcher(self):
+        users = {"OMPI_MCA_btl": "self,tcp", "OMPI_ALLOW_RUN_AS_ROOT": "0", "HOME": "there"}
+        with mock.patch.dict(os.environ, self.LAUNCHER | users | {"POLYBED_RANKS": "3"}, clear=True):
+            for count in (1, 3):
+                found = runs.environment(count)
+                self.assertEqual({name: found[name] for name in users}, users)
+                self.assertFalse(found.keys() & self.LAUNCHER.keys())
+                self.assertNotIn("POLYBED_RANKS", found)
+
+    def test_as_many_ranks_as_the_study_was_started_with(self):
+        for variables, count in (({}, 1), ({"POLYBED_RANKS": "2"}, 2), (self.LAUNCHER, 3), ({"PMI_SIZE": "4"}, 4)):
+            with mock.patch.dict(os.environ, variables, clear=True):
+                self.assertEqual(runs.ranks(), count)
 
 
 class Report(unittest.TestCase):
