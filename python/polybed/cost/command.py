@@ -17,6 +17,7 @@ from polybed.cost.sweep import SweepOptions
 from polybed.cost.sweeper import common_overrides
 from polybed.program import call, name_of
 from polybed.study import output_folder
+from polybed.study.cases import words_of
 from polybed.study.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
 SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
@@ -83,7 +84,7 @@ def model_of(scene, wanted):
     model = wanted or ("dem" if scene.only_for_particles else "tfm")
     runs_it = scene.as_particles or scene.only_for_particles if model == "dem" else not scene.only_for_particles
     if not runs_it:  # which keys forbid it the program says
-        call("estimate", scene.path, *(word for override in scene.overrides for word in ("--set", override)), "--model", model)
+        call("estimate", scene.path, *words_of(scene.overrides), "--model", model)
     return model
 
 

@@ -47,8 +47,8 @@ def measure_distances(sweep):
         return
     species = range(len(sweep.reference.profile.fraction))
     found = measures_of([row.measured.profile for row in rows], map(str, species), reference=sweep.reference.profile)
-    for name, values in found["distances"].items():
-        for row, value in zip(rows, values):
+    for name in ("composition", "profile"):
+        for row, value in zip(rows, found["distances"][name]):
             if value is not None:
                 row.quantities[name] = RowQuantity(value, value)
 

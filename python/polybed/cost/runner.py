@@ -10,6 +10,7 @@ from typing import NamedTuple
 from polybed.cost.work import counters_of, weighed
 from polybed.files import contents_of, read_json
 from polybed.in_place import in_place
+from polybed.study.cases import hash_of, words_of
 from polybed.study.child import run_child
 from polybed.study.ending import WRONG_CASE
 from polybed.study.measured import Measured, measured
@@ -52,14 +53,6 @@ class RunOutcome:
         return self.cpu / self.simulated if self.simulated > 0 else 0.0
 
 
-def text_hash(text):
-    """FNV-1a hash of a text, 64 bits, as 16 hexadecimal digits: core::text_hash."""
-    found = 0xCBF29CE484222325
-    for byte in text.encode():
-        found = (found ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
-    return f"{found:016x}"
-
-
 def last_lines(path):
     text = path.read_text(encoding="utf-8", errors="replace").rstrip("\n")
     return "..." + text[-MOST_SAID:] if len(text) > MOST_SAID else text
@@ -94,7 +87,8 @@ class Runner:
 
     def run(self, order, seconds, again=0):
         """Does a run, unless it was done. seconds: wall time that it may take; again: 0 for the run itself, 1, 2, ... for a repetition"""
-        name = text_hash(" ".join([self.scene.text, " ".join(self.overrides), order.model, str(order.ranks), " ".join(order.overrides)]))
+        told = (self.scene.text, " ".join(self.overrides), order.model, str(order.ranks), " ".join(order.overrides))
+        name = hash_of(" ".join(told).encode())
         folder = self.folder / (f"{name}-{again}" if again else name)
         if folder not in self.seen and not (self.resume and self.ended(folder)):
             if not seconds > 0:
@@ -116,7 +110,7 @@ class Runner:
         mark_folder(folder)
         (folder / "end.json").unlink(missing_ok=True)
         words = [order.model, str(self.scene.path), "--quiet", "--no-picture", "--force", "-o", str(folder)]
-        words += [word for override in (*self.overrides, *order.overrides) for word in ("--set", override)]
+        words += words_of([*self.overrides, *order.overrides])
         end = run_child(words, order.ranks, folder / "output.txt", seconds)
         remove_not_read(folder)
         with in_place(folder / "end.json") as path:

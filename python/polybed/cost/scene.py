@@ -5,6 +5,7 @@ import resource
 import tomllib
 
 from polybed.program import call
+from polybed.study.cases import words_of
 
 LEAST_MODULUS = 5e6  # Pa, core::least_modulus: what contacts have unless the case says otherwise
 
@@ -19,7 +20,7 @@ class Scene:
 
     def __init__(self, path, overrides):
         before = children_seconds()
-        found = json.loads(call("check", path, *(w for o in overrides for w in ("--set", o)), "--json"))
+        found = json.loads(call("check", path, *words_of(overrides), "--json"))
         self.seconds = children_seconds() - before  # CPU time of the check, which balances the forces on the bed
         self.path, self.overrides, self.text, self.hash, self.needs = path, list(overrides), found["case"], found["hash"], found
         self.keys = tomllib.loads(self.text)

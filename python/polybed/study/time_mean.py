@@ -1,5 +1,4 @@
-"""Means over time of a run that fluctuates, with the half-widths of their 95 % intervals: those of fluid/time_mean.hpp, of which runs
-make use themselves."""
+"""Means over time of a run that fluctuates, with the half-widths of their 95 % intervals."""
 
 from typing import NamedTuple
 

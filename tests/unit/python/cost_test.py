@@ -20,7 +20,7 @@ from polybed.cost.judge import advice, carries  # noqa: E402
 from polybed.cost.markdown import sweep_markdown  # noqa: E402
 from polybed.cost.random import normal, uniform  # noqa: E402
 from polybed.cost.refinement import refine  # noqa: E402
-from polybed.cost.runner import RunOrder, RunOutcome, text_hash  # noqa: E402
+from polybed.cost.runner import RunOrder, RunOutcome  # noqa: E402
 from polybed.cost.sweep import Row, Share, Sweep, SweepOptions  # noqa: E402
 from polybed.cost.timing import is_chaotic, timing_of, too_noisy  # noqa: E402
 from polybed.cost.work import counters_of, weighed  # noqa: E402
@@ -118,9 +118,6 @@ class Times(unittest.TestCase):
         """core::uniform and core::normal of seed 7, sequence 3, index 5, as C++ prints them to 17 digits."""
         self.assertEqual(f"{float(uniform(7, 3, 5)):.17g}", "0.67572910860470858")
         self.assertAlmostEqual(float(normal(7, 3, 5)), 1.4852706564378706, delta=1e-15)
-
-    def test_the_hash_of_a_run_is_that_of_the_program(self):
-        self.assertEqual(text_hash("a"), "af63dc4c8601ec8c")  # FNV-1a, 64 bits
 
 
 class Work(unittest.TestCase):

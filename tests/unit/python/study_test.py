@@ -33,7 +33,7 @@ def autoregressive(rows, rho, random):
 
 
 class TimeMeans(unittest.TestCase):
-    """Against the numbers of tests/unit/fluid/time_mean_test.cpp; how often an interval has the truth is K2 of `polybed cost selftest`."""
+    """How often an interval has the truth is K2 of `polybed cost selftest`."""
 
     def test_autocorrelation_time_of_an_autoregressive_series(self):
         random = np.random.default_rng(2)
