@@ -1,4 +1,4 @@
-#include "measures/time_mean.hpp"
+#include "hard/time_mean.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace polybed::measures {
+namespace polybed::hard {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::optional<Jackknife> jackknife(std::size_t rows,
   return Jackknife{squares_of(without) * double(groups - 1) / double(groups), groups - 1};
 }
 
-}  // namespace polybed::measures
+}  // namespace polybed::hard

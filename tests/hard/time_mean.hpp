@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace polybed::measures {
+namespace polybed::hard {
 
 /// Half-widths of intervals are those of 95 %.
 constexpr double confidence = 0.95;
@@ -47,4 +47,4 @@ struct Jackknife {
 [[nodiscard]] std::optional<Jackknife> jackknife(
     std::size_t rows, const std::function<std::optional<double>(const std::vector<bool>&)>& value);
 
-}  // namespace polybed::measures
+}  // namespace polybed::hard
