@@ -14,13 +14,13 @@
 #include "core/print.hpp"
 #include "core/progress.hpp"
 #include "core/version.hpp"
-#include "fluid/properties.hpp"
 #include "multiscale/calibrate/bed_table.hpp"
 #include "multiscale/calibrate/check_table.hpp"
 #include "multiscale/calibrate/fit.hpp"
 #include "multiscale/calibrate/table_text.hpp"
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -132,7 +132,7 @@ void check_table(const CalibrateOptions& options, const core::Scene& scene, cons
 /// Fluidised boxes: p_bed by both measures, and the table of that by slabs.
 void finish_bed(const CalibrateOptions& options, const fs::path& directory, const core::Scene& scene, const Plan& plan,
                 const std::vector<BoxResult>& boxes) {
-  const double density = fluid::fluid_constants(scene.fluid).density, solid = boxes.front().density;
+  const double density = relevance::fluid_constants(scene.fluid).density, solid = boxes.front().density;
   const double weight = std::abs(1 - density / solid) * scene.column.gravity * boxes.front().diameter;
   const BedTable table = bed_table(plan, boxes, weight);
   const std::string lines = bed_lines(boxes) + "\n" + bed_rows(table);

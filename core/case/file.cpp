@@ -18,8 +18,8 @@ namespace {
 /// One reading of a case: the scene as it grows, and the problems found so far.
 class CaseReader {
  public:
-  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, const SceneRule& rule)
-      : name_(std::move(name)), roles_(roles), classes_(classes), rule_(rule), values_(name_) {}
+  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules)
+      : name_(std::move(name)), roles_(roles), classes_(classes), rules_(rules), values_(name_) {}
 
   void read(toml::table& root, std::span<const std::string> overrides);
   Scene finish();
@@ -34,13 +34,14 @@ class CaseReader {
   void check_fluid();
   void check_sizes(const toml::table& species);
   void check_scene();
+  void judge(const Rule& rule);
   void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message);
   void wrong_key(const toml::key& key, std::string_view table);
 
   std::string name_;
   std::span<const Role> roles_;
   const ClassRule& classes_;
-  const SceneRule& rule_;
+  std::span<const Rule> rules_;
   CaseValues values_;
   Scene scene_;
   std::map<std::string, toml::source_region> given_;  ///< the keys that the case sets, by path, and where
@@ -80,7 +81,12 @@ void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& n
           store(place, key.by_size ? values_.sieves(key, node) : values_.points(key, node));
       },
       key.place);
-  if (values_.problems().size() > problems) wrong_.add(key.path());
+  if (values_.problems().size() == problems) return;
+  wrong_.add(key.path());
+  if (key.path() == "chooser.monitor" && node.value_exact<std::string>() == "enable")
+    values_.problems().back().message +=
+        "; a run switches no effect on by itself any more: use \"stop\", then resume it with the effect on, "
+        "--resume --set effects.ROLE=LAW";
 }
 
 /// A table that cannot be read: none of its keys has a value.
@@ -274,13 +280,18 @@ void CaseReader::check_scene() {
       (!one_size && (!readable || take(expand_size_classes(scene_, classes_, name_)))))
     wrong_.add("species.diameter");
   take(resolve(scene_, name_, given_.contains("bed.particles"), wrong_));
-  if (!rule_) return;
-  for (const SceneFault& fault : rule_(scene_)) {
-    const auto sound = [&](const std::string& key) { return wrong_.sound(key); };
-    if (!sound(fault.key) || !std::all_of(fault.rests_on.begin(), fault.rests_on.end(), sound)) continue;
-    const auto place = given_.find(fault.key);
-    place == given_.end() ? values_.add(fault.message) : values_.add(place->second, fault.message);
-  }
+  for (const Rule& rule : rules_) judge(rule);
+}
+
+/// A rule whose keys are sound; it is reported at the first of them that the case gives.
+void CaseReader::judge(const Rule& rule) {
+  if (!std::all_of(rule.keys.begin(), rule.keys.end(), [&](const std::string& key) { return wrong_.sound(key); }))
+    return;
+  const std::string fault = rule.fault(scene_);
+  if (fault.empty()) return;
+  const auto is_given = [&](const std::string& key) { return given_.contains(key); };
+  const auto place = std::find_if(rule.keys.begin(), rule.keys.end(), is_given);
+  place == rule.keys.end() ? values_.add(fault) : values_.add(given_.at(*place), fault);
 }
 
 Scene CaseReader::finish() {
@@ -297,7 +308,7 @@ Scene CaseReader::finish() {
 }  // namespace
 
 Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                 std::span<const Role> roles, const ClassRule& classes, const SceneRule& rule) {
+                 std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules) {
   if (const auto problem = too_deep(text, name)) throw CaseError(std::vector{*problem});
   toml::table root;
   try {
@@ -308,17 +319,17 @@ Scene parse_case(std::string_view text, const std::string& name, std::span<const
     problem.push_back({name, int(at.line), int(at.column), std::string(error.description())});
     throw CaseError(problem);
   }
-  CaseReader reader(name, roles, classes, rule);
+  CaseReader reader(name, roles, classes, rules);
   reader.read(root, overrides);
   return reader.finish();
 }
 
 Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides, std::span<const Role> roles,
-                const ClassRule& classes, const SceneRule& rule) {
+                const ClassRule& classes, std::span<const Rule> rules) {
   constexpr std::size_t largest = 10'000'000;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw FileError(path.string() + " is a folder: name its case.toml");
-  return parse_case(read_text(path, largest), path.string(), overrides, roles, classes, rule);
+  return parse_case(read_text(path, largest), path.string(), overrides, roles, classes, rules);
 }
 
 }  // namespace polybed::core

@@ -4,6 +4,8 @@
 
 #include "closures/gas_slip.hpp"
 #include "core/numerics/random.hpp"
+#include "dem/effects/maker.hpp"
+#include "relevance/effects/brownian.hpp"
 
 namespace polybed::dem {
 
@@ -31,5 +33,15 @@ void Brownian::add(const SideView& view, SideRows& rows) {
       row[k] += deviation * core::normal(seed_ ^ own_sequence, std::uint64_t(view.particles.id[i]), 3 * count + k);
   }
 }
+
+namespace makers {
+
+extern const Maker brownian;
+const Maker brownian{
+    &relevance::effects::brownian, "Force", MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+      return std::make_unique<Brownian>(m.scene.fluid.temperature.value(), m.scene.bed.seed, m.dt, m.place);
+    })};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

@@ -5,6 +5,8 @@
 #include "closures/cohesion_dmt.hpp"
 #include "closures/cohesion_van_der_waals.hpp"
 #include "closures/contact_hertz.hpp"
+#include "dem/effects/maker.hpp"
+#include "relevance/effects/cohesion.hpp"
 
 namespace polybed::dem {
 
@@ -135,5 +137,25 @@ void VanDerWaalsCohesion::add_energy(const ContactBatch& batch, Row& stored) con
 double VanDerWaalsCohesion::pull_off() const {
   return closures::van_der_waals_pull_off(hamaker_, *std::max_element(radius_.begin(), radius_.end()), least_gap_);
 }
+
+namespace makers {
+
+extern const Maker cohesion;
+const Maker cohesion{&relevance::effects::cohesion,
+                     "Pair",
+                     MakePair([](const PairMaking& m) {
+                       const core::Dem& dem = m.scene.dem;
+                       if (m.law == "van_der_waals")
+                         m.laws.cohesion = std::make_unique<VanDerWaalsCohesion>(m.materials, dem.hamaker_constant,
+                                                                                 dem.cohesion_gap, dem.asperity_radius);
+                       else if (m.law == "dmt")
+                         m.laws.cohesion = std::make_unique<DmtCohesion>(m.materials, dem.cohesion_energy);
+                       else
+                         m.laws.cohesion =
+                             std::make_unique<JkrCohesion>(m.materials, dem.cohesion_energy, m.laws.contact_memory());
+                     }),
+                     {"van_der_waals"}};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

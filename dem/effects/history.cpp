@@ -1,6 +1,8 @@
 #include "dem/effects/history.hpp"
 
+#include "dem/effects/maker.hpp"
 #include "dem/effects/side_vectors.hpp"
+#include "relevance/effects/history.hpp"
 
 namespace polybed::dem {
 
@@ -43,5 +45,18 @@ void History::add(const SideView& view, SideRows& rows) {
     view.loads[i].added = others_ * view.loads[i].added + prefactor * weights_.newer[0];
   }
 }
+
+namespace makers {
+
+extern const Maker history;
+const Maker history{&relevance::effects::history,
+                    "Force",
+                    MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+                      return std::make_unique<History>(m.materials, m.density, m.viscosity, m.interval, m.place,
+                                                       m.other_inertia);
+                    }),
+                    {"basset"}};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

@@ -1,7 +1,9 @@
 #include "dem/effects/lift.hpp"
 
 #include "closures/lift_saffman_mei.hpp"
+#include "dem/effects/maker.hpp"
 #include "dem/effects/side_vectors.hpp"
+#include "relevance/effects/lift.hpp"
 
 namespace polybed::dem {
 
@@ -15,5 +17,17 @@ void Lift::add(const SideView& view, SideRows& rows) {
            closures::lift_saffman_mei(slip_of(view, i), to_vec3(view.vorticity[i]),
                                       diameter_[std::size_t(view.particles.species[i])], density_, viscosity_));
 }
+
+namespace makers {
+
+extern const Maker lift;
+const Maker lift{&relevance::effects::lift,
+                 "Force",
+                 MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+                   return std::make_unique<Lift>(m.materials, m.density, m.viscosity);
+                 }),
+                 {"saffman_mei"}};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "closures/magnus_rubinow_keller.hpp"
+#include "dem/effects/maker.hpp"
 #include "dem/effects/side_vectors.hpp"
+#include "relevance/effects/magnus.hpp"
 
 namespace polybed::dem {
 
@@ -33,5 +35,17 @@ void Magnus::turn(std::span<const Vector> vorticity, Particles& particles, Fluid
     put(m.w.data(), before + change);
   }
 }
+
+namespace makers {
+
+extern const Maker magnus;
+const Maker magnus{&relevance::effects::magnus,
+                   "Force",
+                   MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+                     return std::make_unique<Magnus>(m.materials, m.density, m.viscosity, m.dt);
+                   }),
+                   {"rubinow_keller"}};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

@@ -2,7 +2,9 @@
 
 #include "closures/contact_tangential.hpp"
 #include "closures/rolling_friction.hpp"
+#include "dem/effects/maker.hpp"
 #include "dem/effects/rows.hpp"
+#include "relevance/effects/rolling.hpp"
 
 namespace polybed::dem {
 
@@ -86,5 +88,22 @@ void SpringRolling::add_energy(const ContactBatch& batch, Row& stored) const {
     stored[c] += 0.5 * closures::dot(kept, kept) / (k > tiny ? k : tiny);
   }
 }
+
+namespace makers {
+
+extern const Maker rolling;
+const Maker rolling{&relevance::effects::rolling,
+                    "Pair",
+                    MakePair([](const PairMaking& m) {
+                      const core::Dem& dem = m.scene.dem;
+                      if (m.law == "cdt")
+                        m.laws.rolling = std::make_unique<ConstantRolling>(m.materials, dem.rolling_friction);
+                      else
+                        m.laws.rolling = std::make_unique<SpringRolling>(m.materials, dem.rolling_friction,
+                                                                         dem.rolling_damping, m.laws.contact_memory());
+                    }),
+                    {"cdt", "epsd"}};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

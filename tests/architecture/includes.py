@@ -11,11 +11,12 @@ from sources import ROOT, report, tracked
 MAY_USE = {
     "closures": {"closures"},
     "core": {"core"},
-    "fluid": {"fluid", "core", "closures"},
-    "tfm": {"tfm", "fluid", "core", "closures"},
-    "dem": {"dem", "fluid", "core", "closures"},
-    "multiscale": {"multiscale", "tfm", "dem", "fluid", "core", "closures"},
-    "app": {"app", "multiscale", "tfm", "dem", "fluid", "core", "closures"},
+    "relevance": {"relevance", "core", "closures"},
+    "fluid": {"fluid", "relevance", "core", "closures"},
+    "tfm": {"tfm", "fluid", "relevance", "core", "closures"},
+    "dem": {"dem", "fluid", "relevance", "core", "closures"},
+    "multiscale": {"multiscale", "tfm", "dem", "fluid", "relevance", "core", "closures"},
+    "app": {"app", "multiscale", "tfm", "dem", "fluid", "relevance", "core", "closures"},
 }
 # header -> the only files that may include it
 LIBRARIES = {

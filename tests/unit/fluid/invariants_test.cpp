@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "fluid/profile.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::fluid {
 namespace {
@@ -112,21 +112,21 @@ TEST_F(Watch, TheSpeciesThatLosesMassIsNamed) {
 TEST(Properties, AFluidWithoutPropertiesIsRefusedByName) {
   core::Fluid honey;
   honey.name = "honey";
-  EXPECT_THROW((void)fluid_constants(honey), core::CaseError);
+  EXPECT_THROW((void)relevance::fluid_constants(honey), core::CaseError);
   honey.density = 1400;
   honey.viscosity = 10;
-  EXPECT_EQ(fluid_constants(honey).density, 1400);
+  EXPECT_EQ(relevance::fluid_constants(honey).density, 1400);
 }
 
 TEST(Properties, WhatIsGivenOverridesWhatIsKnown) {
   core::Fluid water;
   water.name = "water";
   water.temperature = 288.15;
-  const double density = fluid_constants(water).density;
+  const double density = relevance::fluid_constants(water).density;
   EXPECT_NEAR(density, 999.1, 0.05);  // CRC: 999.10 kg/m3 at 15 degC
   water.viscosity = 2e-3;
-  EXPECT_EQ(fluid_constants(water).viscosity, 2e-3);
-  EXPECT_EQ(fluid_constants(water).density, density);
+  EXPECT_EQ(relevance::fluid_constants(water).viscosity, 2e-3);
+  EXPECT_EQ(relevance::fluid_constants(water).density, density);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "../core/case_mutator.hpp"
 #include "../core/shipped_cases.hpp"
 #include "core/case/file.hpp"
-#include "core/error.hpp"
+#include "core/start_error.hpp"
 #include "core/timers.hpp"
 #include "dem/continuum_scene.hpp"
 #include "dem/model.hpp"
@@ -61,7 +61,7 @@ void use(const core::Scene& scene, bool step, Count& count) {
     const core::Scene chosen = with_choice(scene);
     ++count.weighed;
     if (step) count.begun += begins(chosen);
-  } catch (const core::CaseError& error) {
+  } catch (const core::StartError& error) {  // no other error of a case: it has kept every rule
     EXPECT_NE(std::string(error.what()), "");
     ++count.refused_later;
   } catch (const core::NumericsError& error) {
@@ -73,7 +73,7 @@ void use(const core::Scene& scene, bool step, Count& count) {
 void read(const std::string& text, const Seed& seed, bool step, Count& count) {
   try {
     const std::vector<core::Role> roles = all_roles();
-    const core::Scene scene = core::parse_case(text, seed.path, {}, roles, size_classes, scene_faults);
+    const core::Scene scene = core::parse_case(text, seed.path, {}, roles, size_classes, scene_rules());
     ++count.read;
     const std::string whole = core::resolved_case(scene);
     EXPECT_EQ(core::resolved_case(core::parse_case(whole, seed.path, {}, roles, size_classes)), whole) << text;

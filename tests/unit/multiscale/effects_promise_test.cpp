@@ -6,15 +6,20 @@
 #include "closures/relevance.hpp"
 #include "core/case/file.hpp"
 #include "multiscale/effects/choice.hpp"
-#include "multiscale/effects/conflicts.hpp"
 #include "multiscale/effects/fluid_map.hpp"
 #include "multiscale/effects/monitor.hpp"
 #include "multiscale/effects/neglected.hpp"
-#include "multiscale/effects/switching.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/scene_rules.hpp"
+#include "relevance/choice.hpp"
 
 namespace polybed::multiscale {
 namespace {
+
+using relevance::EffectRow;
+using relevance::neglected_sum;
+using relevance::neglected_up_to;
+using relevance::NumberBand;
 
 EffectRow force(const std::string& name, double value) {
   EffectRow row;
@@ -79,6 +84,7 @@ TEST(Decision, CountsForEachModelWhatItHasNoLawOf) {
 TEST(Decision, LeavesNothingOutByAccelerationsThatVanish) {
   std::vector<EffectRow> rows{force("added_mass", 0.4), force("b", 0.004)};
   for (EffectRow& row : rows) row.models = "dem", row.on_particles = true;
+  rows[0].of_acceleration = true;
   decide(rows, {0.02, false, {"added_mass"}, {}});
   EXPECT_DOUBLE_EQ(neglected_sum(rows, "tfm"), 0.004);
   decide(rows, {0.02, true, {"added_mass"}, {}});
@@ -210,31 +216,17 @@ TEST(Decision, TellsWhatARunMayReach) {
   EXPECT_DOUBLE_EQ(neglected_up_to(rows), 0.3);
 }
 
-TEST(Switching, PutsEffectsOnFromTheirTimeOn) {
-  const core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
-  const std::vector<Switch> switches = switches_of(text_of({{"lift", 0.1}, {"magnus", 1.0 / 3}}));
-  ASSERT_EQ(switches.size(), 2U);
-  EXPECT_EQ(switches[1].time, 1.0 / 3);  // to the bit
-  EXPECT_EQ(next_switch(switches, 0), 0.1);
-  EXPECT_EQ(next_switch(switches, 0.1), 1.0 / 3);
-  EXPECT_TRUE(std::isinf(next_switch(switches, 1)));
-  EXPECT_EQ(core::law_of(at_time(scene, switches, 0.09), "lift"), "none");
-  EXPECT_EQ(core::law_of(at_time(scene, switches, 0.1), "lift"), "saffman_mei");
-  EXPECT_FALSE(can_be_switched("history"));  // it would need what has been
-}
-
 TEST(Conflicts, AreToldWithBothLines) {
   try {
-    (void)core::parse_case(text, "case.toml", {}, all_roles(), size_classes, role_conflicts);
+    (void)core::parse_case(text, "case.toml", {}, all_roles(), size_classes, scene_rules());
     FAIL() << "taken";
   } catch (const core::CaseError& error) {
     ASSERT_EQ(error.problems().size(), 2U);
     EXPECT_EQ(error.problems()[0].line, 13);
     EXPECT_EQ(error.problems()[1].line, 14);
   }
-  core::Scene without = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
-  without.effects["contact"] = "hertz_mindlin";
-  EXPECT_TRUE(role_conflicts(without).empty());
+  const std::vector<std::string> rough{"effects.contact=hertz_mindlin"};
+  EXPECT_NO_THROW((void)core::parse_case(text, "case.toml", rough, all_roles(), size_classes, scene_rules()));
 }
 
 }  // namespace
