@@ -9,6 +9,7 @@
 #include "core/output/files.hpp"
 #include "core/print.hpp"
 #include "multiscale/picture.hpp"
+#include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 
@@ -120,7 +121,11 @@ std::string CaseRun::advice_of(const Monitor& monitor) const {
     return "the effect cannot be added to a run that has begun: begin anew with it, or raise chooser.tolerance";
   std::string command =
       fmt::format("polybed {} {} -o {} --resume", model_name_, options_.case_path.string(), directory_.string());
-  for (const auto& settings : {options_.overrides, monitor.settings()})
+  std::vector<std::string> chosen;  // which the added effect might change
+  for (const std::string& role : scene_.chooser.chosen)
+    if (!find_entry(role)->effect->set_keys)
+      chosen.push_back(fmt::format("effects.{}={}", role, core::law_of(scene_, role)));
+  for (const auto& settings : {options_.overrides, chosen, monitor.settings()})
     for (const std::string& setting : settings) command += fmt::format(" --set '{}'", setting);
   return "to go on with the effect: end the run, then " + command;
 }

@@ -46,6 +46,7 @@ core::Scene without_added(core::Scene scene, const std::string& before, const st
     const relevance::MenuEntry* effect = find_entry(entry.first);
     return !then.effects.contains(entry.first) && effect != nullptr && can_be_added(*effect, model);
   });
+  scene.chooser = then.chooser;  // it has chosen: what it chose is compared
   return scene;
 }
 

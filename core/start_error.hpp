@@ -5,10 +5,10 @@
 
 namespace polybed::core {
 
-/// Particles that cannot be packed, a column that cannot be cut, a table that is of another scene (exit code 2).
+/// Particles that cannot be packed, a column that cannot be cut, a table or a list that does not fit (exit code 2).
 class StartError : public CaseError {
  public:
-  explicit StartError(const std::string& message) : CaseError(message) {}
+  using CaseError::CaseError;
 };
 
 }  // namespace polybed::core

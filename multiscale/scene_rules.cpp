@@ -33,6 +33,17 @@ Broken fluid_unknown(const core::Scene& scene) {
   return {};
 }
 
+/// Beyond what is wrong at the temperature of the case.
+Broken fluid_unknown_in_range(const core::Scene& scene) {
+  if (scene.chooser.temperature_range.empty() || fluid_unknown(scene)) return {};
+  for (const double kelvin : scene.chooser.temperature_range) {
+    core::Scene there = scene;
+    there.fluid.temperature = kelvin;
+    if (const Broken broken = fluid_unknown(there)) return broken;
+  }
+  return {};
+}
+
 bool shares_are_known(const core::Scene& scene) {
   return !scene.species.empty() && scene.bed.volume_share.size() == scene.species.size();
 }
@@ -73,6 +84,15 @@ Broken more_than_the_column_takes(const core::Scene& scene) {
 /// Of the fluid and the bed, whatever effects there are.
 std::vector<core::Rule> scene_rules_of_both() {
   return {{{"fluid.name", "fluid.temperature", "fluid.density", "fluid.viscosity"}, "{}", fluid_unknown},
+          {{"chooser.temperature_range", "fluid.name", "fluid.temperature", "fluid.density", "fluid.viscosity"},
+           "chooser.temperature_range: {}",
+           fluid_unknown_in_range},
+          {{"chooser.temperature_range", "fluid.name", "fluid.density", "fluid.viscosity"},
+           "chooser.temperature_range cannot act: fluid.density and fluid.viscosity are given as numbers",
+           [](const core::Scene& scene) {
+             return core::broken_if(!scene.chooser.temperature_range.empty() && scene.fluid.name != "none" &&
+                                    scene.fluid.density && scene.fluid.viscosity);
+           }},
           {{"bed.solids_fraction", "species.diameter", "species.max_packing", "bed.volume_share", "bed.particles"},
            "bed.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they "
            "settle",

@@ -12,7 +12,6 @@
 #include "closures/terminal_velocity.hpp"
 #include "core/case/particle_list.hpp"
 #include "core/case/resolve_particles.hpp"
-#include "core/error.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "relevance/gas_slip.hpp"
 
@@ -82,8 +81,6 @@ void find_velocities(const core::Scene& scene, Survey& s) {
 std::vector<core::Fluid> fluids_of(const core::Scene& scene) {
   std::vector<core::Fluid> fluids{scene.fluid};
   for (const double t : scene.chooser.temperature_range) {
-    if (scene.fluid.density && scene.fluid.viscosity)
-      throw core::CaseError("chooser.temperature_range: fluid.density and fluid.viscosity are given as numbers");
     core::Fluid fluid = scene.fluid;
     fluid.temperature = t;
     fluids.push_back(fluid);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <map>
 
 #include "core/case/depth.hpp"
@@ -27,6 +28,7 @@ class CaseReader {
  private:
   void read_table(const toml::table& table, std::string_view name, std::size_t index);
   void read_entry(std::string_view table, const toml::key& name, const toml::node& node);
+  void spell_out_effects(toml::table& root) const;
   void read_effects(const toml::node& node);
   void read_key(const Key& key, std::size_t index, const toml::node& node);
   void check_given();
@@ -35,6 +37,7 @@ class CaseReader {
   void check_sizes(const toml::table& species);
   void check_scene();
   void judge(const Rule& rule);
+  void place(const CaseProblem& problem);
   void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message);
   void wrong_key(const toml::key& key, std::string_view table);
 
@@ -157,13 +160,20 @@ void CaseReader::check_sizes(const toml::table& species) {
   if (kind == "sieves" && !has("sieves")) missing("species.sieves");
 }
 
+/// effects = "auto" is every role left to the chooser: as a table, so that a command line may set one of them.
+void CaseReader::spell_out_effects(toml::table& root) const {
+  const toml::node* effects = root.get("effects");
+  if (effects == nullptr || effects->value_exact<std::string>() != automatic) return;
+  const toml::source_region here = effects->source();
+  toml::table roles;
+  for (const Role& role : roles_) roles.insert(toml::key(role.name, here), automatic);
+  root.insert_or_assign(toml::key("effects", here), std::move(roles));
+}
+
 void CaseReader::read_effects(const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr) {
-    if (node.value_exact<std::string>() != automatic)
-      values_.add(node.source(), "effects: a table [effects] that names roles, or effects = \"auto\" at the top");
-    else
-      for (const Role& role : roles_) scene_.effects[role.name] = automatic;
+    values_.add(node.source(), "effects: a table [effects] that names roles, or effects = \"auto\" at the top");
     return;
   }
   for (const auto& [name, value] : *table) {
@@ -208,6 +218,7 @@ void CaseReader::read_entry(std::string_view table, const toml::key& name, const
 }
 
 void CaseReader::read(toml::table& root, std::span<const std::string> overrides) {
+  spell_out_effects(root);
   for (const std::string& given : overrides) apply_override(root, given, values_);
   scene_.overrides.assign(overrides.begin(), overrides.end());
   for (const auto& [name, node] : root) {
@@ -267,9 +278,8 @@ void CaseReader::check_given() {
 
 /// What the keys say of each other, as far as they are sound.
 void CaseReader::check_scene() {
-  std::vector<CaseProblem>& problems = values_.problems();
   const auto take = [&](const std::vector<CaseProblem>& more) {
-    problems.insert(problems.end(), more.begin(), more.end());
+    for (const CaseProblem& problem : more) place(problem);
     return !more.empty();
   };
   const bool one_size = std::all_of(scene_.species.begin(), scene_.species.end(),
@@ -281,6 +291,23 @@ void CaseReader::check_scene() {
     wrong_.add("species.diameter");
   take(resolve(scene_, name_, given_.contains("bed.particles"), wrong_));
   for (const Rule& rule : rules_) judge(rule);
+}
+
+/// Adds a problem: one without a line at the first key of the case that its message names.
+void CaseReader::place(const CaseProblem& problem) {
+  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  std::size_t first = std::string::npos;
+  const toml::source_region* source = nullptr;
+  for (const auto& [path, region] : given_) {
+    const std::size_t at = problem.line > 0 ? std::string::npos : problem.message.find(path);
+    const bool many = is_array_of_tables(path.substr(0, path.find('.')));  // whose key may be that of another entry
+    if (at == std::string::npos || at >= first || many) continue;
+    const std::size_t end = at + path.size();
+    if (end < problem.message.size() && in_word(problem.message[end])) continue;
+    first = at;
+    source = &region;
+  }
+  source == nullptr ? values_.problems().push_back(problem) : values_.add(*source, problem.message);
 }
 
 /// A rule whose keys are sound; it is reported at the first of them that the case gives.

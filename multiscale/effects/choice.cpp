@@ -14,6 +14,7 @@ core::Scene with_choice(core::Scene scene) { return relevance::with_choice(std::
 
 core::Scene read_chosen_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   core::Scene chosen = with_choice(read_case(path, overrides));
+  if (!chosen.chooser.chosen.empty()) core::refuse(scene_rules(), chosen);  // what is chosen beside what is given
   choose_stiffness(chosen);
   return chosen;
 }

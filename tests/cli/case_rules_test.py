@@ -90,6 +90,9 @@ BROKEN = {
     'bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = "auto"': ["bed.solids_fraction=0.45"],
     "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower bed.start_solids_fraction": [
         "bed.solids_fraction=0.68", "tfm.max_packing=0.64"],
+    "chooser.temperature_range: {}": ['chooser.temperature_range=["15 degC", "900 degC"]'],
+    "chooser.temperature_range cannot act: fluid.density and fluid.viscosity are given as numbers": [
+        'chooser.temperature_range=["15 degC", "20 degC"]', "fluid.density=1000", "fluid.viscosity=1e-3"],
     "{}": ["fluid.temperature=900"],  # what is wrong with the fluid
     "bed.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they settle": [
         "bed.solids_fraction=0.85"],

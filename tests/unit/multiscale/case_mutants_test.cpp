@@ -57,9 +57,17 @@ bool begins(const core::Scene& scene) {
 
 /// As the commands do after reading: the choice of effects, the model. Refusals are theirs to tell.
 void use(const core::Scene& scene, bool step, Count& count) {
+  core::Scene chosen;
   try {
-    const core::Scene chosen = with_choice(scene);
+    chosen = with_choice(scene);
     ++count.weighed;
+    core::refuse(scene_rules(), chosen);  // what is chosen beside what is given
+  } catch (const core::CaseError& error) {
+    EXPECT_NE(std::string(error.what()), "");
+    ++count.refused_later;
+    return;
+  }
+  try {
     if (step) count.begun += begins(chosen);
   } catch (const core::StartError& error) {  // no other error of a case: it has kept every rule
     EXPECT_NE(std::string(error.what()), "");
