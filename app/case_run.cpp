@@ -127,7 +127,7 @@ std::string CaseRun::advice_of(const Monitor& monitor) const {
       chosen.push_back(fmt::format("effects.{}={}", role, core::law_of(scene_, role)));
   for (const auto& settings : {options_.overrides, chosen, monitor.settings()})
     for (const std::string& setting : settings) command += fmt::format(" --set '{}'", setting);
-  return "to go on with the effect: end the run, then " + command;
+  return "to go on with the effect: " + command;
 }
 
 std::optional<Neglected> CaseRun::promise_of(const Monitor* monitor) {

@@ -74,7 +74,7 @@ class CaseRun {
     const auto scope = timers_.scope("monitor");
     const std::size_t settings = monitor->settings().size();
     say(monitor->look(model));
-    if (monitor->settings().size() > settings) say({advice_of(*monitor)});
+    if (monitor->settings().size() > settings) say({advice_of(*monitor) + "  (end this run first: Ctrl-C)"});
   }
   /// How to go on with what a monitor has warned of.
   [[nodiscard]] std::string advice_of(const Monitor& monitor) const;

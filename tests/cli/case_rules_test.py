@@ -202,7 +202,7 @@ evry = 1
         self.notes("bed.solids_fraction=0.7")  # a mixture that was measured so dense is taken
         # 0.974 of 60 x 200 x 1.76 mm: 2.057e-5 m3 of spheres of 2.681e-10 m3
         random = BED.replace('volume_share = [1.0]\nstatic_height = "60 mm"\n', 'particles = [76730]\nstart = "random"\n')
-        self.assertRegex(self.refused(random)[0], "fill 0.974 of the column, spheres of these sizes fill at most 0.74")
+        self.assertRegex("\n".join(self.refused(random)), "fill 0.974 of the column, spheres of these sizes fill at most 0.74")
 
     def test_what_is_rarely_meant_is_warned_of(self):
         self.assertEqual([n for n in self.notes() if "negative" in n or "floats" in n], [])

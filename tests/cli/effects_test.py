@@ -248,7 +248,7 @@ class Promise(Scratch):
 
     def test_a_run_that_has_stopped_goes_on_with_the_effect(self):
         stopped, record, run = self.ramp("stop", "stop", "--set", 'output.every="0.01 s"')
-        command = next(line for line in stopped.stderr.splitlines() if "--resume" in line).split("then polybed ")[1]
+        command = next(line for line in stopped.stderr.splitlines() if "--resume" in line).split("effect: polybed ")[1]
         settings = re.findall(r"--set '([^']+)'", command)
         self.assertIn("effects.magnus=rubinow_keller", settings)
         words = [word for setting in settings for word in ("--set", setting)]
