@@ -19,11 +19,11 @@
 #include "core/output/json_value.hpp"
 #include "core/print.hpp"
 #include "core/version.hpp"
-#include "fluid/properties.hpp"
 #include "fluid/solids_table.hpp"
 #include "multiscale/calibrate/box_result.hpp"
 #include "multiscale/calibrate/table_shape.hpp"
 #include "multiscale/effects/choice.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -93,7 +93,7 @@ class Service {
     json.end_object().member("binary", plan.binary).member("seeds", scene_.calibrate.seeds);
     json.member("size_ratio", plan.binary ? scene_.species[1].diameter / scene_.species[0].diameter : 1);
     if (plan.regime.name == "bed")  // |rho_p - rho_f| g D/rho_p
-      json.member("weight_m2_s2", std::abs(1 - fluid::fluid_constants(scene_.fluid).density / mean.density) *
+      json.member("weight_m2_s2", std::abs(1 - relevance::fluid_constants(scene_.fluid).density / mean.density) *
                                       scene_.column.gravity * mean.diameter);
     json.member("ranks", ranks_ ? ranks_->count() : 1).member("git_commit", core::git_commit());
     json.member("case_hash", core::text_hash(core::resolved_case(scene_))).end_object();

@@ -9,6 +9,7 @@
 #include "core/output/files.hpp"
 #include "core/print.hpp"
 #include "multiscale/picture.hpp"
+#include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 
@@ -18,9 +19,9 @@ CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::
                  std::shared_ptr<const core::Ranks> ranks, const std::string& model)
     : options_(options),
       scene_(std::move(scene)),
-      case_(scene_),
       directory_(std::move(directory)),
       ranks_(std::move(ranks)),
+      model_name_(model),
       first_(core::is_first(ranks_.get())) {
   options_.quiet = options_.quiet || !first_;
   core::on_first(ranks_.get(), [&] { left_out_ = left_out(scene_, model); });
@@ -31,7 +32,7 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
                       const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& start_from) {
   core::Checkpoint checkpoint;
   if (options_.resume) {
-    core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, case_); });
+    core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, scene_, model_name_); });
     resume(checkpoint, checkpoint_path(directory_));
   } else if (scene_.bed.start.kind == core::StartKind::checkpoint) {
     const std::filesystem::path path = scene_.bed.start.file;
@@ -60,29 +61,27 @@ void CaseRun::print_prediction(double actual) {
               part.most, actual);
 }
 
-bool CaseRun::run() {
+void CaseRun::run() {
   try {
-    return run_to_end();
+    run_to_end();
   } catch (const core::FileError& error) {
     record_if_possible(fmt::format("failed: {}", error.what()));
     throw;
   }
 }
 
-bool CaseRun::run_to_end() {
+void CaseRun::run_to_end() {
   prediction_ = predicted();
   (void)record("running");
   try {
     go();
   } catch (const core::Stopped&) {
-    if (switches()) return false;
     finish("stopped by the user");
     throw;
   } catch (const core::NumericsError& error) {
     fail(error);
   }
   finish("done");
-  return true;
 }
 
 void CaseRun::go() {
@@ -116,6 +115,20 @@ void CaseRun::say(const std::vector<std::string>& lines) const {
   for (const std::string& line : lines) core::print(stderr, "{}\n", line);
 }
 
+std::string CaseRun::advice_of(const Monitor& monitor) const {
+  if (monitor.settings().empty())
+    return "the effect cannot be added to a run that has begun: begin anew with it, or raise chooser.tolerance";
+  std::string command =
+      fmt::format("polybed {} {} -o {} --resume", model_name_, options_.case_path.string(), directory_.string());
+  std::vector<std::string> chosen;  // which the added effect might change
+  for (const std::string& role : scene_.chooser.chosen)
+    if (!find_entry(role)->effect->set_keys)
+      chosen.push_back(fmt::format("effects.{}={}", role, core::law_of(scene_, role)));
+  for (const auto& settings : {options_.overrides, chosen, monitor.settings()})
+    for (const std::string& setting : settings) command += fmt::format(" --set '{}'", setting);
+  return "to go on with the effect: " + command;
+}
+
 std::optional<Neglected> CaseRun::promise_of(const Monitor* monitor) {
   if (monitor != nullptr) promise_ = monitor->result(ranks_.get());
   return promise_;
@@ -134,8 +147,7 @@ void CaseRun::print_promise() const {
 void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
-  add_case(state, case_);
-  add_switches(state);
+  add_case(state, scene_);
   core::write_checkpoint(checkpoint_path(directory_), state, ranks_.get());
   (void)record("running");
 }

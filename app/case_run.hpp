@@ -26,9 +26,7 @@ namespace polybed::multiscale {
 class CaseRun {
  public:
   virtual ~CaseRun() = default;
-  /// Returns false if it has ended to go on as a model with other effects: then it has a checkpoint and no record of
-  /// its end yet.
-  bool run();
+  void run();
 
  protected:
   /// \param model  "tfm" or "dem"
@@ -55,10 +53,6 @@ class CaseRun {
   virtual void keep_last_state() {}
   /// After each step: false if the user wants to stop.
   [[nodiscard]] virtual bool after_step();
-  /// Whether after_step() was false since an effect has to be switched on.
-  [[nodiscard]] virtual bool switches() const { return false; }
-  /// Says in a checkpoint what has been switched on, or will be.
-  virtual void add_switches(core::Checkpoint&) const {}
   [[nodiscard]] virtual std::vector<double> breakpoints() { return {}; }
   /// What the whole run will take, told before it.
   [[nodiscard]] virtual TimeBand predicted() = 0;
@@ -78,8 +72,12 @@ class CaseRun {
   void watch(Monitor* monitor, const Model& model) {
     if (monitor == nullptr || !monitor->due()) return;
     const auto scope = timers_.scope("monitor");
+    const std::size_t settings = monitor->settings().size();
     say(monitor->look(model));
+    if (monitor->settings().size() > settings) say({advice_of(*monitor) + "  (end this run first: Ctrl-C)"});
   }
+  /// How to go on with what a monitor has warned of.
+  [[nodiscard]] std::string advice_of(const Monitor& monitor) const;
   /// What a monitor has seen on all ranks, kept for print_promise(); empty without one. Collective.
   [[nodiscard]] std::optional<Neglected> promise_of(const Monitor* monitor);
   /// What the run leaves out by its case, and of a monitor the table of bounds against what was seen.
@@ -89,12 +87,12 @@ class CaseRun {
 
   core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
   RunOptions options_;
-  core::Scene scene_;  ///< as the model has it
-  core::Scene case_;   ///< as it is written: without what has been switched on meanwhile
+  core::Scene scene_;
   std::filesystem::path directory_;
   std::shared_ptr<const core::Ranks> ranks_;
-  bool first_;        ///< this process is the one that reads, writes and speaks
-  LeftOut left_out_;  ///< on the first rank
+  std::string model_name_;  ///< "tfm" or "dem"
+  bool first_;              ///< this process is the one that reads, writes and speaks
+  LeftOut left_out_;        ///< on the first rank
   core::Timers timers_;
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
 
@@ -105,7 +103,7 @@ class CaseRun {
   [[nodiscard]] TimeBand prediction_of(double end) const;
   void go();
   void write_checkpoint();
-  bool run_to_end();
+  void run_to_end();
   /// Writes run.json and returns its text. Collective.
   std::string record(const std::string& state);
   /// The same of a run that ends with an error, which is to be told whether or not this can be written.

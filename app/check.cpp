@@ -29,7 +29,7 @@ namespace {
 
 /// Numbers that follow from a case.
 struct Derived {
-  fluid::FluidConstants fluid;
+  relevance::FluidConstants fluid;
   double weight = 0;  ///< buoyant weight of the solids per area, Pa
   double max_packing = 0;
   double sound = 0;  ///< speed in a compressible fluid, m/s

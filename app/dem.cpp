@@ -6,13 +6,11 @@
 #include <cmath>
 
 #include "app/case_run.hpp"
-#include "core/numerics/schedule.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "dem/continuum_scene.hpp"
 #include "dem/observers.hpp"
 #include "dem/settling.hpp"
-#include "multiscale/effects/switching.hpp"
 #include "multiscale/fluid_report.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
@@ -23,22 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What runs of one command hand on where an effect is switched on between them.
-struct Course {
-  core::Scene scene;  ///< the case
-  std::vector<Switch> switches;
-};
-
 class DemRun final : public CaseRun {
  public:
-  /// \param begin  of this part of the course, s
-  DemRun(const RunOptions& options, const Course& course, double begin, fs::path directory,
-         std::shared_ptr<const core::Ranks> ranks)
-      : CaseRun(options, at_time(course.scene, course.switches, begin), std::move(directory), std::move(ranks), "dem"),
-        model_(scene_, timers_, ranks_),
-        course_(course),
-        next_switch_(multiscale::next_switch(course.switches, begin)) {
-    case_ = course_.scene;
+  DemRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
+      : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks), "dem"),
+        model_(scene_, timers_, ranks_) {
     std::optional<dem::RunStart> start;
     dem::FluidTotals fluid;
     prepare(
@@ -60,9 +47,6 @@ class DemRun final : public CaseRun {
     observers_.emplace(model_, scene_, directory_, start, fluid, resume_time);
   }
 
-  /// For the part that follows.
-  [[nodiscard]] const Course& course() const { return course_; }
-
  private:
   core::Simulation& simulation() override { return model_; }
 
@@ -82,27 +66,7 @@ class DemRun final : public CaseRun {
   bool after_step() override {
     observers_->see_step();
     watch(monitor_.get(), model_);
-    if (monitor_) plan_switches();
-    return !switches() && (model_.steps() % 64 != 0 || CaseRun::after_step());
-  }
-
-  [[nodiscard]] bool switches() const override { return model_.time() >= next_switch_; }
-
-  /// What the monitor wants is on from the next output time on.
-  void plan_switches() {
-    for (; planned_ < monitor_->wanted().size(); ++planned_) {
-      const std::string& effect = monitor_->wanted()[planned_];
-      const double time = core::next_multiple(*scene_.output.every, model_.time());
-      if (std::isinf(time)) continue;  // there is no output time before the end
-      course_.switches.push_back({effect, time});
-      if (!options_.quiet)
-        core::print(stderr, "{} will be on from t = {:.4g} s (chooser.monitor = \"enable\")\n", effect, time);
-      next_switch_ = std::min(next_switch_, time);
-    }
-  }
-
-  void add_switches(core::Checkpoint& checkpoint) const override {
-    if (!course_.switches.empty()) checkpoint.texts["switch_on"] = text_of(course_.switches);
+    return model_.steps() % 64 != 0 || CaseRun::after_step();
   }
 
   core::ProgressLine line() override {
@@ -124,6 +88,7 @@ class DemRun final : public CaseRun {
   }
 
   std::string advice() override {
+    if (monitor_ && !monitor_->warnings().empty()) return advice_of(*monitor_);
     return fmt::format("the step was {:.3g} s, limited by {}", model_.limits().dt, model_.limits().limited_by);
   }
 
@@ -163,7 +128,6 @@ class DemRun final : public CaseRun {
     if (model_.outflow() != nullptr) write_outflow(json, *model_.outflow());
     write_left_out(json, left_out_);
     if (promise) write_neglected(json, *promise);
-    if (!course_.switches.empty()) write_switches(json);
     json.key("warnings").begin_array();
     for (const std::string& line : exceeded_lines(watched)) json.value(line);
     for (const std::string& line : warnings_before()) json.value(line);
@@ -172,13 +136,6 @@ class DemRun final : public CaseRun {
       for (const std::string& line : monitor_->warnings()) json.value(line);
     json.end_array().end_object();
     return json.text();
-  }
-
-  void write_switches(core::Json& json) const {
-    json.key("switched_on").begin_array();
-    for (const Switch& one : course_.switches)
-      json.begin_object().member("effect", one.effect).member("from_s", one.time).end_object();
-    json.end_array();
   }
 
   /// Collective.
@@ -260,50 +217,21 @@ class DemRun final : public CaseRun {
   dem::Work work_;
   std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
   double cpu_ = 0;
-  Course course_;
-  double next_switch_;       ///< s
-  std::size_t planned_ = 0;  ///< of what the monitor wants
 };
-
-/// Of a run that goes on: its time, s, and what its monitor has switched on or is about to.
-double restore_course(const fs::path& directory, Course& course, const core::Ranks* ranks) {
-  std::string text;
-  std::array<double, 2> head{};
-  core::on_first(ranks, [&] {
-    const core::Checkpoint checkpoint = read_checkpoint_of(directory, course.scene);
-    if (const auto found = checkpoint.texts.find("switch_on"); found != checkpoint.texts.end()) text = found->second;
-    for (const Switch& one : switches_of(text))
-      if (!can_be_switched(one.effect) || !(one.time >= 0))
-        core::refuse_checkpoint(fmt::format("it switches {} on at {:g} s", one.effect, one.time));
-    head = {checkpoint.time("time"), double(text.size())};
-  });
-  core::take_from_first(ranks, head);
-  std::vector<double> letters(text.begin(), text.end());
-  letters.resize(std::size_t(head[1]));
-  core::take_from_first(ranks, letters);
-  course.switches = switches_of(std::string(letters.begin(), letters.end()));
-  return head[0];
-}
 
 }  // namespace
 
 void run_dem(const RunOptions& options) {
-  core::Scene scene = read_scene(options);
+  const core::Scene scene = read_scene(options);
   dem::refuse_continuum_scene(scene);
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
   core::on_first(ranks.get(), [&] { taken = take_directory(directory, options); });
-  Course course{std::move(scene), {}};
-  RunOptions now = options;
-  for (bool ended = false; !ended; now.resume = true) {
-    const double begin = now.resume ? restore_course(directory, course, ranks.get()) : 0;
-    std::optional<DemRun> run;
-    start_run({directory, course.scene, "dem", ranks.get(), now.resume},
-              [&] { run.emplace(now, course, begin, directory, ranks); });
-    ended = run->run();
-    course = run->course();
-  }
+  std::optional<DemRun> run;
+  start_run({directory, scene, "dem", ranks.get(), options.resume},
+            [&] { run.emplace(options, scene, directory, ranks); });
+  run->run();
 }
 
 }  // namespace polybed::multiscale

@@ -4,6 +4,7 @@
 #include "core/print.hpp"
 #include "multiscale/effects/audit.hpp"
 #include "multiscale/effects/bench.hpp"
+#include "multiscale/effects/choice.hpp"
 #include "multiscale/effects/effects_text.hpp"
 #include "multiscale/scene_rules.hpp"
 
@@ -11,7 +12,7 @@ namespace polybed::multiscale {
 
 void run_effects(const CaseOptions& options) {
   const core::Scene scene = read_case(options.case_path, options.overrides);
-  const Choice choice = choose(scene);
+  const relevance::Choice choice = choose(scene);
   if (!options.json) return core::print("{}", effects_table(scene, choice));
   core::Json json;
   json.begin_object();

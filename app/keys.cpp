@@ -10,6 +10,7 @@
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/scene_rules.hpp"
 
 namespace polybed::multiscale {
 
@@ -120,6 +121,12 @@ void run_list(bool json) {
       out.key("laws").begin_array();
       for (const core::Law& law : role.laws)
         out.begin_object().member("law", law.name).member("help", law.help).end_object();
+      out.end_array().end_object();
+    }
+    out.end_array().key("rules").begin_array();
+    for (const core::Rule& rule : scene_rules()) {
+      out.begin_object().member("message", rule.message).key("keys").begin_array();
+      for (const std::string& key : rule.keys) out.value(key);
       out.end_array().end_object();
     }
     out.end_array().end_object();

@@ -7,6 +7,7 @@
 #include "core/output/files.hpp"
 #include "core/print.hpp"
 #include "multiscale/effects/choice.hpp"
+#include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {
 
@@ -36,6 +37,17 @@ std::string physics_hash(core::Scene scene) {
   scene.run.until = 1;
   scene.output = {};
   return core::text_hash(core::resolved_case(scene));
+}
+
+/// A scene without the effects that the case of a checkpoint has not and that may be added to its run.
+core::Scene without_added(core::Scene scene, const std::string& before, const std::string& model) {
+  const core::Scene then = core::parse_case(before, "checkpoint", {}, all_roles(), size_classes);
+  std::erase_if(scene.effects, [&](const auto& entry) {
+    const relevance::MenuEntry* effect = find_entry(entry.first);
+    return !then.effects.contains(entry.first) && effect != nullptr && can_be_added(*effect, model);
+  });
+  scene.chooser = then.chooser;  // it has chosen: what it chose is compared
+  return scene;
 }
 
 }  // namespace
@@ -78,12 +90,16 @@ bool has_checkpoint(const fs::path& directory) {
 
 fs::path checkpoint_path(const fs::path& directory) { return directory / "checkpoint.h5"; }
 
-core::Checkpoint read_checkpoint_of(const fs::path& directory, const core::Scene& scene) {
+core::Checkpoint read_checkpoint_of(const fs::path& directory, const core::Scene& scene, const std::string& model) {
   core::Checkpoint checkpoint = read_newest_checkpoint(directory);
-  const auto hash = checkpoint.texts.find("physics_hash");
-  if (hash == checkpoint.texts.end() || hash->second != physics_hash(scene))
-    throw core::CaseError(
-        fmt::format("{}: the checkpoint is of another case; only run and output times may change", directory.string()));
+  const auto hash = checkpoint.texts.find("physics_hash"), text = checkpoint.texts.find("case");
+  const auto end = checkpoint.texts.end();
+  const bool same = hash != end && hash->second == physics_hash(scene);
+  if (!same && (hash == end || text == end || hash->second != physics_hash(without_added(scene, text->second, model))))
+    throw core::CaseError(fmt::format(
+        "{}: the checkpoint is of another case; only run and output times may change, and forces on particles may be "
+        "added (slot Force of polybed list)",
+        directory.string()));
   return checkpoint;
 }
 

@@ -34,8 +34,10 @@ namespace polybed::multiscale {
 [[nodiscard]] std::filesystem::path checkpoint_path(const std::filesystem::path& directory);
 
 /// The checkpoint to go on from. One that is damaged gives way to the one before it, under its name, so that
-/// the next one written does not push that out. Throws if it is of another case.
-[[nodiscard]] core::Checkpoint read_checkpoint_of(const std::filesystem::path& directory, const core::Scene& scene);
+/// the next one written does not push that out. Throws if it is of another case; forces on particles may be added.
+/// \param model  "tfm" or "dem"
+[[nodiscard]] core::Checkpoint read_checkpoint_of(const std::filesystem::path& directory, const core::Scene& scene,
+                                                  const std::string& model);
 
 /// Says in a checkpoint of which case it is.
 void add_case(core::Checkpoint& checkpoint, const core::Scene& scene);

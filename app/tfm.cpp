@@ -98,6 +98,7 @@ class TfmRun final : public CaseRun {
   }
 
   std::string advice() override {
+    if (monitor_ && !monitor_->warnings().empty()) return advice_of(*monitor_);
     std::string steps;
     for (const tfm::StepLine& step : observers_->last_steps())
       steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
@@ -174,7 +175,7 @@ void run_tfm(const RunOptions& options) {
   std::optional<TfmRun> run;
   start_run({directory, scene, "tfm", ranks.get(), options.resume},
             [&] { run.emplace(options, scene, directory, ranks); });
-  (void)run->run();
+  run->run();
 }
 
 }  // namespace polybed::multiscale

@@ -1,5 +1,5 @@
-// The effects of the particle model, by the slot they fill, and the registry that makes them. What a scene does not
-// call for is not made: it has no memory in a contact, no loop and no reach.
+// The effects of pairs of particles, by the slot they fill. What a scene does not call for is not made: it has no
+// memory in a contact, no loop and no reach.
 #pragma once
 
 #include <algorithm>
@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/case/registry.hpp"
-#include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
 #include "dem/contacts/batch.hpp"
 #include "dem/contacts/materials.hpp"
+#include "dem/effects/maker.hpp"
 
 namespace polybed::dem {
 
@@ -97,21 +96,15 @@ struct PairLaws {
   [[nodiscard]] double reach() const { return std::max(cohesion ? cohesion->reach() : 0, film ? film->reach() : 0); }
   /// Of what ends with the overlap, the first in a contact's memory.
   [[nodiscard]] int contact_memory() const {
-    return normal->memory_size() + (tangential ? tangential->memory_size() : 0) +
+    return (normal ? normal->memory_size() : 0) + (tangential ? tangential->memory_size() : 0) +
            (rolling ? rolling->memory_size() : 0);
   }
   [[nodiscard]] int memory_size() const { return contact_memory() + (cohesion ? cohesion->memory_size() : 0); }
 };
 
-/// What the laws of particles that a scene names lack: numbers, other roles, a fluid. Laws that are "auto" lack nothing
-/// yet.
-[[nodiscard]] std::vector<core::SceneFault> effect_faults(const core::Scene& scene);
-
-/// The laws that a scene names; throws core::CaseError for what contradicts itself or lacks a number. Each law is given
+/// The laws that a scene names; throws core::CaseError for a scene that breaks a rule of the effects. Each law is given
 /// its place in the memory of a contact: that of the normal force first, then friction's, rolling's, cohesion's.
-[[nodiscard]] PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials);
-
-/// The roles that act in the particle model, with their laws.
-[[nodiscard]] std::vector<core::Role> roles();
+[[nodiscard]] PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials,
+                                      const std::vector<const Maker*>& list = effects());
 
 }  // namespace polybed::dem

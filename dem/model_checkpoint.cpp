@@ -292,7 +292,7 @@ void Model::restore_sides(const core::Checkpoint& checkpoint, std::size_t count)
   core::on_first(ranks_.get(), [&] {
     const auto found = checkpoint.arrays.find("fluid_sides");
     if (found == checkpoint.arrays.end() || found->second.size() != kept.numbers.size())
-      throw core::FileError("the checkpoint is of other effects.lift, magnus, history or brownian");
+      throw core::FileError("the checkpoint lacks what a force on particles keeps of them: it is of other [effects]");
     kept.numbers = found->second;
   });
   core::take_from_first(ranks_.get(), kept.numbers);

@@ -8,8 +8,8 @@
 
 #include "closures/sphere.hpp"
 #include "core/case/particle_list.hpp"
-#include "core/error.hpp"
 #include "core/numerics/random.hpp"
+#include "core/start_error.hpp"
 #include "dem/relaxation.hpp"
 
 namespace polybed::dem {
@@ -67,7 +67,7 @@ std::vector<Layer> layers(const core::Scene& scene, const Materials& materials, 
   double sum = std::accumulate(height.begin(), height.end(), 0.0);
   if (scene.bed.start.kind == core::StartKind::random) sum = box.size[1];
   if (sum > box.size[1])
-    throw core::CaseError(fmt::format(
+    throw core::StartError(fmt::format(
         "column.size: the particles fill {:.4g} m of its height at a solids fraction of {:.3g}, which is more than it "
         "has, {:.4g} m",
         sum, start_fraction(scene), box.size[1]));

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/start_error.hpp"
 #include "dem/contacts/neighbours.hpp"
 
 namespace polybed::dem {
@@ -134,13 +134,13 @@ void push_apart(std::vector<Particle>& particles, const std::vector<Vector>& low
   for (std::size_t i = 0; i < particles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       if (!box.periodic[k] && high[i][k] - low[i][k] < 2 * particles[i].place.radius)
-        throw core::CaseError(fmt::format("column.size: {:.4g} m has no room for a particle of diameter {:.4g} m",
-                                          high[i][k] - low[i][k], 2 * particles[i].place.radius));
+        throw core::StartError(fmt::format("column.size: {:.4g} m has no room for a particle of diameter {:.4g} m",
+                                           high[i][k] - low[i][k], 2 * particles[i].place.radius));
   Relaxation relaxation(particles, low, high, box, materials);
   for (const double size : {0.7, 0.8, 0.9, 0.95}) relaxation.push(size, 20);
   const double worst = relaxation.push(1, 5000);
   if (worst >= left_over)
-    throw core::CaseError(fmt::format(
+    throw core::StartError(fmt::format(
         "bed: the particles do not fit: some still overlap by {:.2g} of their radius; give the bed more room "
         "(column.size, bed.start_solids_fraction)",
         worst));

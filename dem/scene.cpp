@@ -9,9 +9,10 @@
 #include "closures/contact_pair.hpp"
 #include "closures/drag_turton_levenspiel.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "core/error.hpp"
+#include "core/case/resolve_particles.hpp"
+#include "core/start_error.hpp"
 #include "dem/packing.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
 
@@ -29,7 +30,7 @@ constexpr double most_walls = 3;  ///< that a particle touches at once
 /// Speed that a fluid lets particles have: twice the terminal velocity of the fastest, or what they start with, and the
 /// inflow; or that of a channel. \param first  speed at the start, m/s
 double speed_in_fluid(const core::Scene& scene, double first) {
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const auto drag = [law = closures::DragTurtonLevenspiel{}](double eps, double re) { return law(eps, re).f; };
   double fastest = first, inflow = 0;
   for (const core::Species& s : scene.species)
@@ -121,7 +122,7 @@ Speeds expected_speeds(const core::Scene& scene, const Materials& materials, con
   const Speeds known = known_speeds(scene, materials, box, start);
   if (known.greatest > 0) return known;
   if (!scene.dem.fixed_step)
-    throw core::CaseError(
+    throw core::StartError(
         "dem.greatest_speed: without gravity, shear or particles that move nothing tells how fast they will be; give "
         "the greatest speed expected, which sets the time step");
   double least = std::numeric_limits<double>::infinity();
@@ -163,7 +164,7 @@ void require_room_for_images(const Box& box, double greatest_diameter, double re
   constexpr std::array<const char*, 3> names = {"width", "height", "depth"};
   for (std::size_t k = 0; k < 3; ++k)
     if (box.periodic[k] && box.size[k] < least * (1 - 1e-12))
-      throw core::CaseError(
+      throw core::StartError(
           fmt::format(
               "column.{}: {:.6g} m is periodic and must be at least {:.6g} m, two of the largest particles{}{}, "
               "or a particle touches another and its image",

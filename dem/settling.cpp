@@ -11,10 +11,11 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/numerics/ranks.hpp"
+#include "core/start_error.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "dem/packing.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
 
@@ -56,7 +57,7 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
   const double height = start_height(scene, materials, box), g = scene.column.gravity;
   const double dry = until_rest * std::sqrt(2 * height / g);
   if (!scene.fluid.present()) return dry;
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   double slowest = std::numeric_limits<double>::infinity(), solids = 0;
   const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);
   for (std::size_t j = 0; j < numbers.size(); ++j) {
@@ -73,7 +74,7 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
 
 core::Checkpoint settled(const core::Scene& scene, double step, const std::shared_ptr<const core::Ranks>& ranks) {
   if (!(scene.column.gravity > 0))
-    throw core::CaseError(
+    throw core::StartError(
         "bed.start = \"settled\": without column.gravity nothing settles; use \"random\" or \"mixed\"");
   core::Timers timers;
   Model model(falling(scene, step), timers, ranks);

@@ -13,8 +13,8 @@
 #include "fluid/density.hpp"
 #include "fluid/fluid_mass.hpp"
 #include "fluid/pressure.hpp"
-#include "fluid/properties.hpp"
 #include "fluid/viscous_stress.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::fluid {
 
@@ -33,7 +33,7 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
     : grid_(grid),
       boundaries_(grid, scene.column.closed),
       inlet_(grid, scene),
-      constants_(fluid_constants(scene.fluid)),
+      constants_(relevance::fluid_constants(scene.fluid)),
       gravity_(scene.column.gravity),
       tolerance_(tolerance),
       viscous_(core::law_of(scene, "fluid_stress") != "none"),

@@ -23,6 +23,7 @@
 #include "fluid/compressible.hpp"
 #include "fluid/inlet.hpp"
 #include "fluid/particle_phase.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::fluid {
 
@@ -53,7 +54,7 @@ class Flow {
   [[nodiscard]] const core::Grid& grid() const { return grid_; }
   [[nodiscard]] const Boundaries& boundaries() const { return boundaries_; }
   [[nodiscard]] const Inlet& inlet() const { return inlet_; }
-  [[nodiscard]] const FluidConstants& constants() const { return constants_; }
+  [[nodiscard]] const relevance::FluidConstants& constants() const { return constants_; }
   /// G, Pa/m, on all faces: on those that are held that of their neighbour inside.
   [[nodiscard]] const core::FaceField& gradient() const { return gradient_; }
   /// dG and dU of the last step, and dt (U.grad)U in it, m/s.
@@ -85,7 +86,7 @@ class Flow {
   core::Grid grid_;
   Boundaries boundaries_;
   Inlet inlet_;
-  FluidConstants constants_;
+  relevance::FluidConstants constants_;
   double gravity_, tolerance_;   ///< m/s2; of the pressure's residual
   bool viscous_;                 ///< with a stress of its own
   bool conservative_, limited_;  ///< form of convection; of second order, with a limiter

@@ -1,15 +1,9 @@
-// The averaged fluid: its fields and its constants.
+// The averaged fluid: its fields.
 #pragma once
 
 #include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
-
-/// Density and viscosity of the fluid.
-struct FluidConstants {
-  double density = 0;    ///< rho_f, kg/m3; of a compressible fluid rho_0, that at the outlet's pressure
-  double viscosity = 0;  ///< mu, Pa s
-};
 
 /// Least voidage that a velocity is divided by; below it the fluid's velocity is understated, not singular.
 constexpr double voidage_floor = 0.05;

@@ -11,7 +11,7 @@
 #include "closures/relevance.hpp"
 #include "closures/stress_reference.hpp"
 #include "core/error.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::fluid {
 
@@ -26,7 +26,7 @@ closures::DragLaw law_of_scene(const core::Scene& scene) {
 
 /// Voidage at which drag carries the buoyant weight of one species alone, in [0.4, 0.99].
 double floating_voidage(const core::Scene& scene, const closures::DragLaw& law, const core::Species& species,
-                        const FluidConstants& fluid, double velocity) {
+                        const relevance::FluidConstants& fluid, double velocity) {
   const closures::CarriedBed bed{species.diameter, std::abs(species.density - fluid.density), fluid.density,
                                  fluid.viscosity, scene.column.gravity};
   const auto f = [&](double eps, double reynolds) { return closures::pure_drag_at(law, eps, reynolds); };
@@ -43,7 +43,7 @@ double greatest_velocity(const core::Scene& scene) {
 
 RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, double velocity, double voidage) {
   const core::Species& s = scene.species[species];
-  const FluidConstants fluid = fluid_constants(scene.fluid);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const closures::DragLaw law = law_of_scene(scene);
   RegimeNumbers n;
   n.species = s.name;

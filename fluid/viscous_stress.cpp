@@ -32,7 +32,7 @@ void add_with(const Density& density, const core::Grid& grid, const Boundaries& 
 }  // namespace
 
 void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
-                        const FluidConstants& constants, core::FaceField& acceleration) {
+                        const relevance::FluidConstants& constants, core::FaceField& acceleration) {
   with_density(fluid, constants.density,
                [&](const auto& local) { add_with(local, grid, boundaries, fluid, constants.viscosity, acceleration); });
 }

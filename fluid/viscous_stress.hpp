@@ -3,6 +3,7 @@
 
 #include "fluid/boundaries.hpp"
 #include "fluid/fluid_state.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::fluid {
 
@@ -11,6 +12,6 @@ namespace polybed::fluid {
 /// cells around. Walls act through the ghosts of the velocity.
 /// \param fluid  velocity and voidage, ghosts filled
 void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
-                        const FluidConstants& constants, core::FaceField& acceleration);
+                        const relevance::FluidConstants& constants, core::FaceField& acceleration);
 
 }  // namespace polybed::fluid

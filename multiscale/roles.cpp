@@ -1,19 +1,36 @@
 #include "multiscale/roles.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "closures/size_classes.hpp"
-#include "dem/effects.hpp"
-#include "tfm/effects.hpp"
+#include "dem/effects/maker.hpp"
+#include "tfm/effects/maker.hpp"
 
 namespace polybed::multiscale {
 
-std::vector<core::Role> all_roles() {
-  std::vector<core::Role> roles = tfm::roles();
-  // One case file describes a scene for both models, so a case may say how its particles touch.
-  for (core::Role& role : dem::roles()) roles.push_back(std::move(role));
-  return roles;
+const relevance::Menu& menu() {
+  static const relevance::Menu all = [] {
+    relevance::Menu both;
+    for (const tfm::Maker* one : tfm::effects()) relevance::add(both, *one->effect, "tfm", one->slot);
+    // One case file describes a scene for both models, so a case may say how its particles touch.
+    for (const dem::Maker* one : dem::effects()) relevance::add(both, *one->effect, "dem", one->slot);
+    return both;
+  }();
+  return all;
 }
+
+const relevance::MenuEntry* find_entry(const std::string& role) {
+  const auto found = std::find_if(menu().begin(), menu().end(),
+                                  [&](const relevance::MenuEntry& entry) { return entry.effect->role == role; });
+  return found == menu().end() ? nullptr : &*found;
+}
+
+bool can_be_added(const relevance::MenuEntry& entry, const std::string& model) {
+  return entry.slot == "Force" && entry.models.find(model) != std::string::npos;
+}
+
+std::vector<core::Role> all_roles() { return relevance::roles_of(menu()); }
 
 std::vector<std::pair<double, double>> size_classes(const core::SizeDistribution& given) {
   std::vector<closures::SizeClass> classes;

@@ -1,14 +1,27 @@
 // What a case file may name that the models know: all roles of [effects], and distributions of sizes.
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/case/registry.hpp"
 #include "core/case/size_classes.hpp"
+#include "relevance/effect.hpp"
 
 namespace polybed::multiscale {
 
-/// The roles of the continuum model, then those that act between particles alone.
+/// The effects of the continuum model, then those of the particle model alone.
+[[nodiscard]] const relevance::Menu& menu();
+
+/// The entry of a role; null if there is none.
+[[nodiscard]] const relevance::MenuEntry* find_entry(const std::string& role);
+
+/// Whether a run of a model may go on from a checkpoint of one without the effect: a force on particles beside their
+/// drag. The model refuses one that keeps something of the past.
+[[nodiscard]] bool can_be_added(const relevance::MenuEntry& entry, const std::string& model);
+
+/// Their roles.
 [[nodiscard]] std::vector<core::Role> all_roles();
 
 /// How a distribution of sizes becomes classes: by its moments, closures/size_classes.hpp.

@@ -4,44 +4,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "closures/max_packing.hpp"
 #include "closures/sphere.hpp"
 #include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "dem/effects.hpp"
-#include "fluid/gas_slip.hpp"
-#include "fluid/properties.hpp"
-#include "multiscale/effects/conflicts.hpp"
+#include "dem/rules.hpp"
 #include "multiscale/roles.hpp"
-#include "tfm/effects.hpp"
-#include "tfm/packing_limit.hpp"
+#include "relevance/fluid_properties.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::multiscale {
 
 namespace {
 
-using core::SceneFault;
-using Faults = std::vector<SceneFault>;
+using core::Broken;
 
 const double densest_of_one_size = std::numbers::pi / std::sqrt(18.0);  ///< spheres in a crystal
 
-void add_fluid(const core::Scene& scene, Faults& faults) {
-  if (!scene.fluid.present()) return;
+Broken fluid_unknown(const core::Scene& scene) {
+  if (!scene.fluid.present()) return {};
   try {
-    (void)fluid::fluid_constants(scene.fluid);
+    (void)relevance::fluid_constants(scene.fluid);
   } catch (const core::CaseError& error) {
-    faults.push_back({"fluid.name", {"fluid.temperature", "fluid.density", "fluid.viscosity"}, error.what()});
-    return;
+    return Broken({error.what()});
   }
-  if (core::law_of(scene, "gas_slip") == core::automatic) return;
-  try {
-    (void)fluid::slip_divisors(scene, {});
-  } catch (const core::CaseError& error) {
-    faults.push_back({"effects.gas_slip", {"fluid."}, error.what()});
+  return {};
+}
+
+/// Beyond what is wrong at the temperature of the case.
+Broken fluid_unknown_in_range(const core::Scene& scene) {
+  if (scene.chooser.temperature_range.empty() || fluid_unknown(scene)) return {};
+  for (const double kelvin : scene.chooser.temperature_range) {
+    core::Scene there = scene;
+    there.fluid.temperature = kelvin;
+    if (const Broken broken = fluid_unknown(there)) return broken;
   }
+  return {};
 }
 
 bool shares_are_known(const core::Scene& scene) {
@@ -69,39 +69,39 @@ double share_of_column(const core::Scene& scene) {
   return volume / (size[0] * size[1] * size[2]);
 }
 
-/// Solids at the start against the greatest packing of the two-fluid model, where the case gives it as a number: a run
-/// stops where they lie above it by as much.
-void add_start_packing(const core::Scene& scene, Faults& faults) {
-  const core::Bed& bed = scene.bed;
-  const double* given = std::get_if<double>(&scene.tfm.max_packing);
-  if (core::law_of(scene, "solids_stress") == "none" || given == nullptr) return;
-  if (bed.start_solids_fraction - *given <= tfm::most_above_packing) return;
-  faults.push_back(
-      {"tfm.max_packing",
-       {"bed.solids_fraction", "bed.start_solids_fraction", "bed.start"},
-       fmt::format("tfm.max_packing = {}: the bed at its start, with a solids fraction of {:.4g}, lies more "
-                   "than {:g} above; lower bed.start_solids_fraction",
-                   *given, bed.start_solids_fraction, tfm::most_above_packing)});
+Broken denser_than_spheres_pack(const core::Scene& scene) {
+  const double densest = shares_are_known(scene) ? densest_packing(scene) : 1;
+  if (scene.bed.solids_fraction <= densest) return {};
+  return Broken({fmt::format("{}", scene.bed.solids_fraction), fmt::format("{:.3g}", densest)});
 }
 
-void add_packing(const core::Scene& scene, Faults& faults) {
-  if (!shares_are_known(scene)) return;
-  const std::vector<std::string> sizes{"species.diameter", "species.max_packing", "bed.volume_share", "bed.particles"};
-  const double densest = densest_packing(scene);
-  if (scene.bed.solids_fraction > densest)
-    faults.push_back({"bed.solids_fraction", sizes,
-                      fmt::format("bed.solids_fraction = {}: spheres of these sizes fill at most {:.3g} of the volume, "
-                                  "and about 0.6 when they settle",
-                                  scene.bed.solids_fraction, densest)});
-  if (scene.bed.start.kind == core::StartKind::random && share_of_column(scene) > densest)
-    faults.push_back(
-        {"bed.start",
-         {"species.diameter", "bed.volume_share", "bed.particles", "column.", "dem.skin", "bed.static_height",
-          "bed.solids_fraction"},
-         fmt::format("bed.start = \"random\": the particles would fill {:.3g} of the column, spheres of these "
-                     "sizes fill at most {:.3g}: enlarge column.size, or take fewer",
-                     share_of_column(scene), densest)});
-  add_start_packing(scene, faults);
+Broken more_than_the_column_takes(const core::Scene& scene) {
+  if (!shares_are_known(scene) || scene.bed.start.kind != core::StartKind::random) return {};
+  const double densest = densest_packing(scene), share = share_of_column(scene);
+  return share > densest ? Broken({fmt::format("{:.3g}", share), fmt::format("{:.3g}", densest)}) : Broken();
+}
+
+/// Of the fluid and the bed, whatever effects there are.
+std::vector<core::Rule> scene_rules_of_both() {
+  return {{{"fluid.name", "fluid.temperature", "fluid.density", "fluid.viscosity"}, "{}", fluid_unknown},
+          {{"chooser.temperature_range", "fluid.name", "fluid.temperature", "fluid.density", "fluid.viscosity"},
+           "chooser.temperature_range: {}",
+           fluid_unknown_in_range},
+          {{"chooser.temperature_range", "fluid.name", "fluid.density", "fluid.viscosity"},
+           "chooser.temperature_range cannot act: fluid.density and fluid.viscosity are given as numbers",
+           [](const core::Scene& scene) {
+             return core::broken_if(!scene.chooser.temperature_range.empty() && scene.fluid.present() &&
+                                    scene.fluid.density && scene.fluid.viscosity);
+           }},
+          {{"bed.solids_fraction", "species.diameter", "species.max_packing", "bed.volume_share", "bed.particles"},
+           "bed.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they "
+           "settle",
+           denser_than_spheres_pack},
+          {{"bed.start", "species.diameter", "bed.volume_share", "bed.particles", "column.", "dem.skin",
+            "bed.static_height", "bed.solids_fraction"},
+           "bed.start = \"random\": the particles would fill {} of the column, spheres of these sizes fill at most {}: "
+           "enlarge column.size, or take fewer",
+           more_than_the_column_takes}};
 }
 
 /// The least velocity of a table, m/s.
@@ -123,13 +123,14 @@ bool flows_in(const core::Scene& scene) {
 
 }  // namespace
 
-std::vector<core::SceneFault> scene_faults(const core::Scene& scene) {
-  Faults faults = role_conflicts(scene);
-  for (const auto& of_model : {dem::effect_faults(scene), tfm::effect_faults(scene)})
-    faults.insert(faults.end(), of_model.begin(), of_model.end());
-  add_fluid(scene, faults);
-  add_packing(scene, faults);
-  return faults;
+const std::vector<core::Rule>& scene_rules() {
+  static const std::vector<core::Rule> all = [] {
+    std::vector<core::Rule> rules = relevance::rules_of(menu());
+    for (const auto& more : {dem::key_rules(), tfm::key_rules(), scene_rules_of_both()})
+      rules.insert(rules.end(), more.begin(), more.end());
+    return rules;
+  }();
+  return all;
 }
 
 std::vector<std::string> scene_warnings(const core::Scene& scene) {
@@ -146,7 +147,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
     drawn(fmt::format("superficial_velocity of [[jet]] number {}", n + 1),
           least_velocity(scene.jets[n].superficial_velocity));
   if (!scene.fluid.present() || !(scene.column.gravity > 0) || !flows_in(scene)) return warnings;
-  const double density = fluid::fluid_constants(scene.fluid).density;
+  const double density = relevance::fluid_constants(scene.fluid).density;
   for (const core::Species& species : scene.species)
     if (species.density < density)
       warnings.push_back(
@@ -158,7 +159,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
 }
 
 core::Scene read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return core::read_case(path, overrides, all_roles(), size_classes, scene_faults);
+  return core::read_case(path, overrides, all_roles(), size_classes, scene_rules());
 }
 
 }  // namespace polybed::multiscale

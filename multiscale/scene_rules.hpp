@@ -10,15 +10,15 @@
 
 namespace polybed::multiscale {
 
-/// Everything in a scene that contradicts itself or lacks a number: roles against roles, what effects need, the
-/// properties of the fluid, a bed denser than spheres pack. The rule of the case file.
-[[nodiscard]] std::vector<core::SceneFault> scene_faults(const core::Scene& scene);
+/// All that a scene must satisfy beyond its single keys: what effects need and exclude, what the models ask of it, the
+/// properties of the fluid, a bed no denser than spheres pack.
+[[nodiscard]] const std::vector<core::Rule>& scene_rules();
 
 /// One line for each thing that can be computed and is rarely meant: an inlet that draws fluid out, a species that
-/// floats. \param scene  without faults
+/// floats. \param scene  that keeps the rules
 [[nodiscard]] std::vector<std::string> scene_warnings(const core::Scene& scene);
 
-/// A case with all that is wrong with it reported at once: core::read_case with the roles, the classes and the rule of
+/// A case with all that is wrong with it reported at once: core::read_case with the roles, the classes and the rules of
 /// this program.
 [[nodiscard]] core::Scene read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides);
 

@@ -1,5 +1,5 @@
-// The effects of the continuum model, by the slot they fill in the equations, and the registry that makes them. What a
-// scene does not call for is not made: it has no fields, no timer and no branch in a loop.
+// The effects of the continuum model, by the slot they fill in the equations. What a scene does not call for is not
+// made: it has no fields, no timer and no branch in a loop.
 #pragma once
 
 #include <cstdint>
@@ -107,15 +107,18 @@ struct Effects {
   std::vector<std::string> warnings;                  ///< where the scene is not what an effect was measured for
 };
 
-/// What the laws of the continuum that a scene names lack: other roles, numbers. Laws that are "auto" lack nothing yet.
-[[nodiscard]] std::vector<core::SceneFault> effect_faults(const core::Scene& scene);
+struct Maker;  // tfm/effects/maker.hpp
 
-/// Makes the effects that a scene names and the fields they own; throws core::CaseError for a law that the
-/// continuum model lacks.
+/// All effects of this model, in the order in which they are made and listed.
+[[nodiscard]] const std::vector<const Maker*>& effects();
+
+/// What [effects] may name, and what the effects of a list and the keys of [tfm] require.
+[[nodiscard]] std::vector<core::Role> roles();
+[[nodiscard]] std::vector<core::Rule> rules(const std::vector<const Maker*>& list = effects());
+
+/// Makes the effects that a scene names and the fields they own; throws core::CaseError for a scene that breaks a rule
+/// of the effects, or a table that is of another regime.
 Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
-                     Fields& fields);
-
-/// The roles that act in the continuum model, with their laws.
-std::vector<core::Role> roles();
+                     Fields& fields, const std::vector<const Maker*>& list = effects());
 
 }  // namespace polybed::tfm

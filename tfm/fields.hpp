@@ -10,6 +10,7 @@
 #include "fluid/interphase.hpp"
 #include "fluid/momentum.hpp"
 #include "fluid/openings.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::tfm {
 
@@ -18,7 +19,7 @@ struct Constants {
   core::Grid grid;
   double gravity = 9.81;                 ///< m/s2, along `down`
   std::array<double, 3> down{0, -1, 0};  ///< unit vector on the axes; aslant in a column that leans
-  fluid::FluidConstants fluid;
+  relevance::FluidConstants fluid;
   std::vector<double> diameter;   ///< D_j, m
   std::vector<double> density;    ///< rho_j, kg/m3
   std::vector<double> bed_share;  ///< X_j: share of the species in the whole bed

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/error.hpp"
+#include "core/start_error.hpp"
 
 namespace polybed::tfm {
 
@@ -81,16 +81,17 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
   const core::Grid& grid = constants.grid;
   const double total = solids_height(bed), height = grid.spacing[1] * grid.column_cells(1);
   if (total > bed.start_solids_fraction * height * (1 + 1e-12))
-    throw core::CaseError(fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size",
-                                      total / bed.start_solids_fraction, height));
+    throw core::StartError(
+        fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size",
+                    total / bed.start_solids_fraction, height));
   std::vector<double> column;
   if (bed.start.kind == core::StartKind::settled) {
     if (stress == nullptr)
-      throw core::CaseError("bed.start = \"settled\" needs a solids_stress in [effects]: nothing else holds a bed up");
+      throw core::StartError("bed.start = \"settled\" needs a solids_stress in [effects]: nothing else holds a bed up");
     double excess = 0;
     for (std::size_t j = 0; j < constants.species(); ++j)
       excess += bed.volume_share[j] * (constants.density[j] - constants.fluid.density);
-    if (excess <= 0) throw core::CaseError("bed.start = \"settled\" needs solids heavier than the fluid");
+    if (excess <= 0) throw core::StartError("bed.start = \"settled\" needs solids heavier than the fluid");
     column = settled_column(total, *stress, excess * constants.gravity * grid.spacing[1], grid);
   } else {
     column = even_column(total, bed.start_solids_fraction, grid);

@@ -8,7 +8,8 @@
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/ranks.hpp"
-#include "fluid/properties.hpp"
+#include "core/start_error.hpp"
+#include "relevance/fluid_properties.hpp"
 #include "tfm/initial.hpp"
 #include "tfm/packing_limit.hpp"
 #include "tfm/particle_scene.hpp"
@@ -28,7 +29,7 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   constants.grid = core::grid_of(scene.column, ranks);
   constants.gravity = scene.column.gravity;
   constants.down = scene.column.down;
-  constants.fluid = fluid::fluid_constants(scene.fluid);
+  constants.fluid = relevance::fluid_constants(scene.fluid);
   constants.bed_share = scene.bed.volume_share;
   for (const core::Species& species : scene.species) {
     constants.diameter.push_back(species.diameter);
@@ -115,7 +116,7 @@ void Model::choose_integrator(const core::Scene& scene) {
   }
   constexpr double coarsest_implicit = 2e-3;
   if (integrator_kind_ == core::TfmIntegrator::implicit_steps && options_.rtol > coarsest_implicit)
-    throw core::CaseError(
+    throw core::StartError(
         fmt::format("tfm.rtol = {} with the implicit integrator: at most {} (its predictor jumps beyond packing)",
                     options_.rtol, coarsest_implicit));
 }

@@ -39,8 +39,8 @@ enum class Purpose { steady, transient };
 constexpr std::array<std::string_view, 2> names(Purpose) { return {"steady", "transient"}; }
 
 /// What follows when forces that were left out exceed the tolerance; automatic: warn where a role is "auto", else off.
-enum class MonitorMode { automatic, off, warn, stop, enable };
-constexpr std::array<std::string_view, 5> names(MonitorMode) { return {"auto", "off", "warn", "stop", "enable"}; }
+enum class MonitorMode { automatic, off, warn, stop };
+constexpr std::array<std::string_view, 4> names(MonitorMode) { return {"auto", "off", "warn", "stop"}; }
 
 enum class TfmIntegrator { automatic, explicit_steps, implicit_steps };
 constexpr std::array<std::string_view, 3> names(TfmIntegrator) { return {"auto", "explicit", "implicit"}; }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <map>
 
 #include "core/case/depth.hpp"
@@ -17,8 +18,8 @@ namespace {
 /// One reading of a case: the scene as it grows, and the problems found so far.
 class CaseReader {
  public:
-  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, const SceneRule& rule)
-      : name_(std::move(name)), roles_(roles), classes_(classes), rule_(rule), values_(name_) {}
+  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules)
+      : name_(std::move(name)), roles_(roles), classes_(classes), rules_(rules), values_(name_) {}
 
   void read(toml::table& root, std::span<const std::string> overrides);
   Scene finish();
@@ -26,6 +27,7 @@ class CaseReader {
  private:
   void read_table(const toml::table& table, const Table& known, std::size_t index);
   void read_entry(std::string_view table, const toml::key& name, const toml::node& node);
+  void spell_out_effects(toml::table& root) const;
   void read_effects(const toml::node& node);
   void read_key(const Key& key, std::size_t index, const toml::node& node);
   void check_given();
@@ -33,13 +35,15 @@ class CaseReader {
   void check_fluid();
   void check_sizes(const toml::table& species);
   void check_scene();
+  void judge(const Rule& rule);
+  void place(const CaseProblem& problem);
   void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message);
   void wrong_key(const toml::key& key, std::string_view table);
 
   std::string name_;
   std::span<const Role> roles_;
   const ClassRule& classes_;
-  const SceneRule& rule_;
+  std::span<const Rule> rules_;
   CaseValues values_;
   Scene scene_;
   std::map<std::string, toml::source_region> given_;  ///< the keys that the case sets, by path, and where
@@ -51,7 +55,12 @@ void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& n
   const std::size_t problems = values_.problems().size();
   const Value value = values_.read(key, node);
   if (!std::holds_alternative<std::monostate>(value)) key.set(scene_, index, value);
-  if (values_.problems().size() > problems) wrong_.add(key.path());
+  if (values_.problems().size() == problems) return;
+  wrong_.add(key.path());
+  if (key.path() == "chooser.monitor" && node.value_exact<std::string>() == "enable")
+    values_.problems().back().message +=
+        "; a run switches no effect on by itself any more: use \"stop\", then resume it with the effect on, "
+        "--resume --set effects.ROLE=LAW";
 }
 
 /// A table that cannot be read: none of its keys has a value.
@@ -124,13 +133,20 @@ void CaseReader::check_sizes(const toml::table& species) {
   if (kind == "sieves" && !has("sieves")) missing("species.sieves");
 }
 
+/// effects = "auto" is every role left to the chooser: as a table, so that a command line may set one of them.
+void CaseReader::spell_out_effects(toml::table& root) const {
+  const toml::node* effects = root.get("effects");
+  if (effects == nullptr || effects->value_exact<std::string>() != automatic) return;
+  const toml::source_region here = effects->source();
+  toml::table roles;
+  for (const Role& role : roles_) roles.insert(toml::key(role.name, here), automatic);
+  root.insert_or_assign(toml::key("effects", here), std::move(roles));
+}
+
 void CaseReader::read_effects(const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr) {
-    if (node.value_exact<std::string>() != automatic)
-      values_.add(node.source(), "effects: a table [effects] that names roles, or effects = \"auto\" at the top");
-    else
-      for (const Role& role : roles_) scene_.effects[role.name] = automatic;
+    values_.add(node.source(), "effects: a table [effects] that names roles, or effects = \"auto\" at the top");
     return;
   }
   for (const auto& [name, value] : *table) {
@@ -171,6 +187,7 @@ void CaseReader::read_entry(std::string_view table, const toml::key& name, const
 }
 
 void CaseReader::read(toml::table& root, std::span<const std::string> overrides) {
+  spell_out_effects(root);
   for (const std::string& given : overrides) apply_override(root, given, values_);
   scene_.overrides.assign(overrides.begin(), overrides.end());
   const Key& title = find_table("")->keys.front();
@@ -229,9 +246,8 @@ void CaseReader::check_given() {
 
 /// What the keys say of each other, as far as they are sound.
 void CaseReader::check_scene() {
-  std::vector<CaseProblem>& problems = values_.problems();
   const auto take = [&](const std::vector<CaseProblem>& more) {
-    problems.insert(problems.end(), more.begin(), more.end());
+    for (const CaseProblem& problem : more) place(problem);
     return !more.empty();
   };
   const bool one_size = std::all_of(scene_.species.begin(), scene_.species.end(),
@@ -242,13 +258,35 @@ void CaseReader::check_scene() {
       (!one_size && (!readable || take(expand_size_classes(scene_, classes_, name_)))))
     wrong_.add("species.diameter");
   take(resolve(scene_, name_, given_.contains("bed.particles"), wrong_));
-  if (!rule_) return;
-  for (const SceneFault& fault : rule_(scene_)) {
-    const auto sound = [&](const std::string& key) { return wrong_.sound(key); };
-    if (!sound(fault.key) || !std::all_of(fault.rests_on.begin(), fault.rests_on.end(), sound)) continue;
-    const auto place = given_.find(fault.key);
-    place == given_.end() ? values_.add(fault.message) : values_.add(place->second, fault.message);
+  for (const Rule& rule : rules_) judge(rule);
+}
+
+/// Adds a problem: one without a line at the first key of the case that its message names.
+void CaseReader::place(const CaseProblem& problem) {
+  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  std::size_t first = std::string::npos;
+  const toml::source_region* source = nullptr;
+  for (const auto& [path, region] : given_) {
+    const std::size_t at = problem.line > 0 ? std::string::npos : problem.message.find(path);
+    const bool many = is_array_of_tables(path.substr(0, path.find('.')));  // whose key may be that of another entry
+    if (at == std::string::npos || at >= first || many) continue;
+    const std::size_t end = at + path.size();
+    if (end < problem.message.size() && in_word(problem.message[end])) continue;
+    first = at;
+    source = &region;
   }
+  source == nullptr ? values_.problems().push_back(problem) : values_.add(*source, problem.message);
+}
+
+/// A rule whose keys are sound; it is reported at the first of them that the case gives.
+void CaseReader::judge(const Rule& rule) {
+  if (!std::all_of(rule.keys.begin(), rule.keys.end(), [&](const std::string& key) { return wrong_.sound(key); }))
+    return;
+  const std::string fault = rule.fault(scene_);
+  if (fault.empty()) return;
+  const auto is_given = [&](const std::string& key) { return given_.contains(key); };
+  const auto place = std::find_if(rule.keys.begin(), rule.keys.end(), is_given);
+  place == rule.keys.end() ? values_.add(fault) : values_.add(given_.at(*place), fault);
 }
 
 Scene CaseReader::finish() {
@@ -265,7 +303,7 @@ Scene CaseReader::finish() {
 }  // namespace
 
 Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                 std::span<const Role> roles, const ClassRule& classes, const SceneRule& rule) {
+                 std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules) {
   if (const auto problem = too_deep(text, name)) throw CaseError(std::vector{*problem});
   toml::table root;
   try {
@@ -276,17 +314,17 @@ Scene parse_case(std::string_view text, const std::string& name, std::span<const
     problem.push_back({name, int(at.line), int(at.column), std::string(error.description())});
     throw CaseError(problem);
   }
-  CaseReader reader(name, roles, classes, rule);
+  CaseReader reader(name, roles, classes, rules);
   reader.read(root, overrides);
   return reader.finish();
 }
 
 Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides, std::span<const Role> roles,
-                const ClassRule& classes, const SceneRule& rule) {
+                const ClassRule& classes, std::span<const Rule> rules) {
   constexpr std::size_t largest = 10'000'000;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw FileError(path.string() + " is a folder: name its case.toml");
-  return parse_case(read_text(path, largest), path.string(), overrides, roles, classes, rule);
+  return parse_case(read_text(path, largest), path.string(), overrides, roles, classes, rules);
 }
 
 }  // namespace polybed::core

@@ -22,13 +22,15 @@ namespace polybed::core {
 /// "species.fine.diameter=1 mm"
 /// \param roles      what [effects] may name
 /// \param classes    how a distribution of sizes becomes species; without it a case may have none
-/// \param rule       what the laws ask of a scene; its faults are reported together with all others
+/// \param rules      what a scene must satisfy beyond its single keys; reported together with all others
 [[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
-                              std::span<const Role> roles, const ClassRule& classes = {}, const SceneRule& rule = {});
+                              std::span<const Role> roles, const ClassRule& classes = {},
+                              std::span<const Rule> rules = {});
 
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                               std::span<const Role> roles, const ClassRule& classes = {}, const SceneRule& rule = {});
+                               std::span<const Role> roles, const ClassRule& classes = {},
+                               std::span<const Rule> rules = {});
 
 /// What the keys say of each other: sums, sizes, conflicts, a bed that does not fit. Fills in what follows
 /// from them (axes of the column, depth, shares, defaults of output). Problems have no line.

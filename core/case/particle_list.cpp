@@ -13,8 +13,9 @@
 #include <string_view>
 
 #include "core/case/keys.hpp"
-#include "core/error.hpp"
+#include "core/case/resolve_particles.hpp"
 #include "core/output/files.hpp"
+#include "core/start_error.hpp"
 
 namespace polybed::core {
 
@@ -172,14 +173,14 @@ ParticleList ListReader::read(std::istream& in) {
       continue;
     }
     read_header(cells_of(line));
-    if (!problems_.empty()) throw CaseError(problems_);  // without the columns nothing else can be said
+    if (!problems_.empty()) throw StartError(problems_);  // without the columns nothing else can be said
   }
   if (in.bad()) throw FileError(fmt::format("{}: cannot be read ({})", file_, std::strerror(errno)));
   line_ = 0;
   if (problems_.empty() && list_.species.empty())
     problems_.push_back({file_, 0, 0, "no particles: a header species,x,y,z and a line for each are needed"});
   if (untold_ > 0) problems_.push_back({file_, 0, 0, fmt::format("{} more problems like these", untold_)});
-  if (!problems_.empty()) throw CaseError(problems_);
+  if (!problems_.empty()) throw StartError(problems_);
   return std::move(list_);
 }
 
@@ -187,8 +188,8 @@ ParticleList ListReader::read(std::istream& in) {
 
 ParticleList read_particle_list(const Scene& scene) {
   if (scene.bed.start.kind != StartKind::list)
-    throw CaseError("bed.start = \"" + text_of(scene.bed.start) +
-                    "\" names no list of particles: write \"list:FILE.csv\"");
+    throw StartError("bed.start = \"" + text_of(scene.bed.start) +
+                     "\" names no list of particles: write \"list:FILE.csv\"");
   const std::string& file = scene.bed.start.file;
   (void)bytes_of_file(file, longest_file);
   std::ifstream in(file, std::ios::binary);

@@ -261,11 +261,6 @@ void Checker::numerics() {
     add("tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past "
         "packing",
         tfm.rtol);
-  if (scene_.effects.contains("solids_stress") && tfm.max_packing == MaxPacking(PackingRule::automatic) &&
-      scene_.bed.solids_fraction > 0 && scene_.bed.solids_fraction <= tfm.frictional_onset &&
-      wrong_.sound({"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"}))
-    add("bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
-        scene_.bed.solids_fraction, tfm.frictional_onset);
   const double until = scene_.run.until;
   scene_.output.every = scene_.output.every.value_or(until / 20);
   scene_.output.history_every = scene_.output.history_every.value_or(until / 400);

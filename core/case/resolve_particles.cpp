@@ -63,8 +63,6 @@ void shear(const Scene& scene, Messages& wrong) {
   idle(!scene.jets.empty(), "[[jet]]");
   idle(scene.dem.held, "dem.held = true");
   idle(scene.fluid.compressible(), "fluid.equation_of_state");
-  for (const char* role : {"fluid_stress", "added_mass", "lift", "magnus", "history"})
-    idle(scene.effects.contains(role), (std::string("effects.") + role).c_str());
 }
 
 /// An opening in the bottom: what it needs, and its width.
@@ -92,12 +90,10 @@ void in_fluid(const Scene& scene, Messages& wrong) {
     if (set) wrong.emplace_back(what);
   };
   const Column& column = scene.column;
-  const bool fluid = scene.fluid.present(), drag = scene.effects.contains("drag");
+  const bool fluid = scene.fluid.present();
   const bool tilted = column.down[0] != 0 || column.down[2] != 0 || !(column.down[1] < 0);
   const bool inflow = !scene.inlet.superficial_velocity.empty() || !scene.jets.empty();
   say(scene.dem.held && !fluid, "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"");
-  say(scene.dem.held && fluid && !drag,
-      "dem.held = true without drag: nothing resists the flow through the bed; name a law in effects.drag");
   say(scene.dem.kernel == Kernel::bilinear && scene.dem.kernel_width.has_value(),
       "dem.kernel_width cannot act: dem.kernel = \"bilinear\" has the width of the cells; use \"diffusion\" or "
       "\"auto\"");
@@ -117,9 +113,6 @@ void no_fluid(const Scene& scene, Messages& wrong) {
   };
   idle(!scene.inlet.superficial_velocity.empty(), "inlet.superficial_velocity");
   idle(!scene.jets.empty(), "[[jet]]");
-  for (const char* role :
-       {"drag", "fluid_stress", "added_mass", "lift", "magnus", "history", "lubrication", "brownian", "gas_slip"})
-    idle(scene.effects.contains(role) && scene.effects.at(role) != automatic, (std::string("effects.") + role).c_str());
   idle(scene.fluid.temperature.has_value(), "fluid.temperature");
   idle(scene.fluid.density.has_value(), "fluid.density");
   idle(scene.fluid.viscosity.has_value(), "fluid.viscosity");
@@ -166,7 +159,7 @@ std::vector<std::string> resolve_particles(Scene& scene, const std::string& case
   if (fluid && sound({"column.ends", "dem.shear_rate"})) periodic_ends(scene, wrong);
   if (fluid && shape && sound({"dem.shear_rate", "column.sides", "column.gravity"})) shear(scene, wrong);
   if (fluid && shape && sound({"dem.opening", "species.diameter"})) opening(scene, wrong);
-  if (fluid && sound({"column.size", "column.gravity_direction", "effects.drag"})) in_fluid(scene, wrong);
+  if (fluid && sound({"column.size", "column.gravity_direction"})) in_fluid(scene, wrong);
   if (fluid) no_fluid(scene, wrong);
   if (sound({"bed.start"})) bed(scene, case_name, wrong);
   return wrong;

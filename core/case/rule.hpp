@@ -1,10 +1,12 @@
-// Faults that are found in a case beyond its single values, and when they may be looked for.
+// What a scene must satisfy, stated once by whoever needs it, and when it may be judged.
 #pragma once
 
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,18 +33,24 @@ class WrongKeys {
   std::set<std::string, std::less<>> paths_;
 };
 
-/// A fault of a scene that only those who know the laws can find.
-struct SceneFault {
-  std::string key;                    ///< where it is reported, e.g. "effects.rolling"
-  std::vector<std::string> rests_on;  ///< other keys; the fault is not reported while one of them is wrong itself
-  std::string message;
+/// The words of a rule that a scene breaks, in the order of its gaps; empty if the scene keeps it.
+using Broken = std::optional<std::vector<std::string>>;
+
+/// One requirement.
+struct Rule {
+  std::vector<std::string> keys;  ///< where it is reported, then those it rests on: it is not judged if one is wrong
+  std::string message;            ///< with {} for each word
+  std::function<Broken(const Scene&)> broken;  ///< values of keys that are wrong are at their defaults
+
+  /// The message with its words; empty if the scene keeps the rule.
+  [[nodiscard]] std::string fault(const Scene& scene) const;
 };
 
-/// The faults of a scene. The laws belong to upper folders: the case file is given the rule, as it is given the roles.
-/// Values of keys that are wrong are at their defaults.
-using SceneRule = std::function<std::vector<SceneFault>(const Scene&)>;
+/// Broken without words.
+[[nodiscard]] inline Broken broken_if(bool broken) { return broken ? Broken(std::in_place) : std::nullopt; }
 
-/// Throws CaseError with all of the faults, if there are any.
-void refuse(const std::vector<SceneFault>& faults);
+/// Throws CaseError with the messages of all rules that a scene breaks, if there are any: for scenes that no reader has
+/// seen.
+void refuse(std::span<const Rule> rules, const Scene& scene);
 
 }  // namespace polybed::core

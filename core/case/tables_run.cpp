@@ -32,9 +32,8 @@ Table chooser_table() {
           key(&Chooser::zones, "zones", choices("packed", "bulk", "wall", "freeboard"),
               help("where effects are weighed: packed, bulk, wall, freeboard; default: all")),
           key(&Chooser::monitor, "monitor",
-              help("what to do where forces that were left out exceed the tolerance during the run; enable: "
-                   "lift and magnus are switched on at the next output time, of particles alone; auto: warn "
-                   "where a role is auto, else off")),
+              help("what to do where forces that were left out exceed the tolerance during the run; auto: warn where "
+                   "a role is auto, else off")),
           key(&Chooser::monitor_every, "monitor_every", range(1, 1e9), help("steps between samples")),
           key(&Chooser::monitor_sample, "monitor_sample", range(1, 1e9),
               help("one in so many particles or cells is looked at, chosen by its number")),

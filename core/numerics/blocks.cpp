@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/error.hpp"
 #include "core/numerics/halo.hpp"
 #include "core/numerics/mpi.hpp"
+#include "core/start_error.hpp"
 
 namespace polybed::core {
 
@@ -44,7 +44,7 @@ std::array<int, 3> choose_blocks(const Grid& column, int count) {
       best = blocks;
     }
   if (best[0] == 0)
-    throw CaseError(
+    throw StartError(
         fmt::format("column.cells: {} x {} x {} cells cannot be cut into {} blocks of at least {} cells "
                     "along each cut axis: use fewer ranks",
                     column.cells[0], column.cells[1], column.cells[2], count, least_block_cells));

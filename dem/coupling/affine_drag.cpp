@@ -4,14 +4,14 @@
 
 #include "closures/drag.hpp"
 #include "closures/relevance.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
 
 AffineDrag::AffineDrag(const core::Scene& scene, const Materials& materials, std::vector<double> share, double voidage,
                        FixedPoint force, FixedPoint energy)
     : shear_rate_(scene.dem.shear_rate), force_(force), energy_(energy) {
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const closures::DragLaw law = closures::drag_law(core::law_of(scene, "drag"), closures::Guard::on);
   std::vector<double> diameter;
   for (const Species& s : materials.species()) diameter.push_back(2 * s.radius);

@@ -5,9 +5,10 @@
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
+#include "core/start_error.hpp"
 #include "dem/coupling/kernel.hpp"
 #include "dem/scene.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
 
@@ -37,7 +38,7 @@ bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int
   const core::FluidRanks wish = scene.dem.fluid_ranks;
   const bool wide = width_of(scene, materials, count) > 0;
   if (wish == core::FluidRanks::shared && wide)
-    throw core::CaseError(
+    throw core::StartError(
         "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
         "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"");
   if (wide || wish == core::FluidRanks::each) return false;

@@ -6,7 +6,7 @@
 
 #include "closures/added_mass.hpp"
 #include "closures/sphere.hpp"
-#include "fluid/gas_slip.hpp"
+#include "relevance/gas_slip.hpp"
 
 namespace polybed::dem {
 
@@ -21,12 +21,9 @@ ParticleForces::ParticleForces(const core::Scene& scene, const Materials& materi
                                double viscosity)
     : largest_(materials.greatest_diameter()), fluid_density_(fluid_density), viscosity_(viscosity) {
   for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
-  for (const double divisor : fluid::slip_divisors(scene, diameter_))
+  for (const double divisor : relevance::slip_divisors(scene, diameter_))
     creeping_.push_back(3 * std::numbers::pi * viscosity * diameter_[creeping_.size()] / divisor);
-  if (const std::string law = core::law_of(scene, "drag"); law != "none")
-    law_ = closures::drag_law(law, closures::Guard::on);
-  if (const std::string law = core::law_of(scene, "added_mass"); law != "none")
-    added_ = law == "zuber" ? Added::zuber : Added::half;
+  for_each_called<MakeLoad>(effects(), scene, [&](MakeLoad make, const std::string& law) { make(law, laws_); });
 }
 
 void ParticleForces::find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
@@ -47,7 +44,7 @@ void ParticleForces::find_by(const Particles& particles, const Gather& gather, S
   for (std::size_t begin = 0; begin < particles.owned; begin += most) {
     const std::size_t count = std::min(most, particles.owned - begin);
     see(particles, gather, solids, begin, count, loads);
-    if (law_) drag(begin, count, loads);
+    if (laws_.drag) drag(begin, count, loads);
   }
 }
 
@@ -81,16 +78,15 @@ void ParticleForces::see(const Particles& particles, const Gather& gather, Solid
     size_[n] = d;
     stokes_[n] = creeping_[j];
     slip_[n] = eps * std::sqrt(square);
-    if (added_ != Added::none)
-      load.added = closures::added_mass_inertia(
-          added_ == Added::half ? closures::added_mass_of_one : closures::added_mass_zuber(1 - eps), fluid_density_, d);
+    if (laws_.added_mass != nullptr)
+      load.added = closures::added_mass_inertia(laws_.added_mass(1 - eps), fluid_density_, d);
   }
 }
 
 /// k = 3 pi mu D eps f: pure drag over U_f - U_p.
 void ParticleForces::drag(std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads) {
   const auto first = [count](auto& row) { return std::span(row).first(count); };
-  closures::drag_of_particles(*law_, first(voidage_), first(per_mean_), first(average_), largest_, first(share_),
+  closures::drag_of_particles(*laws_.drag, first(voidage_), first(per_mean_), first(average_), largest_, first(share_),
                               first(size_), first(slip_), fluid_density_, viscosity_, first(f_), count_);
   for (std::size_t n = 0; n < count; ++n) loads[begin + n].drag = stokes_[n] * voidage_[n] * f_[n];
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "closures/drag.hpp"
@@ -10,6 +9,7 @@
 #include "dem/coupling/fluid_motion.hpp"
 #include "dem/coupling/gather.hpp"
 #include "dem/coupling/own_share.hpp"
+#include "dem/effects/maker.hpp"
 
 namespace polybed::dem {
 
@@ -28,13 +28,12 @@ class ParticleForces {
   void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
             const OwnShare* own = nullptr);
 
-  [[nodiscard]] bool has_added_mass() const { return added_ != Added::none; }
+  [[nodiscard]] bool has_added_mass() const { return laws_.added_mass != nullptr; }
   [[nodiscard]] LawUse use() const;
 
  private:
   static constexpr std::size_t most = 256;  ///< particles of a batch
   using Row = std::array<double, most>;
-  enum class Added { none, half, zuber };
 
   template <class Solids>
   void find_by(const Particles& particles, const Gather& gather, Solids&& solids, std::vector<FluidLoad>& loads);
@@ -43,8 +42,7 @@ class ParticleForces {
            std::vector<FluidLoad>& loads);
   void drag(std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
 
-  std::optional<closures::DragLaw> law_;  ///< absent: no drag
-  Added added_ = Added::none;
+  LoadLaws laws_;
   std::vector<double> diameter_;  ///< of each species, m
   std::vector<double> creeping_;  ///< 3 pi mu D of each species, over the divisor of a gas that slips, kg/s
   double largest_, fluid_density_, viscosity_;

@@ -1,17 +1,41 @@
-#include "dem/effects/brownian.hpp"
-
+// Heat motion of small spheres, Langevin 1908.
 #include <cmath>
+#include <cstdint>
 
 #include "closures/gas_slip.hpp"
 #include "core/numerics/random.hpp"
+#include "dem/effects/maker.hpp"
+#include "dem/effects/side_forces.hpp"
+#include "relevance/effects/brownian.hpp"
 
 namespace polybed::dem {
 
 namespace {
 
-constexpr std::uint64_t own_sequence = 0x6272'6f77'6e69'616eULL;  ///< apart from what else is drawn from a case's seed
+/// A random force on each particle, drawn anew in the middle of every step and held until that of the next: of mean 0
+/// and variance 2 k_B T k/dt along each axis, k the drag over the slip. Under the exact drag a sphere then diffuses
+/// with D = k_B T/k whatever the step. At the ends of steps, in the middle of a hold, its speed has the variance (k_B
+/// T/M)(2/x)(a (1 - a)/(1 + a) + (1 - sqrt(a))^2), x = k dt/M, a = exp(-x): that of equipartition less a share of x/2.
+/// What a particle is given is taken from the fluid, whose own fluctuations are left out. Draws belong to a particle
+/// and its count of steps: the same on any number of ranks.
+class Brownian final : public SideForce {
+ public:
+  /// \param temperature  K  \param dt  of the particles, s  \param place  of the count of draws in a row
+  Brownian(double temperature, std::uint64_t seed, double dt, std::size_t place)
+      : temperature_(temperature), seed_(seed), dt_(dt), place_(place) {}
+  [[nodiscard]] std::size_t memory_size() const override { return 1; }
+  void begin(const SideView& view, SideRows& rows) override;
+  void end_interval(const SideView& view, SideRows& rows) override;
+  void add(const SideView& view, SideRows& rows) override;
 
-}  // namespace
+ private:
+  double temperature_;
+  std::uint64_t seed_;
+  double dt_;
+  std::size_t place_;
+};
+
+constexpr std::uint64_t own_sequence = 0x6272'6f77'6e69'616eULL;  ///< apart from what else is drawn from a case's seed
 
 void Brownian::begin(const SideView& view, SideRows& rows) {
   for (std::size_t i = 0; i < view.loads.size(); ++i) rows.of(i)[place_] = 0;
@@ -31,5 +55,17 @@ void Brownian::add(const SideView& view, SideRows& rows) {
       row[k] += deviation * core::normal(seed_ ^ own_sequence, std::uint64_t(view.particles.id[i]), 3 * count + k);
   }
 }
+
+}  // namespace
+
+namespace makers {
+
+extern const Maker brownian;
+const Maker brownian{
+    &relevance::effects::brownian, "Force", MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+      return std::make_unique<Brownian>(m.scene.fluid.temperature.value(), m.scene.bed.seed, m.dt, m.place);
+    })};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

@@ -1,9 +1,30 @@
-#include "dem/effects/lift.hpp"
+// Lift of spheres in a sheared fluid, closures/lift_saffman_mei.hpp.
+#include <vector>
 
 #include "closures/lift_saffman_mei.hpp"
+#include "dem/effects/maker.hpp"
+#include "dem/effects/side_forces.hpp"
 #include "dem/effects/side_vectors.hpp"
+#include "relevance/effects/lift.hpp"
 
 namespace polybed::dem {
+
+namespace {
+
+/// Saffman's lift with the share of Mei, from the slip U_f - U_p between the particles and the vorticity of the
+/// averaged fluid: that of one sphere, at any voidage. Explicit: it turns the slip at a rate r of that at which Stokes'
+/// drag brings it to rest, r = 0.17 sqrt(rho_f d^2 |omega|/mu), and no step of an exact drag is too long for r below 1.
+class Lift final : public SideForce {
+ public:
+  /// \param density, viscosity  of the fluid, kg/m3, Pa s
+  Lift(const Materials& materials, double density, double viscosity);
+  [[nodiscard]] bool needs_vorticity() const override { return true; }
+  void add(const SideView& view, SideRows& rows) override;
+
+ private:
+  std::vector<double> diameter_;  ///< of each species, m
+  double density_, viscosity_;
+};
 
 Lift::Lift(const Materials& materials, double density, double viscosity) : density_(density), viscosity_(viscosity) {
   for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
@@ -15,5 +36,19 @@ void Lift::add(const SideView& view, SideRows& rows) {
            closures::lift_saffman_mei(slip_of(view, i), to_vec3(view.vorticity[i]),
                                       diameter_[std::size_t(view.particles.species[i])], density_, viscosity_));
 }
+
+}  // namespace
+
+namespace makers {
+
+extern const Maker lift;
+const Maker lift{&relevance::effects::lift,
+                 "Force",
+                 MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+                   return std::make_unique<Lift>(m.materials, m.density, m.viscosity);
+                 }),
+                 {"saffman_mei"}};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

@@ -1,11 +1,36 @@
-#include "dem/effects/magnus.hpp"
-
+// Spin of spheres in a fluid, closures/magnus_rubinow_keller.hpp: the side force, and the torque that ends the spin.
 #include <cmath>
+#include <vector>
 
 #include "closures/magnus_rubinow_keller.hpp"
+#include "dem/effects/maker.hpp"
+#include "dem/effects/side_forces.hpp"
 #include "dem/effects/side_vectors.hpp"
+#include "relevance/effects/magnus.hpp"
 
 namespace polybed::dem {
+
+namespace {
+
+/// The force is explicit; it turns the slip at the rate (3/4) rho_f |Omega - omega/2|/rho_p and less. The torque is
+/// taken exactly in a frozen fluid, Omega - omega/2 falling as exp(-60 mu t/(rho_p d^2)): no step is too long for it.
+/// The averaged fluid has no spin of its own: the torque's reaction stays with it as heat.
+class Magnus final : public SideForce {
+ public:
+  /// \param density, viscosity  of the fluid, kg/m3, Pa s  \param dt  step of the particles, s
+  Magnus(const Materials& materials, double density, double viscosity, double dt);
+  [[nodiscard]] bool needs_vorticity() const override { return true; }
+  void add(const SideView& view, SideRows& rows) override;
+  void turn(std::span<const Vector> vorticity, Particles& particles, FluidMotion& motion) override;
+
+ private:
+  struct Constants {
+    double diameter;  ///< m
+    double turned;    ///< 1 - exp(-60 mu dt/(rho_p d^2)): share of the spin's way to the fluid's in a step
+  };
+  std::vector<Constants> constants_;  ///< of each species
+  double density_, viscosity_;
+};
 
 using closures::Vec3;
 
@@ -33,5 +58,19 @@ void Magnus::turn(std::span<const Vector> vorticity, Particles& particles, Fluid
     put(m.w.data(), before + change);
   }
 }
+
+}  // namespace
+
+namespace makers {
+
+extern const Maker magnus;
+const Maker magnus{&relevance::effects::magnus,
+                   "Force",
+                   MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+                     return std::make_unique<Magnus>(m.materials, m.density, m.viscosity, m.dt);
+                   }),
+                   {"rubinow_keller"}};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

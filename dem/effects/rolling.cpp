@@ -1,12 +1,50 @@
-#include "dem/effects/rolling.hpp"
+// Moments that resist rolling, rolling_friction.hpp, with the part of w_i - w_j that lies in the plane of contact:
+// twisting about n is not rolling and is free.
+#include <vector>
 
 #include "closures/contact_tangential.hpp"
 #include "closures/rolling_friction.hpp"
+#include "dem/effects.hpp"
+#include "dem/effects/maker.hpp"
 #include "dem/effects/rows.hpp"
+#include "relevance/effects/rolling.hpp"
 
 namespace polybed::dem {
 
 namespace {
+
+/// A constant moment mu_r R* F_n against the rolling. No memory; at rest it flickers with the sign of the spin.
+class ConstantRolling final : public RollingLaw {
+ public:
+  ConstantRolling(const Materials& materials, double rolling_friction);
+  void act(ContactBatch& batch, double dt) const override;
+  [[nodiscard]] int memory_size() const override { return 0; }
+  void add_energy(const ContactBatch&, ContactBatch::Row&) const override {}
+  [[nodiscard]] double stiffness(int, double) const override { return 0; }
+
+ private:
+  std::vector<double> arm_;  ///< mu_r R*, m
+};
+
+/// A spring of rotation k_r = 2.25 k_n mu_r^2 R*^2 with a dashpot, capped at mu_r R* F_n; k_n is the elastic force over
+/// the overlap. The memory is the spring's moment, which turns with the pair.
+class SpringRolling final : public RollingLaw {
+ public:
+  /// \param damping  share of the critical damping  \param place  of its memory in a batch
+  SpringRolling(const Materials& materials, double rolling_friction, double damping, int place);
+  void act(ContactBatch& batch, double dt) const override;
+  [[nodiscard]] int memory_size() const override { return 3; }
+  void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const override;
+  [[nodiscard]] double stiffness(int kind, double normal_stiffness) const override;
+
+ private:
+  struct Constants {
+    double arm, inertia;  ///< mu_r R*, m; I_r, kg m2
+  };
+  std::vector<Constants> constants_;
+  double damping_;
+  int place_;
+};
 
 using closures::Vec3;
 using Row = ContactBatch::Row;
@@ -47,8 +85,6 @@ POLYBED_ALL_VECTOR_WIDTHS void spring(ContactBatch& b, int place, const Row& arm
   }
 }
 
-}  // namespace
-
 ConstantRolling::ConstantRolling(const Materials& materials, double rolling_friction) {
   for (const PairMaterial& m : materials.kinds()) arm_.push_back(rolling_friction * m.radius);
 }
@@ -86,5 +122,24 @@ void SpringRolling::add_energy(const ContactBatch& batch, Row& stored) const {
     stored[c] += 0.5 * closures::dot(kept, kept) / (k > tiny ? k : tiny);
   }
 }
+
+}  // namespace
+
+namespace makers {
+
+extern const Maker rolling;
+const Maker rolling{&relevance::effects::rolling,
+                    "Pair",
+                    MakePair([](const PairMaking& m) {
+                      const core::Dem& dem = m.scene.dem;
+                      if (m.law == "cdt")
+                        m.laws.rolling = std::make_unique<ConstantRolling>(m.materials, dem.rolling_friction);
+                      else
+                        m.laws.rolling = std::make_unique<SpringRolling>(m.materials, dem.rolling_friction,
+                                                                         dem.rolling_damping, m.laws.contact_memory());
+                    }),
+                    {"cdt", "epsd"}};
+
+}  // namespace makers
 
 }  // namespace polybed::dem

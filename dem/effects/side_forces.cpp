@@ -2,30 +2,18 @@
 
 #include <algorithm>
 
-#include "dem/effects/brownian.hpp"
-#include "dem/effects/history.hpp"
-#include "dem/effects/lift.hpp"
-#include "dem/effects/magnus.hpp"
-
 namespace polybed::dem {
 
-namespace {
-
-bool calls_for(const core::Scene& scene, const std::string& role) { return core::law_of(scene, role) != "none"; }
-
-}  // namespace
-
 SideForces::SideForces(const core::Scene& scene, const Materials& materials, double density, double viscosity,
-                       double dt, double interval)
+                       double dt, double interval, const std::vector<const Maker*>& list)
     : dt_(dt) {
-  if (calls_for(scene, "lift")) effects_.push_back(std::make_unique<Lift>(materials, density, viscosity));
-  if (calls_for(scene, "magnus")) effects_.push_back(std::make_unique<Magnus>(materials, density, viscosity, dt));
+  LoadLaws loads;
+  for_each_called<MakeLoad>(list, scene, [&](MakeLoad make, const std::string& law) { make(law, loads); });
   // Those with a memory have their places in it one behind the other.
-  if (calls_for(scene, "history"))
-    effects_.push_back(std::make_unique<History>(materials, density, viscosity, interval, memory_end(),
-                                                 calls_for(scene, "added_mass")));
-  if (calls_for(scene, "brownian"))
-    effects_.push_back(std::make_unique<Brownian>(scene.fluid.temperature.value(), scene.bed.seed, dt, memory_end()));
+  for_each_called<MakeForce>(list, scene, [&](MakeForce make, const std::string&) {
+    effects_.push_back(
+        make({scene, materials, density, viscosity, dt, interval, memory_end(), loads.added_mass != nullptr}));
+  });
   if (effects_.empty()) return;
   rows_.width = memory_end();
   for (const auto& effect : effects_) needs_vorticity_ |= effect->needs_vorticity();

@@ -12,6 +12,7 @@
 #include "core/case/scene.hpp"
 #include "dem/coupling/fluid_motion.hpp"
 #include "dem/coupling/gather.hpp"
+#include "dem/effects/maker.hpp"
 #include "dem/effects/side_rows.hpp"
 
 namespace polybed::dem {
@@ -47,7 +48,7 @@ class SideForces {
   /// The effects that a scene calls for. \param density, viscosity  of the fluid, kg/m3, Pa s
   /// \param dt, interval  step of the particles and of the fluid, s
   SideForces(const core::Scene& scene, const Materials& materials, double density, double viscosity, double dt,
-             double interval);
+             double interval, const std::vector<const Maker*>& list = dem::effects());
 
   [[nodiscard]] bool present() const { return !effects_.empty(); }
   [[nodiscard]] bool needs_vorticity() const { return needs_vorticity_; }

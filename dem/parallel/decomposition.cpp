@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/start_error.hpp"
 
 namespace polybed::dem {
 
@@ -49,11 +49,11 @@ Decomposition::Decomposition(const Box& box, std::shared_ptr<const core::Ranks> 
     count_ = ranks_->count();
   }
   if (box.shear_rate != 0 && count_ > 1)
-    throw core::CaseError("dem.shear_rate: a sheared box runs on one rank; run several boxes at once instead");
+    throw core::StartError("dem.shear_rate: a sheared box runs on one rank; run several boxes at once instead");
   parts_.resize(std::size_t(count_));
   const double thickness = thinnest({{0, 0, 0}, box.size}, count_);
   if (thickness < least_)
-    throw core::CaseError(
+    throw core::StartError(
         fmt::format("{} ranks would own parts of {:.3g} m, thinner than the largest particle, {:.3g} m: use fewer",
                     count_, thickness, least));
   balance({}, {});

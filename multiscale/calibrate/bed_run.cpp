@@ -11,10 +11,10 @@
 #include "core/numerics/ranks.hpp"
 #include "core/timers.hpp"
 #include "dem/stress.hpp"
-#include "fluid/properties.hpp"
 #include "multiscale/calibrate/bed_scene.hpp"
 #include "multiscale/calibrate/box_result.hpp"
 #include "multiscale/calibrate/slab.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -34,7 +34,7 @@ constexpr int heights = 9, blocks_of_a_bed = 20;
 
 /// Superficial velocity at which drag carries the buoyant weight at a voidage.
 double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, double voidage) {
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const std::string name = core::law_of(scene, "drag");
   if (name == "none") throw core::CaseError("calibrate.regime = \"bed\" needs a drag law: [effects] drag = ...");
   const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
@@ -61,7 +61,7 @@ class BedRun {
     const dem::Species& s = model_.materials().species()[0];
     result_.diameter = 2 * s.radius;
     result_.density = s.density;
-    const double rho = fluid::fluid_constants(box_.fluid).density;
+    const double rho = relevance::fluid_constants(box_.fluid).density;
     unit_ = std::abs(s.density - rho) * box_.column.gravity * result_.diameter;
     area_ = box_.column.size[0] * box_.column.size[2];
     height_ = double(box_.bed.particles[0]) * closures::sphere_volume(s.radius) / (area_ * point.phi);

@@ -11,9 +11,9 @@
 #include "core/timers.hpp"
 #include "dem/measures.hpp"
 #include "dem/stress.hpp"
-#include "fluid/properties.hpp"
 #include "multiscale/calibrate/box_result.hpp"
 #include "multiscale/calibrate/reference.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -231,7 +231,7 @@ class BoxRun {
             {box_.species[j].diameter, box_.species[j].density, phi_[j], estimate_of(rows_[first + j]).mean});
       form = kinetic_reference(species, closures::effective_restitution(r.point.restitution, r.point.friction));
     } else {
-      form = viscous_reference(r.point.phi, r.point.friction, fluid::fluid_constants(box_.fluid).viscosity,
+      form = viscous_reference(r.point.phi, r.point.friction, relevance::fluid_constants(box_.fluid).viscosity,
                                box_.dem.shear_rate);
     }
     const auto over = [](const Estimate& e, double unit) { return Estimate{e.mean / unit, e.error / unit}; };

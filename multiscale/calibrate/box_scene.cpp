@@ -8,9 +8,9 @@
 #include "closures/sphere.hpp"
 #include "closures/stress_reference.hpp"
 #include "core/error.hpp"
-#include "fluid/properties.hpp"
 #include "multiscale/calibrate/bed_scene.hpp"
 #include "multiscale/calibrate/plan.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -84,7 +84,7 @@ void make_dry(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
 
 /// Contacts as stiff as keeps overlaps small under the viscous stress, steps that tell the thinnest film.
 void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point, const Scales& scales) {
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const double d = scales.mean.diameter, mu = fluid.viscosity;
   const double rate = point.stokes * mu / (scales.mean.density * d * d);
   const double form = closures::viscous_stress_form(point.phi, closures::jamming_fraction(point.friction)).value;

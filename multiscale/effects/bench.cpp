@@ -8,8 +8,10 @@
 
 #include "core/case/file.hpp"
 #include "core/timers.hpp"
+#include "dem/effects/maker.hpp"
 #include "dem/model.hpp"
 #include "multiscale/roles.hpp"
+#include "tfm/effects/maker.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::multiscale {
@@ -38,24 +40,18 @@ density = 2000
 
 /// An effect that is added to that case, or with "none" taken from it.
 struct Benched {
-  const char *effect, *law, *model, *per;
+  std::string effect, law, model, per;
 };
 
-constexpr Benched effects[] = {{"drag", "none", "dem", "particle"},
-                               {"added_mass", "zuber", "dem", "particle"},
-                               {"lift", "saffman_mei", "dem", "particle"},
-                               {"magnus", "rubinow_keller", "dem", "particle"},
-                               {"history", "basset", "dem", "particle"},
-                               {"lubrication", "wet_restitution", "dem", "contact"},
-                               {"lubrication", "film", "dem", "contact"},
-                               {"rolling", "cdt", "dem", "contact"},
-                               {"rolling", "epsd", "dem", "contact"},
-                               {"cohesion", "van_der_waals", "dem", "contact"},
-                               {"drag", "none", "tfm", "cell"},
-                               {"fluid_stress", "newtonian", "tfm", "cell"},
-                               {"solids_viscosity", "schaeffer", "tfm", "cell"},
-                               {"solids_stress", "kinetic", "tfm", "cell"},
-                               {"species_exchange", "syamlal", "tfm", "cell"}};
+std::vector<Benched> benched_effects() {
+  std::vector<Benched> all;
+  for (const dem::Maker* one : dem::effects())
+    for (const std::string& law : one->benched)
+      all.push_back({one->effect->role, law, "dem", one->slot == "Pair" ? "contact" : "particle"});
+  for (const tfm::Maker* one : tfm::effects())
+    for (const std::string& law : one->benched) all.push_back({one->effect->role, law, "tfm", "cell"});
+  return all;
+}
 
 struct UnitCost {
   double per_unit = 0;  ///< s
@@ -66,8 +62,7 @@ struct UnitCost {
 core::Scene scene_with(const Benched* effect) {
   core::Scene scene = core::parse_case(bench_case, "bench", {}, all_roles());
   if (effect == nullptr) return scene;
-  const std::string law = effect->law;
-  law == "none" ? void(scene.effects.erase(effect->effect)) : void(scene.effects[effect->effect] = law);
+  effect->law == "none" ? void(scene.effects.erase(effect->effect)) : void(scene.effects[effect->effect] = effect->law);
   return scene;
 }
 
@@ -130,26 +125,28 @@ struct Least {
 }  // namespace
 
 std::vector<EffectCost> bench_effects(int rounds) {
+  const std::vector<Benched> effects = benched_effects();
+  const core::Scene bare = scene_with(nullptr);
   std::map<std::string, Least> plain;
-  std::vector<Least> with(std::size(effects));
+  std::vector<Least> with(effects.size());
   for (int round = 0; round < rounds; ++round) {
     for (const char* per : {"particle", "contact", "cell"})
       plain[per].add(time_of(nullptr, per == std::string("cell") ? "tfm" : "dem", per));
-    for (std::size_t n = 0; n < std::size(effects); ++n) {
+    for (std::size_t n = 0; n < effects.size(); ++n) {
       UnitCost t = time_of(&effects[n], effects[n].model, effects[n].per);
       // Per contact of the plain run: what reaches further has more pairs, and all of them are its cost.
-      if (effects[n].per == std::string("contact")) t.per_unit *= t.units / plain["contact"].units;
+      if (effects[n].per == "contact") t.per_unit *= t.units / plain["contact"].units;
       with[n].add(t);
     }
   }
   std::vector<EffectCost> costs;
-  for (std::size_t n = 0; n < std::size(effects); ++n) {
+  for (std::size_t n = 0; n < effects.size(); ++n) {
     const Benched& e = effects[n];
     const Least& without = plain.at(e.per);
-    const bool taken = e.law == std::string("none");
+    const bool taken = e.law == "none";
     const double sign = taken ? -1e9 : 1e9;
-    costs.push_back({e.effect, taken ? "cello" : e.law, e.model, e.per, sign * (with[n].times[0] - without.times[0]),
-                     1e9 * (with[n].spread() + without.spread()),
+    costs.push_back({e.effect, taken ? core::law_of(bare, e.effect) : e.law, e.model, e.per,
+                     sign * (with[n].times[0] - without.times[0]), 1e9 * (with[n].spread() + without.spread()),
                      with[n].bytes > without.bytes ? with[n].bytes - without.bytes : 0});
   }
   return costs;

@@ -6,37 +6,37 @@ namespace polybed::multiscale {
 
 namespace {
 
-using State = EffectRow::State;
-using Kind = EffectRow::Kind;
+using State = relevance::EffectRow::State;
+using Kind = relevance::EffectRow::Kind;
 
 std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.2g}", *value) : "-"; }
 
-std::string value_text(const EffectRow& row) {
+std::string value_text(const relevance::EffectRow& row) {
   if (row.band && row.band->most == row.value) return fmt::format("{:.2g}..{:.2g}", row.band->least, row.band->most);
   return number(row.value);
 }
 
-std::string state_text(const EffectRow& row) {
+std::string state_text(const relevance::EffectRow& row) {
   if (row.state == State::unknown) return "unknown";
   if (row.state == State::off) return row.kind == Kind::unmodelled ? "no" : "off";
   return row.kind == Kind::unmodelled || !row.not_built.empty() ? "MISSING" : "on";
 }
 
 /// What the case itself says of a role; empty for what is none.
-std::string case_text(const core::Scene& scene, const EffectRow& row) {
+std::string case_text(const core::Scene& scene, const relevance::EffectRow& row) {
   if (row.kind != Kind::role || !row.not_built.empty()) return "";
   const std::string law = core::law_of(scene, row.effect);
   return law == "none" ? "off" : law;
 }
 
-std::string reason_text(const EffectRow& row) {
+std::string reason_text(const relevance::EffectRow& row) {
   std::string text = row.reason;
   if (!row.where.empty()) text += " (" + row.where + ")";
   if (row.state == State::on && !row.not_built.empty()) text += "; called for, but not built: " + row.not_built;
   return text;
 }
 
-std::string line_of(const core::Scene& scene, const EffectRow& row) {
+std::string line_of(const core::Scene& scene, const relevance::EffectRow& row) {
   return fmt::format("{:20} {:15} {:8} {:>14} {:>8} {:>8}  {:7} {:14} {}\n", row.effect, row.model, row.models,
                      value_text(row), row.threshold ? (row.below ? "<" : ">") + number(row.threshold) : "-",
                      number(row.neglected), state_text(row), case_text(scene, row),
@@ -45,14 +45,14 @@ std::string line_of(const core::Scene& scene, const EffectRow& row) {
 
 }  // namespace
 
-std::string effects_table(const core::Scene& scene, const Choice& choice) {
+std::string effects_table(const core::Scene& scene, const relevance::Choice& choice) {
   std::string text = fmt::format("{:20} {:15} {:8} {:>14} {:>8} {:>8}  {:7} {:14} {}\n", "effect", "model", "acts in",
                                  "value", "on if", "left out", "choice", "this case", "number: reason");
   const Kind kinds[] = {Kind::role, Kind::condition, Kind::unmodelled};
   for (const Kind kind : kinds) {
     if (kind == Kind::condition) text += "\nno roles:\n";
     if (kind == Kind::unmodelled) text += "\nnot modelled, estimated:\n";
-    for (const EffectRow& row : choice.rows)
+    for (const relevance::EffectRow& row : choice.rows)
       if (row.kind == kind) text += line_of(scene, row);
   }
   text += fmt::format(
@@ -60,7 +60,8 @@ std::string effects_table(const core::Scene& scene, const Choice& choice) {
       choice.neglected_sum, choice.tolerance, core::name_of(scene.chooser.purpose),
       choice.neglected_sum > choice.tolerance ? ": more than promised, since what would be needed is not to be had"
                                               : "");
-  const double two_fluid = neglected_sum(choice.rows, "tfm"), of_case = neglected_sum(choice.of_case, "tfm");
+  const double two_fluid = relevance::neglected_sum(choice.rows, "tfm"),
+               of_case = relevance::neglected_sum(choice.of_case, "tfm");
   text += fmt::format("by the two-fluid model, which has no law of any of them: {:.2g}{}\n", two_fluid,
                       two_fluid > choice.tolerance ? ": more than promised" : "");
   if (choice.sum_up_to > choice.tolerance)
@@ -68,18 +69,18 @@ std::string effects_table(const core::Scene& scene, const Choice& choice) {
         "in a run up to {:.2g}, where the fluid is sheared within a cell or impacts spin particles: a scale that "
         "switches nothing; polybed effects audit tells what a run met\n",
         choice.sum_up_to);
-  if (!has_auto(scene))
+  if (!relevance::has_auto(scene))
     text += fmt::format("left out by the case as it stands: {:.2g}, by the two-fluid model {:.2g}\n", choice.case_sum,
                         of_case);
   return text;
 }
 
-void write_effects(core::Json& json, const core::Scene& scene, const Choice& choice) {
+void write_effects(core::Json& json, const core::Scene& scene, const relevance::Choice& choice) {
   const auto optional = [&](const char* name, const std::optional<double>& value) {
     value&& std::isfinite(*value) ? json.member(name, *value) : json.key(name).null();
   };
   json.key("effects").begin_array();
-  for (const EffectRow& row : choice.rows) {
+  for (const relevance::EffectRow& row : choice.rows) {
     json.begin_object().member("effect", row.effect).member("model", row.model);
     row.state == State::unknown ? json.key("on").null() : json.member("on", row.state == State::on);
     json.member("number", row.number);
@@ -100,9 +101,9 @@ void write_effects(core::Json& json, const core::Scene& scene, const Choice& cho
       .member("neglected_sum", choice.neglected_sum)
       .member("neglected_up_to", choice.sum_up_to)
       .member("neglected_sum_of_case", choice.case_sum);
-  const auto by_model = [&](const char* name, const std::vector<EffectRow>& rows) {
-    json.key(name).begin_object().member("tfm", neglected_sum(rows, "tfm"));
-    json.member("dem", neglected_sum(rows, "dem")).end_object();
+  const auto by_model = [&](const char* name, const std::vector<relevance::EffectRow>& rows) {
+    json.key(name).begin_object().member("tfm", relevance::neglected_sum(rows, "tfm"));
+    json.member("dem", relevance::neglected_sum(rows, "dem")).end_object();
   };
   by_model("neglected_sum_by_model", choice.rows);
   by_model("neglected_sum_of_case_by_model", choice.of_case);

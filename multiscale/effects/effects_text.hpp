@@ -5,14 +5,14 @@
 
 #include "core/case/scene.hpp"
 #include "core/output/json.hpp"
-#include "multiscale/effects/choice.hpp"
+#include "relevance/choice.hpp"
 
 namespace polybed::multiscale {
 
 /// Lines of the table, and below it what is left out.
-[[nodiscard]] std::string effects_table(const core::Scene& scene, const Choice& choice);
+[[nodiscard]] std::string effects_table(const core::Scene& scene, const relevance::Choice& choice);
 
 /// The members "effects", "neglected_sum" and what belongs to them, into an open object.
-void write_effects(core::Json& json, const core::Scene& scene, const Choice& choice);
+void write_effects(core::Json& json, const core::Scene& scene, const relevance::Choice& choice);
 
 }  // namespace polybed::multiscale

@@ -6,23 +6,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "multiscale/effects/choice.hpp"
+
 namespace polybed::multiscale {
 
 namespace {
 
-using State = EffectRow::State;
-using Kind = EffectRow::Kind;
+using State = relevance::EffectRow::State;
+using Kind = relevance::EffectRow::Kind;
 
 constexpr std::size_t most_named = 4;  // on the screen; the record has all
 
 /// Why a run does without a row; empty if it does not, or if the scene has nothing of it.
-std::string why_left_out(const EffectRow& row, const std::string& model) {
+std::string why_left_out(const relevance::EffectRow& row, const std::string& model) {
   if (row.kind == Kind::condition) return row.state == State::off && row.bound ? "off in the case" : "";
   if (row.kind == Kind::unmodelled) {
     const bool below = row.threshold && row.state == State::off && row.value;
     return row.bound == 0.0 || (below && !row.is_force) ? "" : "not modelled";
   }
-  if (!is_left_out(row, model)) return "";
+  if (!relevance::is_left_out(row, model)) return "";
   if (row.models.find(model) == std::string::npos) return "no law of it in this model";
   return row.state == State::off ? "off in the case" : row.not_built;
 }
@@ -60,14 +62,14 @@ std::string sum_text(const LeftOut& left_out) {
 }  // namespace
 
 LeftOut left_out(const core::Scene& scene, const std::string& model) {
-  const Choice choice = choose(scene);
+  const relevance::Choice choice = choose(scene);
   LeftOut all;
   all.model = model;
   all.purpose = core::name_of(scene.chooser.purpose);
   all.promise = choice.tolerance;
-  all.sum = neglected_sum(choice.of_case, model);
-  all.up_to = neglected_up_to(choice.of_case, model);
-  for (const EffectRow& row : choice.of_case)
+  all.sum = relevance::neglected_sum(choice.of_case, model);
+  all.up_to = relevance::neglected_up_to(choice.of_case, model);
+  for (const relevance::EffectRow& row : choice.of_case)
     if (const std::string why = why_left_out(row, model); !why.empty()) all.effects.push_back({row, why, row.bound});
   return all;
 }

@@ -8,13 +8,13 @@
 
 #include "core/case/scene.hpp"
 #include "core/output/json.hpp"
-#include "multiscale/effects/choice.hpp"
+#include "relevance/choice.hpp"
 
 namespace polybed::multiscale {
 
 /// One effect that is left out.
 struct LeftOutEffect {
-  EffectRow row;                ///< decided by the case
+  relevance::EffectRow row;     ///< decided by the case
   std::string why;              ///< off in the case | no law of it in this model | not modelled | what it would need
   std::optional<double> bound;  ///< by row.number, of a force as a share of the weight; empty: not known
 };

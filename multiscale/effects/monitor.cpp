@@ -8,7 +8,7 @@
 #include "core/output/fields.hpp"
 #include "fluid/vorticity.hpp"
 #include "multiscale/effects/fluid_map.hpp"
-#include "multiscale/effects/switching.hpp"
+#include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {
 
@@ -56,7 +56,7 @@ Monitor::Monitor(const core::Scene& scene, const std::string& model)
       empty_(seen_),
       samples_above_(seen_.observed().size(), 0),
       since_(seen_.observed().size(), 0.0),
-      enables_(scene.chooser.monitor == core::MonitorMode::enable && model == "dem") {}
+      model_(model) {}
 
 std::vector<std::string> Monitor::look(const dem::Model& model) {
   latest_ = empty_;
@@ -127,7 +127,7 @@ std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
                     "t = {:.4g} s",
                     o.effect == "sum" ? "the sum of all forces" : o.effect, 100 * o.bound, 100 * o.greatest,
                     100.0 * double(o.above) / double(o.count), o.place[0], o.place[1], since_[n]));
-    if (enables_) want(o.effect);
+    find_setting(o.effect);
   }
   warnings_.insert(warnings_.end(), lines.begin(), lines.end());
   if (!lines.empty() && scene_.chooser.monitor == core::MonitorMode::stop)
@@ -135,15 +135,17 @@ std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
   return lines;
 }
 
-/// Of the sum that which has most of it.
-void Monitor::want(const std::string& effect) {
-  const Observed* most = nullptr;
-  for (const Observed& o : latest_.observed())
-    if (can_be_switched(o.effect) && (effect == "sum" || effect == o.effect) &&
-        (most == nullptr || o.greatest > most->greatest))
-      most = &o;
-  if (most != nullptr && std::find(wanted_.begin(), wanted_.end(), most->effect) == wanted_.end())
-    wanted_.push_back(most->effect);
+void Monitor::find_setting(const std::string& effect) {
+  const relevance::MenuEntry* most = nullptr;
+  double greatest = 0;
+  for (const Observed& o : latest_.observed()) {
+    const relevance::MenuEntry* entry = find_entry(o.effect);
+    if (entry == nullptr || !can_be_added(*entry, model_) || (effect != "sum" && effect != o.effect)) continue;
+    if (most == nullptr || o.greatest > greatest) most = entry, greatest = o.greatest;
+  }
+  if (most == nullptr) return;
+  const std::string setting = fmt::format("effects.{}={}", most->effect->role, most->effect->laws.front().name);
+  if (std::find(settings_.begin(), settings_.end(), setting) == settings_.end()) settings_.push_back(setting);
 }
 
 Neglected Monitor::result(const core::Ranks* ranks) const {

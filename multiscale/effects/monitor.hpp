@@ -35,20 +35,21 @@ class Monitor {
   /// Of all ranks. Collective.
   [[nodiscard]] Neglected result(const core::Ranks* ranks) const;
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-  /// With monitor = "enable": what is to be switched on, of the particle model alone.
-  [[nodiscard]] const std::vector<std::string>& wanted() const { return wanted_; }
+  /// Of what was warned of, in words of --set: the laws that a run can take up from its checkpoint, forces that keep
+  /// nothing of the past. Of the sum that which has most of it.
+  [[nodiscard]] const std::vector<std::string>& settings() const { return settings_; }
 
  private:
   [[nodiscard]] std::vector<std::string> judge(const core::Ranks* ranks, double time);
-  void want(const std::string& effect);
+  void find_setting(const std::string& effect);
 
   core::Scene scene_;
   Neglected seen_, latest_;  ///< of the whole run, and of the sample at hand
   Neglected empty_;
   std::vector<int> samples_above_;
   std::vector<double> since_;
-  std::vector<std::string> warnings_, wanted_;
-  bool enables_;
+  std::vector<std::string> warnings_, settings_;
+  std::string model_;
   std::int64_t steps_ = 0;
 };
 

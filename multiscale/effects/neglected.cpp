@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "closures/relevance.hpp"
-#include "fluid/properties.hpp"
-#include "multiscale/effects/situation.hpp"
-#include "multiscale/effects/weigh.hpp"
+#include "multiscale/effects/choice.hpp"
+#include "multiscale/roles.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -46,20 +46,21 @@ double Observed::percentile() const {
 
 Neglected::Neglected(const core::Scene& scene, const std::string& model)
     : scene_(scene), tolerance_(scene.chooser.tolerance) {
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   fluid_density_ = fluid.density;
   viscosity_ = fluid.viscosity;
-  const Choice choice = choose(scene);
+  const relevance::Choice choice = choose(scene);
   surfaces_ = choice.surfaces;
-  for (const EffectRow& row : choice.rows) {
+  for (const relevance::EffectRow& row : choice.rows) {
     if (!row.summed) continue;
     const bool has_law = row.models.find(model) != std::string::npos && row.not_built.empty();
     if (has_law && core::law_of(scene, row.effect) != "none") continue;
-    const bool evaluated = row.effect == "lift" || row.effect == "magnus" || row.effect == "cohesion";
-    if (!evaluated) {
+    const relevance::MenuEntry* entry = find_entry(row.effect);
+    if (entry == nullptr || !entry->effect->share) {
       if (row.value.value_or(0) > 1e-3 * tolerance_) not_evaluated_.push_back(row.effect);
       continue;
     }
+    effects_.push_back(entry->effect);
     Observed one;
     one.effect = row.effect;
     one.bound = row.up_to.value_or(row.value.value_or(0));  // encounters beyond the law's range are counted apart
@@ -71,29 +72,15 @@ Neglected::Neglected(const core::Scene& scene, const std::string& model)
   observed_.push_back(sum);
 }
 
-std::optional<double> Neglected::share_of(const std::string& effect, const Encounter& met) const {
+void Neglected::see(const Encounter& met) {
   const core::Species& s = scene_.species[met.species];
   const double weight = closures::buoyant_weight(s.diameter, s.density, fluid_density_, scene_.column.gravity);
-  if (!(weight > 0)) return std::nullopt;
-  if (effect == "cohesion") return closures::van_der_waals_relevance(surfaces_.hamaker, surfaces_.roughness, weight);
-  const double speed = std::sqrt(closures::dot(met.slip, met.slip));
-  if (fluid_density_ * speed * s.diameter / viscosity_ > greatest_certain_reynolds) return std::nullopt;
-  closures::Vec3 force{};
-  if (effect == "lift") {
-    force = closures::lift_saffman_mei(met.slip, met.vorticity, s.diameter, fluid_density_, viscosity_);
-  } else {
-    const closures::Vec3 relative =
-        met.spin ? closures::spin_relative_to_fluid(*met.spin, met.vorticity) : 0.5 * met.vorticity;
-    force = closures::magnus_rubinow_keller(met.slip, relative, s.diameter, fluid_density_, viscosity_);
-  }
-  return std::sqrt(closures::dot(force, force)) / weight;
-}
-
-void Neglected::see(const Encounter& met) {
+  const relevance::Encountered particle{s.diameter, weight,   fluid_density_, viscosity_,
+                                        surfaces_,  met.slip, met.vorticity,  met.spin};
   double sum = 0;
   bool whole = true;
-  for (std::size_t n = 0; n + 1 < observed_.size(); ++n) {
-    if (const auto share = share_of(observed_[n].effect, met)) {
+  for (std::size_t n = 0; n < effects_.size(); ++n) {
+    if (const auto share = weight > 0 ? effects_[n]->share(particle) : std::nullopt) {
       observed_[n].add(*share, met, tolerance_);
       sum += *share;
     } else {

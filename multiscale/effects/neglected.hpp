@@ -11,7 +11,7 @@
 #include "core/case/scene.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/output/json.hpp"
-#include "multiscale/effects/choice.hpp"
+#include "relevance/effect.hpp"
 
 namespace polybed::multiscale {
 
@@ -56,7 +56,7 @@ class Neglected {
   /// The forces that can be evaluated, and last their sum.
   [[nodiscard]] const std::vector<Observed>& observed() const { return observed_; }
   [[nodiscard]] const Observed& sum() const { return observed_.back(); }
-  /// What cannot: history and added mass need accelerations.
+  /// What cannot, since it needs more than a state: accelerations.
   [[nodiscard]] const std::vector<std::string>& not_evaluated() const { return not_evaluated_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
   /// Whether 99 of 100 encounters keep the promise; greater extremes are told, not held against it. Nothing where all
@@ -67,12 +67,11 @@ class Neglected {
   }
 
  private:
-  [[nodiscard]] std::optional<double> share_of(const std::string& effect, const Encounter& met) const;
-
   core::Scene scene_;
   double fluid_density_ = 0, viscosity_ = 0, tolerance_;
-  Surfaces surfaces_{};
-  std::vector<Observed> observed_;
+  relevance::Surfaces surfaces_{};
+  std::vector<const relevance::Effect*> effects_;  ///< that can be evaluated
+  std::vector<Observed> observed_;                 ///< of these, and last the sum
   std::vector<std::string> not_evaluated_;
 };
 

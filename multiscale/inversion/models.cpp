@@ -9,7 +9,7 @@
 
 #include "closures/terminal_velocity.hpp"
 #include "core/error.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -196,7 +196,7 @@ BinaryBed binary_bed(const core::Scene& scene) {
     bed.density[j] = scene.species[j].density;
     bed.share[j] = scene.bed.volume_share[j];
   }
-  bed.fluid = fluid::fluid_constants(scene.fluid);
+  bed.fluid = relevance::fluid_constants(scene.fluid);
   bed.gravity = scene.column.gravity;
   return bed;
 }

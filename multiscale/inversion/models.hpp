@@ -8,7 +8,7 @@
 
 #include "closures/drag.hpp"
 #include "core/case/scene.hpp"
-#include "fluid/fluid_state.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -17,7 +17,7 @@ struct BinaryBed {
   std::array<double, 2> diameter{};  ///< m
   std::array<double, 2> density{};   ///< kg/m3
   std::array<double, 2> share{};     ///< x_j, sums to 1
-  fluid::FluidConstants fluid;
+  relevance::FluidConstants fluid;
   double gravity = 9.81;  ///< m/s2
 };
 

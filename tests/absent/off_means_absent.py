@@ -12,8 +12,10 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 OURS = re.compile(r"\bpolybed::")
-# What makes effects, once: here the registries themselves differ.
-REGISTRIES = re.compile(r"SideForces::SideForces|make_pair_laws|make_cohesion|calls_for|PairLaws::|roles\(\)|make_effects|make_solids_stress|tfm::\(anonymous namespace\)::refuse")
+# What makes effects and lists them, once: here the lists themselves differ.
+REGISTRIES = re.compile(r"SideForces::SideForces|ParticleForces::ParticleForces|CaseReader::read_effects|make_pair_laws|make_effects|makers::|"
+                        r"for_each_called|roles\(\)|rules\(|menu_of|effects\(\)|PairLaws::|relevance::(?!FluidConstants)|"
+                        r"core::(Rule|Role|Law|refuse)|_GLOBAL__sub_I")
 CONTROL = "polybed::absent::control_kernel(int)"
 LEAST = 1000  # instructions: below it a function is no kernel
 

@@ -11,12 +11,13 @@ from sources import ROOT, report, tracked
 MAY_USE = {
     "closures": {"closures"},
     "core": {"core"},
-    "fluid": {"fluid", "core", "closures"},
-    "measures": {"measures", "fluid", "core", "closures"},
-    "tfm": {"tfm", "measures", "fluid", "core", "closures"},
-    "dem": {"dem", "measures", "fluid", "core", "closures"},
-    "multiscale": {"multiscale", "tfm", "dem", "measures", "fluid", "core", "closures"},
-    "app": {"app", "multiscale", "tfm", "dem", "measures", "fluid", "core", "closures"},
+    "relevance": {"relevance", "core", "closures"},
+    "fluid": {"fluid", "relevance", "core", "closures"},
+    "measures": {"measures", "fluid", "relevance", "core", "closures"},
+    "tfm": {"tfm", "measures", "fluid", "relevance", "core", "closures"},
+    "dem": {"dem", "measures", "fluid", "relevance", "core", "closures"},
+    "multiscale": {"multiscale", "tfm", "dem", "measures", "fluid", "relevance", "core", "closures"},
+    "app": {"app", "multiscale", "tfm", "dem", "measures", "fluid", "relevance", "core", "closures"},
 }
 # header -> the only files that may include it
 LIBRARIES = {

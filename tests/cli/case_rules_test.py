@@ -31,6 +31,76 @@ FLUID = '[fluid]\nname = "water"\ntemperature = "15 degC"\n'
 INLET = '[inlet]\nsuperficial_velocity = "10 mm/s"\n'
 
 
+LAWS = {"drag": "cello", "fluid_stress": "newtonian", "gas_slip": "cunningham", "added_mass": "zuber", "lift": "saffman_mei",
+        "magnus": "rubinow_keller", "history": "basset", "brownian": "langevin", "lubrication": "film"}
+DRY = "fluid.name=none"
+
+
+def on(role, law=None):
+    return f"effects.{role}={law or LAWS[role]}"
+
+
+# For each rule that the program lists what breaks it, in words of --set. {} stands for a word of the scene.
+BROKEN = {
+    **{f'effects.{role} = "{{}}" cannot act: fluid.name = "none"': [DRY, on(role)] for role in LAWS},
+    **{f"effects.{role} cannot act in a sheared box: its fluid moves with its flow": ["dem.shear_rate=1", on(role)]
+       for role in ("fluid_stress", "added_mass", "lift", "magnus", "history")},
+    "effects.gas_slip: a fluid of {} kg/m3 is a liquid, which does not slip: leave it out": [on("gas_slip")],
+    'effects.granular_temperature = "algebraic" needs a restitution below 1: species {}': [
+        "effects.solids_stress=kinetic", "dem.restitution=1"],
+    'effects.granular_temperature = "{}" acts only with solids_stress = "kinetic" or a dry table': [
+        "effects.solids_stress=none", "effects.granular_temperature=algebraic"],
+    'effects.granular_temperature = "{}" cannot be with effects.solids_stress = "frictional": '
+    "fluctuations act through the kinetic stress alone": ["effects.granular_temperature=algebraic"],
+    'effects.solids_stress = "frictional" cannot be with effects.granular_temperature = "{}"': ["effects.granular_temperature=algebraic"],
+    'effects.solids_viscosity = "{}" needs a solids_stress: its pressure': ["effects.solids_stress=none", "effects.solids_viscosity=mu_i"],
+    'effects.magnus = "{}" cannot be with effects.contact = "hertz": a force of rotation, and nothing rotates without friction': [
+        on("magnus"), "effects.contact=hertz"],
+    'effects.contact = "hertz" cannot be with effects.magnus = "{}"': [on("magnus"), "effects.contact=hertz"],
+    'effects.history = "{}" is a force on particles that accelerate, and dem.held holds them: leave one out': [
+        on("history"), "dem.held=true"],
+    'fluid.temperature: effects.brownian = "{}" needs it, as in "20 degC"': [
+        on("brownian"), "fluid.name=oil", "fluid.density=900", "fluid.viscosity=0.1", "fluid.temperature=!"],
+    'effects.brownian = "{}" moves particles against their drag: name a law of effects.drag, and leave out dem.held': [
+        on("brownian"), "effects.drag=none"],
+    'dem.normal_stiffness: effects.contact = "linear" needs it, as in "1000 N/m"': ["effects.contact=linear"],
+    **{f'dem.tangential = "{law}" needs the radius of a contact, which effects.contact = "linear" has not: use hertz_mindlin, or '
+       'dem.tangential = "linear"': ["effects.contact=linear", "dem.normal_stiffness=1000", f"dem.tangential={law}"]
+       for law in ("mindlin", "mindlin_deresiewicz")},
+    'dem.tangential = "linear" is a share of dem.normal_stiffness: it goes with effects.contact = "linear"': [
+        "effects.contact=hertz_mindlin", "dem.tangential=linear"],
+    'dem.rolling_friction: effects.rolling = "{}" needs it, above 0': ["effects.rolling=epsd", "effects.contact=hertz_mindlin"],
+    'dem.rolling_damping: effects.rolling = "cdt" has no spring to damp; use epsd': [
+        "effects.rolling=cdt", "effects.contact=hertz_mindlin", "dem.rolling_friction=0.1", "dem.rolling_damping=0.1"],
+    'effects.rolling = "{}" cannot be with effects.contact = "hertz": a resistance to rotation, and nothing rotates without friction': [
+        "effects.rolling=epsd", "effects.contact=hertz", "dem.rolling_friction=0.1"],
+    'effects.contact = "hertz" cannot be with effects.rolling = "{}"': [
+        "effects.rolling=epsd", "effects.contact=hertz", "dem.rolling_friction=0.1"],
+    **{f'dem.cohesion_energy: effects.cohesion = "{law}" needs it, as in "50 mJ/m2"': [f"effects.cohesion={law}"] for law in ("dmt", "jkr")},
+    'dem.hamaker_constant: effects.cohesion = "van_der_waals" needs it, as in 1e-19': ["effects.cohesion=van_der_waals"],
+    'effects.cohesion = "{}" cannot be with effects.contact = "linear": '
+    "it stands in place of Hertz' force, which linear springs have not": ["effects.cohesion=jkr", "effects.contact=linear"],
+    'effects.contact = "linear" cannot be with effects.cohesion = "{}"': ["effects.cohesion=jkr", "effects.contact=linear"],
+    "dem.held = true without drag: nothing resists the flow through the bed; name a law in effects.drag": [
+        "dem.held=true", "effects.drag=none"],
+    'tfm.solids_wall = "johnson_jackson" acts through a viscosity of the solids: effects.solids_viscosity, or '
+    'effects.solids_stress = "kinetic"': ["tfm.solids_wall=johnson_jackson"],
+    'tfm.max_packing = "fedors_landel" is for two species; yu_standish is for any number': ["tfm.max_packing=fedors_landel"],
+    "tfm.max_packing = {} must lie above tfm.frictional_onset = {}": ["tfm.max_packing=0.4"],
+    'bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = "auto"': ["bed.solids_fraction=0.45"],
+    "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower bed.start_solids_fraction": [
+        "bed.solids_fraction=0.68", "tfm.max_packing=0.64"],
+    "chooser.temperature_range: {}": ['chooser.temperature_range=["15 degC", "900 degC"]'],
+    "chooser.temperature_range cannot act: fluid.density and fluid.viscosity are given as numbers": [
+        'chooser.temperature_range=["15 degC", "20 degC"]', "fluid.density=1000", "fluid.viscosity=1e-3"],
+    "{}": ["fluid.temperature=900"],  # what is wrong with the fluid
+    "bed.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they settle": [
+        "bed.solids_fraction=0.85"],
+    'bed.start = "random": the particles would fill {} of the column, spheres of these sizes fill at most {}: enlarge column.size, '
+    "or take fewer": ["bed.start=random", "bed.volume_share=!", "bed.static_height=!", "bed.particles=[76730]"],
+}
+
+
 def without(*parts):
     text = BED
     for part in parts:
@@ -49,6 +119,28 @@ class Rules(Scratch):
     def notes(self, *settings):
         words = [word for setting in settings for word in ("--set", setting)]
         return strict_json(self.ends(DONE, "check", self.write("case.toml", BED), "--json", *words).stdout)["notes"]
+
+    def broken_case(self, settings):
+        """The bed with these settings, "!" taking a key away, and each line of what is wrong with it."""
+        text = BED
+        for key in (setting.split("=")[0].split(".")[1] for setting in settings if setting.endswith("=!")):
+            text = re.sub(rf"(?m)^{key} = .*\n", "", text)
+        return self.refused(text, *(setting for setting in settings if not setting.endswith("=!")))
+
+    def test_every_rule_is_broken_by_a_case_of_its_own(self):
+        rules = strict_json(self.ends(DONE, "list", "--json").stdout)["rules"]
+        self.assertEqual({rule["message"] for rule in rules}, set(BROKEN))
+        for rule in rules:
+            message, keys = rule["message"], rule["keys"]
+            expected = re.escape(message).replace(re.escape("{}"), ".+") if message != "{}" else "temperature of water"
+            lines = self.broken_case(BROKEN[message])
+            self.assertTrue(any(re.search(rf"^(.*: )?{expected}$" if message != "{}" else expected, line) for line in lines), (message, lines))
+            self.assertTrue(keys, message)
+        sound = self.ends(DONE, "check", self.write("case.toml", BED)).stderr
+        self.assertEqual(sound, "")
+
+    def test_a_monitor_that_switches_effects_on_is_refused_with_what_to_do(self):
+        self.assertIn("--resume --set effects.ROLE=LAW", self.refused(BED, "chooser.monitor=enable")[0])
 
     def test_what_effects_need_is_reported_with_all_other_errors(self):
         lines = self.refused(BED.replace('"0.8 mm"', '"0.8 mn"').replace("[1.0]", "[0.9]") + """[dem]
@@ -110,7 +202,7 @@ evry = 1
         self.notes("bed.solids_fraction=0.7")  # a mixture that was measured so dense is taken
         # 0.974 of 60 x 200 x 1.76 mm: 2.057e-5 m3 of spheres of 2.681e-10 m3
         random = BED.replace('volume_share = [1.0]\nstatic_height = "60 mm"\n', 'particles = [76730]\nstart = "random"\n')
-        self.assertRegex(self.refused(random)[0], "fill 0.974 of the column, spheres of these sizes fill at most 0.74")
+        self.assertRegex("\n".join(self.refused(random)), "fill 0.974 of the column, spheres of these sizes fill at most 0.74")
 
     def test_what_is_rarely_meant_is_warned_of(self):
         self.assertEqual([n for n in self.notes() if "negative" in n or "floats" in n], [])

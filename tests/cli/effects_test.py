@@ -246,31 +246,24 @@ class Promise(Scratch):
         self.assertIn("monitor", record["timers"])
         self.assertEqual(same_bits(run / "particles.h5", off / "particles.h5"), [])
 
-    def test_the_monitor_switches_on_what_it_finds(self):
-        # Each checkpoint lets the fluid's solver forget what it had: their times are those of all runs here.
-        more = ["--set", 'output.every="0.01 s"', "--set", 'output.checkpoint_every="0.01 s"']
-        told, record, run = self.ramp("enable", "enable", *more)
-        self.assertIn("will be on from", told.stderr)
-        switched = record["switched_on"]
-        self.assertTrue({one["effect"] for one in switched} <= {"lift", "magnus"} and switched, switched)
-        first = min(one["from_s"] for one in switched)
-        self.assertAlmostEqual(first / 0.01, round(first / 0.01), places=9)  # an output time
-        self.assertLess(first, 0.05)
-        for one in switched:
-            if one["from_s"] < record["time_s"]:
-                self.assertIn(f'{one["effect"]} = ', record["case"].split("[effects]")[1])
-        self.assertEqual(record["state"], "done")
-        # Until the switch as a run that only warns, afterwards not.
-        _, _, warned = self.ramp("warned", "warn", *more)
-        one, other = datasets(run / "particles.h5"), datasets(warned / "particles.h5")
-        differ = {name for name in one if one[name].tobytes() != other[name].tobytes()}
-        self.assertTrue(differ)
-        steps = sorted(name for name in one if name.endswith("/velocity"))
-        self.assertTrue(all(steps.index(name) * 0.01 > first - 1e-9 for name in differ if name in steps), (first, differ))
-        # Ended an output time after the switch and taken up, the run knows what is on: the same bits.
-        _, _, parts = self.ramp("parts", "enable", "--until", f"{first + 0.01:.2f} s", *more)
-        _, _, parts = self.ramp("parts", "enable", "--resume", *more)
-        self.assertEqual(same_bits(run / "particles.h5", parts / "particles.h5"), [])
+    def test_a_run_that_has_stopped_goes_on_with_the_effect(self):
+        stopped, record, run = self.ramp("stop", "stop", "--set", 'output.every="0.01 s"')
+        command = next(line for line in stopped.stderr.splitlines() if "--resume" in line).split("effect: polybed ")[1]
+        settings = re.findall(r"--set '([^']+)'", command)
+        self.assertIn("effects.magnus=rubinow_keller", settings)
+        words = [word for setting in settings for word in ("--set", setting)]
+        case = self.folder / "ramp.toml"
+        self.assertTrue(command.startswith(f"dem {case} -o {run} --resume"), command)
+        # The same monitor stops it again if more is left out; here one effect is to be seen at work.
+        self.ends(WRONG_CASE, "dem", case, "-o", run, "--resume", *words, "--set", "effects.cohesion=dmt", "--set", "dem.cohesion_energy=1e-6")
+        until = f"{record['time_s'] + 0.002:.4f} s"
+        added = ["dem", case, "-o", run, "--resume", *words, "--until", until, "--no-picture", "--quiet"]
+        done = program.run(*added)
+        self.assertIn(done.returncode, (DONE, NUMBERS), done.stderr)
+        after = strict_json((run / "run.json").read_text())
+        self.assertGreater(after["time_s"], record["time_s"])
+        self.assertIn("magnus = ", after["case"].split("[effects]")[1])
+        self.assertNotIn("magnus", {row["effect"] for row in after["promise"]["observed"]})
 
     def test_an_effect_without_strength_is_as_one_that_is_off(self):
         case = self.write("hand.toml", BY_HAND)

@@ -5,9 +5,9 @@
 #include "closures/bed_expansion.hpp"
 #include "closures/drag.hpp"
 #include "closures/inclined_settling.hpp"
-#include "fluid/properties.hpp"
 #include "hard/cases.hpp"
 #include "hard/scenes.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::hard {
 
@@ -32,7 +32,7 @@ core::Scene leaning_channel(double angle, int cells, double viscosity) {
 
 /// Speed at which the suspension falls in an upright vessel, m/s: the volume flux is 0, so it is the superficial slip.
 double upright_velocity(const core::Scene& scene) {
-  const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const core::Species& species = scene.species[0];
   const closures::CarriedBed bed{species.diameter, species.density - fluid.density, fluid.density, fluid.viscosity,
                                  scene.column.gravity};

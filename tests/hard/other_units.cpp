@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/case/keys.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::hard {
 
@@ -36,7 +36,7 @@ double number_of_one(const core::Dimension& dimension, const UnitSystem& units) 
 
 core::Scene in_units(core::Scene scene, const UnitSystem& units) {
   if (scene.fluid.present()) {
-    const fluid::FluidConstants fluid = fluid::fluid_constants(scene.fluid);
+    const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
     scene.fluid.name = "test fluid";
     scene.fluid.density = fluid.density;
     scene.fluid.viscosity = fluid.viscosity;

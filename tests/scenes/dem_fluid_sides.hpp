@@ -29,12 +29,13 @@ inline core::Scene sphere_in_water(double diameter, double density, dem::Vector 
 /// \param every  steps of dt, s, in one of the fluid
 class HeldShear {
  public:
-  HeldShear(const core::Scene& scene, double rate, double dt, int every = 1, double gravity = 0)
+  HeldShear(const core::Scene& scene, double rate, double dt, int every = 1, double gravity = 0,
+            const std::vector<const dem::Maker*>& list = dem::effects())
       : materials_(scene),
         grid_(core::grid_of(scene.column, nullptr)),
         gather_(grid_, {2 * materials_.species()[0].radius}),
         drag_(scene, materials_, scene.fluid.density.value(), scene.fluid.viscosity.value()),
-        sides(scene, materials_, scene.fluid.density.value(), scene.fluid.viscosity.value(), dt, every * dt),
+        sides(scene, materials_, scene.fluid.density.value(), scene.fluid.viscosity.value(), dt, every * dt, list),
         motion(materials_, scene.fluid.density.value(), {0, -gravity, 0}, {1, 1}, energy),
         every_(every),
         verlet_(false, dt, {}, {1, 1}, {1, 1}, 0) {

@@ -27,7 +27,7 @@ std::vector<double> volumes(tfm::Model& model) {
 }
 
 /// Steps to a time, as a run does: past each breakpoint of what flows in by a restart.
-void advance_past_kinks(tfm::Model& model, double until) {
+void advance_past_breakpoints(tfm::Model& model, double until) {
   while (model.time() < until) {
     double stop = until;
     for (const double breakpoint : model.breakpoints())
@@ -148,7 +148,7 @@ TEST_P(Openings, TheLedgerClosesWhateverTheSteps) {
   const core::Scene scene = busy(GetParam());
   tfm::Model model(scene, timers);
   const std::vector<double> start = volumes(model);
-  advance_past_kinks(model, 0.3);
+  advance_past_breakpoints(model, 0.3);
   record("ledger", ledger_error(model, start));
   EXPECT_LT(ledger_error(model, start), 1e-12);
   const std::vector<fluid::Passed> passed = model.passed();
@@ -178,7 +178,7 @@ TEST_P(Openings, EveryLevelCarriesTheFluidAndTheSolidsThatFlowIn) {
   const std::vector<std::pair<double, double>> flux{
       {0.05, expected(0.09, 0.0375, 0.002)}, {0.12, expected(0.18, 0.048, 0.004)}, {0.3, expected(0.18, 0.06, 0.001)}};
   for (const auto& [t, j] : flux) {
-    advance_past_kinks(model, t);
+    advance_past_breakpoints(model, t);
     EXPECT_NEAR(through(0), j, 1e-14) << t;
     for (const int level : {1, 20, 40}) EXPECT_NEAR(through(level), j, 1e-6) << t << " " << level;
   }
@@ -188,11 +188,11 @@ TEST_P(Openings, AResumedRunGivesTheSameBits) {
   core::Timers timers;
   const core::Scene scene = busy(GetParam());
   tfm::Model through(scene, timers), resumed(scene, timers);
-  advance_past_kinks(through, 0.12);
+  advance_past_breakpoints(through, 0.12);
   through.restart();
   resumed.resume(through.checkpoint());
-  advance_past_kinks(through, 0.25);
-  advance_past_kinks(resumed, 0.25);
+  advance_past_breakpoints(through, 0.25);
+  advance_past_breakpoints(resumed, 0.25);
   EXPECT_EQ(through.checkpoint().arrays.at("state"), resumed.checkpoint().arrays.at("state"));
   EXPECT_GT(resumed.passed()[0].in, 0);
   EXPECT_EQ(through.passed()[0].in, resumed.passed()[0].in);
@@ -243,7 +243,7 @@ TEST_P(Openings, NearFloodingNoSolidsComeFromNowhere) {
     core::Timers timers;
     tfm::Model model(scene, timers);
     const std::vector<double> start = volumes(model);
-    advance_past_kinks(model, 2.0);
+    advance_past_breakpoints(model, 2.0);
     const fluid::Passed heavy = model.passed()[0];
     record(fmt::format("thrown out at {} m/s", velocity), heavy.out / heavy.in);
     record(fmt::format("ledger at {} m/s", velocity), ledger_error(model, start));

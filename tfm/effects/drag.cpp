@@ -1,4 +1,7 @@
 #include "tfm/effects/drag.hpp"
+#include "relevance/effects/drag.hpp"
+#include "relevance/effects/gas_slip.hpp"
+#include "tfm/effects/maker.hpp"
 
 namespace polybed::tfm {
 
@@ -37,5 +40,19 @@ void Drag::evaluate(Fields& fields) {
 }
 
 ClosureUse Drag::use() const { return {"drag " + name_, count_.evaluations, count_.guarded}; }
+
+namespace makers {
+
+extern const Maker drag, gas_slip;
+const Maker drag{&relevance::effects::drag,
+                 "Exchange",
+                 [](const Making& m) {
+                   m.effects.drag = std::make_unique<Drag>(m.constants, m.boundaries, m.law,
+                                                           relevance::slip_divisors(m.scene, m.constants.diameter));
+                 },
+                 {"none"}};
+const Maker gas_slip{&relevance::effects::gas_slip, "Exchange"};
+
+}  // namespace makers
 
 }  // namespace polybed::tfm

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/numerics/ranks.hpp"
+#include "core/start_error.hpp"
 #include "tfm/bulk_viscosity.hpp"
 #include "tfm/initial.hpp"
 
@@ -44,7 +44,7 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
   law_.onset = scene.tfm.frictional_onset;
   choose_packing(scene);
   if (law_.max_packing <= law_.onset + closures::FrictionalLaw::margin)
-    throw core::CaseError("tfm.max_packing must lie above tfm.frictional_onset");
+    throw core::StartError("tfm.max_packing must lie above tfm.frictional_onset");
   fields.stress.pressure = core::make_field(constants.grid);
   fields.stress.slope = core::make_field(constants.grid);
   fields.stress.damping = core::make_field(constants.grid);
@@ -57,19 +57,15 @@ void FrictionalStress::choose_packing(const core::Scene& scene) {
   }
   const auto rule = std::get<core::PackingRule>(scene.tfm.max_packing);
   if (rule == core::PackingRule::automatic) {
-    if (scene.bed.solids_fraction <= law_.onset)
-      throw core::CaseError("bed.solids_fraction must lie above tfm.frictional_onset, or give tfm.max_packing");
     law_.max_packing = packing_of_bed(scene, constants_);
     if (!(law_.max_packing < 1))
-      throw core::CaseError(
+      throw core::StartError(
           "tfm.max_packing = \"auto\": the bed is too light to be held at bed.solids_fraction; give a number, e.g. "
           "0.64");
     return;
   }
-  const bool two = rule == core::PackingRule::fedors_landel;
-  if (two && constants_.species() != 2)
-    throw core::CaseError("tfm.max_packing = \"fedors_landel\" is for two species; yu_standish is for any number");
-  mixture_packing_ = two ? closures::packing_fedors_landel : closures::packing_yu_standish;
+  mixture_packing_ =
+      rule == core::PackingRule::fedors_landel ? closures::packing_fedors_landel : closures::packing_yu_standish;
   for (const core::Species& species : scene.species) species_packing_.push_back(species.max_packing);
   law_.max_packing = mixture_packing_(constants_.bed_share, constants_.diameter, species_packing_);
 }

@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/numerics/operators.hpp"
 #include "tfm/granular_temperature.hpp"
 #include "tfm/solids.hpp"
@@ -44,12 +43,8 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
       wall_restitution_(scene.tfm.wall_restitution),
       max_packing_(max_packing),
       least_shear_rate_(scene.tfm.least_shear_rate) {
-  for (const core::Species& species : scene.species) {
+  for (const core::Species& species : scene.species)
     restitution_.push_back(species.restitution.value_or(scene.dem.restitution));
-    if (!transported && restitution_.back() >= 1)
-      throw core::CaseError("effects.granular_temperature = \"algebraic\" needs a restitution below 1: species \"" +
-                            species.name + "\"");
-  }
   const std::vector<core::Field> per_species(constants.species(), core::make_field(constants.grid));
   fields.stress.make_viscous(constants);
   fields.solids.temperature = per_species;

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/start_error.hpp"
 #include "fluid/solids_table.hpp"
 
 namespace polybed::tfm {
@@ -13,7 +13,7 @@ using core::Index;
 
 closures::MonotoneCurve read_bed_pressure(const std::string& file) {
   if (const std::string regime = fluid::regime_of_table(file); regime != "bed")
-    throw core::CaseError(file + ": a table of regime \"" + regime + "\", not of a fluidised bed");
+    throw core::StartError(file + ": a table of regime \"" + regime + "\", not of a fluidised bed");
   return bed_curve(fluid::read_bed_table(file), file);
 }
 
@@ -25,10 +25,10 @@ closures::MonotoneCurve bed_curve(const fluid::BedPressure& bed, const std::stri
   }
   try {
     closures::MonotoneCurve curve(std::move(phi), std::move(pressure));
-    if (!curve.increases()) throw core::CaseError(file + ": p_bed must rise with phi, or the bed is ill-posed");
+    if (!curve.increases()) throw core::StartError(file + ": p_bed must rise with phi, or the bed is ill-posed");
     return curve;
   } catch (const std::invalid_argument& problem) {
-    throw core::CaseError(file + ": " + problem.what());
+    throw core::StartError(file + ": " + problem.what());
   }
 }
 

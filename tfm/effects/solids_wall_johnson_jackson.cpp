@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "closures/kinetic_theory.hpp"
-#include "core/error.hpp"
 #include "core/numerics/operators.hpp"
+#include "core/start_error.hpp"
 #include "tfm/solids.hpp"
 
 namespace polybed::tfm {
@@ -20,7 +20,7 @@ JohnsonJacksonWall::JohnsonJacksonWall(const core::Scene& scene, const Constants
       tangent_(scene.tfm.wall_friction),
       least_shear_rate_(scene.tfm.least_shear_rate) {
   if (!fields.stress.viscous())
-    throw core::CaseError(
+    throw core::StartError(
         "tfm.solids_wall = \"johnson_jackson\" acts through a viscosity of the solids: effects.solids_viscosity, or "
         "effects.solids_stress = \"kinetic\"");
   fields.stress.contact = core::make_field(constants.grid);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "closures/kinetic_theory.hpp"
-#include "core/error.hpp"
+#include "core/start_error.hpp"
 #include "tfm/solids.hpp"
 
 namespace polybed::tfm {
@@ -20,11 +20,11 @@ TableExchange::TableExchange(const core::Scene& scene, const Constants& constant
       use_{"species exchange " + file} {
   const std::string law = "effects.species_exchange = \"table:" + file + "\" ";
   if (constants.species() != 2)
-    throw core::CaseError(law + "is of two species, the case has " + std::to_string(constants.species()));
+    throw core::StartError(law + "is of two species, the case has " + std::to_string(constants.species()));
   if (table.exchange.value.empty())
-    throw core::CaseError(law + "holds no beta_12: polybed calibrate measures it in dry boxes, with calibrate.share");
+    throw core::StartError(law + "holds no beta_12: polybed calibrate measures it in dry boxes, with calibrate.share");
   if (fields.solids.temperature.empty())
-    throw core::CaseError(law + "needs granular temperatures: solids_stress = \"kinetic\" or a dry table");
+    throw core::StartError(law + "needs granular temperatures: solids_stress = \"kinetic\" or a dry table");
   const fluid::TablePlace place = fluid::place_of(scene);
   ratio_ = fluid::exchange_at(table, place);
   restitution_ = table.reference_restitution(place.restitution, place.friction);

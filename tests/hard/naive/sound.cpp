@@ -4,13 +4,13 @@
 
 #include "fluid/compressible.hpp"
 #include "fluid/inlet.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::hard::naive {
 
 std::vector<double> bottom_pressures(const std::string& name, const core::Scene& scene, double step, int steps) {
   if (name != "explicit_sound") throw std::invalid_argument("no textbook treatment of sound called " + name);
-  const double density = fluid::fluid_constants(scene.fluid).density;
+  const double density = relevance::fluid_constants(scene.fluid).density;
   const double sound =
       fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, density), scene.fluid.outlet_pressure);
   const int cells = scene.column.cells[1];

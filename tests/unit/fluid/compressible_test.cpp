@@ -6,7 +6,7 @@
 
 #include "core/numerics/operators.hpp"
 #include "fluid/fluid_mass.hpp"
-#include "fluid/properties.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::fluid {
 namespace {
@@ -50,7 +50,7 @@ TEST(VolumeCompressibility, IsThatOfSound) {
 // Air of 20 degC at 10 bar: 1e6/(287.05 * 293.15) = 11.883725 kg/m3; sound does not depend on the pressure.
 TEST(EquationOfState, GoesThroughTheOutletsPressure) {
   const core::Fluid fluid = air_at(1e6);
-  const double density = fluid_constants(fluid).density;
+  const double density = relevance::fluid_constants(fluid).density;
   EXPECT_NEAR(density, 11.883725, 1e-5);
   EXPECT_NEAR(speed_of_sound(equation_of_state(fluid, density), 1e6), 290.084, 1e-3);
   EXPECT_NEAR(speed_of_sound(equation_of_state(fluid, density), 2e6), 290.084, 1e-3);
@@ -60,12 +60,12 @@ TEST(EquationOfState, GoesThroughTheOutletsPressure) {
 // the closure's test); a density given is that at the outlet.
 TEST(EquationOfState, OfWaterStartsFromItsTables) {
   core::Fluid fluid = water_at(atmosphere + 1e7);
-  EXPECT_DOUBLE_EQ(fluid_constants(fluid).density, 998.207);
+  EXPECT_DOUBLE_EQ(relevance::fluid_constants(fluid).density, 998.207);
   fluid.density.reset();
   fluid.temperature = 293.15;
-  const double deep = fluid_constants(fluid).density;
+  const double deep = relevance::fluid_constants(fluid).density;
   fluid.outlet_pressure = atmosphere;
-  EXPECT_NEAR(deep / fluid_constants(fluid).density, 1.0046937, 1e-7);
+  EXPECT_NEAR(deep / relevance::fluid_constants(fluid).density, 1.0046937, 1e-7);
 }
 
 /// A column of air of 4 x 6 cells of 10 mm, without weight, its fluid alone.
@@ -74,7 +74,7 @@ class Column : public testing::Test {
   Column() : solids_(grid_, {2000.0}), fluid_(grid_) { std::fill(fluid_.voidage.begin(), fluid_.voidage.end(), 1.0); }
   Compressible make(bool closed, double gravity = 0) {
     boundaries_ = Boundaries(grid_, closed);
-    const double density = fluid_constants(air_at(atmosphere)).density;
+    const double density = relevance::fluid_constants(air_at(atmosphere)).density;
     Compressible air(grid_, boundaries_, equation_of_state(air_at(atmosphere), density), atmosphere, density, gravity);
     air.make_fields(fluid_);
     return air;

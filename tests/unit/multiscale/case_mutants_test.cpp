@@ -11,7 +11,7 @@
 #include "../core/case_mutator.hpp"
 #include "../core/shipped_cases.hpp"
 #include "core/case/file.hpp"
-#include "core/error.hpp"
+#include "core/start_error.hpp"
 #include "core/timers.hpp"
 #include "dem/continuum_scene.hpp"
 #include "dem/model.hpp"
@@ -57,11 +57,19 @@ bool begins(const core::Scene& scene) {
 
 /// As the commands do after reading: the choice of effects, the model. Refusals are theirs to tell.
 void use(const core::Scene& scene, bool step, Count& count) {
+  core::Scene chosen;
   try {
-    const core::Scene chosen = with_choice(scene);
+    chosen = with_choice(scene);
     ++count.weighed;
-    if (step) count.begun += begins(chosen);
+    core::refuse(scene_rules(), chosen);  // what is chosen beside what is given
   } catch (const core::CaseError& error) {
+    EXPECT_NE(std::string(error.what()), "");
+    ++count.refused_later;
+    return;
+  }
+  try {
+    if (step) count.begun += begins(chosen);
+  } catch (const core::StartError& error) {  // no other error of a case: it has kept every rule
     EXPECT_NE(std::string(error.what()), "");
     ++count.refused_later;
   } catch (const core::NumericsError& error) {
@@ -73,7 +81,7 @@ void use(const core::Scene& scene, bool step, Count& count) {
 void read(const std::string& text, const Seed& seed, bool step, Count& count) {
   try {
     const std::vector<core::Role> roles = all_roles();
-    const core::Scene scene = core::parse_case(text, seed.path, {}, roles, size_classes, scene_faults);
+    const core::Scene scene = core::parse_case(text, seed.path, {}, roles, size_classes, scene_rules());
     ++count.read;
     const std::string whole = core::resolved_case(scene);
     EXPECT_EQ(core::resolved_case(core::parse_case(whole, seed.path, {}, roles, size_classes)), whole) << text;

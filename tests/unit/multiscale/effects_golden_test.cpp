@@ -8,14 +8,16 @@
 #include "closures/mixture.hpp"
 #include "closures/relevance.hpp"
 #include "core/case/file.hpp"
-#include "multiscale/effects/choice.hpp"
-#include "multiscale/effects/effect_row.hpp"
-#include "multiscale/effects/situation.hpp"
-#include "multiscale/effects/weigh.hpp"
 #include "multiscale/roles.hpp"
+#include "relevance/choice.hpp"
+#include "relevance/situation.hpp"
 
 namespace polybed::multiscale {
 namespace {
+
+using relevance::EffectRow;
+using relevance::Situation;
+using relevance::Survey;
 
 struct Golden {
   const char* scene;
@@ -87,7 +89,7 @@ Survey survey_of(const std::vector<Golden>& species) {
     p.viscosity = one.viscosity;
     p.width = 1e-3 * one.width;
     p.gravity = 9.81;
-    s.situations.push_back(in_zone(p, "wall", 1e-3 * one.velocity, one.voidage, law));
+    s.situations.push_back(relevance::in_zone(p, "wall", 1e-3 * one.velocity, one.voidage, law));
     s.share.push_back(1.0 / double(species.size()));
   }
   return s;
@@ -96,8 +98,7 @@ Survey survey_of(const std::vector<Golden>& species) {
 std::vector<EffectRow> rows_of(const std::vector<Golden>& species, const std::string& purpose) {
   const core::Scene scene = scene_of(species, purpose);
   const Survey survey = survey_of(species);
-  std::vector<EffectRow> rows = weigh_phases(scene, survey);
-  for (EffectRow& row : weigh_forces(scene, survey)) rows.push_back(std::move(row));
+  std::vector<EffectRow> rows = relevance::weigh(scene, survey, menu());
   decide(rows, {0.02, purpose == "transient", {}, {}});
   return rows;
 }

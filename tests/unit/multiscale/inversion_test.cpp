@@ -11,9 +11,9 @@ namespace {
 
 using test::Table;
 
-constexpr fluid::FluidConstants water20{998.21, 1.0016e-3};
+constexpr relevance::FluidConstants water20{998.21, 1.0016e-3};
 
-BinaryBed bed_of(const Table& table, std::size_t n, const std::string& density, fluid::FluidConstants fluid) {
+BinaryBed bed_of(const Table& table, std::size_t n, const std::string& density, relevance::FluidConstants fluid) {
   const double x2 = table.number(n, "x2");
   return {{1e-3 * table.number(n, "D1_mm"), 1e-3 * table.number(n, "D2_mm")},
           {table.number(n, "rho1" + density), table.number(n, "rho2" + density)},
@@ -63,7 +63,7 @@ TEST(Inversion, PrintedTable) {
 
 TEST(Inversion, FromTheTemperature) {
   // Other correlations of water at 20 degC than the table's two constants: u within 0.2 %.
-  const fluid::FluidConstants water{closures::water_density(293.15), closures::water_viscosity(293.15)};
+  const relevance::FluidConstants water{closures::water_density(293.15), closures::water_viscosity(293.15)};
   const Table table("lbm/tab_5_ii.csv");
   for (std::size_t n = 0; n < table.rows(); ++n) {
     const double u = table.number(n, "u_NM_calc");

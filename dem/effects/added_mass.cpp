@@ -1,0 +1,22 @@
+#include "relevance/effects/added_mass.hpp"
+
+#include "closures/added_mass.hpp"
+#include "dem/effects/maker.hpp"
+
+namespace polybed::dem::makers {
+
+namespace {
+
+double half(double) { return closures::added_mass_of_one; }
+double zuber(double solids_fraction) { return closures::added_mass_zuber(solids_fraction); }
+
+}  // namespace
+
+extern const Maker added_mass;
+const Maker added_mass{
+    &relevance::effects::added_mass,
+    "Inertia",
+    MakeLoad([](const std::string& law, LoadLaws& laws) { laws.added_mass = law == "half" ? half : zuber; }),
+    {"zuber"}};
+
+}  // namespace polybed::dem::makers

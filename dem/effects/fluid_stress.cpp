@@ -1,0 +1,11 @@
+// The averaged fluid has it: fluid/flow.hpp.
+#include "relevance/effects/fluid_stress.hpp"
+
+#include "dem/effects/maker.hpp"
+
+namespace polybed::dem::makers {
+
+extern const Maker fluid_stress;
+const Maker fluid_stress{&relevance::effects::fluid_stress, "Stress"};
+
+}  // namespace polybed::dem::makers

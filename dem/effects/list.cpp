@@ -1,0 +1,23 @@
+// The list of effects of the particle model.
+#include "dem/effects/maker.hpp"
+
+namespace polybed::dem {
+
+namespace makers {
+
+extern const Maker drag, fluid_stress, gas_slip, added_mass, lift, magnus, history, brownian, lubrication, contact,
+    rolling, cohesion;
+
+}  // namespace makers
+
+const std::vector<const Maker*>& effects() {
+  using namespace makers;
+  // A law around the normal force comes before the normal force.
+  static const std::vector<const Maker*> all{
+      &drag,    &fluid_stress, &gas_slip,    &added_mass, &lift,    &magnus,
+      &history, &brownian,     &lubrication, &contact,    &rolling, &cohesion,
+  };
+  return all;
+}
+
+}  // namespace polybed::dem

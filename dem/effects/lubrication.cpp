@@ -1,0 +1,31 @@
+#include "relevance/effects/lubrication.hpp"
+#include "dem/effects.hpp"
+#include "dem/effects/film.hpp"
+#include "dem/effects/maker.hpp"
+#include "dem/effects/wet_contact.hpp"
+#include "relevance/fluid_properties.hpp"
+
+namespace polybed::dem::makers {
+
+namespace {
+
+void make_lubrication(const PairMaking& m) {
+  const relevance::FluidConstants fluid = relevance::fluid_constants(m.scene.fluid);
+  if (m.law == "film") {
+    m.laws.film = std::make_unique<Film>(m.materials, fluid.viscosity, m.scene.dem.roughness);
+    return;
+  }
+  // Its memory is the first in a contact's. The law within has a damping ratio of 1, and its tail kept.
+  m.around_normal = [&materials = m.materials, fluid, tail = m.scene.dem.tail](const MakeNormal& make) {
+    return std::make_unique<WetContact>(make(materials.with_restitution(0), "keep"), materials,
+                                        WetContact::Fluid{fluid.density, fluid.viscosity}, tail, 0);
+  };
+}
+
+}  // namespace
+
+extern const Maker lubrication;
+const Maker lubrication{
+    &relevance::effects::lubrication, "Pair", MakePair(make_lubrication), {"wet_restitution", "film"}};
+
+}  // namespace polybed::dem::makers

@@ -1,0 +1,79 @@
+// Who makes the effects of the particle model, and the list of them. What a scene does not call for is not made.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "closures/drag.hpp"
+#include "core/case/scene.hpp"
+#include "dem/contacts/materials.hpp"
+#include "relevance/effect.hpp"
+
+namespace polybed::dem {
+
+class NormalLaw;
+class SideForce;
+struct PairLaws;
+
+/// What makes a law of the normal force, of these materials and with this tail ("clip" or "keep").
+using MakeNormal = std::function<std::unique_ptr<NormalLaw>(const Materials&, const std::string& tail)>;
+
+/// Slot Pair: fills its place in `laws`. Each law is given its place in the memory of a contact, behind the laws
+/// before.
+struct PairMaking {
+  const core::Scene& scene;
+  const Materials& materials;
+  const std::string& law;
+  PairLaws& laws;
+  std::function<std::unique_ptr<NormalLaw>(const MakeNormal&)>& around_normal;  ///< empty: the normal force as it is
+};
+using MakePair = void (*)(const PairMaking&);
+
+/// Slot Force.
+struct ForceMaking {
+  const core::Scene& scene;
+  const Materials& materials;
+  double density, viscosity;  ///< of the fluid, kg/m3, Pa s
+  double dt, interval;        ///< step of the particles and of the fluid, s
+  std::size_t place;          ///< of its memory in a particle's row
+  bool other_inertia;         ///< the slot Inertia has a law
+};
+using MakeForce = std::unique_ptr<SideForce> (*)(const ForceMaking&);
+
+/// Slots Exchange and Inertia: laws that the one loop over particles in a fluid is made of.
+struct LoadLaws {
+  std::optional<closures::DragLaw> drag;
+  double (*added_mass)(double solids_fraction) = nullptr;  ///< its coefficient C_m
+};
+using MakeLoad = void (*)(const std::string& law, LoadLaws& laws);
+
+/// An effect of this model. Without a maker it acts within another's.
+struct Maker {
+  const relevance::Effect* effect;
+  std::string slot;
+  std::variant<std::monostate, MakePair, MakeForce, MakeLoad> make = {};
+  std::vector<std::string> benched = {};  ///< laws that `effects bench` times; "none": what it saves to leave it out
+};
+
+/// All of them, in the order in which they are made and listed.
+[[nodiscard]] const std::vector<const Maker*>& effects();
+
+/// What [effects] may name, and what the effects of a list require.
+[[nodiscard]] std::vector<core::Role> roles();
+[[nodiscard]] std::vector<core::Rule> rules(const std::vector<const Maker*>& list = effects());
+
+/// Calls body(its function, law) for those of a list that a scene calls for and that fill the slot of this type.
+template <class Make, class Body>
+void for_each_called(const std::vector<const Maker*>& list, const core::Scene& scene, Body&& body) {
+  for (const Maker* one : list) {
+    const Make* make = std::get_if<Make>(&one->make);
+    const std::string law = core::law_of(scene, one->effect->role);
+    if (make != nullptr && law != "none") body(*make, law);
+  }
+}
+
+}  // namespace polybed::dem

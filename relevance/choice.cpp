@@ -1,0 +1,62 @@
+#include "relevance/choice.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "relevance/situation.hpp"
+
+namespace polybed::relevance {
+
+namespace {
+
+/// The roles that the case decides itself. What it does not name is off.
+DecisionRule rule_for(const core::Scene& scene, const Menu& menu, bool free) {
+  DecisionRule rule{scene.chooser.tolerance, scene.chooser.purpose == core::Purpose::transient, {}, {}};
+  if (free) return rule;
+  for (const MenuEntry& entry : menu) {
+    const std::string law = core::law_of(scene, entry.effect->role);
+    if (law != core::automatic) (law == "none" ? rule.off : rule.on).insert(entry.effect->role);
+  }
+  return rule;
+}
+
+}  // namespace
+
+bool has_auto(const core::Scene& scene) {
+  return std::any_of(scene.effects.begin(), scene.effects.end(),
+                     [](const auto& entry) { return entry.second == core::automatic; });
+}
+
+Choice choose(const core::Scene& scene, const Menu& menu) {
+  Choice choice;
+  choice.tolerance = scene.chooser.tolerance;
+  const Survey of_scene = survey(scene);
+  choice.surfaces = surfaces_of(scene, of_scene);
+  choice.rows = weigh(scene, of_scene, menu);
+  choice.of_case = choice.rows;
+  decide(choice.rows, rule_for(scene, menu, !has_auto(scene)));
+  choice.neglected_sum = neglected_sum(choice.rows);
+  choice.sum_up_to = neglected_up_to(choice.rows);
+  decide(choice.of_case, rule_for(scene, menu, false));
+  choice.case_sum = neglected_sum(choice.of_case);
+  return choice;
+}
+
+core::Scene with_choice(core::Scene scene, const Menu& menu) {
+  if (!has_auto(scene)) return scene;
+  const Choice choice = choose(scene, menu);
+  for (const MenuEntry& entry : menu) {
+    const std::string& role = entry.effect->role;
+    if (core::law_of(scene, role) != core::automatic) continue;
+    scene.chooser.chosen.push_back(role);
+    const EffectRow* row = find_row(choice.rows, role);
+    const bool on = row != nullptr && row->state == EffectRow::State::on && row->not_built.empty();
+    if (on && entry.effect->set_keys) entry.effect->set_keys(scene, choice.surfaces);
+    on ? void(scene.effects[role] = row->model) : void(scene.effects.erase(role));
+  }
+  std::sort(scene.chooser.chosen.begin(), scene.chooser.chosen.end());
+  if (scene.chooser.monitor == core::automatic) scene.chooser.monitor = "warn";
+  return scene;
+}
+
+}  // namespace polybed::relevance

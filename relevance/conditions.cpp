@@ -1,0 +1,213 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "closures/relevance.hpp"
+#include "closures/terminal_velocity.hpp"
+#include "core/error.hpp"
+#include "relevance/effect.hpp"
+#include "relevance/fluid_properties.hpp"
+#include "relevance/supremum.hpp"
+
+namespace polybed::relevance {
+
+namespace {
+
+using State = EffectRow::State;
+using Kind = EffectRow::Kind;
+
+EffectRow always(const char* effect, const char* reason) {
+  EffectRow row = effect_row(effect, "exact", "-", Kind::condition);
+  row.state = State::on;
+  row.reason = reason;
+  return row;
+}
+
+double greatest_slip(const Survey& survey) {
+  double slip = 0;
+  for (const Situation& s : survey.situations) slip = std::max(slip, s.slip);
+  return slip;
+}
+
+/// Speed of sound in water at 20 degC, m/s; other liquids lie within a third of it.
+constexpr double sound_in_liquids = 1480;
+
+EffectRow equation_of_state(const core::Scene& scene, const Survey& survey) {
+  EffectRow row =
+      effect_row("equation_of_state", survey.is_gas ? "ideal_gas" : "tait",
+                 survey.is_gas ? "greatest of Ma^2/2, dp/p0, rho g H/p0" : "greatest of Ma^2/2, dp/(rho c^2), g H/c^2",
+                 Kind::condition);
+  row.threshold = scene.chooser.tolerance;
+  const double rho = survey.fluid_density, p0 = scene.fluid.outlet_pressure, g = scene.column.gravity;
+  double solids = 0;
+  for (std::size_t j = 0; j < scene.species.size(); ++j) solids += survey.share[j] * scene.species[j].density;
+  const double drop = survey.solids_fraction * survey.height * std::abs(solids - rho) * g;
+  const double sound2 = survey.is_gas ? p0 / rho : sound_in_liquids * sound_in_liquids;
+  const double mach2 = greatest_slip(survey) * greatest_slip(survey) / sound2;
+  row.value = std::max({0.5 * mach2, drop / (rho * sound2), rho * g * survey.column_height / (rho * sound2)});
+  const bool calls = *row.value > *row.threshold, set = scene.fluid.compressible();
+  row.state = set ? State::on : State::off;
+  if (!set) row.neglected = *row.value;
+  row.reason = calls == set ? (set ? "fluid.equation_of_state is set" : "density hardly changes")
+               : calls      ? "called for: set fluid.equation_of_state = \"" + row.model + "\""
+                            : "set, though density hardly changes";
+  return row;
+}
+
+EffectRow coupling(const Survey& survey) {
+  EffectRow row = effect_row("coupling", "four-way", "solids fraction over the column", Kind::condition);
+  row.state = State::on;
+  row.value = survey.mean_fraction;
+  row.threshold = 1e-3;
+  row.model = *row.value < 1e-6 ? "one-way" : (*row.value < 1e-3 ? "two-way" : "four-way");
+  row.reason = row.model + " would do; a run with a fluid always has all four";
+  return row;
+}
+
+EffectRow walls(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = effect_row("walls", core::name_of(scene.column.sides).data(), "L/d of the coarsest", Kind::condition);
+  double coarsest = 0;
+  for (const core::Species& s : scene.species) coarsest = std::max(coarsest, s.diameter);
+  row.value = survey.width / coarsest;
+  row.threshold = 50;
+  row.below = true;
+  row.state = scene.column.sides == core::Boundary::wall ? State::on : State::off;
+  row.reason = *row.value < 50 ? "narrow: walls order and slow the bed, and results depend on the width"
+                               : "wide enough for walls to be local";
+  if (scene.column.sides != core::Boundary::wall) row.reason = "periodic: there are none";
+  return row;
+}
+
+EffectRow level(const Survey& survey) {
+  EffectRow row = effect_row("level", "two momenta", "tau_p over the time of flow H/w", Kind::condition);
+  row.state = State::on;
+  row.threshold = 0.02;
+  Supremum greatest;
+  for (const Situation& s : survey.situations)
+    if (s.zone != "freeboard") greatest.add(s, s.relaxation_time() * s.slip / survey.height);
+  greatest.fill(row);
+  row.reason = row.value && *row.value < 0.02 ? "algebraic slip would do; it is not in the product"
+                                              : "each phase needs its own momentum";
+  return row;
+}
+
+EffectRow turbulence(const Survey& survey) {
+  EffectRow row = effect_row("turbulence", "none", "Re of the column, freeboard", Kind::unmodelled);
+  row.threshold = 2000;
+  row.value = survey.fluid_density * survey.greatest_velocity * survey.width / survey.viscosity;
+  row.reason = *row.value > 2000 ? "not modelled: the freeboard is turbulent" : "laminar above the bed";
+  return row;
+}
+
+EffectRow clusters(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = effect_row("clusters", "none", "g Delta/u_t^2 of the finest, cells > 10 d", Kind::unmodelled);
+  row.threshold = 0.5;
+  double cell = 0;
+  for (int axis = 0; axis < scene.column.dimensions; ++axis)
+    cell = std::max(cell, scene.column.size[std::size_t(axis)] / scene.column.cells[std::size_t(axis)]);
+  double value = 0;
+  for (const core::Species& s : scene.species) {
+    const double terminal = closures::settling_velocity(s.diameter, s.density - survey.fluid_density,
+                                                        survey.fluid_density, survey.viscosity, scene.column.gravity);
+    if (cell > 10 * s.diameter && terminal > 0)
+      value = std::max(value, scene.column.gravity * cell / (terminal * terminal));
+  }
+  row.value = value;
+  row.reason = value > 0.5 ? "not modelled: clusters smaller than a cell lower the drag; use finer cells"
+                           : "cells resolve what would cluster";
+  return row;
+}
+
+EffectRow temperature(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = effect_row("temperature", "none", "viscosity per kelvin", Kind::unmodelled);
+  if (!(survey.temperature > 0) || (scene.fluid.density && scene.fluid.viscosity)) {
+    row.state = State::unknown;
+    row.reason = "unknown: the fluid is given by numbers; of water about -2 % per K";
+    return row;
+  }
+  core::Fluid warmer = scene.fluid;
+  warmer.temperature = survey.temperature + 1;
+  try {
+    row.value = std::abs(fluid_constants(warmer).viscosity / survey.viscosity - 1);
+    row.reason = "not modelled: an uncertainty of the input";
+  } catch (const core::CaseError&) {
+    row.state = State::unknown;
+    row.reason = "unknown: the fluid's properties end at this temperature";
+  }
+  return row;
+}
+
+/// Two charges that touch, over the weight: q^2/(4 pi eps0 d^2)/F_ref.
+EffectRow charge(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = effect_row("charge", "none", "Coulomb force of neighbours over weight", Kind::unmodelled);
+  row.threshold = scene.chooser.tolerance;
+  if (!scene.chooser.charge) {
+    row.state = State::unknown;
+    row.reason = "unknown: needs charge (chooser.charge)";
+    return row;
+  }
+  constexpr double permittivity = 8.8541878128e-12;  // F/m
+  const double q = *scene.chooser.charge;
+  Supremum greatest;
+  for (const Situation& s : survey.touching())
+    greatest.add(s, q * q / (4 * std::numbers::pi * permittivity * s.diameter * s.diameter) / s.reference());
+  greatest.fill(row);
+  row.is_force = true;
+  row.reason = "not modelled";
+  return row;
+}
+
+EffectRow capillary(const core::Scene& scene, const Survey& survey) {
+  EffectRow row = effect_row("capillary_bridges", "capillary", "pull of a bridge over weight", Kind::unmodelled);
+  row.threshold = scene.chooser.tolerance;
+  if (survey.has_fluid && !survey.is_gas) {
+    row.neglected = 0;
+    row.reason = "immersed particles have no liquid bridges";
+    return row;
+  }
+  if (!scene.chooser.free_liquid) {
+    row.neglected = 0;
+    row.reason = "dry: chooser.free_liquid names no liquid";
+    return row;
+  }
+  Supremum greatest;
+  for (const Situation& s : survey.touching())
+    greatest.add(s, closures::capillary_relevance(*scene.chooser.free_liquid, s.diameter, s.reference()));
+  greatest.fill(row);
+  row.is_force = true;
+  row.not_built = "the closure is there, no role has it yet";
+  return row;
+}
+
+EffectRow sintering() {
+  EffectRow row = effect_row("sintering", "none", "-", Kind::unmodelled);
+  row.state = State::unknown;
+  row.reason = "unknown: needs how the material softens; not modelled";
+  return row;
+}
+
+}  // namespace
+
+std::vector<EffectRow> weigh_conditions(const core::Scene& scene, const Survey& survey) {
+  std::vector<EffectRow> rows{always("weight", "no cost")};
+  if (survey.has_fluid) {
+    rows.push_back(always("pressure_gradient", "no cost"));
+    rows.push_back(equation_of_state(scene, survey));
+    rows.push_back(coupling(survey));
+  }
+  rows.push_back(walls(scene, survey));
+  if (survey.has_fluid) {
+    rows.push_back(level(survey));
+    rows.push_back(turbulence(survey));
+    rows.push_back(clusters(scene, survey));
+    rows.push_back(temperature(scene, survey));
+  }
+  rows.push_back(charge(scene, survey));
+  rows.push_back(capillary(scene, survey));
+  rows.push_back(sintering());
+  return rows;
+}
+
+}  // namespace polybed::relevance

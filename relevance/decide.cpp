@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "relevance/choice.hpp"
+
+namespace polybed::relevance {
+
+namespace {
+
+using State = EffectRow::State;
+using Kind = EffectRow::Kind;
+
+/// Whether the value itself is the top of a band.
+bool is_uncertain(const EffectRow& row) { return row.band && row.band->most == row.value; }
+
+std::string number_text(double value) { return fmt::format("{:.2g}", value); }
+
+void decide_steady(EffectRow& row) {
+  row.state = State::off;
+  row.neglected = 0;
+  row.reason = "steady: the mean of what goes with acceleration vanishes";
+  if (row.band)
+    row.reason += fmt::format("; in a transient {:.2g} to {:.2g}", row.band->least, row.band->most);
+  else if (row.value)
+    row.reason += "; in a transient " + number_text(*row.value);
+}
+
+/// What a run may reach beside the scales of the choice: told, and not switched.
+void tell_greatest(EffectRow& row) {
+  if (row.up_to && row.threshold && row.state == State::off && *row.up_to > *row.threshold)
+    row.reason += fmt::format("; in a run up to {:.2g}, a scale that switches nothing", *row.up_to);
+}
+
+void decide_by_number(EffectRow& row) {
+  if (!row.value || !row.threshold) {
+    if (row.reason.empty()) row.reason = "no number: nothing moves through a fluid";
+    row.neglected = row.neglected.value_or(0);
+    return;
+  }
+  const bool uncertain = is_uncertain(row);
+  const bool beyond = row.below ? *row.value < *row.threshold : *row.value > *row.threshold;
+  if (beyond && !uncertain) {
+    row.state = State::on;
+    row.reason = fmt::format("{} {} {}", number_text(*row.value), row.below ? "<" : ">", number_text(*row.threshold));
+    return;
+  }
+  row.neglected = row.below ? 0 : *row.value;
+  row.reason = fmt::format("{} {} {}", number_text(*row.value), row.below ? ">=" : "<=", number_text(*row.threshold));
+  if (!row.band) return;
+  const bool known_small = !row.below && row.band->most <= *row.threshold;
+  if (uncertain && !known_small) row.neglected.reset();
+  row.reason = fmt::format("band {:.2g} to {:.2g}, uncertain there: not switched", row.band->least, row.band->most);
+}
+
+/// Bound on what leaving a row out neglects. What is always on has a number that chooses its law and bounds nothing,
+/// other than of a force.
+std::optional<double> bound_of(const EffectRow& row, bool always, bool transient) {
+  if (!row.value || row.below || (always && !row.summed)) return row.neglected;
+  if (row.of_acceleration && !transient) return 0;
+  const bool known = !is_uncertain(row) || (row.threshold && row.band->most <= *row.threshold);
+  return known ? row.value : std::nullopt;
+}
+
+/// Whether leaving a row out counts in the sum.
+bool counts(const EffectRow& row) { return row.summed && row.state == State::off && row.neglected.value_or(0) > 0; }
+
+/// A row as the case has it.
+void take_from_case(EffectRow& row, bool on, bool transient) {
+  row.state = on ? State::on : State::off;
+  const bool vanishes = row.of_acceleration && !transient;
+  if (on)
+    row.neglected.reset();
+  else if (row.value && !row.below && !is_uncertain(row))
+    row.neglected = vanishes ? 0 : *row.value;
+  row.reason = fmt::format("the case says {}{}", on ? "on" : "off", row.reason.empty() ? "" : ": " + row.reason);
+}
+
+void limit_sum(std::vector<EffectRow>& rows, const DecisionRule& rule) {
+  for (;;) {
+    double sum = 0;
+    EffectRow* largest = nullptr;
+    for (EffectRow& row : rows) {
+      if (!counts(row)) continue;
+      sum += *row.neglected;
+      const bool free = !rule.off.contains(row.effect) && row.not_built.empty();
+      if (free && (largest == nullptr || *row.neglected > *largest->neglected)) largest = &row;
+    }
+    if (sum <= rule.tolerance || largest == nullptr) return;
+    largest->state = State::on;
+    largest->neglected.reset();
+    largest->reason = fmt::format("{} alone is small, but the sum of what is left out would be {}",
+                                  number_text(*largest->value), number_text(sum));
+  }
+}
+
+}  // namespace
+
+void decide(std::vector<EffectRow>& rows, const DecisionRule& rule) {
+  for (EffectRow& row : rows) {
+    const bool decided = row.state != State::off || (!row.reason.empty() && !row.value);
+    const bool always = row.state == State::on;
+    row.bound = row.neglected;
+    if (row.kind != Kind::role && (row.kind == Kind::condition || !row.threshold || !row.value)) continue;
+    if (!decided || (row.kind == Kind::unmodelled)) {
+      const std::string said = row.kind == Kind::unmodelled ? row.reason : "";
+      row.of_acceleration && !rule.transient ? decide_steady(row) : decide_by_number(row);
+      if (!said.empty()) row.reason = said;
+      if (row.kind == Kind::unmodelled && !row.is_force) row.neglected.reset();
+    }
+    if (row.kind == Kind::role || row.is_force) row.bound = bound_of(row, always, rule.transient);
+    if (row.kind != Kind::role) continue;
+    if (!row.remark.empty()) row.reason += "; " + row.remark;
+    if (rule.on.contains(row.effect)) take_from_case(row, true, rule.transient);
+    if (rule.off.contains(row.effect)) take_from_case(row, false, rule.transient);
+    if (row.state == State::on && !row.not_built.empty()) row.neglected = row.value;
+  }
+  limit_sum(rows, rule);
+  for (EffectRow& row : rows)
+    if (row.kind == Kind::role) tell_greatest(row);
+}
+
+double neglected_sum(const std::vector<EffectRow>& rows) {
+  double sum = 0;
+  for (const EffectRow& row : rows)
+    if (row.summed && (row.state == State::off || !row.not_built.empty())) sum += row.neglected.value_or(0);
+  return sum;
+}
+
+bool is_left_out(const EffectRow& row, const std::string& model) {
+  const bool has_law = row.models.find(model) != std::string::npos;
+  return has_law ? row.state == State::off || !row.not_built.empty() : row.on_particles;
+}
+
+double neglected_sum(const std::vector<EffectRow>& rows, const std::string& model) {
+  double sum = 0;
+  for (const EffectRow& row : rows)
+    if (row.summed && is_left_out(row, model)) sum += row.bound.value_or(0);
+  return sum;
+}
+
+double neglected_up_to(const std::vector<EffectRow>& rows, const std::string& model) {
+  double sum = 0;
+  for (const EffectRow& row : rows)
+    if (row.summed && is_left_out(row, model)) sum += std::max(row.bound.value_or(0), row.up_to.value_or(0));
+  return sum;
+}
+
+double neglected_up_to(const std::vector<EffectRow>& rows) {
+  double sum = 0;
+  for (const EffectRow& row : rows)
+    if (row.summed && (row.state == State::off || !row.not_built.empty()))
+      sum += std::max(row.neglected.value_or(0), row.up_to.value_or(0));
+  return sum;
+}
+
+}  // namespace polybed::relevance

@@ -1,0 +1,58 @@
+// One line of the table of reasons: an effect, the number that decides it, and what was decided.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace polybed::relevance {
+
+/// A band: the number itself is uncertain there.
+struct NumberBand {
+  double least = 0, most = 0;
+};
+
+struct EffectRow {
+  enum class State { on, off, unknown };
+  enum class Kind {
+    role,       ///< of [effects]
+    condition,  ///< decided by other keys, or always on
+    unmodelled  ///< nothing of it is in the product
+  };
+  std::string effect;               ///< role, or what it is called
+  std::string model;                ///< the law chosen; or the one that was weighed
+  std::string models = "tfm, dem";  ///< where it acts
+  std::string number;               ///< what decides, in words
+  std::optional<double> value;      ///< its greatest; least where `below`
+  std::optional<double> threshold;
+  bool below = false;                   ///< on where the value is below the threshold
+  std::optional<NumberBand> band;       ///< where the number is uncertain: not switched
+  std::optional<double> up_to;          ///< of sheared particles: on the scales of a run's cells and of impacts
+  std::string where;                    ///< species and zone of the value
+  std::map<std::string, double> zones;  ///< the value of each zone
+  State state = State::off;
+  Kind kind = Kind::role;
+  bool summed = false;              ///< a force on particles that counts in what is left out
+  bool on_particles = false;        ///< acts on particles: a model that has no law of it leaves it out
+  bool of_acceleration = false;     ///< vanishes in the mean of what is steady
+  bool is_force = false;            ///< of what is not modelled: its value is a share of the weight
+  std::optional<double> neglected;  ///< bound on what leaving it out neglects, in the table as decided
+  std::optional<double> bound;      ///< the same whatever is decided; empty where it is not known
+  std::string reason;
+  std::string remark;     ///< added to the reason, whatever is decided
+  std::string not_built;  ///< why a run cannot have it; empty: it can
+};
+
+/// A row that is not yet weighed.
+inline EffectRow effect_row(const char* effect, const char* model, const char* number,
+                            EffectRow::Kind kind = EffectRow::Kind::role) {
+  EffectRow row;
+  row.effect = effect;
+  row.model = model;
+  row.number = number;
+  row.kind = kind;
+  return row;
+}
+
+}  // namespace polybed::relevance

@@ -1,0 +1,56 @@
+// Attraction of particles that touch or nearly do.
+#pragma once
+
+#include "closures/relevance.hpp"
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+#include "relevance/supremum.hpp"
+
+namespace polybed::relevance::effects {
+
+inline std::optional<EffectRow> weigh_cohesion(const Weighing& by, EffectRow row) {
+  const Surfaces surfaces = surfaces_of(by.scene, by.survey);
+  row = as_force(row, by.scene);
+  row.model = "van_der_waals";
+  Supremum greatest;
+  for (const Situation& s : by.survey.touching())
+    greatest.add(s, closures::van_der_waals_relevance(surfaces.hamaker, surfaces.roughness, s.reference()));
+  greatest.fill(row);
+  constexpr double powder = 10;  // pull over weight from which beds are not the ones that drag laws are known of
+  if (row.value.value_or(0) > powder) row.remark = "cohesive: outside the validated range";
+  return row;
+}
+
+inline void set_cohesion_keys(core::Scene& scene, const Surfaces& surfaces) {
+  scene.dem.hamaker_constant = surfaces.hamaker;
+  scene.dem.cohesion_gap = closures::relevance_contact_gap;
+  scene.dem.asperity_radius = 0.5 * surfaces.roughness;
+}
+
+inline core::Rule cohesion_needs_energy(const std::string& law) {
+  return rule_of_law("cohesion", law, {"dem.cohesion_energy"},
+                     "dem.cohesion_energy: effects.cohesion = \"" + law + "\" needs it, as in \"50 mJ/m2\"",
+                     [](const core::Scene& scene) { return !(scene.dem.cohesion_energy > 0); });
+}
+
+inline const Effect cohesion{
+    .role = "cohesion",
+    .help = "attraction of particles that touch or nearly do",
+    .absent = "DEM only; reaches the TFM through the solids stress",
+    .laws = {{"dmt", "constant pull 2 pi W R* in contact, hard small spheres, dem.cohesion_energy"},
+             {"jkr", "Johnson, Kendall and Roberts in place of Hertz, soft large spheres, dem.cohesion_energy"},
+             {"van_der_waals", "A R*/(6 z^2) across a gap, dem.hamaker_constant, dem.cohesion_gap"}},
+    .rules = joined({{cohesion_needs_energy("dmt"), cohesion_needs_energy("jkr"),
+                      rule_of_law("cohesion", "van_der_waals", {"dem.hamaker_constant"},
+                                  "dem.hamaker_constant: effects.cohesion = \"van_der_waals\" needs it, as in 1e-19",
+                                  [](const core::Scene& scene) { return !(scene.dem.hamaker_constant > 0); })},
+                     excludes("cohesion", "jkr", "contact", "linear",
+                              "it stands in place of Hertz' force, which linear springs have not")}),
+    .number = "pull of rough surfaces over weight",
+    .weigh = weigh_cohesion,
+    .share = [](const Encountered& met) -> std::optional<double> {
+      return closures::van_der_waals_relevance(met.surfaces.hamaker, met.surfaces.roughness, met.weight);
+    },
+    .set_keys = set_cohesion_keys};
+
+}  // namespace polybed::relevance::effects

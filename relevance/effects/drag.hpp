@@ -1,0 +1,36 @@
+// The force of the fluid on every species or particle.
+#pragma once
+
+#include "closures/drag.hpp"
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+
+namespace polybed::relevance::effects {
+
+inline std::vector<core::Law> laws_of_drag() {
+  std::vector<core::Law> laws;
+  for (const closures::DragLawInfo& law : closures::drag_laws())
+    laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [of a mixture: breaks the sum rule]")});
+  return laws;
+}
+
+inline std::optional<EffectRow> weigh_drag(const Weighing& by, EffectRow row) {
+  if (!by.survey.has_fluid) return std::nullopt;
+  const double tolerance = by.scene.chooser.tolerance;
+  row.model = by.survey.drag_law;
+  row.state = EffectRow::State::on;
+  row.value = by.survey.mixture_part;
+  row.threshold = tolerance;
+  row.reason = by.survey.mixture_part > tolerance ? "always on; a law with a mixture part"
+                                                  : "always on; its mixture part hardly matters";
+  return row;
+}
+
+inline const Effect drag{.role = "drag",
+                         .help = "force of the fluid on every species or particle",
+                         .laws = laws_of_drag(),
+                         .rules = {needs_a_fluid("drag")},
+                         .number = "mixture part, max |f_j/f_mean - 1|",
+                         .weigh = weigh_drag};
+
+}  // namespace polybed::relevance::effects

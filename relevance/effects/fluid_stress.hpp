@@ -1,0 +1,27 @@
+// Viscous stress of the averaged fluid.
+#pragma once
+
+#include "closures/relevance.hpp"
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+#include "relevance/supremum.hpp"
+
+namespace polybed::relevance::effects {
+
+inline std::optional<EffectRow> weigh_fluid_stress(const Weighing& by, EffectRow row) {
+  row.threshold = by.scene.chooser.tolerance;
+  Supremum greatest;
+  for (const Situation& s : by.survey.situations)
+    if (s.zone != "freeboard") greatest.add(s, closures::fluid_stress_relevance(s.viscosity, s.exchange(), s.width));
+  greatest.fill(row);
+  return row;
+}
+
+inline const Effect fluid_stress{.role = "fluid_stress",
+                                 .help = "viscous stress of the averaged fluid",
+                                 .laws = {{"newtonian", "mu (grad U + grad U^T - 2/3 div U I); T(1.16)"}},
+                                 .rules = {needs_a_fluid("fluid_stress"), idle_in_a_sheared_box("fluid_stress")},
+                                 .number = "share of the width, 2 sqrt(mu/beta)/L",
+                                 .weigh = weigh_fluid_stress};
+
+}  // namespace polybed::relevance::effects

@@ -1,0 +1,55 @@
+// Slip of a rarefied gas on small spheres.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "closures/relevance.hpp"
+#include "core/error.hpp"
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+#include "relevance/fluid_properties.hpp"
+#include "relevance/gas_slip.hpp"
+#include "relevance/supremum.hpp"
+
+namespace polybed::relevance::effects {
+
+inline std::optional<EffectRow> weigh_gas_slip(const Weighing& by, EffectRow row) {
+  row = as_force(row, by.scene);
+  row.summed = false;  // it changes the drag, whose error is reported apart
+  if (!by.survey.is_gas) {
+    row.neglected = 0;
+    row.reason = "a liquid does not slip";
+    return row;
+  }
+  Supremum greatest;
+  for (const Situation& s : by.survey.situations)
+    greatest.add(s, closures::gas_slip_relevance(
+                        mean_free_path_at(by.scene.fluid.outlet_pressure, s.fluid_density, s.viscosity), s.diameter));
+  greatest.fill(row);
+  return row;
+}
+
+/// Broken by a liquid; a fluid without known properties breaks a rule of its own.
+inline core::Broken slips_on_a_liquid(const core::Scene& scene) {
+  const std::string law = core::law_of(scene, "gas_slip");
+  if (law == "none" || law == core::automatic || !scene.fluid.present()) return {};
+  try {
+    const double density = fluid_constants(scene.fluid).density;
+    return density > lightest_liquid ? core::Broken({fmt::format("{:.4g}", density)}) : core::Broken();
+  } catch (const core::CaseError&) {
+    return {};
+  }
+}
+
+inline const Effect gas_slip{
+    .role = "gas_slip",
+    .help = "slip of a rarefied gas on small spheres, which lowers their drag",
+    .laws = {{"cunningham", "drag over 1 + Kn (1.257 + 0.4 exp(-1.1/Kn)), at the outlet's pressure; Davies 1945"}},
+    .rules = {needs_a_fluid("gas_slip"),
+              {{"effects.gas_slip", "fluid."},
+               "effects.gas_slip: a fluid of {} kg/m3 is a liquid, which does not slip: leave it out",
+               slips_on_a_liquid}},
+    .number = "1.257 Kn",
+    .weigh = weigh_gas_slip};
+
+}  // namespace polybed::relevance::effects

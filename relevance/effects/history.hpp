@@ -1,0 +1,45 @@
+// The force of past accelerations.
+#pragma once
+
+#include "closures/relevance.hpp"
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+#include "relevance/supremum.hpp"
+
+namespace polybed::relevance::effects {
+
+inline std::optional<EffectRow> weigh_history(const Weighing& by, EffectRow row) {
+  row = as_force(row, by.scene);
+  Supremum greatest;
+  for (const Situation& s : by.survey.situations) {
+    const double value =
+        closures::history_relevance(s.diameter, s.fluid_density, s.viscosity, s.slip, s.time(), s.reference());
+    if (s.particle_reynolds() > 1)
+      greatest.add_uncertain(s, {closures::history_relevance_least(s.diameter, s.fluid_density, s.viscosity, s.slip,
+                                                                   s.time(), s.reference()),
+                                 value});
+    else
+      greatest.add(s, value);
+  }
+  greatest.fill(row);
+  return row;
+}
+
+inline const Effect history{
+    .role = "history",
+    .help = "vorticity that past accelerations of a particle have left in the fluid",
+    .absent = "not in this version",
+    .laws = {{"basset", "Basset 1888, creeping flow, summed by exponentials; adds an inertia"}},
+    .rules = {needs_a_fluid("history"), idle_in_a_sheared_box("history"),
+              rule_of("history", {"dem.held"},
+                      "effects.history = \"{}\" is a force on particles that accelerate, and dem.held holds them: "
+                      "leave one out",
+                      [](const core::Scene& scene) { return scene.dem.held; })},
+    .number = "Basset force over weight",
+    .weigh = weigh_history,
+    .idle = [](const Weighing& by) -> std::string {
+      return by.scene.dem.held ? "dem.held: particles do not accelerate" : "";
+    },
+    .of_acceleration = true};
+
+}  // namespace polybed::relevance::effects

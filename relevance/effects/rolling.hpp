@@ -1,0 +1,38 @@
+// Moments that resist rolling.
+#pragma once
+
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+
+namespace polybed::relevance::effects {
+
+inline std::optional<EffectRow> weigh_rolling(const Weighing& by, EffectRow row) {
+  const bool heap = by.scene.chooser.static_heap;
+  row.model = "epsd";
+  row.state = heap ? EffectRow::State::on : EffectRow::State::off;
+  row.reason = heap ? "a heap at rest: a spring of rotation, dem.rolling_friction" : "no heap at rest is asked for";
+  if (!heap) row.neglected = 0;
+  return row;
+}
+
+inline const Effect rolling{
+    .role = "rolling",
+    .help = "moments that resist rolling, dem.rolling_friction",
+    .absent = "DEM only; reaches the TFM through the solids stress",
+    .laws = {{"cdt", "constant moment mu_r R* F_n against the rolling, for contacts that move (Ai et al. 2011, A)"},
+             {"epsd", "spring of rotation capped at it, dem.rolling_damping, for heaps at rest (Ai et al. 2011, C)"}},
+    .rules =
+        joined({{rule_of("rolling", {"dem.rolling_friction"},
+                         "dem.rolling_friction: effects.rolling = \"{}\" needs it, above 0",
+                         [](const core::Scene& scene) { return !(scene.dem.rolling_friction > 0); }),
+                 {{"dem.rolling_damping", "effects.rolling"},
+                  "dem.rolling_damping: effects.rolling = \"cdt\" has no spring to damp; use epsd",
+                  [](const core::Scene& scene) {
+                    return core::broken_if(core::law_of(scene, "rolling") == "cdt" && scene.dem.rolling_damping > 0);
+                  }}},
+                excludes("rolling", "*", "contact", "hertz",
+                         "a resistance to rotation, and nothing rotates without friction")}),
+    .number = "chooser.static_heap",
+    .weigh = weigh_rolling};
+
+}  // namespace polybed::relevance::effects

@@ -1,0 +1,72 @@
+// Pressure of the solids, packed or in collision.
+#pragma once
+
+#include <algorithm>
+
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+
+namespace polybed::relevance::effects {
+
+/// Shear rate times relaxation time, of the species that the fluid damps most; its place and zones go into the row.
+inline std::optional<double> inertia_of_shear(const Weighing& by, EffectRow& row) {
+  std::optional<double> least;
+  for (const core::Species& species : by.scene.species) {
+    std::optional<double> most;
+    for (const Situation& s : by.survey.situations)
+      if (s.species == species.name && s.zone != "freeboard" && 1 - s.voidage > 1e-2) {
+        const double value = s.shear * s.relaxation_time();
+        most = std::max(most.value_or(0), value);
+        auto& zone = row.zones.try_emplace(s.zone, value).first->second;
+        zone = std::max(zone, value);
+      }
+    if (most && (!least || *most < *least)) {
+      least = most;
+      row.where = species.name;
+    }
+  }
+  return least;
+}
+
+inline std::optional<EffectRow> weigh_solids_stress(const Weighing& by, EffectRow row) {
+  row.state = EffectRow::State::on;  // without any the model is ill-posed
+  row.threshold = 1;
+  row.value = inertia_of_shear(by, row);
+  if (!row.value) {
+    row.reason = "too dilute to shear as a bed; friction acts from solids fraction 0.5";
+  } else if (*row.value >= 1) {
+    row.model = "kinetic";
+    row.reason = "collisions are hardly damped: kinetic theory holds";
+  } else {
+    row.reason =
+        "the fluid damps collisions: kinetic theory does not hold; a table of polybed calibrate, else friction";
+  }
+  return row;
+}
+
+/// Names of the species that lose nothing in collisions, whose temperature in a local balance has no bound.
+inline core::Broken elastic_species(const core::Scene& scene) {
+  if (core::law_of(scene, "solids_stress") != "kinetic" || core::law_of(scene, "granular_temperature") == "transported")
+    return {};
+  std::string names;
+  for (const core::Species& species : scene.species)
+    if (species.restitution.value_or(scene.dem.restitution) >= 1)
+      names += (names.empty() ? "\"" : ", \"") + species.name + "\"";
+  return names.empty() ? core::Broken() : core::Broken({names});
+}
+
+inline const Effect solids_stress{
+    .role = "solids_stress",
+    .help = "pressure of the solids, packed or in collision",
+    .absent = "particles have contacts instead",
+    .laws = {{"frictional", "Johnson and Jackson 1987, with bulk viscosity"},
+             {"kinetic", "the same, and kinetic theory of collisions: pressure and viscosity"},
+             {"table:FILE",
+              "frictional, and what polybed calibrate measured: of a fluidised bed, or of sheared particles"}},
+    .rules = {{{"effects.solids_stress", "effects.granular_temperature", "species.restitution", "dem.restitution"},
+               "effects.granular_temperature = \"algebraic\" needs a restitution below 1: species {}",
+               elastic_species}},
+    .number = "shear rate x tau_p",
+    .weigh = weigh_solids_stress};
+
+}  // namespace polybed::relevance::effects

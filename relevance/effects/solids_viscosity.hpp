@@ -1,0 +1,24 @@
+// Resistance of packed solids to shear.
+#pragma once
+
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+
+namespace polybed::relevance::effects {
+
+inline const Effect solids_viscosity{
+    .role = "solids_viscosity",
+    .help = "resistance of packed solids to shear",
+    .absent = "particles have contacts instead",
+    .laws = {{"schaeffer", "p_f sin(delta)/abs(gamma), capped; Schaeffer 1987"},
+             {"mu_i", "mu(I) p_f/abs(gamma), capped; Jop, Forterre and Pouliquen 2006, dry grains"}},
+    .rules = {rule_of("solids_viscosity", {"effects.solids_stress"},
+                      "effects.solids_viscosity = \"{}\" needs a solids_stress: its pressure",
+                      [](const core::Scene& scene) { return core::law_of(scene, "solids_stress") == "none"; })},
+    .number = "-",
+    .weigh = [](const Weighing&, EffectRow row) -> std::optional<EffectRow> {
+      row.reason = "by hand: no number decides it";
+      return row;
+    }};
+
+}  // namespace polybed::relevance::effects

@@ -1,0 +1,45 @@
+#include "relevance/fluid_properties.hpp"
+
+#include <stdexcept>
+
+#include "closures/equation_of_state.hpp"
+#include "closures/fluid_properties.hpp"
+#include "core/error.hpp"
+
+namespace polybed::relevance {
+
+namespace {
+
+/// Of water at the outlet's pressure, where it is compressible; the tables are for 1 atm.
+double water_density(const core::Fluid& fluid, double kelvin) {
+  const double at_atmosphere = closures::water_density(kelvin);
+  if (fluid.equation_of_state != core::Compressibility::tait) return at_atmosphere;
+  return closures::TaitLiquid{at_atmosphere, 101325, fluid.tait_stiffness, fluid.tait_exponent}.density(
+      fluid.outlet_pressure);
+}
+
+}  // namespace
+
+FluidConstants fluid_constants(const core::Fluid& fluid) {
+  FluidConstants constants{fluid.density.value_or(0), fluid.viscosity.value_or(0)};
+  if (fluid.density && fluid.viscosity) return constants;
+  if (!fluid.present()) throw core::CaseError("fluid.name = \"none\": this needs a fluid");
+  const bool water = fluid.substance() == core::Substance::water;
+  if (fluid.substance() == core::Substance::other)
+    throw core::CaseError("fluid '" + fluid.name +
+                          "': give fluid.density and fluid.viscosity; only water and air know theirs");
+  if (!fluid.temperature)
+    throw core::CaseError("fluid.temperature is missing: " + fluid.name +
+                          " knows its density and viscosity from it (or give both)");
+  try {
+    const double t = *fluid.temperature;
+    if (!fluid.density)
+      constants.density = water ? water_density(fluid, t) : closures::air_density(t, fluid.outlet_pressure);
+    if (!fluid.viscosity) constants.viscosity = water ? closures::water_viscosity(t) : closures::air_viscosity(t);
+  } catch (const std::out_of_range& error) {
+    throw core::CaseError(std::string("fluid.temperature: ") + error.what());
+  }
+  return constants;
+}
+
+}  // namespace polybed::relevance

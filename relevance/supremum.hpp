@@ -1,0 +1,45 @@
+// The greatest value of a number over situations, with its place; of uncertain ones a band.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "relevance/effect_row.hpp"
+#include "relevance/situation.hpp"
+
+namespace polybed::relevance {
+
+class Supremum {
+ public:
+  void add(const Situation& s, double value) { note(s, value, certain_); }
+  /// Where the formula is no more than a guess: between two values.
+  void add_uncertain(const Situation& s, NumberBand band) {
+    note(s, band.most, uncertain_);
+    if (!band_ || band.most > band_->most) band_ = band;
+  }
+  /// Fills value, band, place and zones of a row; a certain value goes before.
+  void fill(EffectRow& row) const {
+    const auto& value = certain_ ? certain_ : uncertain_;
+    if (value) {
+      row.value = value->first;
+      row.where = value->second;
+    }
+    if (uncertain_ && (!certain_ || uncertain_->first > certain_->first)) row.band = band_;
+    row.zones = zones_;
+  }
+
+ private:
+  using Placed = std::optional<std::pair<double, std::string>>;
+  void note(const Situation& s, double value, Placed& greatest) {
+    if (!greatest || value > greatest->first) greatest = {value, s.species + ", " + s.zone};
+    auto& zone = zones_.try_emplace(s.zone, value).first->second;
+    zone = std::max(zone, value);
+  }
+  Placed certain_, uncertain_;
+  std::optional<NumberBand> band_;
+  std::map<std::string, double> zones_;
+};
+
+}  // namespace polybed::relevance

@@ -1,0 +1,21 @@
+// The list of effects of the continuum model.
+#include "tfm/effects/maker.hpp"
+
+namespace polybed::tfm {
+
+namespace makers {
+
+extern const Maker drag, fluid_stress, gas_slip, solids_stress, granular_temperature, solids_viscosity,
+    species_exchange;
+
+}  // namespace makers
+
+const std::vector<const Maker*>& effects() {
+  using namespace makers;
+  static const std::vector<const Maker*> all{
+      &drag, &fluid_stress, &gas_slip, &solids_stress, &granular_temperature, &solids_viscosity, &species_exchange,
+  };
+  return all;
+}
+
+}  // namespace polybed::tfm

@@ -1,0 +1,87 @@
+// What the keys of [tfm] and the start of a bed require.
+#include "tfm/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <variant>
+
+#include "closures/stress_frictional.hpp"
+#include "tfm/packing_limit.hpp"
+
+namespace polybed::tfm {
+
+namespace {
+
+using core::Broken;
+using core::Scene;
+
+/// Whether a scene's solids have a stress with a part from collisions: kinetic, or a table, which may be of either
+/// kind.
+bool may_collide(const std::string& stress) { return stress == "kinetic" || stress.starts_with("table:"); }
+
+bool has_stress(const Scene& scene) { return core::law_of(scene, "solids_stress") != "none"; }
+
+Broken wall_without_viscosity(const Scene& scene) {
+  const std::string stress = core::law_of(scene, "solids_stress");
+  return core::broken_if(scene.tfm.solids_wall == core::SolidsWall::johnson_jackson &&
+                         core::law_of(scene, "solids_viscosity") == "none" && !may_collide(stress) &&
+                         stress != core::automatic);
+}
+
+/// tfm.max_packing if it is a number, else 0.
+double packing_number(const Scene& scene) {
+  const double* number = std::get_if<double>(&scene.tfm.max_packing);
+  return number == nullptr ? 0 : *number;
+}
+
+bool packing_follows(const Scene& scene, core::PackingRule rule) {
+  return scene.tfm.max_packing == core::MaxPacking(rule);
+}
+
+Broken packing_below_onset(const Scene& scene) {
+  const double most = packing_number(scene);
+  const bool below = most <= scene.tfm.frictional_onset + closures::FrictionalLaw::margin;
+  if (!has_stress(scene) || !(most > 0) || !below) return {};
+  return Broken({fmt::format("{}", most), fmt::format("{}", scene.tfm.frictional_onset)});
+}
+
+Broken bed_below_onset(const Scene& scene) {
+  const double fraction = scene.bed.solids_fraction;
+  const bool below = fraction > 0 && fraction <= scene.tfm.frictional_onset;
+  if (!has_stress(scene) || !packing_follows(scene, core::PackingRule::automatic) || !below) return {};
+  return Broken({fmt::format("{}", fraction), fmt::format("{}", scene.tfm.frictional_onset)});
+}
+
+/// A run stops where solids lie above the maximum packing by as much.
+Broken start_above_packing(const Scene& scene) {
+  const double given = packing_number(scene), start = scene.bed.start_solids_fraction;
+  if (!has_stress(scene) || !(given > 0) || start - given <= most_above_packing) return {};
+  return Broken({fmt::format("{}", given), fmt::format("{:.4g}", start), fmt::format("{:g}", most_above_packing)});
+}
+
+}  // namespace
+
+std::vector<core::Rule> key_rules() {
+  return {{{"tfm.solids_wall", "effects.solids_viscosity", "effects.solids_stress"},
+           "tfm.solids_wall = \"johnson_jackson\" acts through a viscosity of the solids: effects.solids_viscosity, or "
+           "effects.solids_stress = \"kinetic\"",
+           wall_without_viscosity},
+          {{"tfm.max_packing", "species.diameter"},
+           "tfm.max_packing = \"fedors_landel\" is for two species; yu_standish is for any number",
+           [](const Scene& scene) {
+             return core::broken_if(has_stress(scene) && packing_follows(scene, core::PackingRule::fedors_landel) &&
+                                    scene.species.size() != 2);
+           }},
+          {{"tfm.max_packing", "tfm.frictional_onset"},
+           "tfm.max_packing = {} must lie above tfm.frictional_onset = {}",
+           packing_below_onset},
+          {{"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"},
+           "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
+           bed_below_onset},
+          {{"tfm.max_packing", "bed.solids_fraction", "bed.start_solids_fraction", "bed.start"},
+           "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower "
+           "bed.start_solids_fraction",
+           start_above_packing}};
+}
+
+}  // namespace polybed::tfm

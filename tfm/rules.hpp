@@ -1,0 +1,12 @@
+// What the keys of [tfm] and the start of a bed require, whatever effects there are.
+#pragma once
+
+#include <vector>
+
+#include "core/case/rule.hpp"
+
+namespace polybed::tfm {
+
+[[nodiscard]] std::vector<core::Rule> key_rules();
+
+}  // namespace polybed::tfm
