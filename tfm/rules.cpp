@@ -77,8 +77,11 @@ std::vector<core::Rule> key_rules() {
            packing_below_onset},
           {{"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"},
            "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
-           bed_below_onset},
-          {{"tfm.max_packing", "bed.solids_fraction", "bed.start_solids_fraction", "bed.start"},
+           bed_below_onset}};
+}
+
+std::vector<core::Rule> start_rules() {
+  return {{{"tfm.max_packing", "bed.solids_fraction", "bed.start_solids_fraction", "bed.start"},
            "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower "
            "bed.start_solids_fraction",
            start_above_packing}};

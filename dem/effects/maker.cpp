@@ -1,9 +1,5 @@
 #include "dem/effects/maker.hpp"
 
-#include <utility>
-
-#include "dem/rules.hpp"
-
 namespace polybed::dem {
 
 namespace {
@@ -18,10 +14,6 @@ relevance::Menu menu_of(const std::vector<const Maker*>& list) {
 
 std::vector<core::Role> roles() { return relevance::roles_of(menu_of(effects())); }
 
-std::vector<core::Rule> rules(const std::vector<const Maker*>& list) {
-  std::vector<core::Rule> all = relevance::rules_of(menu_of(list));
-  for (core::Rule& rule : key_rules()) all.push_back(std::move(rule));
-  return all;
-}
+std::vector<core::Rule> rules(const std::vector<const Maker*>& list) { return relevance::rules_of(menu_of(list)); }
 
 }  // namespace polybed::dem

@@ -139,6 +139,12 @@ class Rules(Scratch):
         sound = self.ends(DONE, "check", self.write("case.toml", BED)).stderr
         self.assertEqual(sound, "")
 
+    def test_all_that_effects_lack_without_a_fluid_is_reported_at_once(self):
+        lines = self.refused(BED, DRY, *(on(role) for role in LAWS))
+        for role in LAWS:
+            self.assertTrue(any(f"effects.{role} = " in line and "cannot act: fluid.name" in line for line in lines), (role, lines))
+        self.notes("dem.held=true", "effects.drag=cello")  # is taken
+
     def test_a_monitor_that_switches_effects_on_is_refused_with_what_to_do(self):
         self.assertIn("--resume --set effects.ROLE=LAW", self.refused(BED, "chooser.monitor=enable")[0])
 

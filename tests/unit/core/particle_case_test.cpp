@@ -250,24 +250,16 @@ std::string message_in_fluid(const std::string& column, const std::string& dem, 
                              const std::string& fluid = "water") {
   std::string text = dry_case({column, "temperature = 288", {}, {}, dem, more});
   text.replace(text.find("\"none\""), 6, "\"" + fluid + "\"");
-  const std::array<Role, 5> roles{Role{"drag", "dem", "Exchange", "", "", {{"cello", ""}}},
-                                  Role{"added_mass", "dem", "Inertia", "", "", {{"half", ""}}},
-                                  Role{"lift", "dem", "Force", "", "", {{"saffman_mei", ""}}},
-                                  Role{"magnus", "dem", "Force", "", "", {{"rubinow_keller", ""}}},
-                                  Role{"history", "dem", "Force", "", "", {{"basset", ""}}}};
   try {
-    (void)parse_case(text, "case.toml", {}, roles);
+    (void)parse_case(text, "case.toml", {}, {});
   } catch (const CaseError& error) {
     return error.what();
   }
   return "";
 }
 
-TEST(ParticleCaseInAFluid, IsHeldOnlyAgainstADrag) {
-  const std::string drag = "[effects]\ndrag = \"cello\"";
-  EXPECT_EQ(message_in_fluid(closed, "held = true", drag), "");
-  EXPECT_THAT(message_in_fluid(closed, "held = true", ""), HasSubstr("dem.held = true without drag"));
-  EXPECT_THAT(message_in_fluid(closed, "held = true", "[effects]\ndrag = \"none\""), HasSubstr("without drag"));
+TEST(ParticleCaseInAFluid, IsHeldOnlyInAFluid) {
+  EXPECT_EQ(message_in_fluid(closed, "held = true", ""), "");
   EXPECT_THAT(message_of(dry_case({{}, {}, {}, {}, "held = true", {}})),
               HasSubstr("dem.held = true is a fixed bed for a fluid"));
 }
@@ -289,15 +281,10 @@ TEST(ParticleCaseInAFluid, IsTiltedOnlyWhereNothingFlowsInAndDensityIsConstant) 
   EXPECT_THAT(message_of(gas), HasSubstr("column.gravity_direction other than down and a compressible fluid"));
 }
 
-TEST(ParticleCaseInAFluid, IsToldAllThatItsEffectsLackWithoutOne) {
-  const std::string effects =
-      "[effects]\ndrag = \"cello\"\nadded_mass = \"half\"\nlift = \"saffman_mei\"\n"
-      "magnus = \"rubinow_keller\"\nhistory = \"basset\"";
-  EXPECT_EQ(message_in_fluid(closed, "", effects), "");
-  const std::string message = message_in_fluid(closed, "", effects, "none");
-  for (const char* key :
-       {"effects.drag", "effects.added_mass", "effects.lift", "effects.magnus", "effects.history", "fluid.temperature"})
-    EXPECT_THAT(message, HasSubstr(std::string(key) + " cannot act: fluid.name = \"none\""));
+TEST(ParticleCaseInAFluid, HasATemperatureOnlyWithOne) {
+  EXPECT_EQ(message_in_fluid(closed, "", ""), "");
+  EXPECT_THAT(message_in_fluid(closed, "", "", "none"),
+              HasSubstr("fluid.temperature cannot act: fluid.name = \"none\""));
 }
 
 /// A list of particles in a folder of its own, with the case beside it.
