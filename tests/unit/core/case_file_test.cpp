@@ -294,6 +294,30 @@ TEST(CaseFile, TheResolvedCaseReadsBackToItself) {
   EXPECT_EQ(resolved_case(parse_case(text, "again.toml", {}, roles)), text);
 }
 
+TEST(CaseFile, EveryChoiceIsWrittenAsItWasRead) {
+  for (const Key& key : keys()) {
+    Scene scene;
+    if (const Table& table = *find_table(key.table); table.array) table.resize(scene, 1);
+    if (key.kind != Kind::text && key.kind != Kind::word_or_number) continue;
+    for (const std::string_view word : key.words) {
+      const std::string text =
+          word.ends_with("FILE") ? std::string(word.substr(0, word.size() - 4)) + "a.h5" : std::string(word);
+      key.set(scene, 0, text);
+      EXPECT_EQ(std::get<std::string>(key.get(scene, 0)), text) << key.path();
+    }
+  }
+}
+
+TEST(CaseFile, AMaximumPackingIsARuleOrANumber) {
+  const auto packing = [](const std::string& given) {
+    const Scene scene = parse_case(good, "case.toml", std::vector{"tfm.max_packing=" + given}, roles);
+    EXPECT_THAT(resolved_case(scene), HasSubstr("\nmax_packing = " + given + "\n"));
+    return scene.tfm.max_packing;
+  };
+  EXPECT_EQ(packing("0.61"), MaxPacking(0.61));
+  EXPECT_EQ(packing("\"yu_standish\""), MaxPacking(PackingRule::yu_standish));
+}
+
 TEST(CaseFile, EveryKeyHasHelpAndAReadableDefault) {
   for (const Key& key : keys()) {
     EXPECT_FALSE(key.help.empty()) << key.path();
