@@ -71,7 +71,8 @@ def run_child(words, ranks, output, seconds):
         child = subprocess.Popen(line_of(words, ranks), stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, process_group=0,
                                  env=MPI | os.environ if ranks > 1 else None,
                                  preexec_fn=tied_to_parent(signal.SIGTERM if ranks > 1 else signal.SIGKILL))
-    timer = threading.Timer(min(seconds, threading.TIMEOUT_MAX), lambda: (late.set(), end(child)))
+    left = min(max(0.0, begin + seconds - time.monotonic()), threading.TIMEOUT_MAX)
+    timer = threading.Timer(left, lambda: (late.set(), end(child)))
     timer.start()
     try:
         code = child.wait()
