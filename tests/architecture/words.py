@@ -7,7 +7,7 @@ import sys
 from sources import ROOT, report, tracked
 
 COMPARED = re.compile(r'[!=]=\s*"(?:[^"\\]|\\.)*"(?!\s*_)|"(?:[^"\\]|\\.)*"\s*[!=]=(?!=)')
-FOLDERS = ("closures", "core", "fluid", "tfm", "dem", "multiscale", "app")
+FOLDERS = ("closures", "core", "relevance", "fluid", "measures", "tfm", "dem", "multiscale", "app")
 # files that read or write a case, read another file, or the words of a command
 READERS = {f"{name}.cpp" for name in (
     *(f"core/case/{n}" for n in ("contact_properties", "file", "resolve", "resolved", "scene", "units", "values")),
@@ -20,6 +20,9 @@ REMAIN = {
     "dem/coupling": 1,            # laws of [effects]
     "dem/effects": 9,             # laws of [effects], each in its own maker
     "fluid": 3,                   # laws of [effects], regimes of sheared particles
+    "measures": 1,                # the unit of a number
+    "relevance": 9,               # laws of [effects], zones of a bed
+    "relevance/effects": 16,      # laws of [effects], zones of a bed
     "multiscale": 3,              # laws of [effects], the name of a score
     "multiscale/calibrate": 16,   # regimes of a calibration
     "multiscale/effects": 17,     # names of effects, laws and zones
