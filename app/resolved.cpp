@@ -16,7 +16,7 @@ namespace {
 /// output.
 std::string hash_of_scanned(core::Scene scene) {
   scene.inlet.superficial_velocity = {};
-  scene.bed.start.clear();
+  scene.bed.start = {};
   scene.run.until = 1;
   scene.output = {};
   return core::text_hash(core::resolved_case(scene));

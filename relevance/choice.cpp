@@ -55,7 +55,7 @@ core::Scene with_choice(core::Scene scene, const Menu& menu) {
     on ? void(scene.effects[role] = row->model) : void(scene.effects.erase(role));
   }
   std::sort(scene.chooser.chosen.begin(), scene.chooser.chosen.end());
-  if (scene.chooser.monitor == core::automatic) scene.chooser.monitor = "warn";
+  if (scene.chooser.monitor == core::MonitorMode::automatic) scene.chooser.monitor = core::MonitorMode::warn;
   return scene;
 }
 

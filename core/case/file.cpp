@@ -268,7 +268,8 @@ void CaseReader::place(const CaseProblem& problem) {
   const toml::source_region* source = nullptr;
   for (const auto& [path, region] : given_) {
     const std::size_t at = problem.line > 0 ? std::string::npos : problem.message.find(path);
-    const bool many = is_array_of_tables(path.substr(0, path.find('.')));  // whose key may be that of another entry
+    const Table* table = find_table(path.substr(0, path.find('.')));
+    const bool many = table != nullptr && table->array;  // whose key may be that of another entry
     if (at == std::string::npos || at >= first || many) continue;
     const std::size_t end = at + path.size();
     if (end < problem.message.size() && in_word(problem.message[end])) continue;

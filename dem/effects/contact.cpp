@@ -22,7 +22,7 @@ std::unique_ptr<TangentialLaw> make_tangential(const PairMaking& m, int place) {
 }
 
 void make_contact(const PairMaking& m) {
-  const MakeNormal make = [&](const Materials& materials, const std::string& tail) -> std::unique_ptr<NormalLaw> {
+  const MakeNormal make = [&](const Materials& materials, core::Tail tail) -> std::unique_ptr<NormalLaw> {
     if (m.law != "linear") return std::make_unique<HertzContact>(materials, tail);
     return std::make_unique<LinearContact>(materials, m.scene.dem.normal_stiffness.value(), tail);
   };

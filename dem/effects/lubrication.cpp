@@ -17,7 +17,7 @@ void make_lubrication(const PairMaking& m) {
   }
   // Its memory is the first in a contact's. The law within has a damping ratio of 1, and its tail kept.
   m.around_normal = [&materials = m.materials, fluid, tail = m.scene.dem.tail](const MakeNormal& make) {
-    return std::make_unique<WetContact>(make(materials.with_restitution(0), "keep"), materials,
+    return std::make_unique<WetContact>(make(materials.with_restitution(0), core::Tail::keep), materials,
                                         WetContact::Fluid{fluid.density, fluid.viscosity}, tail, 0);
   };
 }

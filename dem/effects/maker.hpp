@@ -20,7 +20,7 @@ class SideForce;
 struct PairLaws;
 
 /// What makes a law of the normal force, of these materials and with this tail ("clip" or "keep").
-using MakeNormal = std::function<std::unique_ptr<NormalLaw>(const Materials&, const std::string& tail)>;
+using MakeNormal = std::function<std::unique_ptr<NormalLaw>(const Materials&, core::Tail)>;
 
 /// Slot Pair: fills its place in `laws`. Each law is given its place in the memory of a contact, behind the laws
 /// before.

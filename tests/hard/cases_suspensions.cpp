@@ -17,7 +17,7 @@ using scenes::Bead;
 using scenes::Beads;
 using scenes::Liquid;
 
-constexpr double gravity = 9.81;
+constexpr double earth_gravity = 9.81;
 
 double fastest(const dem::Particles& particles) {
   double most = 0;
@@ -57,12 +57,12 @@ void light_spheres(Trial& trial) {
   for (const double ratio : {1.5, 0.5, 0.1, 0.001}) {
     if (trial.naive() && ratio < 0.1) continue;  // it has diverged at 0.1
     core::Scene scene = scene_of(1e-3, ratio * 1000, scenes::water, 20e-3, {5, 5, 5}, 1);
-    scene.column.gravity = gravity;
+    scene.column.gravity = earth_gravity;
     scene.effects = {{"contact", "hertz_mindlin"}, {"added_mass", "half"}};
     scene.dem.greatest_speed = 5;
     const auto run = begin_suspension(trial, scene, {{"a", {47e-3, 52e-3, 51e-3}}}, 2e-5);
     for (int n = 0; n < 24; ++n) run->step();
-    const double expected = gravity * (1 - ratio) / (ratio + 0.5),
+    const double expected = earth_gravity * (1 - ratio) / (ratio + 0.5),
                  found = run->particles().motion[0].v[1] / (24 * 2e-5);
     trial.measure("acceleration", std::abs(found / expected - 1), 1e-3);
   }
@@ -115,7 +115,7 @@ void beyond_packing(Trial& trial) {
 /// C8: an uneven suspension of the fluid's density: nothing moves.
 void neutral_at_rest(Trial& trial) {
   core::Scene scene = scene_of(1e-3, 1000, scenes::water, 2.5e-3, {4, 6, 4}, 10);
-  scene.column.gravity = gravity;
+  scene.column.gravity = earth_gravity;
   scene.effects["drag"] = "cello";
   std::vector<Bead> beads;
   for (std::uint64_t n = 0; n < 60; ++n)  // one in each of some cubes of 1.25 mm, off their centres
