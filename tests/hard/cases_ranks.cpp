@@ -173,7 +173,7 @@ void killed(Trial& trial) {
   const std::vector<std::string> until{"--until", "0.1 s"};  // ten times as long as to the first checkpoint
   const core::Checkpoint through = end_of(trial, 1, dem(file, whole, until), whole);
   bool killed = false;
-  const ProgramEnd end = run_program(2, dem(file, output, until), [&](const multiscale::ChildProgram& mpirun) {
+  const ProgramEnd end = run_program(2, dem(file, output, until), [&](const ChildProgram& mpirun) {
     if (killed || !fs::exists(output / "checkpoint.h5")) return;
     for (const pid_t rank : children_of(mpirun.process())) {
       killed = ::kill(rank, SIGKILL) == 0;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "multiscale/child_program.hpp"
+#include "hard/child_program.hpp"
 
 namespace polybed::hard {
 
@@ -15,9 +15,9 @@ struct ProgramEnd {
   std::string printed, said;  ///< on standard output, and on standard error
 };
 
-/// Runs `polybed words...` on a number of ranks; throws as multiscale::ChildProgram does.
+/// Runs `polybed words...` on a number of ranks; throws as ChildProgram does.
 /// \param look  called with it while it runs
 [[nodiscard]] ProgramEnd run_program(int ranks, const std::vector<std::string>& words,
-                                     const std::function<void(const multiscale::ChildProgram&)>& look = {});
+                                     const std::function<void(const ChildProgram&)>& look = {});
 
 }  // namespace polybed::hard

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace polybed::multiscale {
+namespace polybed::hard {
 
 /// What is started.
 struct ChildOrder {
@@ -60,4 +60,4 @@ class ChildProgram {
 [[nodiscard]] ChildExit run_child(const ChildOrder& order, double seconds = std::numeric_limits<double>::infinity(),
                                   const std::function<void(const ChildProgram&)>& look = {});
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::hard

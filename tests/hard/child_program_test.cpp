@@ -1,5 +1,5 @@
 // This program as another process: here the program of these tests, of which it runs one that is not run otherwise.
-#include "multiscale/child_program.hpp"
+#include "hard/child_program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "core/output/files.hpp"
 #include "scenes/scratch.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::hard {
 namespace {
 
 using scenes::Scratch;
@@ -53,4 +53,4 @@ TEST(ChildProgram, TellsWhereItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace polybed::multiscale
+}  // namespace polybed::hard

@@ -1,4 +1,4 @@
-#include "multiscale/child_program.hpp"
+#include "hard/child_program.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -20,7 +20,7 @@
 #include "multiscale/installed.hpp"
 #include "multiscale/mpirun.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::hard {
 
 namespace {
 
@@ -31,8 +31,8 @@ constexpr std::chrono::seconds grace{5};  // mpirun gives its ranks one
 
 std::vector<std::string> words_of(const ChildOrder& order) {
   std::vector<std::string> words;
-  if (order.ranks > 1) words = {mpirun(), "-q", "--oversubscribe", "-n", std::to_string(order.ranks)};
-  words.push_back((order.program.empty() ? this_program() : order.program).string());
+  if (order.ranks > 1) words = {multiscale::mpirun(), "-q", "--oversubscribe", "-n", std::to_string(order.ranks)};
+  words.push_back((order.program.empty() ? multiscale::this_program() : order.program).string());
   words.insert(words.end(), order.words.begin(), order.words.end());
   return words;
 }
@@ -84,7 +84,8 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 ChildProgram::ChildProgram(const ChildOrder& order) {
   std::vector<std::string> words = words_of(order);
-  std::vector<std::string> variables = order.ranks > 1 ? environment_of_mpirun() : environment();
+  std::vector<std::string> variables =
+      order.ranks > 1 ? multiscale::environment_of_mpirun() : multiscale::environment();
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) not_started(order, words.front(), errno);
   const core::Descriptor reading(pipe[0]);
@@ -93,8 +94,8 @@ ChildProgram::ChildProgram(const ChildOrder& order) {
     const core::Descriptor writing(pipe[1]);
     const core::Descriptor output = file_of(order.output), errors = file_of(order.errors);
     const int out = order.output.empty() ? STDERR_FILENO : output.number();
-    const Start start{pointers_to(words),
-                      pointers_to(variables),
+    const Start start{multiscale::pointers_to(words),
+                      multiscale::pointers_to(variables),
                       out,
                       order.errors.empty() ? out : errors.number(),
                       writing.number(),
@@ -161,4 +162,4 @@ ChildExit run_child(const ChildOrder& order, double seconds, const std::function
   return end;
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::hard
