@@ -228,6 +228,8 @@ void run_dem(const RunOptions& options) {
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
   core::on_first(ranks.get(), [&] { taken = take_directory(directory, options); });
+  // Told before a model is made: that of another case may fail to start.
+  if (options.resume) core::on_first(ranks.get(), [&] { (void)read_checkpoint_of(directory, scene, "dem"); });
   std::optional<DemRun> run;
   start_run({directory, scene, "dem", ranks.get(), options.resume},
             [&] { run.emplace(options, scene, directory, ranks); });

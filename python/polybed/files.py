@@ -75,7 +75,8 @@ def check_regular(path):
     if not path.exists():
         raise FileNotFoundError(f"{path} is missing: make it again with polybed, or restore it from a copy")
     if not path.is_file():
-        raise DamagedError(path, "it is not a regular file")
+        kind = "a folder" if path.is_dir() else "a pipe or a device"
+        raise DamagedError(path, f"it is no regular file, but {kind}")
 
 
 def read_text(path):

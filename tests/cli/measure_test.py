@@ -75,7 +75,7 @@ class OfProfiles(Scratch):
 
     def test_distances_from_a_reference(self):
         alike = measured(asked(reference=LAYERS))["distances"]
-        self.assertEqual(alike, {"composition": [0], "profile": [0]})
+        self.assertEqual(alike, {"composition": [0], "profile": [0], "profile_a": [0], "profile_b": [0]})
         apart = measured(asked(profiles=[LAYERS, TURNED], reference=LAYERS))["distances"]
         self.assertAlmostEqual(apart["profile"][1], 2, delta=1e-14)  # nowhere together
         self.assertGreater(apart["composition"][1], 0.85)  # 8/9 by the exact shares, of 50 slices
@@ -86,14 +86,14 @@ class OfProfiles(Scratch):
         (laid,) = answer["profiles"]
         np.testing.assert_allclose(laid["fraction"], [[0.4, 0], [0.08, 0.24]], rtol=0, atol=1e-15)
         np.testing.assert_allclose(laid["pressure"], [(45 + 35 + 25 / 2) / 2.5, (25 / 2 + 15 + 5) / 2.5], rtol=1e-14)
-        self.assertEqual(answer["distances"], {"composition": [0], "profile": [0]})
+        self.assertEqual(answer["distances"], {"composition": [0], "profile": [0], "profile_a": [0], "profile_b": [0]})
         self.assertNotIn("profiles", measured(asked()))
 
     def test_what_cannot_be_measured_is_null(self):
         empty = {"slab": 0.01, "fraction": [[0, 0]]}
         answer = json.loads(json.dumps(measured(json.dumps({"species": ["a"], "profiles": [empty], "reference": empty}))))
         self.assertEqual({v for m in answer["measures"].values() for v in m["values"]}, {None})
-        self.assertEqual(answer["distances"], {"composition": [None], "profile": [None]})
+        self.assertEqual(answer["distances"], {"composition": [None], "profile": [None], "profile_a": [None]})
 
     def test_bad_input_is_named(self):
         wrong = [("no JSON", "{"), ("species", asked(species=[])), ("species", asked(species=["a", "a"])),

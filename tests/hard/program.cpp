@@ -21,9 +21,8 @@ ProgramEnd run_program(int ranks, const std::vector<std::string>& words,
                        const std::function<void(const ChildProgram&)>& look) {
   const scenes::Scratch folder;
   const std::filesystem::path printed = folder.path() / "printed", said = folder.path() / "said";
-  const ChildExit end =
-      run_child({words, ranks, printed, said, multiscale::this_program().parent_path() / "polybed"},
-                std::numeric_limits<double>::infinity(), look);
+  const ChildExit end = run_child({words, ranks, printed, said, multiscale::this_program().parent_path() / "polybed"},
+                                  std::numeric_limits<double>::infinity(), look);
   return {end.code, text_of_file(printed), text_of_file(said)};
 }
 
