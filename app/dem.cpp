@@ -88,7 +88,7 @@ class DemRun final : public CaseRun {
   }
 
   std::string advice() override {
-    if (monitor_ && !monitor_->warnings().empty()) return advice_of(*monitor_);
+    if (monitor_ && monitor_->has_stopped()) return advice_of(*monitor_);
     return fmt::format("the step was {:.3g} s, limited by {}", model_.limits().dt, model_.limits().limited_by);
   }
 

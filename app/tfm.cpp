@@ -98,14 +98,14 @@ class TfmRun final : public CaseRun {
   }
 
   std::string advice() override {
-    if (monitor_ && !monitor_->warnings().empty()) return advice_of(*monitor_);
     std::string steps;
     for (const tfm::StepLine& step : observers_->last_steps())
       steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
     return fmt::format(
-        "the last steps: time, s; length, s; what limited it; steps.csv has all of them\n{}"
-        "try a smaller tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)",
-        steps);
+        "the last steps: time, s; length, s; what limited it; steps.csv has all of them\n{}{}", steps,
+        monitor_ && monitor_->has_stopped()
+            ? advice_of(*monitor_)
+            : "try a smaller tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)");
   }
 
   std::string record_text(const std::string& state) override {

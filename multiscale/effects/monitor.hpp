@@ -35,6 +35,10 @@ class Monitor {
   /// Of all ranks. Collective.
   [[nodiscard]] Neglected result(const core::Ranks* ranks) const;
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Whether it has ended the run.
+  [[nodiscard]] bool has_stopped() const {
+    return scene_.chooser.monitor == core::MonitorMode::stop && !warnings_.empty();
+  }
   /// Of what was warned of, in words of --set: the laws that a run can take up from its checkpoint, forces that keep
   /// nothing of the past. Of the sum that which has most of it.
   [[nodiscard]] const std::vector<std::string>& settings() const { return settings_; }
