@@ -12,6 +12,7 @@
 #include "dem/observers.hpp"
 #include "dem/settling.hpp"
 #include "multiscale/fluid_report.hpp"
+#include "multiscale/particle_requirements.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 

@@ -11,6 +11,7 @@
 #include "dem/coupling/kernel.hpp"
 #include "dem/overlap_forecast.hpp"
 #include "dem/step_limits.hpp"
+#include "multiscale/estimate/machine.hpp"
 
 namespace polybed::multiscale {
 
@@ -37,15 +38,6 @@ struct ParticleRequirements {
   /// Of a step that the case gives, and of contacts too soft.
   [[nodiscard]] std::vector<std::string> warnings() const;
   [[nodiscard]] double memory() const { return program + particles + (fluid ? fluid->memory : 0); }
-};
-
-/// How fast one core computes particles. The values here were measured on the cases of this repository: a dense bed
-/// with friction and the ledger; a dilute one is up to four times as fast. A step costs something with no particle at
-/// all. With a fluid particles are slower, as each asks the fields and the drag law at every step; of the fluid's step
-/// count what each particle gives and answers, each cell, and what it takes on the smallest grid.
-struct ParticleSpeed {
-  double particle_step = 1e-7, step = 3e-6;                                                    ///< s
-  double particle_step_in_fluid = 1.0 / 6e6, exchange = 2e-7, cell = 8e-7, fluid_step = 2e-4;  ///< s
 };
 
 /// From the case alone: nothing is packed and nothing is stepped, so that it is known at once for any number. Throws

@@ -6,9 +6,11 @@
 
 #include "core/error.hpp"
 #include "core/output/fields.hpp"
+#include "dem/model.hpp"
 #include "fluid/vorticity.hpp"
 #include "multiscale/effects/fluid_map.hpp"
 #include "multiscale/roles.hpp"
+#include "tfm/model.hpp"
 
 namespace polybed::multiscale {
 

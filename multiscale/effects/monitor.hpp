@@ -8,9 +8,14 @@
 #include <vector>
 
 #include "core/case/scene.hpp"
-#include "dem/model.hpp"
 #include "multiscale/effects/neglected.hpp"
-#include "tfm/model.hpp"
+
+namespace polybed::dem {
+class Model;
+}
+namespace polybed::tfm {
+class Model;
+}
 
 namespace polybed::multiscale {
 

@@ -10,6 +10,7 @@
 #include "core/timers.hpp"
 #include "dem/model.hpp"
 #include "multiscale/estimate/ways.hpp"
+#include "multiscale/particle_requirements.hpp"
 
 namespace polybed::multiscale {
 
