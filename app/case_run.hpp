@@ -106,7 +106,7 @@ class CaseRun {
   void run_to_end();
   /// Writes run.json and returns its text. Collective.
   std::string record(const std::string& state);
-  /// The same of a run that ends with an error, which is to be told whether or not this can be written.
+  /// The same for a run that ends with an error; a failure to write it does not hide that error.
   void record_if_possible(const std::string& state);
   void finish(const std::string& state);
   [[noreturn]] void fail(const core::NumericsError& error);
@@ -127,9 +127,9 @@ struct RunStart {
   bool resumes;
 };
 
-/// Calls `start`, which makes the run. If it throws, run.json of a run that begins anew tells why, as far as it can be
-/// written; what was thrown goes on. A case that is wrong leaves no record, and neither does a start that fails before
-/// it has replaced an earlier run.
+/// Calls `start`, which makes the run. If it throws, run.json of a run that begins anew contains the reason, as far as
+/// it can be written; what was thrown goes on. A case that is wrong leaves no record, and neither does a start that
+/// fails before it has replaced an earlier run.
 void start_run(const RunStart& run, const std::function<void()>& start);
 
 /// Prints the table of time by term.

@@ -93,7 +93,7 @@ class DemRun final : public CaseRun {
     return fmt::format("the step was {:.3g} s, limited by {}", model_.limits().dt, model_.limits().limited_by);
   }
 
-  /// What the case alone tells of the step and of the contacts.
+  /// Warnings on the step and the contacts that follow from the case alone.
   [[nodiscard]] std::vector<std::string> warnings_before() const {
     std::vector<std::string> lines;
     for (const std::string& line : {model_.limits().warning, model_.overlap_expected().warning})
@@ -229,7 +229,7 @@ void run_dem(const RunOptions& options) {
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
   core::on_first(ranks.get(), [&] { taken = take_directory(directory, options); });
-  // Told before a model is made: that of another case may fail to start.
+  // Refuse a checkpoint of another case before its model is built, which may fail for other reasons.
   if (options.resume) core::on_first(ranks.get(), [&] { (void)read_checkpoint_of(directory, scene, "dem"); });
   std::optional<DemRun> run;
   start_run({directory, scene, "dem", ranks.get(), options.resume},

@@ -54,7 +54,7 @@ void refuse_what_a_model_cannot_run(const InversionOptions& options, const core:
   require_table(scene);
 }
 
-/// What the study is asked for, as JSON.
+/// The request to the study, as JSON.
 std::string request_of(const InversionOptions& options, const ScanRange& range,
                        const std::optional<InversionPoint>& balance) {
   core::Json json = begin_request(options, "inversion");

@@ -26,7 +26,7 @@ namespace {
 using measures::Profile;
 using Values = std::vector<measures::Value>;
 
-/// What is asked for.
+/// The request.
 struct Asked {
   std::vector<std::string> species;
   std::vector<double> time;  ///< s, of the profiles of a run

@@ -12,7 +12,7 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// A row as it is told: the name that polybed measure knows it by and its column of history.csv, empty if it has none.
+/// A row of the list: the name in polybed measure and its column of history.csv, empty if it has none.
 struct Line {
   std::string name, column, unit, help;
   measures::Readers readers;

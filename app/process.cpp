@@ -29,7 +29,7 @@ void open_closed_streams() {
 
 Ending guarded(const std::function<core::ExitCode()>& work) {
   open_closed_streams();
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is told like a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // report a limit on file sizes like a full disk
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone, likewise
   try {
     core::search_absolute_path();

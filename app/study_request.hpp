@@ -1,4 +1,4 @@
-// What a study of the Python package is asked for: the options of its command as a JSON object.
+// The request to a study of the Python package: the options of its command as a JSON object.
 #pragma once
 
 #include <string>

@@ -114,7 +114,7 @@ void CaseReader::check_sizes(const toml::table& species) {
   if (has("diameter") && has("distribution"))
     values_.add(species.get("diameter")->source(),
                 "species.diameter and species.distribution both say how large: give one");
-  if (has("distribution") && kind != "lognormal" && kind != "sieves") return;  // told as any wrong word
+  if (has("distribution") && kind != "lognormal" && kind != "sieves") return;  // reported like any wrong word
   const auto only = [&](const char* key, const std::string& of) {
     const bool acts = of.empty() ? !kind.empty() : kind == of;
     if (has(key) && !acts)

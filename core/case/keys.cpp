@@ -21,7 +21,7 @@ std::vector<Table> all_tables() {
   return all;
 }
 
-/// The fewest digits that tell a number from every other: "9.81", "101325", "3e8", "1e-4".
+/// The fewest digits that identify a number: "9.81", "101325", "3e8", "1e-4".
 std::string short_number(double value) {
   if (value == 0 || (std::abs(value) >= 1e-3 && std::abs(value) < 1e6)) return fmt::format("{}", value);
   std::string text;

@@ -103,7 +103,7 @@ Words choices(Word... words) {
   return {{words...}};
 }
 
-/// A key of a struct, before it is known where that stands in a scene.
+/// A key of a struct, not yet bound to a place in a scene.
 template <class S>
 struct KeyOf {
   Key key;
