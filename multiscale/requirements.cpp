@@ -81,11 +81,16 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
   const tfm::Constants& constants = model.constants();
   const double velocity = superficial_velocity(model);
   const auto state = [&](double solids_fraction) {
+    using enum core::TfmIntegrator;
+    const double inside = velocity / (1 - solids_fraction), rtol = scene.tfm.rtol;
     BedState bed{solids_fraction,
-                 tfm::time_scales_of_bed(scene, constants, model.effects(), {solids_fraction, velocity}), 0};
-    bed.step = need.integrator == core::TfmIntegrator::explicit_steps
-                   ? scene.tfm.fixed_step.value_or(tfm::explicit_step(bed.scales))
-                   : tfm::implicit_step(constants, velocity / (1 - solids_fraction), scene.tfm.rtol);
+                 tfm::time_scales_of_bed(scene, constants, model.effects(), {solids_fraction, velocity},
+                                         need.integrator == split_steps),
+                 0};
+    const double step = need.integrator == explicit_steps ? tfm::explicit_step(bed.scales)
+                        : need.integrator == split_steps  ? tfm::split_step(constants, bed.scales, inside, rtol)
+                                                          : tfm::implicit_step(constants, inside, rtol);
+    bed.step = scene.tfm.fixed_step.value_or(step);
     return bed;
   };
   const double rest = scene.bed.solids_fraction;
@@ -108,7 +113,7 @@ double packed_time(const core::Scene& scene, const Requirements& need, double ve
 /// Steps of an implicit run while its step grows to that of the bed: from its start, and after each checkpoint, where
 /// the integrator forgets its history. For each ten-fold beyond 0.1 ms; measured on packed beds in three dimensions.
 double growing_steps(const core::Scene& scene, const Requirements& need) {
-  if (need.integrator == core::TfmIntegrator::explicit_steps) return 0;
+  if (need.integrator != core::TfmIntegrator::implicit_steps) return 0;
   constexpr double from = 1e-4, of_start = 30, of_restart = 7;
   const double tenfolds = std::max(0.0, std::log10(need.expanded.step / from));
   const double restarts = std::max(0.0, std::ceil(scene.run.until / *scene.output.checkpoint_every * (1 - 1e-9)) - 1);

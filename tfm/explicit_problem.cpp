@@ -3,11 +3,18 @@
 namespace polybed::tfm {
 
 ExplicitProblem::ExplicitProblem(RightHandSide& equations, const StateLayout& layout, double pressure_tolerance,
-                                 core::Timers& timers)
+                                 core::Timers& timers, bool split)
     : equations_(equations),
       layout_(layout),
       timers_(timers),
-      pressure_(equations.constants().grid, pressure_tolerance) {}
+      pressure_(equations.constants().grid, pressure_tolerance) {
+  if (split) fast_.emplace(equations.constants(), equations.boundaries(), layout);
+}
+
+void ExplicitProblem::hold() {
+  const auto scope = timers_.scope("drag");
+  fast_->hold(equations_.fields());
+}
 
 core::Rate ExplicitProblem::rates(double t, std::span<const double> y, std::span<double> dydt) {
   if (!equations_.evaluate(t, layout_, y)) return core::Rate::recoverable;

@@ -2,18 +2,28 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/numerics/integrator.hpp"
+#include "tfm/fast_drag.hpp"
 #include "tfm/pressure_coupling.hpp"
 #include "tfm/right_hand_side.hpp"
 
 namespace polybed::tfm {
 
-class ExplicitProblem : public core::OdeProblem {
+class ExplicitProblem : public core::SplitProblem {
  public:
-  ExplicitProblem(RightHandSide& equations, const StateLayout& layout, double pressure_tolerance, core::Timers& timers);
+  /// \param split  the fast part of the drag can be taken apart
+  ExplicitProblem(RightHandSide& equations, const StateLayout& layout, double pressure_tolerance, core::Timers& timers,
+                  bool split = false);
 
   core::Rate rates(double t, std::span<const double> y, std::span<double> dydt) override;
+
+  void hold() override;
+  void add_fast(double factor, std::span<const double> y, std::span<double> rates) override {
+    fast_->add(factor, y, rates);
+  }
+  void solve_fast(double gamma, std::span<const double> r, std::span<double> x) override { fast_->solve(gamma, r, x); }
 
   /// An integration begins: what comes next depends on the state alone.
   void begin() { pressure_.forget(); }
@@ -28,6 +38,7 @@ class ExplicitProblem : public core::OdeProblem {
   const StateLayout& layout_;
   core::Timers& timers_;
   fluid::Pressure pressure_;
+  std::optional<FastDrag> fast_;  ///< empty without a split
   double correction_rate_ = 0;
   std::uint64_t solves_ = 0, iterations_ = 0;
 };

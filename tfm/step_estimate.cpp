@@ -11,6 +11,7 @@
 #include "closures/mixture.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "tfm/bulk_viscosity.hpp"
+#include "tfm/fast_drag.hpp"
 
 namespace polybed::tfm {
 
@@ -18,8 +19,13 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// 1/s: the slip of the fastest species relaxes while all of them drag the fluid along.
-double drag_rate(const Constants& constants, const std::string& name, const UniformBed& bed) {
+/// 1/s: the slip of the fastest species relaxes while all of them drag the fluid along; and what relaxes slowly beside
+/// steps that take the drag implicitly.
+struct DragRates {
+  double whole = 0, slow = 0;
+};
+
+DragRates drag_rates(const Constants& constants, const std::string& name, const UniformBed& bed) {
   const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
   const double eps = 1 - bed.solids_fraction;
   const std::size_t n = constants.species();
@@ -27,12 +33,14 @@ double drag_rate(const Constants& constants, const std::string& name, const Unif
   closures::drag_of_mixture(law, eps, constants.bed_share, constants.diameter, slip, constants.fluid.density,
                             constants.fluid.viscosity, f, slope);
   double on_fluid = 0, own = 0;
+  SlowDrag slow(eps, constants.fluid.density);
   for (std::size_t j = 0; j < n; ++j) {
     const double b = 18 * constants.fluid.viscosity * eps * f[j] / (constants.diameter[j] * constants.diameter[j]);
     on_fluid += constants.bed_share[j] * bed.solids_fraction * b / (eps * constants.fluid.density);
     own = std::max(own, b / constants.density[j]);
+    slow.add(constants.bed_share[j] * bed.solids_fraction, b, constants.density[j]);
   }
-  return own + on_fluid;
+  return {own + on_fluid, slow.rate()};
 }
 
 /// dp_s/dphi by a central difference: the slot Stress offers the pressure alone.
@@ -76,13 +84,15 @@ double expanded_fraction(const Constants& constants, const std::string& name, do
 }
 
 std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Constants& constants, const Effects& effects,
-                                          const UniformBed& bed) {
+                                          const UniformBed& bed, bool split) {
   const double h = constants.grid.smallest_spacing();
   const auto scale = [](double rate) { return rate > 0 ? 1 / rate : infinite; };
   const double speed = std::max(bed.velocity / (1 - bed.solids_fraction), greatest_terminal_velocity(constants));
   std::vector<TimeScale> scales{{"convection", scale(speed / h), 0}};
-  if (const auto named = scene.effects.find("drag"); effects.drag && named != scene.effects.end())
-    scales.push_back({"drag", scale(drag_rate(constants, named->second, bed)), 0});
+  if (const auto named = scene.effects.find("drag"); effects.drag && named != scene.effects.end()) {
+    const DragRates drag = drag_rates(constants, named->second, bed);
+    scales.push_back({"drag", scale(split ? drag.slow : drag.whole), 0});
+  }
   if (effects.solids_stress) {
     const double wave = std::sqrt(stress_slope(*effects.solids_stress, bed.solids_fraction) / mean_density(constants));
     scales.push_back({"acoustics", scale(wave / h), 0});
@@ -102,21 +112,35 @@ double explicit_step(const std::vector<TimeScale>& scales) {
   return share * shortest;
 }
 
-double implicit_step(const Constants& constants, double velocity, double rtol) {
-  constexpr double share = 0.5, measured_at = 1e-3;
+namespace {
+
+/// The slower of convection and free fall through a cell, s, at a tolerance of which steps are a cubic root.
+double accurate_step(const Constants& constants, double velocity, double rtol, double share) {
+  constexpr double measured_at = 1e-3;
   const double h = constants.grid.smallest_spacing();
   const double pull = constants.gravity * std::abs(1 - constants.fluid.density / mean_density(constants));
   const double rate = std::abs(velocity) / h + std::sqrt(pull / h);
   return rate > 0 ? share / rate * std::cbrt(rtol / measured_at) : infinite;
 }
 
-double explicit_steps_per_implicit(const core::Scene& scene, const Constants& constants, const Effects& effects,
-                                   double velocity) {
+}  // namespace
+
+double implicit_step(const Constants& constants, double velocity, double rtol) {
+  return accurate_step(constants, velocity, rtol, 0.5);
+}
+
+double split_step(const Constants& constants, const std::vector<TimeScale>& scales, double velocity, double rtol) {
+  return std::min(explicit_step(scales), accurate_step(constants, velocity, rtol, 0.75));
+}
+
+double split_steps_per_implicit(const core::Scene& scene, const Constants& constants, const Effects& effects,
+                                double velocity) {
   const auto drag = scene.effects.find("drag");
   const double rest = scene.bed.solids_fraction;
-  const double phi = drag == scene.effects.end() ? rest : expanded_fraction(constants, drag->second, velocity, rest);
+  const double phi = !effects.drag ? rest : expanded_fraction(constants, drag->second, velocity, rest);
+  const std::vector<TimeScale> scales = time_scales_of_bed(scene, constants, effects, {phi, velocity}, true);
   return implicit_step(constants, velocity / (1 - phi), scene.tfm.rtol) /
-         explicit_step(time_scales_of_bed(scene, constants, effects, {phi, velocity}));
+         split_step(constants, scales, velocity / (1 - phi), scene.tfm.rtol);
 }
 
 }  // namespace polybed::tfm

@@ -37,8 +37,10 @@ struct UniformBed {
 /// waves of the solids and their bulk viscosity with the slope of the solids pressure at phi; the fluid's viscosity.
 /// Off means absent. Of a bed that starts packed they are those of its fields at the start to a thousandth; later the
 /// flow within the bed decides.
+/// \param split  as in time_scales()
 [[nodiscard]] std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Constants& constants,
-                                                        const Effects& effects, const UniformBed& bed);
+                                                        const Effects& effects, const UniformBed& bed,
+                                                        bool split = false);
 
 /// The step that the explicit integrator is expected to take: a share of the shortest scale, s. Measured,
 /// docs/record/cost.md.
@@ -50,10 +52,16 @@ struct UniformBed {
 /// \param velocity  of the fluid between the particles, m/s
 [[nodiscard]] double implicit_step(const Constants& constants, double velocity, double rtol);
 
-/// How many explicit steps one implicit step is expected to replace, implicit_step() over explicit_step(), in the bed
-/// as a velocity expands it, or packed where that does not carry it: what chooses the integrator of a liquid bed.
+/// The step that is expected where the drag alone is taken implicitly: that of the error test, as in implicit_step()
+/// but of third order, or of the scales that are left. Measured, docs/record/cost.md.
+/// \param scales  of the bed with a split
+[[nodiscard]] double split_step(const Constants& constants, const std::vector<TimeScale>& scales, double velocity,
+                                double rtol);
+
+/// How many steps with the drag alone implicit one wholly implicit step is expected to replace, in the bed as a
+/// velocity expands it, or packed where that does not carry it: what chooses the integrator of a liquid bed.
 /// \param velocity  superficial, of the fluid, m/s, >= 0
-[[nodiscard]] double explicit_steps_per_implicit(const core::Scene& scene, const Constants& constants,
-                                                 const Effects& effects, double velocity);
+[[nodiscard]] double split_steps_per_implicit(const core::Scene& scene, const Constants& constants,
+                                              const Effects& effects, double velocity);
 
 }  // namespace polybed::tfm

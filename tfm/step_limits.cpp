@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tfm/fast_drag.hpp"
+
 namespace polybed::tfm {
 
 using core::Index;
@@ -38,7 +40,8 @@ double courant_rate(const core::Grid& grid, const core::FaceField& velocity, Ind
 
 }  // namespace
 
-std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity) {
+std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity,
+                                   bool split) {
   const core::Grid& grid = constants.grid;
   const double h = grid.smallest_spacing();
   FastestRate convection, acoustics, damping, drag, viscous, temperature;
@@ -46,6 +49,7 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
     for (Index c = begin; c < end; ++c) {
       const auto at = std::size_t(c);
       double on_fluid = 0, on_solids = 0, solids_density = 0;
+      SlowDrag slow(fields.fluid.voidage[at], constants.fluid.density);
       convection.see(courant_rate(grid, fields.fluid.velocity, c), c);
       for (std::size_t j = 0; j < constants.species(); ++j) {
         const double b = fields.solids.exchange[j][at], phi = std::max(fields.solids.fraction[j][at], 0.0);
@@ -53,10 +57,11 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
         on_fluid += phi * b / (std::max(fields.fluid.voidage[at], fluid::voidage_floor) * constants.fluid.density);
         solids_density += fields.share[j][at] * constants.density[j];
         on_solids = std::max(on_solids, b / constants.density[j]);
+        slow.add(phi, b, constants.density[j]);
         if (fields.stress.viscous())
           viscous.see(4 * grid.dimensions * fields.stress.viscosity[at] / (constants.density[j] * h * h), c);
       }
-      drag.see(on_solids + on_fluid, c);
+      drag.see(split ? slow.rate() : on_solids + on_fluid, c);
       for (const core::Field& decay : fields.granular.decay) temperature.see(decay[at], c);
       if (!fields.stress.present()) continue;
       acoustics.see(std::sqrt(std::max(fields.stress.slope[at], 0.0) / solids_density) / h, c);

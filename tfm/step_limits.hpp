@@ -22,7 +22,9 @@ struct TimeScale {
 /// solids (h2 phi rho_j/mu_s) and decay of the granular temperature, each where it is present, from fields of a
 /// finished evaluation.
 /// \param kinematic_viscosity  nu, m2/s, of the fluid's stress; 0: absent
-std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity);
+/// \param split  the fast part of the drag is taken implicitly: the drag's scale is that of the rest
+std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity,
+                                   bool split = false);
 
 /// Share of its time scale beyond which a process, not the error test, is taken to limit an explicit step:
 /// third order Runge-Kutta is stable up to 1.7 on the imaginary axis and 2.5 on the real one, and steps settle below.

@@ -42,8 +42,8 @@ constexpr std::array<std::string_view, 2> names(Purpose) { return {"steady", "tr
 enum class MonitorMode { automatic, off, warn, stop };
 constexpr std::array<std::string_view, 4> names(MonitorMode) { return {"auto", "off", "warn", "stop"}; }
 
-enum class TfmIntegrator { automatic, explicit_steps, implicit_steps };
-constexpr std::array<std::string_view, 3> names(TfmIntegrator) { return {"auto", "explicit", "implicit"}; }
+enum class TfmIntegrator { automatic, explicit_steps, split_steps, implicit_steps };
+constexpr std::array<std::string_view, 4> names(TfmIntegrator) { return {"auto", "explicit", "imex", "implicit"}; }
 
 /// Of the solids fractions at faces.
 enum class FractionFlux { limited, upwind };

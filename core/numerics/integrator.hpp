@@ -22,6 +22,17 @@ class OdeProblem {
   virtual Rate rates(double t, std::span<const double> y, std::span<double> dydt) = 0;
 };
 
+/// dy/dt = f(t, y), of which a part A y is too fast for explicit steps: linear, with coefficients that hold for a step.
+class SplitProblem : public OdeProblem {
+ public:
+  /// Takes the coefficients of A from the state that rates() was last asked about.
+  virtual void hold() = 0;
+  /// Adds `factor` times A y to `rates`.
+  virtual void add_fast(double factor, std::span<const double> y, std::span<double> rates) = 0;
+  /// Solves x - gamma A x = r.
+  virtual void solve_fast(double gamma, std::span<const double> r, std::span<double> x) = 0;
+};
+
 /// 0 = F(t, y, dy/dt), with an approximate inverse of dF/dy + cj dF/d(dy/dt).
 class DaeProblem {
  public:
@@ -86,6 +97,10 @@ struct ImplicitOptions {
 
 /// Bogacki and Shampine's method of order 3 with its embedded error estimate (ARKODE).
 std::unique_ptr<Integrator> make_explicit(OdeProblem& problem, ExplicitOptions options);
+
+/// Kennedy and Carpenter's additive pair ARK3(2)4L[2]SA of order 3 (ARKODE): A y by its implicit method, which is
+/// L-stable, the rest by its explicit one.
+std::unique_ptr<Integrator> make_split(SplitProblem& problem, ExplicitOptions options);
 
 /// Backward differences of variable order with Newton and preconditioned GMRES (IDA).
 std::unique_ptr<Integrator> make_implicit(DaeProblem& problem, ImplicitOptions options);

@@ -1,4 +1,4 @@
-// Explicit Runge-Kutta with error control, by ARKODE.
+// Explicit Runge-Kutta, or an additive pair of which one method is implicit, with error control, by ARKODE.
 #include <arkode/arkode_arkstep.h>
 #include <fmt/format.h>
 
@@ -17,8 +17,10 @@ namespace {
 
 class ExplicitIntegrator : public Integrator {
  public:
-  ExplicitIntegrator(OdeProblem& problem, ExplicitOptions options)
+  /// \param split  the same problem, if a part of it is to be taken implicitly; else null
+  ExplicitIntegrator(OdeProblem& problem, SplitProblem* split, ExplicitOptions options)
       : problem_(problem),
+        split_(split),
         options_(std::move(options)),
         y_(options_.atol.size(), options_.ranks.get(), context_),
         atol_(options_.atol.size(), options_.ranks.get(), context_),
@@ -26,7 +28,10 @@ class ExplicitIntegrator : public Integrator {
         weight_(options_.atol.size(), options_.ranks.get(), context_) {
     atol_.assign(options_.atol);
   }
-  ~ExplicitIntegrator() override { close(); }
+  ~ExplicitIntegrator() override {
+    close();
+    if (solver_ != nullptr) SUNLinSolFreeEmpty(solver_);
+  }
 
   void restart(double t, std::span<const double> y, std::span<const double>, double h0) override {
     y_.assign(y);
@@ -34,6 +39,7 @@ class ExplicitIntegrator : public Integrator {
   }
 
   StepReport step(double t_stop) override {
+    hold();
     for (double shrink = 1;; shrink *= 0.25) {
       if (shrink < 1) retry(shrink);
       require_success(ARKStepSetStopTime(memory_, t_stop), "ARKStepSetStopTime");
@@ -66,13 +72,61 @@ class ExplicitIntegrator : public Integrator {
   [[nodiscard]] std::size_t workspace() const override {
     long reals = 0, integers = 0;
     if (memory_ != nullptr) require_success(ARKStepGetWorkSpace(memory_, &reals, &integers), "ARKStepGetWorkSpace");
-    return (std::size_t(reals) + own_vectors * atol_.span().size()) * sizeof(double);
+    return (std::size_t(reals) + own_vectors * atol_.span().size() + 2 * kept_state_.size()) * sizeof(double);
   }
 
  private:
   static int callback(double t, N_Vector y, N_Vector dydt, void* self) {
     auto& me = *static_cast<ExplicitIntegrator*>(self);
-    return guarded(me.kept_, [&] { return me.problem_.rates(t, entries(y), entries(dydt)); });
+    return guarded(me.kept_, [&] {
+      if (me.split_ == nullptr) return me.problem_.rates(t, entries(y), entries(dydt));
+      const Rate rate = me.whole_rates(t, entries(y), entries(dydt));
+      if (rate == Rate::ok) me.split_->add_fast(-1, entries(y), entries(dydt));
+      return rate;
+    });
+  }
+
+  /// The rates without the split; those last asked for are kept, as a step begins where its coefficients were taken.
+  Rate whole_rates(double t, std::span<const double> y, std::span<double> dydt) {
+    if (t == kept_time_ && std::equal(y.begin(), y.end(), kept_state_.begin(), kept_state_.end())) {
+      std::copy(kept_rates_.begin(), kept_rates_.end(), dydt.begin());
+      return Rate::ok;
+    }
+    kept_state_.clear();
+    const Rate rate = problem_.rates(t, y, dydt);
+    if (rate != Rate::ok) return rate;
+    kept_time_ = t;
+    kept_state_.assign(y.begin(), y.end());
+    kept_rates_.assign(dydt.begin(), dydt.end());
+    return rate;
+  }
+
+  /// The coefficients of the fast part, for a step that begins at the present state.
+  void hold() {
+    if (split_ == nullptr) return;
+    kept_state_.clear();
+    if (whole_rates(time_, y_.span(), error_.span()) != Rate::ok)
+      throw NumericsError(fmt::format("t = {:.9g} s: the state has no rates", time_));
+    split_->hold();
+  }
+
+  static int fast_callback(double, N_Vector y, N_Vector dydt, void* self) {
+    auto& me = *static_cast<ExplicitIntegrator*>(self);
+    return guarded(me.kept_, [&] {
+      std::fill(entries(dydt).begin(), entries(dydt).end(), 0.0);
+      me.split_->add_fast(1, entries(y), entries(dydt));
+      return Rate::ok;
+    });
+  }
+
+  static int solve_fast(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector r, double) {
+    auto& me = *static_cast<ExplicitIntegrator*>(solver->content);
+    return guarded(me.kept_, [&] {
+      double gamma = 0;
+      require_success(ARKStepGetCurrentGamma(me.memory_, &gamma), "ARKStepGetCurrentGamma");
+      me.split_->solve_fast(gamma, entries(r), entries(x));
+      return Rate::ok;
+    });
   }
 
   static int weigh(N_Vector y, N_Vector weight, void* self) {
@@ -86,11 +140,16 @@ class ExplicitIntegrator : public Integrator {
   void open(double t, double h0) {
     close();
     time_ = t;
-    memory_ = ARKStepCreate(callback, nullptr, t, y_, context_);
+    kept_state_.clear();
+    memory_ = ARKStepCreate(callback, split_ != nullptr ? fast_callback : nullptr, t, y_, context_);
     if (memory_ == nullptr) throw NumericsError("ARKStepCreate failed");
     require_success(ARKStepSetErrHandlerFn(memory_, keep_silent, nullptr), "ARKStepSetErrHandlerFn");
     require_success(ARKStepSetUserData(memory_, this), "ARKStepSetUserData");
-    require_success(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_BOGACKI_SHAMPINE_4_2_3), "ARKStepSetTableNum");
+    if (split_ != nullptr)
+      set_split();
+    else
+      require_success(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_BOGACKI_SHAMPINE_4_2_3),
+                      "ARKStepSetTableNum");
     if (options_.atol_at)
       require_success(ARKStepWFtolerances(memory_, weigh), "ARKStepWFtolerances");
     else
@@ -104,6 +163,25 @@ class ExplicitIntegrator : public Integrator {
       require_success(ARKStepSetFixedStep(memory_, options_.fixed_step), "ARKStepSetFixedStep");
     else if (h0 > 0)
       require_success(ARKStepSetInitStep(memory_, h0), "ARKStepSetInitStep");
+  }
+
+  /// The pair of methods, and the problem's own solver of the implicit one: exact, so that Newton's first iteration is
+  /// its last and the rates follow from the solution.
+  void set_split() {
+    require_success(ARKStepSetTableNum(memory_, ARKODE_ARK324L2SA_DIRK_4_2_3, ARKODE_ARK324L2SA_ERK_4_2_3),
+                    "ARKStepSetTableNum");
+    if (solver_ == nullptr) {
+      solver_ = SUNLinSolNewEmpty(context_);
+      if (solver_ == nullptr) throw NumericsError("SUNLinSolNewEmpty failed");
+      solver_->content = this;
+      solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; };
+      solver_->ops->solve = solve_fast;
+    }
+    require_success(ARKStepSetLinearSolver(memory_, solver_, nullptr), "ARKStepSetLinearSolver");
+    require_success(ARKStepSetLinear(memory_, 0), "ARKStepSetLinear");
+    // A step of another length costs nothing here: no range of lengths in which the present one is kept.
+    require_success(ARKStepSetFixedStepBounds(memory_, 1.0, 1.0), "ARKStepSetFixedStepBounds");
+    require_success(ARKStepSetDeduceImplicitRhs(memory_, 1), "ARKStepSetDeduceImplicitRhs");
   }
 
   void close() {
@@ -140,11 +218,15 @@ class ExplicitIntegrator : public Integrator {
   }
 
   OdeProblem& problem_;
+  SplitProblem* split_;  ///< null: all is explicit
   ExplicitOptions options_;
   Context context_;
   Vector y_, atol_, error_, weight_;
   static constexpr std::size_t own_vectors = 5;  // these and the tolerances of the options
   void* memory_ = nullptr;
+  SUNLinearSolver solver_ = nullptr;             ///< of the split; it owns nothing
+  std::vector<double> kept_state_, kept_rates_;  ///< of the split: where the whole was last asked for, and its rates
+  double kept_time_ = 0;
   double time_ = 0, last_step_ = 0;
   IntegratorStatistics closed_;  ///< of memories closed by restarts, and all steps
   std::exception_ptr kept_;
@@ -153,7 +235,11 @@ class ExplicitIntegrator : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> make_explicit(OdeProblem& problem, ExplicitOptions options) {
-  return std::make_unique<ExplicitIntegrator>(problem, std::move(options));
+  return std::make_unique<ExplicitIntegrator>(problem, nullptr, std::move(options));
+}
+
+std::unique_ptr<Integrator> make_split(SplitProblem& problem, ExplicitOptions options) {
+  return std::make_unique<ExplicitIntegrator>(problem, &problem, std::move(options));
 }
 
 }  // namespace polybed::core

@@ -10,6 +10,7 @@
 #include "core/numerics/linear_solver_algebraic.hpp"
 #include "core/numerics/mpi.hpp"
 #include "core/numerics/mpi_start.hpp"
+#include "core/numerics/row_mean_solver.hpp"
 
 namespace polybed::core {
 
@@ -48,8 +49,6 @@ struct PoissonSolver::Hypre {
   HYPRE_StructSolver cg = nullptr, multigrid = nullptr;  ///< null: to be set up anew
   int solves = 0, best = 0, spent = 0;  ///< since then; iterations of the first, and those that the rest took beyond
   std::vector<double> entries, packed;
-  Field balanced;  ///< the source without its mean, where a constant is left open
-  Field pinned;    ///< and the diagonal that holds it
 
   explicit Hypre(const Grid& g) : dimensions(g.dimensions), all(communicator(g)) {
     open_linear_solvers();
@@ -196,7 +195,9 @@ struct PoissonSolver::Hypre {
   }
 };
 
-PoissonSolver::PoissonSolver(const Grid& grid) : grid_(grid), halo_(grid), hypre_(std::make_unique<Hypre>(grid)) {}
+PoissonSolver::PoissonSolver(const Grid& grid) : grid_(grid), halo_(grid) {
+  if (RowMeanSolver::serves(grid)) rows_ = std::make_unique<RowMeanSolver>(grid);
+}
 PoissonSolver::~PoissonSolver() = default;
 PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
 PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
@@ -222,18 +223,17 @@ void remove_mean(const Grid& grid, Field& field) {
 
 PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const double> shift,
                                    const Field& given_source, Field& p, double tolerance) {
-  Field &balanced = hypre_->balanced, &pinned = hypre_->pinned;
   const bool constant_open = leaves_constant_open(grid_, coefficient, shift);
   if (constant_open) {
-    balanced = given_source;
-    remove_mean(grid_, balanced);
-    pinned.assign(grid_.padded_size(), 0.0);
-    double& first = pinned[std::size_t(grid_.index(0, 0))];
+    balanced_ = given_source;
+    remove_mean(grid_, balanced_);
+    pinned_.assign(grid_.padded_size(), 0.0);
+    double& first = pinned_[std::size_t(grid_.index(0, 0))];
     first = pin_of_first_cell(grid_, coefficient, shift);
     subtract(grid_, sum_of_ranks(grid_, first > 0 ? p[std::size_t(grid_.index(0, 0))] : 0), p);
   }
-  const std::span<const double> diagonal = constant_open ? std::span<const double>(pinned) : shift;
-  const Field& source = constant_open ? balanced : given_source;
+  const std::span<const double> diagonal = constant_open ? std::span<const double>(pinned_) : shift;
+  const Field& source = constant_open ? balanced_ : given_source;
   PoissonResult result;
   // The residual that the iteration carries along and the true one drift apart by round-off: twice is granted.
   const auto judge = [&](const char* solver, bool fine) {
@@ -241,7 +241,14 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
     result.residual = relative_residual(grid_, halo_, coefficient, shift, source, p);
     result.converged = fine && result.residual <= 2 * tolerance;
   };
+  if (rows_)
+    if (const std::optional<int> iterations = rows_->solve(coefficient, diagonal, source, p, tolerance)) {
+      result.iterations += *iterations;
+      judge("PCG + row means", true);
+    }
   const auto solve_with_multigrid = [&] {
+    if (!hypre_) hypre_ = std::make_unique<Hypre>(grid_);
+    const bool aged = hypre_->solves > 0;
     const int iterations = hypre_->solve(grid_, coefficient, diagonal, source, p, tolerance);
     const bool error = HYPRE_GetError() != 0;
     HYPRE_ClearAllErrors();
@@ -251,13 +258,11 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
       hypre_->age(iterations);
     else
       hypre_->forget();
+    return result.converged || !aged;
   };
-  if (!long_cells(grid_)) {
-    const bool aged = hypre_->solves > 0;
-    solve_with_multigrid();
-    if (!result.converged && aged) solve_with_multigrid();
-  }
+  if (!result.converged && !long_cells(grid_) && !solve_with_multigrid()) solve_with_multigrid();
   if (!result.converged) {
+    open_linear_solvers();
     result.iterations += solve_algebraically(grid_, coefficient, diagonal, source, p, tolerance);
     judge("PCG + BoomerAMG", true);
   }
@@ -267,6 +272,8 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
   return result;
 }
 
-void PoissonSolver::forget() { hypre_->forget(); }
+void PoissonSolver::forget() {
+  if (hypre_) hypre_->forget();
+}
 
 }  // namespace polybed::core

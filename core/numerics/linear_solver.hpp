@@ -15,6 +15,8 @@ void open_linear_solvers();
 
 using FaceSpans = std::array<std::span<const double>, 3>;  ///< one padded array per active axis
 
+class RowMeanSolver;
+
 struct PoissonResult {
   bool converged = false;
   int iterations = 0;
@@ -24,7 +26,8 @@ struct PoissonResult {
 
 /// Solves shift p - div(B grad p) = source on the cells of the column. Collective.
 /// The coefficient on a boundary face says what holds there: 0, no flux; else p = 0 in the centre of the
-/// ghost cell. The multigrid hierarchy is kept while it serves; the residual is always the true one, recomputed.
+/// ghost cell. Where rows are short and coefficients along them alike a direct solver of the row means preconditions;
+/// elsewhere multigrid, whose hierarchy is kept while it serves. The residual is always the true one, recomputed.
 class PoissonSolver {
  public:
   explicit PoissonSolver(const Grid& grid);
@@ -44,7 +47,10 @@ class PoissonSolver {
   struct Hypre;
   Grid grid_;
   Halo halo_;
-  std::unique_ptr<Hypre> hypre_;
+  std::unique_ptr<RowMeanSolver> rows_;  ///< empty where it does not serve
+  std::unique_ptr<Hypre> hypre_;         ///< empty until it is asked
+  Field balanced_;                       ///< the source without its mean, where a constant is left open
+  Field pinned_;                         ///< and the diagonal that holds it
 };
 
 /// A fixed number of multigrid cycles for two coupled unknowns per cell,

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 using Vectors = std::span<const std::array<double, 3>>;
 
-const FileKind index_kind{"polybed particles", 1};
-const FileKind step_kind{"polybed particles step", 1};
+const FileKind particles_kind{"polybed particles", 1};
+const FileKind particles_step_kind{"polybed particles step", 1};
 
 void write_scene(const ParticleScene& scene, OutputFile& file) {
   const std::array<std::int32_t, 3> periodic{scene.periodic[0], scene.periodic[1], scene.periodic[2]};
@@ -85,7 +85,7 @@ void write_connectivity(OutputFile& file, std::size_t count) {
 }
 
 OutputFile step_content(const ParticleScene& scene, const ParticleSnapshot& p, double time) {
-  OutputFile file(step_kind);
+  OutputFile file(particles_step_kind);
   file.make_group("step");
   file.set_attribute("step", "time_s", time);
   file.set_attribute("step", "species_names", scene.species);
@@ -142,7 +142,7 @@ std::string particles_xdmf(const StepTimes& steps) {
 
 StepSeries particles_series(const ParticleScene& scene) {
   return {"particles",
-          index_kind,
+          particles_kind,
           [scene](OutputFile& file) { write_scene(scene, file); },
           [scene](const OutputFile& file) { return read_scene(file) == scene; },
           "column or other species",
@@ -170,13 +170,13 @@ void ParticleWriter::write_step(double time_s, const ParticleSnapshot& particles
 }
 
 ParticleReader::ParticleReader(fs::path run_directory) : directory_(std::move(run_directory)) {
-  const OutputFile index(directory_ / "particles.h5", index_kind);
+  const OutputFile index(directory_ / "particles.h5", particles_kind);
   scene_ = read_scene(index);
   times_ = index.read("time_s").values;
 }
 
 ParticleStep ParticleReader::step(std::size_t number) const {
-  const OutputFile file = open_step(directory_, "particles", number, times_.size(), step_kind);
+  const OutputFile file = open_step(directory_, "particles", number, times_.size(), particles_step_kind);
   ParticleStep step;
   step.id = file.read_integers("step/id");
   for (std::int64_t species : file.read_integers("step/species")) step.species.push_back(std::int32_t(species));

@@ -11,6 +11,7 @@
 #include "dem/model.hpp"
 #include "multiscale/estimate/ways.hpp"
 #include "multiscale/particle_requirements.hpp"
+#include "tfm/step_estimate.hpp"
 
 namespace polybed::multiscale {
 
@@ -26,7 +27,7 @@ TimeBand band_of(double seconds, double middle, double factor) {
 /// first ones are, not those of the expanded bed.
 constexpr double explicit_middle = 1, implicit_middle = 2.3, tfm_factor = 2.2, probe_factor = 1.6;
 double tfm_middle(core::TfmIntegrator integrator) {
-  return integrator == core::TfmIntegrator::explicit_steps ? explicit_middle : implicit_middle;
+  return integrator == core::TfmIntegrator::implicit_steps ? implicit_middle : explicit_middle;
 }
 /// Of the particles: a dilute bed is up to four times as fast as the dense ones that were measured.
 constexpr double dem_middle = 1, dem_factor = 2;
@@ -126,7 +127,7 @@ TimeBand TimeBand::part(double share, bool from_start) const {
 
 TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine) {
   const double cells = double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2];
-  const double step = tfm_step_seconds(machine, model.integrator_kind() != core::TfmIntegrator::explicit_steps, cells,
+  const double step = tfm_step_seconds(machine, model.integrator_kind() == core::TfmIntegrator::implicit_steps, cells,
                                        scene.species.size(), scene.column.dimensions);
   return with_start(band_of(expected_of(scene, model, step).time->expected, tfm_middle(model.integrator_kind()),
                             factor_of(tfm_factor, machine)),
@@ -160,8 +161,9 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
   const auto& scales = need.expanded.scales;
   const auto shortest = std::min_element(scales.begin(), scales.end(),
                                          [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
-  e.limited_by = need.integrator != core::TfmIntegrator::explicit_steps
-                     ? fmt::format("accuracy, tfm.rtol = {:.2g}", scene.tfm.rtol)
+  const bool by_accuracy = need.integrator == core::TfmIntegrator::implicit_steps ||
+                           (shortest != scales.end() && e.step < 0.99 * tfm::explicit_step(scales));
+  e.limited_by = by_accuracy                ? fmt::format("accuracy, tfm.rtol = {:.2g}", scene.tfm.rtol)
                  : shortest != scales.end() ? shortest->process
                                             : "accuracy";
   if (probe > 0) {
@@ -174,7 +176,7 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
   }
   e.wall = wall_of(e.time.expected, ranks);
   e.disk = disk_of(scene, double(need.cells), 0, need.memory.state / 8, e.steps);
-  e.ways = tfm_ways(scene, need.integrator != core::TfmIntegrator::explicit_steps, ranks, cores());
+  e.ways = tfm_ways(scene, need.integrator == core::TfmIntegrator::implicit_steps, ranks, cores());
   return e;
 }
 

@@ -14,7 +14,7 @@ NAMES = [f"sand.{n}" for n in (1, 2, 3)]
 
 class Openings(Scratch):
     def test_the_ledger_is_written_and_closes(self):
-        for integrator in ("explicit", "implicit"):
+        for integrator in ("explicit", "imex", "implicit"):
             directory = self.folder / integrator
             self.ends(DONE, "tfm", CASE, *SMALL, "--set", f"tfm.integrator={integrator}", "--until", "1.5 s", "-o", directory)
             record, columns = strict_json((directory / "run.json").read_text()), history(directory)

@@ -75,7 +75,8 @@ std::string name_of(Outcome outcome) {
 }
 
 std::vector<Treatment> all_schemes() {
-  return {{"explicit", "limited", ""}, {"explicit", "upwind", ""}, {"implicit", "limited", ""}};
+  return {
+      {"explicit", "limited", ""}, {"explicit", "upwind", ""}, {"imex", "limited", ""}, {"implicit", "limited", ""}};
 }
 
 std::unique_ptr<Run> Trial::begin(core::Scene scene, const std::function<void(tfm::Model&)>& start) {

@@ -49,7 +49,7 @@ TEST_P(Conservation, ResumedRunGivesTheSameBits) {
   EXPECT_EQ(ends.work_through.steps, ends.work_resumed.steps);
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Conservation, testing::Values("explicit", "implicit"));
+INSTANTIATE_TEST_SUITE_P(Integrators, Conservation, testing::Values("explicit", "imex", "implicit"));
 
 TEST(Integrators, AgreeAtTightTolerance) {
   core::Scene scene = binary_bed(6, 40, 0.018, 0.12);

@@ -64,7 +64,8 @@ TEST_P(ForceBalance, ABedExpandsToIt) {
 
 INSTANTIATE_TEST_SUITE_P(Expansion, ForceBalance,
                          testing::Combine(testing::Values(Point{0.030, 0.63991}, Point{0.050, 0.76397}),
-                                          testing::Values(std::string("explicit"), std::string("implicit"))));
+                                          testing::Values(std::string("explicit"), std::string("imex"),
+                                                          std::string("implicit"))));
 
 /// What a ripple of 3 % from cell to cell in an even bed at equilibrium has become after 2 s, over what it was.
 double ripple_left(const std::string& integrator) {
@@ -89,7 +90,7 @@ double ripple_left(const std::string& integrator) {
 
 // With drag from plain means to faces nothing sees such a ripple and 99.9 % of it stays.
 TEST(Expansion, ARippleFromCellToCellDiesOut) {
-  for (const char* integrator : {"explicit", "implicit"}) {
+  for (const char* integrator : {"explicit", "imex", "implicit"}) {
     const double left = ripple_left(integrator);
     record(std::string("ripple left, ") + integrator, left);
     EXPECT_LT(std::abs(left), 0.1) << integrator;

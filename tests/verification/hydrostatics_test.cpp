@@ -112,7 +112,7 @@ TEST_P(BedAtRest, OfAnyMassRestsBelowItsTopLayer) {
   EXPECT_LT(distance(model.constants().grid, before, model.fields().solids_fraction), 10 * scene.tfm.rtol);
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, BedAtRest, testing::Values("explicit", "implicit"));
+INSTANTIATE_TEST_SUITE_P(Integrators, BedAtRest, testing::Values("explicit", "imex", "implicit"));
 
 }  // namespace
 }  // namespace polybed::scenes

@@ -58,7 +58,7 @@ TEST_P(Jet, ARampEndsWhereItShould) {
   for (const int j : {0, 1, 20, 40}) EXPECT_NEAR(through(model, j), 0.04, j == 0 ? 1e-15 : 1e-6) << j;
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Jet, testing::Values("explicit", "implicit"));
+INSTANTIATE_TEST_SUITE_P(Integrators, Jet, testing::Values("explicit", "imex", "implicit"));
 
 }  // namespace
 }  // namespace polybed::scenes

@@ -9,7 +9,7 @@ namespace polybed::scenes {
 namespace {
 
 class Openings : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Integrators, Openings, testing::Values("explicit", "implicit"));
+INSTANTIATE_TEST_SUITE_P(Integrators, Openings, testing::Values("explicit", "imex", "implicit"));
 
 /// Largest relative error of the ledgers of the species; the model shows its last state.
 double ledger_error(const tfm::Model& model, const std::vector<double>& start) {

@@ -64,7 +64,7 @@ TEST_P(SlipRelaxation, FollowsTheMatrixExponentialAndKeepsMomentum) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, SlipRelaxation,
-                         testing::Values(std::string("explicit"), std::string("implicit")));
+                         testing::Values(std::string("explicit"), std::string("imex"), std::string("implicit")));
 
 }  // namespace
 }  // namespace polybed::scenes

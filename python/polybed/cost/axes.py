@@ -67,7 +67,7 @@ def scheme_axis(scene, _):
     integrator, flux = scene.of("tfm.integrator"), scene.of("tfm.flux")
     limited = flux == "limited"
     levels = [] if integrator == "auto" and limited else [Level(f"{integrator} {flux}")]
-    for other in ("auto", "explicit", "implicit"):
+    for other in ("auto", "explicit", "imex", "implicit"):
         if other != integrator or not limited:
             levels.append(Level(other, 0, [f"tfm.integrator={other}", "tfm.flux=limited"]))
         elif not levels:

@@ -8,15 +8,15 @@ import matplotlib.pyplot as plt
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.patches import Rectangle
 
-SCHEMES = ("implicit/limited", "explicit/limited", "explicit/upwind")
-COLUMNS = ("implicit", "explicit", "explicit, upwind", "textbook")
+SCHEMES = ("implicit/limited", "imex/limited", "explicit/limited", "explicit/upwind")
+COLUMNS = ("implicit", "imex", "explicit", "explicit, upwind", "textbook")
 LEAST, MOST = -4.0, 4.0  # log10 of value over limit, beyond which the colour stays
 WORST_FIRST = ("FAIL", "REFUSED", "DEGRADED", "PASS")
 STACKS = 3  # of rows side by side, so that the picture fits a screen
 
 
 def place_of(cell):
-    """(first column, number of columns): schemes of the two-fluid model have one each, what has no choice of schemes all three."""
+    """(first column, number of columns): schemes of the two-fluid model have one each, what has no choice of schemes all of them."""
     if cell["naive"]:
         return len(SCHEMES), 1
     return (SCHEMES.index(cell["scheme"]), 1) if cell["scheme"] in SCHEMES else (0, len(SCHEMES))

@@ -21,27 +21,29 @@ core::Scene glass(double diameter) {
   return scene;
 }
 
-// An implicit step is expected to replace 0.9 explicit ones at 0.8 mm and 3.6 at 0.3 mm, each at a velocity that
-// expands its bed to a fraction of 0.3; the rule changes over at 1.5.
-TEST(IntegratorChoice, FineParticlesAreForImplicitSteps) {
+// However fine the particles: the drag is what binds explicit steps, and it is taken implicitly.
+TEST(IntegratorChoice, LiquidBedsTakeTheDragAloneImplicitly) {
   core::Scene coarse = glass(0.8e-3);
   coarse.inlet.superficial_velocity = {{0.0, 0.03}};
-  EXPECT_EQ(chosen(coarse), "explicit");
-  EXPECT_EQ(chosen(glass(0.3e-3)), "implicit");
+  EXPECT_EQ(chosen(coarse), "imex");
+  EXPECT_EQ(chosen(glass(0.3e-3)), "imex");
 }
 
-// The same particles on cells of a twelfth: an implicit step is bound to the time in which the fluid crosses one.
-TEST(IntegratorChoice, FinerCellsAreForExplicitSteps) {
-  core::Scene scene = glass(0.3e-3);
-  scene.column.cells[1] *= 12;
-  EXPECT_EQ(chosen(scene), "explicit");
+// Elastic waves of a bed that stays packed cross a cell of 2 mm in 0.1 ms; an implicit step is 7 ms.
+TEST(IntegratorChoice, ABedThatStaysPackedIsForImplicitSteps) {
+  core::Scene scene = glass(0.8e-3);
+  scene.effects["solids_stress"] = "frictional";
+  scene.bed.solids_fraction = scene.bed.start_solids_fraction = 0.6;
+  scene.inlet.superficial_velocity = {{0.0, 1e-3}};
+  EXPECT_EQ(chosen(scene), "implicit");
 }
 
-// Implicit steps follow the tolerance, explicit ones the limit of stability.
-TEST(IntegratorChoice, ATightToleranceIsForExplicitSteps) {
-  core::Scene scene = glass(0.3e-3);
-  scene.tfm.rtol = 1e-6;
+TEST(IntegratorChoice, WithoutADragAllIsExplicit) {
+  core::Scene scene = glass(0.8e-3);
+  scene.effects["drag"] = "none";
   EXPECT_EQ(chosen(scene), "explicit");
+  scene.tfm.integrator = core::TfmIntegrator::split_steps;
+  EXPECT_THROW(chosen(scene), core::CaseError);
 }
 
 TEST(IntegratorChoice, GasAndSettlingBedsAreForImplicitSteps) {
@@ -71,6 +73,7 @@ TEST(IntegratorChoice, TheCaseHasTheLastWord) {
 
 TEST(IntegratorChoice, ACoarseToleranceIsRefusedToImplicitSteps) {
   core::Scene scene = glass(0.2e-3);
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
   scene.tfm.rtol = 1e-2;
   EXPECT_THROW(chosen(scene), core::CaseError);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenes/record.hpp"
+#include "tfm/fast_drag.hpp"
 #include "tfm/model.hpp"
 
 namespace polybed::tfm {
@@ -58,19 +59,30 @@ TEST(ExpectedStep, ByHand) {
   EXPECT_NEAR(implicit_step(spheres(1e-3, 2000), 0.01, 0.125e-3), 0.5 * step, 1e-12 * step);
 }
 
-// The spheres of StokesByHand on cells of 1 mm at a voidage of 0.7. Drag: b = 18e-3 * 0.7/1e-8 = 1.26e6 kg/(m3 s), of
-// the solids b/2000 = 630/s, of the fluid 0.3 b/700 = 540/s, so 1.4/1170 s; an implicit step 0.5/(5.45 + 70.0357) s.
-TEST(ExplicitStepsPerImplicit, StokesByHand) {
+// The spheres of StokesByHand on cells of 1 mm at a voidage of 0.7. Drag: b = 18e-3 * 0.7/1e-8 = 1.26e6 kg/(m3 s). What
+// is left explicit relaxes at 0.3 b (1/1000 - 1/2000)^2/(0.7/1000 + 0.3/2000) = 111.18/s, so steps are at most
+// 1.4/111.18 s = 12.6 ms; the error test asks for 0.75/(5.45 + 70.0357) s = 9.9 ms, 1.5 times an implicit step.
+TEST(SplitStepsPerImplicit, StokesByHand) {
   core::Scene scene = scenes::uniform_bed(1e-4, 2000, 1000, 1e-3, 0.6, 20, 0.02);
   scene.effects = {{"drag", "stokes"}};
   scene.tfm.rtol = 1e-3;
   core::Timers timers;
   const Model model(scene, timers);
   const auto replaced = [&](double velocity) {
-    return explicit_steps_per_implicit(scene, model.constants(), model.effects(), velocity);
+    return split_steps_per_implicit(scene, model.constants(), model.effects(), velocity);
   };
-  const double expected = (0.5 / 75.4857) / (1.4 / 1170);
+  const double expected = 0.5 / 0.75;
   EXPECT_NEAR(replaced(0.7 * 5.45e-3), expected, 1e-5 * expected);
+}
+
+// The same in numbers: the slow part of the drag, and the least of both.
+TEST(SplitStep, IsBoundByWhatTheSplitLeaves) {
+  SlowDrag slow(0.7, 1000);
+  slow.add(0.3, 1.26e6, 2000);
+  EXPECT_NEAR(slow.rate(), 111.1764705882, 1e-9);
+  const Constants constants = spheres(1e-3, 2000);
+  EXPECT_DOUBLE_EQ(split_step(constants, {{"drag", 1e-3, 0}}, 0.01, 1e-3), 1.4e-3);
+  EXPECT_DOUBLE_EQ(split_step(constants, {{"drag", 1.0, 0}}, 0.01, 1e-3), 1.5 * implicit_step(constants, 0.01, 1e-3));
 }
 
 /// The estimate against the fields of a packed bed at its start, of which it knows no cells: the same formulas for the

@@ -1,0 +1,233 @@
+#include "core/numerics/row_mean_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace polybed::core {
+
+namespace {
+
+/// Beyond, the products with the waves cost more than multigrid.
+constexpr int most_across = 64;
+
+/// Of the greatest and the least coefficient along a row. Iterations go with the root of this; beyond, multigrid is
+/// cheaper.
+constexpr double most_contrast = 2.5;
+
+constexpr int most_iterations = 20;
+
+/// Sum of products in four interleaved partial sums along each row: the order of additions is fixed, whatever the width
+/// of vectors.
+POLYBED_ALL_VECTOR_WIDTHS void add_products(const double* a, const double* b, Index n, double* part) {
+  Index i = 0;
+  for (; i + 4 <= n; i += 4)
+    for (Index k = 0; k < 4; ++k) part[k] += a[i + k] * b[i + k];
+  for (Index k = 0; i < n; ++i, ++k) part[k] += a[i] * b[i];
+}
+
+double dot(const Grid& grid, const Field& a, const Field& b) {
+  std::array<double, 4> part{};
+  for_each_row(grid, [&](Index begin, Index end) {
+    add_products(a.data() + begin, b.data() + begin, end - begin, part.data());
+  });
+  return (part[0] + part[1]) + (part[2] + part[3]);
+}
+
+/// y += factor x, or with the factor before y: x + factor y.
+void add(const Grid& grid, double factor, const Field& x, Field& y) {
+  for_each_row(grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) y[std::size_t(c)] += factor * x[std::size_t(c)];
+  });
+}
+void scale_and_add(const Grid& grid, const Field& x, double factor, Field& y) {
+  for_each_row(grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) y[std::size_t(c)] = x[std::size_t(c)] + factor * y[std::size_t(c)];
+  });
+}
+
+/// Along one axis: adds w [low (p - p_below) + high (p - p_above)].
+POLYBED_ALL_VECTOR_WIDTHS void add_differences(const double* b, const double* p, double w, Index s, Index n,
+                                               double* out) {
+  for (Index c = 0; c < n; ++c) out[c] += w * (b[c] * (p[c] - p[c - s]) + b[c + s] * (p[c] - p[c + s]));
+}
+
+}  // namespace
+
+bool RowMeanSolver::serves(const Grid& grid) {
+  return !grid.ranks && grid.cells[0] <= most_across && grid.cells[2] <= most_across;
+}
+
+RowMeanSolver::RowMeanSolver(const Grid& grid)
+    : grid_(grid),
+      halo_(grid),
+      x_(modes_of(grid, 0)),
+      z_(modes_of(grid, 2)),
+      up_(std::size_t(grid.cells[1] + 1)),
+      diagonal_(std::size_t(grid.cells[1])),
+      factor_(grid.cell_count()),
+      values_(grid.cells[1] * grid.cells[2], grid.cells[0]),
+      turned_(values_),
+      residual_(make_field(grid)),
+      direction_(residual_),
+      image_(residual_),
+      preconditioned_(residual_) {
+  across_[0] = across_[1] = diagonal_;
+}
+
+/// Cosines between walls, cosines and sines where sides are joined.
+RowMeanSolver::Modes RowMeanSolver::modes_of(const Grid& grid, int axis) {
+  const int n = grid.cells[std::size_t(axis)];
+  Modes modes{Matrix(n, n), std::vector<double>(std::size_t(n))};
+  const bool joined = grid.periodic[std::size_t(axis)];
+  for (int m = 0; m < n; ++m) {
+    const int waves = joined ? 2 * ((m + 1) / 2) : m;  // half waves
+    const double angle = std::numbers::pi * waves / n;
+    modes.rate[std::size_t(m)] = axis < grid.dimensions ? 2 - 2 * std::cos(angle) : 0;
+    const bool sine = joined && m % 2 == 0 && m > 0, alone = waves == 0 || (joined && waves == n);
+    for (int i = 0; i < n; ++i)
+      modes.waves(i, m) =
+          std::sqrt((alone ? 1.0 : 2.0) / n) * (sine ? std::sin(angle * (i + 0.5)) : std::cos(angle * (i + 0.5)));
+    // Of an even number of cells joined, the shortest wave has its zeros in the centres as a cosine.
+    if (alone && waves > 0)
+      for (int i = 0; i < n; ++i) modes.waves(i, m) = (i % 2 == 0 ? 1 : -1) / std::sqrt(double(n));
+  }
+  return modes;
+}
+
+/// Means over the cells of each height; false if coefficients differ too much along one.
+bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double> shift) {
+  const auto n = grid_.cells;
+  bool fine = true;
+  const auto mean = [&](int axis, int row) {
+    const auto a = std::size_t(axis);
+    std::array<int, 3> lo{0, row, 0}, hi{n[0], row + 1, n[2]};
+    if (axis != 1 && !grid_.periodic[a]) lo[a] = std::min(1, n[a] - 1);  // between cells
+    double sum = 0, least = INFINITY, most = 0;
+    for_each_row(grid_, lo, hi, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+        const double b = coefficient[a][c];
+        sum += b;
+        least = std::min(least, b);
+        most = std::max(most, b);
+      }
+    });
+    fine = fine && most <= most_contrast * least;
+    const double faces = double(hi[0] - lo[0]) * (hi[2] - lo[2]);
+    return sum / (faces * grid_.spacing[a] * grid_.spacing[a]);
+  };
+  for (int row = 0; row <= n[1]; ++row) up_[std::size_t(row)] = mean(1, row);
+  for (int row = 0; row < n[1]; ++row) {
+    const auto r = std::size_t(row);
+    across_[0][r] = n[0] > 1 ? mean(0, row) : 0;
+    across_[1][r] = n[2] > 1 ? mean(2, row) : 0;
+    diagonal_[r] = 0;
+    if (shift.empty()) continue;
+    for_each_row(grid_, {0, row, 0}, {n[0], row + 1, n[2]}, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) diagonal_[r] += shift[c];
+    });
+    diagonal_[r] /= double(n[0]) * n[2];
+  }
+  return fine;
+}
+
+/// Gauss's elimination up the column, for each mode: pivot = d - up^2/(pivot below).
+void RowMeanSolver::factorise() {
+  const auto [nx, ny, nz] = grid_.cells;
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j) {
+      const auto r = std::size_t(j);
+      double* here = factor_.data() + (std::ptrdiff_t(k) * ny + j) * nx;
+      const double own = diagonal_[r] + up_[r] + up_[r + 1] + across_[1][r] * z_.rate[std::size_t(k)];
+      for (int m = 0; m < nx; ++m) {
+        const double below = j > 0 ? up_[r] * up_[r] * here[m - nx] : 0.0;
+        here[m] = 1 / (own + across_[0][r] * x_.rate[std::size_t(m)] - below);
+      }
+    }
+}
+
+/// Forward and backward substitution of all modes.
+void RowMeanSolver::sweep() {
+  const auto [nx, ny, nz] = grid_.cells;
+  for (int k = 0; k < nz; ++k) {
+    double* v = values_.data() + std::ptrdiff_t(k) * ny * nx;
+    const double* factor = factor_.data() + std::ptrdiff_t(k) * ny * nx;
+    for (int j = 0; j < ny; ++j)
+      for (int m = 0; m < nx; ++m) {
+        const std::ptrdiff_t at = std::ptrdiff_t(j) * nx + m;
+        v[at] = (v[at] + (j > 0 ? up_[std::size_t(j)] * v[at - nx] : 0.0)) * factor[at];
+      }
+    for (int j = ny - 2; j >= 0; --j)
+      for (int m = 0; m < nx; ++m) {
+        const std::ptrdiff_t at = std::ptrdiff_t(j) * nx + m;
+        v[at] += up_[std::size_t(j + 1)] * factor[at] * v[at + nx];
+      }
+  }
+}
+
+/// z = the row-mean equation's solution for r: into waves, up and down the column, and back.
+void RowMeanSolver::precondition(const Field& r, Field& z) {
+  const auto [nx, ny, nz] = grid_.cells;
+  double* to = turned_.data();
+  for_each_row(grid_, [&](Index begin, Index end) { to = std::copy(r.begin() + begin, r.begin() + end, to); });
+  values_.noalias() = turned_ * x_.waves;
+  using Layers = Eigen::Map<Matrix>;
+  if (nz > 1) {
+    Layers(turned_.data(), nz, ny * nx).noalias() = z_.waves.transpose() * Layers(values_.data(), nz, ny * nx);
+    values_.swap(turned_);
+  }
+  sweep();
+  if (nz > 1) {
+    Layers(turned_.data(), nz, ny * nx).noalias() = z_.waves * Layers(values_.data(), nz, ny * nx);
+    values_.swap(turned_);
+  }
+  turned_.noalias() = values_ * x_.waves.transpose();
+  const double* from = turned_.data();
+  for_each_row(grid_, [&](Index begin, Index end) {
+    std::copy(from, from + (end - begin), z.begin() + begin);
+    from += end - begin;
+  });
+}
+
+/// out = shift p - div(B grad p); sets the ghosts of p across joined sides.
+void RowMeanSolver::apply(const FaceSpans& coefficient, std::span<const double> shift, Field& p, Field& out) {
+  Field* const field = &p;
+  for (int axis = 0; axis < grid_.dimensions; ++axis)
+    if (grid_.periodic[std::size_t(axis)]) halo_.exchange(std::span(&field, 1), axis);
+  for_each_row(grid_, [&](Index begin, Index end) {
+    const auto c = std::size_t(begin);
+    for (auto i = c; i < std::size_t(end); ++i) out[i] = shift.empty() ? 0.0 : shift[i] * p[i];
+    for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a)
+      add_differences(coefficient[a].data() + c, p.data() + c, 1 / (grid_.spacing[a] * grid_.spacing[a]),
+                      grid_.stride(int(a)), end - begin, out.data() + c);
+  });
+}
+
+std::optional<int> RowMeanSolver::solve(const FaceSpans& coefficient, std::span<const double> shift,
+                                        const Field& source, Field& p, double tolerance) {
+  if (!average(coefficient, shift)) return std::nullopt;
+  factorise();
+  const double enough = tolerance * std::sqrt(dot(grid_, source, source));
+  std::fill(direction_.begin(), direction_.end(), 0.0);  // ghosts beyond the ends stay 0
+  add(grid_, 1, p, direction_);
+  apply(coefficient, shift, direction_, image_);
+  residual_ = source;
+  add(grid_, -1, image_, residual_);
+  double weight = 0;
+  int iterations = 0;
+  while (std::sqrt(dot(grid_, residual_, residual_)) > enough && iterations < most_iterations) {
+    precondition(residual_, preconditioned_);
+    const double before = weight;
+    weight = dot(grid_, residual_, preconditioned_);
+    scale_and_add(grid_, preconditioned_, iterations == 0 ? 0.0 : weight / before, direction_);
+    apply(coefficient, shift, direction_, image_);
+    const double length = weight / dot(grid_, direction_, image_);
+    add(grid_, length, direction_, p);
+    add(grid_, -length, image_, residual_);
+    ++iterations;
+  }
+  return iterations;
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,65 @@
+// The part of the drag that is too fast for explicit steps, on each face by itself: linear in the velocities, with
+// coefficients that hold for a step. What remains of the equations is left to the explicit part.
+//
+//   dU_j/dt = [ b_j (U_f - U_j) - G ] / rho_j,    U_f = (J - sum_k phi_k U_k) / eps,    dJ/dt = 0
+//   B G = sum_k phi_k b_k (1/rho_k - 1/rho_f) (U_f - U_k),    B = eps/rho_f + sum_k phi_k/rho_k
+//
+// G is the gradient of pressure that holds the total flux against the drag where flow goes along one axis. The rate at
+// which the rest relaxes has the square of the difference of densities in it, sum_k phi_k b_k (1/rho_f - 1/rho_k)^2/B:
+// a few hundredths of that of the drag in a liquid, about all of it in a gas.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/boundaries.hpp"
+#include "tfm/fields.hpp"
+#include "tfm/state_layout.hpp"
+
+namespace polybed::tfm {
+
+/// The rate, 1/s, at which what FastDrag leaves relaxes; species are added one by one.
+class SlowDrag {
+ public:
+  /// \param voidage  eps  \param fluid_density  rho_f, kg/m3
+  SlowDrag(double voidage, double fluid_density) : fluid_density_(fluid_density), mobility_(voidage / fluid_density) {}
+  /// \param phi  fraction  \param b  exchange coefficient over phi, kg/(m3 s)  \param density  kg/m3
+  void add(double phi, double b, double density) {
+    const double lighter = 1 / fluid_density_ - 1 / density;
+    sum_ += phi * b * lighter * lighter;
+    mobility_ += phi / density;
+  }
+  [[nodiscard]] double rate() const { return sum_ / mobility_; }
+
+ private:
+  double fluid_density_, mobility_, sum_ = 0;
+};
+
+class FastDrag {
+ public:
+  FastDrag(const Constants& constants, const fluid::Boundaries& boundaries, const StateLayout& layout);
+
+  /// Takes the coefficients phi_j, b_j and eps on faces from fields as a right-hand side has left them.
+  void hold(const Fields& fields);
+  /// Adds `factor` times the rates above, of a state y, to `rates`.
+  void add(double factor, std::span<const double> y, std::span<double> rates) const;
+  /// Solves x - gamma A x = r, where A x are the rates above. r and x may be the same. \param gamma  s, >= 0
+  void solve(double gamma, std::span<const double> r, std::span<double> x) const;
+
+ private:
+  /// On the faces of one axis, in the order of the state.
+  struct Faces {
+    std::size_t begin = 0, size = 0;          ///< of the flux in the state, and faces
+    std::vector<std::size_t> velocity;        ///< begin of U_j in the state
+    std::vector<std::vector<double>> phi, b;  ///< [species][face]; b is 0 where solids do not move
+    std::vector<double> voidage, mobility;    ///< eps, and B in m3/kg
+  };
+
+  const Constants& constants_;
+  const fluid::Boundaries& boundaries_;
+  const StateLayout& layout_;
+  std::vector<Faces> axes_;
+  std::vector<double> lighter_;  ///< 1/rho_k - 1/rho_f, m3/kg
+};
+
+}  // namespace polybed::tfm
