@@ -1,6 +1,8 @@
 // Values of fields in the ghost entries around a block: walls, distributor, outlet, joined sides, other ranks' cells.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <span>
 
 #include "core/numerics/halo.hpp"
@@ -35,6 +37,17 @@ class Boundaries {
     return grid_.ends(axis, side) && (axis != 1 || side == 0 || closed_);
   }
 
+  /// Solids lie below a row of cells of the column: their equations are asked below it only, and nothing crosses its
+  /// low faces. At first they may lie anywhere.
+  void hold_solids_above(int row) { solids_rows_ = row - grid_.before[1]; }
+  /// The part of a box of this block's cells or faces where the solids' equations are asked.
+  [[nodiscard]] core::Box with_solids(core::Box box) const {
+    box.hi[1] = std::max(box.lo[1], std::min(box.hi[1], solids_rows_));
+    return box;
+  }
+  /// Owned cells, likewise.
+  [[nodiscard]] core::Box solids_cells() const { return with_solids(core::owned_cells(grid_)); }
+
   /// Ghosts of any number of fields, in one message to each neighbouring rank and axis. Collective, as are the others.
   void fill(std::span<const Ghosts> wanted) const;
 
@@ -56,18 +69,19 @@ class Boundaries {
   void join(core::FaceField& faces, core::FaceField& others) const;
 
   /// The faces of an axis whose velocity moves: all but those on walls and on the distributor. The outlet's
-  /// faces move for the fluid, and for solids if it is open.
+  /// faces move for the fluid, and for solids if it is open, where these are not held.
   [[nodiscard]] core::Box moving_faces(int axis, bool of_fluid) const {
     core::Box box = core::interior_faces(grid_, axis);
     if ((of_fluid || open_) && axis == 1 && !closed_ && grid_.ends(1, 1)) ++box.hi[1];
-    return box;
+    return of_fluid ? box : with_solids(box);
   }
 
   /// The moving faces of an axis that owned cells have, those of the next block or across joined sides included.
   [[nodiscard]] core::Box moving_faces_of_cells(int axis, bool of_fluid) const {
     core::Box box = moving_faces(axis, of_fluid);
+    if (axis == 1 && box.hi[1] < grid_.cells[1]) return box;  // below the rows that are held
     if (!grid_.ends(axis, 1)) ++box.hi[std::size_t(axis)];
-    return box;
+    return of_fluid ? box : with_solids(box);
   }
 
   /// Sets all boundary faces of a face field (sides, bottom, top) to a value, except across joined sides.
@@ -83,6 +97,7 @@ class Boundaries {
   mutable std::vector<core::Field*> exchanged_;  ///< kept, so that filling allocates nothing
   mutable std::vector<Ghosts> wanted_;
   bool closed_ = false, open_ = false;
+  int solids_rows_ = std::numeric_limits<int>::max();  ///< of this block, counted from its first
 };
 
 /// Calls body(begin, end) for the rows of faces of an axis at the column's low (side 0) or high end, if this block

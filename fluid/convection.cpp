@@ -17,6 +17,7 @@ void convect(const core::Grid& grid, const Boundaries& boundaries, bool of_fluid
     // A limited slope on the outlet's faces would ask for a second layer of faces beyond it, which there is not.
     core::Box inside = core::interior_faces(grid, axis), at_outlet = boundaries.moving_faces(axis, of_fluid);
     at_outlet.lo[std::size_t(axis)] = inside.hi[std::size_t(axis)];
+    if (!of_fluid) inside = boundaries.with_solids(inside);
     core::subtract_convection<Difference>(grid, velocity, axis, inside, rate);
     core::subtract_convection<core::UpwindDifference>(grid, velocity, axis, at_outlet, rate);
   }

@@ -35,7 +35,8 @@ void conservative_convection(const core::Grid& grid, const Boundaries& boundarie
     const core::Index s = grid.stride(axis);
     core::Field& rate = acceleration[a];
     std::fill(rate.begin(), rate.end(), 0.0);
-    const core::Box inside = core::interior_faces(grid, axis);
+    core::Box inside = core::interior_faces(grid, axis);
+    if (!of_fluid) inside = boundaries.with_solids(inside);
     if (limited)
       core::subtract_carried<core::LimitedFace>(grid, flux, velocity[a], axis, inside, rate);
     else

@@ -46,7 +46,7 @@ void subtract_exchange_with(const Density& density, const core::Grid& grid, cons
     const Index s = grid.stride(axis);
     const double* u = fluid.velocity[a].data();
     double* rate = acceleration[a].data();
-    core::for_each_row(grid, boundaries.moving_faces(axis, true), [&](Index begin, Index end) {
+    core::for_each_row(grid, boundaries.with_solids(boundaries.moving_faces(axis, true)), [&](Index begin, Index end) {
       for (std::size_t j = 0; j < solids.species(); ++j) {
         const double *phi = solids.fraction[j].data(), *b = solids.exchange[j].data(),
                      *v = solids.velocity[j][a].data();
@@ -73,6 +73,8 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
         free[c] = face_mean(eps, c, s) * a_f[c];
         mobility[c] = face_mean(eps, c, s) / density.on_face(c, s);
       }
+    });
+    core::for_each_row(grid, boundaries.with_solids(boundaries.moving_faces(axis, true)), [&](Index begin, Index end) {
       for (std::size_t j = 0; j < solids.species(); ++j) {
         const double *phi_rate = solids.fraction_rate[j].data(), *v = solids.velocity[j][a].data();
         for (Index c = begin; c < end; ++c) free[c] += (v[c] - u[c]) * face_mean(phi_rate, c, s);

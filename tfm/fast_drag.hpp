@@ -10,6 +10,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fluid/boundaries.hpp"
@@ -49,10 +50,11 @@ class FastDrag {
  private:
   /// On the faces of one axis, in the order of the state.
   struct Faces {
-    std::size_t begin = 0, size = 0;          ///< of the flux in the state, and faces
-    std::vector<std::size_t> velocity;        ///< begin of U_j in the state
-    std::vector<std::vector<double>> phi, b;  ///< [species][face]; b is 0 where solids do not move
-    std::vector<double> voidage, mobility;    ///< eps, and B in m3/kg
+    std::size_t begin = 0, size = 0;                        ///< of the flux in the state, and faces
+    std::vector<std::size_t> velocity;                      ///< begin of U_j in the state
+    std::vector<std::vector<double>> phi, b;                ///< [species][face]; b is 0 where solids do not move
+    std::vector<double> voidage, mobility;                  ///< eps, and B in m3/kg
+    std::vector<std::pair<std::size_t, std::size_t>> runs;  ///< faces where solids move, one after the other
   };
 
   const Constants& constants_;

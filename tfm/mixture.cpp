@@ -41,12 +41,12 @@ void composition(const Constants& constants, Fields& fields) {
   for (std::size_t c = 0; c < cells; ++c) eps[c] = 1 - phi[c];
 }
 
-void superficial_slip(const Constants& constants, Fields& fields) {
+void superficial_slip(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
   const core::Grid& grid = constants.grid;
   const double* eps = fields.fluid.voidage.data();
   for (std::size_t j = 0; j < constants.species(); ++j) {
     double* slip = fields.slip_superficial[j].data();
-    core::for_each_row(grid, [&](Index begin, Index end) {
+    core::for_each_row(grid, boundaries.solids_cells(), [&](Index begin, Index end) {
       for (int axis = 0; axis < grid.dimensions; ++axis) {
         const Index s = grid.stride(axis);
         const double* u = fields.fluid.velocity[std::size_t(axis)].data();

@@ -1,6 +1,7 @@
 // What the closures see of a cell: total solids fraction, shares of the species, superficial slip.
 #pragma once
 
+#include "fluid/boundaries.hpp"
 #include "tfm/fields.hpp"
 
 namespace polybed::tfm {
@@ -12,8 +13,8 @@ constexpr double composition_floor = 1e-4;
 /// Fills solids_fraction, voidage and share in all cells, ghosts included, from the fractions.
 void composition(const Constants& constants, Fields& fields);
 
-/// Fills slip_superficial in the owned cells from all components at the centre.
-void superficial_slip(const Constants& constants, Fields& fields);
+/// Fills slip_superficial in the cells of the solids from all components at the centre.
+void superficial_slip(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields);
 
 /// Multiplies slip_superficial by rho_f/rho_0: the closures, which know rho_0, then see the local Reynolds number.
 void weigh_slip_by_density(const Constants& constants, Fields& fields);

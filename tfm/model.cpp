@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
@@ -82,6 +83,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
   fluid::for_each_boundary_row(constants.grid, 1, 0, [&](Index begin, Index end) {
     std::fill(even.begin() + begin, even.begin() + end, inlet().mean_velocity(0));
   });
+  follows_solids_ = options_.follow_bed && integrator_kind_ != core::TfmIntegrator::implicit_steps && !compressible() &&
+                    !transports_temperature() && !constants.openings.present();
   y_.resize(layout_.size());
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);
@@ -187,6 +190,7 @@ void Model::make_integrator() {
 /// right-hand side gives both.
 void Model::begin_integration() {
   equations_.begin(time_);
+  follow_solids(y_);
   if (explicit_) {
     explicit_->begin();
     explicit_->begin_step(step_);
@@ -208,6 +212,7 @@ void Model::begin_integration() {
 }
 
 void Model::step(double stop) {
+  follow_solids(integrator_->state());
   if (explicit_) explicit_->begin_step(step_);
   const core::StepReport report = integrator_->step(stop);
   time_ = report.time;
@@ -220,6 +225,29 @@ void Model::step(double stop) {
     use_fallback();
   }
   last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
+}
+
+/// The solids' equations are asked below the highest row that holds any, and in some rows above, where their velocities
+/// have time to become those of the flow before solids arrive. It depends on the state alone, as a restart needs.
+void Model::follow_solids(std::span<const double> y) {
+  if (!follows_solids_) return;
+  constexpr double trace = 1e-12;  // of the fraction: it stays where it is
+  constexpr int margin = 8;
+  const core::Grid& grid = constants().grid;
+  const auto holds_solids = [&](int row) {
+    const auto nx = std::size_t(grid.cells[0]);
+    for (const StateLayout::Entry& entry : layout_.entries())
+      for (int k = 0; k < grid.cells[2] && entry.kind == Kind::fraction; ++k) {
+        const auto cells =
+            y.subspan(entry.begin + (std::size_t(k) * std::size_t(grid.cells[1]) + std::size_t(row)) * nx, nx);
+        if (std::any_of(cells.begin(), cells.end(), [](double phi) { return std::abs(phi) > trace; })) return true;
+      }
+    return false;
+  };
+  int rows = grid.cells[1];
+  while (rows > 0 && !holds_solids(rows - 1)) --rows;
+  const int held = int(core::greatest_of_ranks(grid, rows > 0 ? grid.before[1] + rows : 0)) + margin;
+  equations_.hold_solids_above(held < grid.column_cells(1) ? held : std::numeric_limits<int>::max());
 }
 
 /// Throws where no bed can be so dense; the state is then the one before the step.

@@ -104,6 +104,7 @@ class Model : public core::Simulation {
   [[nodiscard]] StateLayout layout_of_column() const { return layout_on(core::whole_column(constants().grid)); }
   [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void begin_integration();
+  void follow_solids(std::span<const double> y);
   void use_fallback();
   void require_sound_state();
   void restore_fallback(const core::Checkpoint& checkpoint);
@@ -132,6 +133,7 @@ class Model : public core::Simulation {
   std::vector<double> y_, dydt_;
   std::size_t column_size_ = 0;  ///< entries of the whole column's state
   bool goes_on_above_packing_ = false;
+  bool follows_solids_ = false;  ///< their equations are asked where they are, not in the whole column
   StepLine last_step_;
   std::optional<FirstOrderFallback> fallback_;  ///< absent where all fluxes are of first order anyway
   Work before_;                                 ///< of the integrators that a restart has closed

@@ -61,7 +61,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
   if (!admissible()) return false;
   if (!equation_of_state()) return false;
   timed("mixture", [&] {
-    superficial_slip(constants_, fields_);
+    superficial_slip(constants_, boundaries_, fields_);
     if (effects_.compressible) weigh_slip_by_density(constants_, fields_);
   });
   timed("convection", [&] {
@@ -100,6 +100,28 @@ bool RightHandSide::equation_of_state() {
   return effects_.compressible->set_density(fields_.fluid);
 }
 
+void RightHandSide::hold_solids_above(int row) {
+  if (row == solids_rows_) return;
+  solids_rows_ = row;
+  boundaries_.hold_solids_above(row);
+  // What was found above before must not be taken for what is there.
+  const auto clear = [](core::Field& field) { std::fill(field.begin(), field.end(), 0.0); };
+  const auto clear_all = [&](auto& list) { std::for_each(list.begin(), list.end(), clear); };
+  clear_all(flux_);
+  clear_all(fields_.slip_superficial);
+  clear_all(fields_.species_exchange);
+  clear_all(fields_.solids.exchange);
+  clear_all(fields_.solids.temperature_rate);
+  std::for_each(fields_.solids.acceleration.begin(), fields_.solids.acceleration.end(), clear_all);
+  SolidsStress& stress = fields_.stress;
+  for (core::Field* field :
+       {&stress.pressure, &stress.slope, &stress.damping, &stress.contact, &stress.viscosity, &stress.wall})
+    clear(*field);
+  clear_all(stress.strain);
+  clear_all(fields_.granular.conductivity);
+  clear_all(fields_.granular.decay);
+}
+
 std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLayout& layout,
                                                         std::span<const double> y) {
   layout.unpack(y, fields_.solids, fields_.fluid);
@@ -114,7 +136,7 @@ void RightHandSide::add_solids_stress() {
   SolidsStress& stress = fields_.stress;
   effects_.solids_stress->evaluate(fields_);
   if (stress.viscous()) {
-    strain_rates(constants_, fields_);
+    strain_rates(constants_, boundaries_, fields_);
     std::fill(stress.viscosity.begin(), stress.viscosity.end(), 0.0);
     if (effects_.solids_viscosity) effects_.solids_viscosity->add(fields_);
     if (effects_.collisions) effects_.collisions->add(fields_);

@@ -2,6 +2,7 @@
 // pressure acts. Both integrators use this one operator.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -44,6 +45,8 @@ class RightHandSide {
   void begin(double t) { begin_ = t; }
   /// Faces on which the solids' flux is of first order from now on; null: none. The list must outlive its use.
   void take_first_order_on(const FaceList* faces) { first_order_ = faces; }
+  /// The solids' equations are asked below a row of cells of the column only; above it solids stay as they are.
+  void hold_solids_above(int row);
   [[nodiscard]] const Effects& effects() const { return effects_; }
   [[nodiscard]] Fields& fields() { return fields_; }
   [[nodiscard]] const Fields& fields() const { return fields_; }
@@ -68,6 +71,7 @@ class RightHandSide {
   Effects effects_;
   core::FaceField flux_;
   std::optional<ConservativeConvection> conservative_;  ///< empty unless asked for
+  int solids_rows_ = std::numeric_limits<int>::max();
   const FaceList* first_order_ = nullptr;
   std::vector<fluid::Ghosts> state_ghosts_;  ///< the unknowns, whose ghosts travel together
   core::Field viscous_weight_;               ///< work space of the solids' viscosity; empty without

@@ -55,11 +55,11 @@ class Strain {
 
 }  // namespace
 
-void strain_rates(const Constants& constants, Fields& fields) {
+void strain_rates(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const Strain strain(constants.grid, fields.solids.velocity[j], fields.solids.fraction[j]);
     double* out = fields.stress.strain[j].data();
-    core::for_each_row(constants.grid, [&](Index begin, Index end) {
+    core::for_each_row(constants.grid, boundaries.solids_cells(), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) out[c] = strain.squared(c);
     });
   }

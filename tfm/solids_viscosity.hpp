@@ -19,7 +19,7 @@ namespace polybed::tfm {
 /// Fills stress.strain with 2 D':D' of each species in the owned cells, 1/s2; gamma^2 in simple shear. Shear is the
 /// mean of the squares on the edges around, so that a ripple from cell to cell is seen, each as far as the edge
 /// transmits shear: the viscosity times it is what the viscous force takes from the mean motion.
-void strain_rates(const Constants&, Fields&);
+void strain_rates(const Constants&, const fluid::Boundaries&, Fields&);
 
 /// Adds the viscous force per mass of each species. Ghosts of stress.viscosity and of the velocities must be filled.
 /// \param weight  work space: phi_j mu_s/phi on cells

@@ -139,6 +139,7 @@ using MaxPacking = std::variant<PackingRule, double>;
 
 struct Tfm {
   TfmIntegrator integrator = TfmIntegrator::automatic;
+  bool follow_bed = true;
   double rtol = 1e-4;
   FractionFlux flux = FractionFlux::limited;
   Momentum momentum = Momentum::automatic;

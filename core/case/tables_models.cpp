@@ -10,8 +10,11 @@ Table tfm_table() {
       "tfm", &Scene::tfm,
       {
           key(&Tfm::integrator, "integrator",
-              help("explicit for a bed fluidised by a liquid, implicit for gas, compressible fluids and "
-                   "settling; auto chooses so")),
+              help("imex (drag implicit, the rest explicit) for a bed fluidised by a liquid, implicit for gas, "
+                   "compressible fluids and settling, explicit where there is no drag; auto chooses so")),
+          key(&Tfm::follow_bed, "follow_bed",
+              help("ask the equations of the solids in the rows that hold solids, and eight above, not in the whole "
+                   "column; explicit and imex steps only")),
           key(&Tfm::rtol, "rtol", range(1e-12, 0.1), help("relative tolerance of the time integration")),
           key(&Tfm::flux, "flux", help("solids fractions at faces: second order with a limiter, or first order")),
           key(&Tfm::momentum, "momentum",

@@ -216,7 +216,13 @@ std::optional<int> RowMeanSolver::solve(const FaceSpans& coefficient, std::span<
   add(grid_, -1, image_, residual_);
   double weight = 0;
   int iterations = 0;
-  while (std::sqrt(dot(grid_, residual_, residual_)) > enough && iterations < most_iterations) {
+  // At least one iteration, although the guess may be good enough: a pressure that stands still while all else moves is
+  // an error that does not average out, and a bed at rest would feel it.
+  const auto goes_on = [&] {
+    const double left = std::sqrt(dot(grid_, residual_, residual_)), round_off = 1e-14 * enough / tolerance;
+    return left > (iterations > 0 ? enough : round_off) && iterations < most_iterations;
+  };
+  while (goes_on()) {
     precondition(residual_, preconditioned_);
     const double before = weight;
     weight = dot(grid_, residual_, preconditioned_);

@@ -21,7 +21,7 @@ Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, cons
 
 void Drag::evaluate(Fields& fields) {
   const double scale = 18 * constants_.fluid.viscosity;
-  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     const std::size_t row = std::size_t(begin), cells = std::size_t(end - begin);
     for (std::size_t j = 0; j < constants_.species(); ++j) {
       share_[j] = fields.share[j].data() + row;

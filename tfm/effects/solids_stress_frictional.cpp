@@ -74,13 +74,13 @@ void FrictionalStress::choose_packing(const core::Scene& scene) {
 template <class Body>
 void FrictionalStress::for_each_cell_with_packing(const Fields& fields, Body&& body) const {
   if (mixture_packing_ == nullptr) {
-    core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+    core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) body(c, law_.max_packing);
     });
     return;
   }
   std::array<double, most_species> share{};
-  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       for (std::size_t j = 0; j < constants_.species(); ++j) share[j] = fields.share[j][std::size_t(c)];
       body(c, mixture_packing_({share.data(), constants_.species()}, constants_.diameter, species_packing_));
@@ -125,7 +125,7 @@ void FrictionalStress::add_bulk_viscosity(Fields& fields) const {
   const core::Grid& grid = constants_.grid;
   const double* slope = fields.stress.slope.data();
   double *pressure = fields.stress.pressure.data(), *damping = fields.stress.damping.data();
-  core::for_each_row(grid, [&](Index begin, Index end) {
+  core::for_each_row(grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       damping[c] = 0;
       if (!(slope[c] > 0)) continue;

@@ -68,7 +68,7 @@ void KineticStress::multiply(closures::StressRatios ratios, std::vector<double> 
 void KineticStress::add(Fields& fields) {
   if (!ratios_) return add_with(fields, NoRatios{});
   add_with(fields, *ratios_);
-  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       const double phi = fields.solids_fraction[std::size_t(c)];
       use_->guarded += phi > collision_fraction_floor && ratios_->outside(phi, 0) ? 1 : 0;
@@ -79,7 +79,7 @@ void KineticStress::add(Fields& fields) {
 
 template <class Ratios>
 void KineticStress::add_with(Fields& fields, const Ratios& ratios) {
-  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       const double phi = std::max(fields.solids_fraction[std::size_t(c)], collision_fraction_floor);
       add_cell(fields, c, dense_ ? closures::radial_distribution_dense(phi) : closures::radial_carnahan_starling(phi),

@@ -48,7 +48,7 @@ TableStress::TableStress(const core::Scene& scene, const Constants& constants, c
 
 void TableStress::evaluate(Fields& fields) {
   frictional_.evaluate(fields);
-  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
       double unit = 0;
       for (std::size_t j = 0; j < unit_.size(); ++j) unit += fields.share[j][c] * unit_[j];

@@ -33,7 +33,7 @@ WetStress::WetStress(const Constants& constants, const fluid::Boundaries& bounda
 
 void WetStress::add(Fields& fields) {
   const double mu = constants_.fluid.viscosity;
-  core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
       double square = least_shear_rate * least_shear_rate, per_diameter = 0, density = 0;
       for (std::size_t j = 0; j < constants_.species(); ++j) {

@@ -18,19 +18,22 @@ using core::Index;
 /// mu_s from p_f of the cell, the mean diameter and density of its solids, and |gamma|^2 = sum_j x_j 2 D'_j:D'_j.
 class FrictionalViscosity : public SolidsViscosity {
  public:
-  FrictionalViscosity(const core::Scene& scene, const Constants& constants, const std::string& law, Fields& fields);
+  FrictionalViscosity(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
+                      const std::string& law, Fields& fields);
   void add(Fields& fields) override;
 
  private:
   const Constants& constants_;
+  const fluid::Boundaries& boundaries_;
   bool inertial_;  ///< mu(I), else Schaeffer
   closures::InertialFriction friction_;
   double sine_, cap_, least_rate_;
 };
 
-FrictionalViscosity::FrictionalViscosity(const core::Scene& scene, const Constants& constants, const std::string& law,
-                                         Fields& fields)
+FrictionalViscosity::FrictionalViscosity(const core::Scene& scene, const Constants& constants,
+                                         const fluid::Boundaries& boundaries, const std::string& law, Fields& fields)
     : constants_(constants),
+      boundaries_(boundaries),
       inertial_(law == "mu_i"),
       sine_(std::sin(scene.tfm.friction_angle * std::numbers::pi / 180)),
       cap_(scene.tfm.viscosity_cap),
@@ -41,7 +44,7 @@ FrictionalViscosity::FrictionalViscosity(const core::Scene& scene, const Constan
 
 void FrictionalViscosity::add(Fields& fields) {
   const auto each_cell = [&](auto&& law) {
-    core::for_each_row(constants_.grid, [&](Index begin, Index end) {
+    core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
         const double pressure = fields.stress.contact[c];
         if (!(pressure > 0)) continue;
@@ -75,8 +78,8 @@ extern const Maker solids_viscosity;
 const Maker solids_viscosity{&relevance::effects::solids_viscosity,
                              "Stress",
                              [](const Making& m) {
-                               m.effects.solids_viscosity =
-                                   std::make_unique<FrictionalViscosity>(m.scene, m.constants, m.law, m.fields);
+                               m.effects.solids_viscosity = std::make_unique<FrictionalViscosity>(
+                                   m.scene, m.constants, m.boundaries, m.law, m.fields);
                              },
                              {"schaeffer"}};
 

@@ -26,7 +26,7 @@ SyamlalExchange::SyamlalExchange(const core::Scene& scene, const Constants& cons
 
 void SyamlalExchange::evaluate(Fields& fields) {
   const core::Grid& grid = constants_.grid;
-  core::for_each_row(grid, [&](Index begin, Index end) {
+  core::for_each_row(grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       const auto at = std::size_t(c);
       double surface = 0;

@@ -34,7 +34,7 @@ TableExchange::TableExchange(const core::Scene& scene, const Constants& constant
 
 void TableExchange::evaluate(Fields& fields) {
   const core::Grid& grid = constants_.grid;
-  core::for_each_row(grid, [&](Index begin, Index end) {
+  core::for_each_row(grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       const auto at = std::size_t(c);
       closures::DriftingSpecies one{constants_.diameter[0], constants_.density[0], 1, 0},
