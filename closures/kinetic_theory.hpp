@@ -8,7 +8,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace polybed::closures {
@@ -25,8 +27,8 @@ struct RadialValue {
 /// Carnahan and Starling (J. Chem. Phys. 51, 1969, 635): (1 - phi/2)/(1 - phi)^3, phi < 1. Of a gas of hard spheres up
 /// to freezing at 0.49; finite beyond.
 [[nodiscard]] inline RadialValue radial_carnahan_starling(double phi) {
-  const double eps = 1 - phi, eps3 = eps * eps * eps;
-  return {(1 - 0.5 * phi) / eps3, (3 * (1 - 0.5 * phi) / eps - 0.5) / eps3};
+  const double per_eps = 1 / (1 - phi), per_eps3 = per_eps * per_eps * per_eps;
+  return {(1 - 0.5 * phi) * per_eps3, (3 * (1 - 0.5 * phi) * per_eps - 0.5) * per_eps3};
 }
 
 /// Carnahan-Starling up to 0.49, above Torquato (Phys. Rev. E 51, 1995, 3170): CS(0.49) (phi_c - 0.49)/(phi_c - phi),
@@ -43,8 +45,9 @@ struct RadialValue {
 ///   1/(1-phi) + 3 q xi/(1-phi)^2 + 2 q^2 xi^2/(1-phi)^3,  q = D_i D_j/(D_i + D_j),  xi = sum phi_k/D_k.
 /// Carnahan-Starling for equal sizes. voidage = 1 - phi > 0; surface = xi, 1/m.
 [[nodiscard]] inline double radial_of_pair(double voidage, double surface, double diameter_i, double diameter_j) {
-  const double q = diameter_i * diameter_j / (diameter_i + diameter_j) * surface / voidage;
-  return (1 + 3 * q + 2 * q * q) / voidage;
+  const double per_voidage = 1 / voidage;
+  const double q = diameter_i * diameter_j / (diameter_i + diameter_j) * surface * per_voidage;
+  return (1 + 3 * q + 2 * q * q) * per_voidage;
 }
 
 /// p* = phi [1 + 2 (1+e) phi g0].
@@ -59,7 +62,7 @@ struct RadialValue {
 [[nodiscard]] inline double mixture_pressure_of_pair(double phi_j, double g0, double e, double diameter_i,
                                                      double diameter_j, double mass_ratio) {
   const double reach = 0.5 * (diameter_i / diameter_j + 1);
-  return 4 * phi_j * reach * reach * reach * g0 * (1 + e) / (1 + mass_ratio);
+  return 4 * reach * reach * reach * (1 + e) / (1 + mass_ratio) * phi_j * g0;
 }
 
 /// c of Garzo and Dufty: fourth cumulant of the velocities, 32(1-e)(1-2e^2)/(81 - 17e + 30e^2(1-e)).
@@ -123,22 +126,31 @@ constexpr double dilute_viscosity = 5 * 1.7724538509055160273 / 96;
          (g0 * diameter * diameter * diameter * density);
 }
 
+/// x^power for x > 0 and a power of 1/3 or 1/4, at most 6 % above it and not below: the exponent of the binary number
+/// times the power, its mantissa taken for the logarithm. No branch, nothing but + * and shifts.
+[[nodiscard]] inline double root_bound(double x, double power) {
+  constexpr double one = 0x3ff00000, shift = 0x1p52;  // the upper half of 1.0; a double whose lower bits count units
+  const auto upper = std::bit_cast<std::uint64_t>(x) >> 32;
+  const double exponent = std::bit_cast<double>(upper | std::bit_cast<std::uint64_t>(shift)) - shift;
+  // A unit of the upper half more: it was cut off x.
+  const double scaled = exponent * power + (one * (1 - power) + 1);
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(scaled + shift) << 32);
+}
+
 /// Root s = sqrt theta > 0 of a s^4 + b s^3 = p s^2 + c, a > 0, p and c >= 0, any b: collisions and drag against shear
 /// and slip. One sign change, so one root (Descartes); by Newton from above, where the curve is convex. 0 if p = c = 0
-/// and b >= 0.
+/// and b >= 0. No branch: a loop over it is vectorised.
 [[nodiscard]] inline double balanced_speed(double a, double b, double p, double c) {
   const double root = std::sqrt(b * b + 4 * a * p);
-  const double without_slip = b > 0 ? 2 * p / (root + b) : (root - b) / (2 * a);
-  if (!(c > 0)) return without_slip;
-  // f(s) = a s^4 + b s^3 - p s^2 - c is above 0 at the sum of the root without c and (c/a)^(1/4).
-  double s = without_slip + std::sqrt(std::sqrt(c / a));
-  for (int n = 0; n < 60; ++n) {
-    const double f = ((a * s + b) * s - p) * s * s - c, slope = ((4 * a * s + 3 * b) * s - 2 * p) * s;
-    const double next = s - f / slope;
-    if (!(next < s * (1 - 1e-15))) break;
-    s = next;
-  }
-  return s;
+  const double without_slip = (b > 0 ? 2 * p : root - b) / (b > 0 ? root + b : 2 * a);
+  // f(s) = a s^4 + b s^3 - p s^2 - c is above 0 at the sum of the root without c and (c/a)^(1/4) or, if b > 0,
+  // (c/b)^(1/3). From the smaller, seven steps reach round-off for all a, b, p and c.
+  const double alone = root_bound(c / a, 0.25), dragged = root_bound(c / (b > 0 ? b : 1.0), 1.0 / 3);
+  double s = without_slip + (b > 0 && dragged < alone ? dragged : alone);
+#pragma GCC unroll 7
+  for (int n = 0; n < 7; ++n) s -= (((a * s + b) * s - p) * s * s - c) / (((4 * a * s + 3 * b) * s - 2 * p) * s);
+  constexpr double least_slip = 1e-200;  // of less the powers of s are lost
+  return c > least_slip ? s : without_slip;
 }
 
 /// Friction of a wall on solids that slip along it at a speed of 1 m/s, Pa s/m, Johnson and Jackson (J. Fluid Mech.

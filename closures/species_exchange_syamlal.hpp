@@ -16,8 +16,9 @@ struct SpeciesPair {
 /// Radial distribution at contact, Lebowitz 1964: 1/eps + 3 D_j D_k sum(phi_m/D_m) / [eps^2 (D_j + D_k)].
 /// \param surface  sum over all species of phi_m/D_m, 1/m
 [[nodiscard]] inline double radial_distribution(const SpeciesPair& pair, double voidage, double surface) {
-  return 1 / voidage +
-         3 * pair.diameter_j * pair.diameter_k * surface / (voidage * voidage * (pair.diameter_j + pair.diameter_k));
+  const double per_voidage = 1 / voidage;
+  return per_voidage + 3 * pair.diameter_j * pair.diameter_k / (pair.diameter_j + pair.diameter_k) * surface *
+                           per_voidage * per_voidage;
 }
 
 /// K_jk / (phi_j phi_k), kg/(m3 s): finite where a species vanishes, the same for (j, k) and (k, j).
@@ -31,7 +32,7 @@ struct SpeciesPair {
   const double mass_j = pair.density_j * pair.diameter_j * pair.diameter_j * pair.diameter_j;
   const double mass_k = pair.density_k * pair.diameter_k * pair.diameter_k * pair.diameter_k;
   return 3 * (1 + pair.restitution) * (pi / 2 + pair.friction * pi * pi / 8) * reach * reach * pair.density_j *
-             pair.density_k * g0 * speed / (2 * pi * (mass_j + mass_k)) +
+             pair.density_k / (2 * pi * (mass_j + mass_k)) * g0 * speed +
          contact;
 }
 

@@ -9,8 +9,9 @@ namespace polybed::fluid {
 namespace {
 
 template <class Difference>
-void convect(const core::Grid& grid, const Boundaries& boundaries, bool of_fluid, const core::FaceField& velocity,
-             core::FaceField& acceleration) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void convect(const core::Grid& grid, const Boundaries& boundaries,
+                                                        bool of_fluid, const core::FaceField& velocity,
+                                                        core::FaceField& acceleration) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     core::Field& rate = acceleration[std::size_t(axis)];
     std::fill(rate.begin(), rate.end(), 0.0);

@@ -2,9 +2,10 @@
 // normal stresses in cells, shear stresses on edges. Walls act through the ghosts of the velocity.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
-#include "core/numerics/field.hpp"
+#include "core/numerics/operators.hpp"
 
 namespace polybed::fluid {
 
@@ -17,7 +18,7 @@ struct WholeEdge {
 /// The same of a phase whose fraction may end there: the harmonic mean of the fractions of the four cells over their
 /// plain mean, 16/(sum phi sum 1/phi). 1 where phi is even, to second order where it is smooth; 0 at a free surface,
 /// which is pulled at by nothing. Without it a face with hardly any mass hangs on dense neighbours, and its velocity,
-/// which costs nothing, shears them. Fractions not above 0 count as 0.
+/// which costs nothing, shears them. Fractions not above 1e-60, whose products would be lost, count as 0.
 class SolidEdge {
  public:
   explicit SolidEdge(const core::Field& fraction) : phi_(fraction.data()) {}
@@ -26,38 +27,35 @@ class SolidEdge {
     return of(phi_[c], phi_[c - sa], phi_[c - sb], phi_[c - sa - sb]);
   }
   [[nodiscard]] static double of(double a, double b, double c, double d) {
-    if (!(a > 0 && b > 0 && c > 0 && d > 0)) return 0;
-    return 16 / (((a + b) + (c + d)) * ((1 / a + 1 / b) + (1 / c + 1 / d)));
+    const double ab = a * b, cd = c * d, least = std::min(std::min(a, b), std::min(c, d));
+    const double share = 16 * (ab * cd) / (((a + b) + (c + d)) * ((a + b) * cd + (c + d) * ab));
+    return least > 1e-60 ? share : 0;
   }
 
  private:
   const double* phi_;
 };
 
-/// div(w (grad U + grad U^T - 2/3 div U I)) on the faces of one axis, w a weight on cells (eps of the fluid, phi_j
+/// div(w (grad U + grad U^T - 2/3 div U I)) on the faces of the axis a, w a weight on cells (eps of the fluid, phi_j
 /// times viscosity of a solid). Ghosts of both must be filled; fields must outlive this.
-template <class Edge = WholeEdge>
+template <std::size_t dimensions, std::size_t a, class Edge = WholeEdge>
 class FaceStress {
  public:
-  FaceStress(const core::Grid& grid, const core::Field& weight, const core::FaceField& velocity, int axis,
-             Edge edge = {})
-      : grid_(grid), axis_(axis), weight_(weight.data()), edge_(edge) {
-    for (int d = 0; d < grid.dimensions; ++d) {
-      u_[std::size_t(d)] = velocity[std::size_t(d)].data();
-      stride_[std::size_t(d)] = grid.stride(d);
-      per_length_[std::size_t(d)] = 1 / grid.spacing[std::size_t(d)];
+  FaceStress(const core::Grid& grid, const core::Field& weight, const core::FaceField& velocity, Edge edge = {})
+      : weight_(weight.data()), edge_(edge) {
+    for (std::size_t d = 0; d < dimensions; ++d) {
+      u_[d] = velocity[d].data();
+      stride_[d] = grid.stride(int(d));
+      per_length_[d] = 1 / grid.spacing[d];
     }
   }
 
   /// On face c: of the weight times 1/(m s).
   [[nodiscard]] double divergence(core::Index c) const {
-    const auto a = std::size_t(axis_);
     double force = (normal(c) - normal(c - stride_[a])) * per_length_[a];
-    for (int d = 0; d < grid_.dimensions; ++d) {
-      if (d == axis_) continue;
-      const auto b = std::size_t(d);
-      force += (shear(c + stride_[b], b) - shear(c, b)) * per_length_[b];
-    }
+    core::for_each_axis<dimensions>([&](auto b) {
+      if constexpr (b != a) force += (shear(c + stride_[b], b) - shear(c, b)) * per_length_[b];
+    });
     return force;
   }
 
@@ -65,8 +63,8 @@ class FaceStress {
   /// w (2 du_a/dx_a - 2/3 div U) in cell c.
   [[nodiscard]] double normal(core::Index c) const {
     double div = 0;
-    for (int d = 0; d < grid_.dimensions; ++d) div += along(std::size_t(d), c);
-    return weight_[c] * 2 * (along(std::size_t(axis_), c) - div / 3);
+    core::for_each_axis<dimensions>([&](auto d) { div += along(d, c); });
+    return weight_[c] * 2 * (along(a, c) - div / 3);
   }
   [[nodiscard]] double along(std::size_t d, core::Index c) const {
     return (u_[d][c + stride_[d]] - u_[d][c]) * per_length_[d];
@@ -74,15 +72,12 @@ class FaceStress {
 
   /// w (du_a/dx_b + du_b/dx_a) on the edge below the faces c of both axes.
   [[nodiscard]] double shear(core::Index c, std::size_t b) const {
-    const auto a = std::size_t(axis_);
     const core::Index sa = stride_[a], sb = stride_[b];
     const double weight =
         0.25 * edge_(c, sa, sb) * ((weight_[c] + weight_[c - sa]) + (weight_[c - sb] + weight_[c - sa - sb]));
     return weight * ((u_[a][c] - u_[a][c - sb]) * per_length_[b] + (u_[b][c] - u_[b][c - sa]) * per_length_[a]);
   }
 
-  const core::Grid& grid_;
-  int axis_;
   const double* weight_;
   Edge edge_;
   std::array<const double*, 3> u_{};

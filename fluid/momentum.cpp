@@ -17,7 +17,8 @@ void voidage(const Interphase& solids, Field& out) {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] -= phi[c];
 }
 
-void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState& fluid) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void fluid_velocity(const core::Grid& grid, const Interphase& solids,
+                                                               FluidState& fluid) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
@@ -25,11 +26,14 @@ void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState
     double* u = fluid.velocity[a].data();
     const double* flux = fluid.flux[a].data();
     core::for_each_row(grid, core::owned_faces(grid, axis), [&](Index begin, Index end) {
+#pragma GCC ivdep
       for (Index c = begin; c < end; ++c) u[c] = flux[c];
       for (std::size_t j = 0; j < solids.species(); ++j) {
         const double *phi = solids.fraction[j].data(), *v = solids.velocity[j][a].data();
+#pragma GCC ivdep
         for (Index c = begin; c < end; ++c) u[c] -= face_mean(phi, c, s) * v[c];
       }
+#pragma GCC ivdep
       for (Index c = begin; c < end; ++c) u[c] /= std::max(face_mean(eps, c, s), voidage_floor);
     });
   }
@@ -38,8 +42,11 @@ void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState
 namespace {
 
 template <class Density>
-void subtract_exchange_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries,
-                            const Interphase& solids, const FluidState& fluid, core::FaceField& acceleration) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void subtract_exchange_with(const Density& density, const core::Grid& grid,
+                                                                       const Boundaries& boundaries,
+                                                                       const Interphase& solids,
+                                                                       const FluidState& fluid,
+                                                                       core::FaceField& acceleration) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
@@ -50,6 +57,7 @@ void subtract_exchange_with(const Density& density, const core::Grid& grid, cons
       for (std::size_t j = 0; j < solids.species(); ++j) {
         const double *phi = solids.fraction[j].data(), *b = solids.exchange[j].data(),
                      *v = solids.velocity[j][a].data();
+#pragma GCC ivdep
         for (Index c = begin; c < end; ++c)
           rate[c] -= face_mean(phi, c, s) * exchange_on_face(b, c, s, u[c] - v[c]) * (u[c] - v[c]) /
                      (std::max(face_mean(eps, c, s), voidage_floor) * density.on_face(c, s));
@@ -59,9 +67,10 @@ void subtract_exchange_with(const Density& density, const core::Grid& grid, cons
 }
 
 template <class Density>
-void flux_rate_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries,
-                    const Interphase& solids, const FluidState& fluid, const core::FaceField& acceleration,
-                    FluxRate& out) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void flux_rate_with(const Density& density, const core::Grid& grid,
+                                                               const Boundaries& boundaries, const Interphase& solids,
+                                                               const FluidState& fluid,
+                                                               const core::FaceField& acceleration, FluxRate& out) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
@@ -69,6 +78,7 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
     const double *u = fluid.velocity[a].data(), *a_f = acceleration[a].data();
     double *free = out.free[a].data(), *mobility = out.mobility[a].data();
     core::for_each_row(grid, boundaries.moving_faces(axis, true), [&](Index begin, Index end) {
+#pragma GCC ivdep
       for (Index c = begin; c < end; ++c) {
         free[c] = face_mean(eps, c, s) * a_f[c];
         mobility[c] = face_mean(eps, c, s) / density.on_face(c, s);
@@ -77,6 +87,7 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
     core::for_each_row(grid, boundaries.with_solids(boundaries.moving_faces(axis, true)), [&](Index begin, Index end) {
       for (std::size_t j = 0; j < solids.species(); ++j) {
         const double *phi_rate = solids.fraction_rate[j].data(), *v = solids.velocity[j][a].data();
+#pragma GCC ivdep
         for (Index c = begin; c < end; ++c) free[c] += (v[c] - u[c]) * face_mean(phi_rate, c, s);
       }
     });
@@ -84,6 +95,7 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
       for (std::size_t j = 0; j < solids.species(); ++j) {
         const double *phi = solids.fraction[j].data(), *a_j = solids.acceleration[j][a].data();
         const double per_density = 1 / solids.density[j];
+#pragma GCC ivdep
         for (Index c = begin; c < end; ++c) {
           free[c] += face_mean(phi, c, s) * a_j[c];
           mobility[c] += face_mean(phi, c, s) * per_density;
@@ -91,7 +103,6 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
       }
     });
   }
-  boundaries.join(out.free, out.mobility);
 }
 
 }  // namespace
@@ -107,6 +118,7 @@ void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Inter
                double density, const core::FaceField& acceleration, FluxRate& out) {
   with_density(fluid, density,
                [&](const auto& local) { flux_rate_with(local, grid, boundaries, solids, fluid, acceleration, out); });
+  boundaries.join(out.free, out.mobility);
 }
 
 }  // namespace polybed::fluid

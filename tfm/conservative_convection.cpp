@@ -36,8 +36,11 @@ void ConservativeConvection::carry_fluid(Fields& fields) {
         fields.fluid_acceleration);
 }
 
-void ConservativeConvection::carry(const core::FaceField& flux, const core::FaceField& velocity, const Field& fraction,
-                                   double floor, bool of_fluid, core::FaceField& acceleration) const {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void ConservativeConvection::carry(const core::FaceField& flux,
+                                                                              const core::FaceField& velocity,
+                                                                              const Field& fraction, double floor,
+                                                                              bool of_fluid,
+                                                                              core::FaceField& acceleration) const {
   const auto on_face = [phi = fraction.data(), floor](std::size_t, Index c, Index s) {
     return std::max(core::face_mean(phi, c, s), floor);
   };

@@ -14,10 +14,9 @@ namespace polybed::tfm {
 struct LimitedFractionFace {
   static double at(const double* q, core::Index c, core::Index s, double u) {
     const double below = q[c - s] - q[c - 2 * s], here = q[c] - q[c - s], above = q[c + s] - q[c];
-    const double from = u > 0 ? q[c - s] : q[c],
-                 half = 0.5 * (u > 0 ? core::limited_slope(below, here) : -core::limited_slope(here, above));
-    const double most = std::max(from, 0.0);
-    return from + std::clamp(half, -most, most);
+    const double from = u > 0 ? q[c - s] : q[c], slope = core::limited_slope(u > 0 ? below : above, here);
+    const double half = 0.5 * (u > 0 ? slope : -slope), most = std::max(from, 0.0);
+    return from + std::min(std::max(half, -most), most);
   }
 };
 

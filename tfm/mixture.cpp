@@ -21,7 +21,7 @@ Fields::Fields(const Constants& constants)
   solids.passed_rate = solids.passed;
 }
 
-void composition(const Constants& constants, Fields& fields) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void composition(const Constants& constants, Fields& fields) {
   const std::size_t cells = constants.grid.padded_size();
   Field& phi = fields.solids_fraction;
   Field& eps = fields.fluid.voidage;
@@ -36,12 +36,15 @@ void composition(const Constants& constants, Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const double* phi_j = fields.solids.fraction[j].data();
     const double floor = composition_floor * constants.bed_share[j];
-    for (std::size_t c = 0; c < cells; ++c) fields.share[j][c] = (std::max(phi_j[c], 0.0) + floor) * eps[c];
+    double* share = fields.share[j].data();
+#pragma GCC ivdep
+    for (std::size_t c = 0; c < cells; ++c) share[c] = (std::max(phi_j[c], 0.0) + floor) * eps[c];
   }
   for (std::size_t c = 0; c < cells; ++c) eps[c] = 1 - phi[c];
 }
 
-void superficial_slip(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void superficial_slip(const Constants& constants,
+                                                                 const fluid::Boundaries& boundaries, Fields& fields) {
   const core::Grid& grid = constants.grid;
   const double* eps = fields.fluid.voidage.data();
   for (std::size_t j = 0; j < constants.species(); ++j) {
@@ -51,11 +54,13 @@ void superficial_slip(const Constants& constants, const fluid::Boundaries& bound
         const Index s = grid.stride(axis);
         const double* u = fields.fluid.velocity[std::size_t(axis)].data();
         const double* v = fields.solids.velocity[j][std::size_t(axis)].data();
+#pragma GCC ivdep
         for (Index c = begin; c < end; ++c) {
           const double w = 0.5 * ((u[c] - v[c]) + (u[c + s] - v[c + s]));
           slip[c] = (axis == 0 ? 0.0 : slip[c]) + w * w;
         }
       }
+#pragma GCC ivdep
       for (Index c = begin; c < end; ++c) slip[c] = std::max(eps[c], 0.0) * std::sqrt(slip[c]);
     });
   }

@@ -24,13 +24,15 @@ void for_each_solids_row(const Constants& constants, const fluid::Boundaries& bo
 }
 
 template <class Face>
-void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, const Field& fraction,
-                 const core::FaceField& velocity, core::FaceField& flux) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries,
+                                                            const Field& fraction, const core::FaceField& velocity,
+                                                            core::FaceField& flux) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const Index s = grid.stride(axis);
     const double *phi = fraction.data(), *u = velocity[std::size_t(axis)].data();
     double* out = flux[std::size_t(axis)].data();
     core::for_each_row(grid, boundaries.moving_faces_of_cells(axis, false), [&](Index begin, Index end) {
+#pragma GCC ivdep
       for (Index c = begin; c < end; ++c) out[c] = u[c] * Face::at(phi, c, s, u[c]);
     });
   }
@@ -120,7 +122,8 @@ void add_gravity(const Constants& constants, const fluid::Boundaries& boundaries
   }
 }
 
-void add_exchange(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_exchange(const Constants& constants,
+                                                             const fluid::Boundaries& boundaries, Fields& fields) {
   for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
     const auto d = std::size_t(axis);
     const Index s = constants.grid.stride(axis);
@@ -128,23 +131,28 @@ void add_exchange(const Constants& constants, const fluid::Boundaries& boundarie
                  *v = fields.solids.velocity[j][d].data();
     double* a = fields.solids.acceleration[j][d].data();
     const double per_density = 1 / constants.density[j];
+#pragma GCC ivdep
     for (Index c = begin; c < end; ++c)
       a[c] += fluid::exchange_on_face(b, c, s, u[c] - v[c]) * per_density * (u[c] - v[c]);
   });
 }
 
-void subtract_stress(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void subtract_stress(const Constants& constants,
+                                                                const fluid::Boundaries& boundaries, Fields& fields) {
   const double *p = fields.stress.pressure.data(), *phi = fields.solids_fraction.data();
   for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
     const Index s = constants.grid.stride(axis);
     double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
     const double scale = 1 / (constants.grid.spacing[std::size_t(axis)] * constants.density[j]);
+#pragma GCC ivdep
     for (Index c = begin; c < end; ++c)
       a[c] -= scale * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);
   });
 }
 
-void add_species_exchange(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_species_exchange(const Constants& constants,
+                                                                     const fluid::Boundaries& boundaries,
+                                                                     Fields& fields) {
   const std::size_t n = constants.species();
   for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
     const auto d = std::size_t(axis);
@@ -156,6 +164,7 @@ void add_species_exchange(const Constants& constants, const fluid::Boundaries& b
       if (k == j) continue;
       const double *coefficient = fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)].data(),
                    *phi = fields.solids.fraction[k].data(), *w = fields.solids.velocity[k][d].data();
+#pragma GCC ivdep
       for (Index c = begin; c < end; ++c)
         a[c] += face_mean(coefficient, c, s) * face_mean(phi, c, s) * per_density * (w[c] - v[c]);
     }

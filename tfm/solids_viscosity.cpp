@@ -12,11 +12,11 @@ using core::Index;
 namespace {
 
 /// The rate of strain of one velocity at cell centres.
+template <std::size_t dimensions>
 class Strain {
  public:
-  Strain(const core::Grid& grid, const core::FaceField& velocity, const core::Field& fraction)
-      : grid_(grid), share_(fraction) {
-    for (std::size_t d = 0; d < std::size_t(grid.dimensions); ++d) {
+  Strain(const core::Grid& grid, const core::FaceField& velocity, const core::Field& fraction) : share_(fraction) {
+    for (std::size_t d = 0; d < dimensions; ++d) {
       u_[d] = velocity[d].data();
       stride_[d] = grid.stride(int(d));
       per_length_[d] = 1 / grid.spacing[d];
@@ -25,16 +25,17 @@ class Strain {
 
   /// 2 D':D' in cell c, 1/s2.
   [[nodiscard]] double squared(Index c) const {
-    const auto n = std::size_t(grid_.dimensions);
     double squares = 0, divergence = 0, shear = 0;
-    for (std::size_t a = 0; a < n; ++a) {
+    core::for_each_axis<dimensions>([&](auto a) {
       const double along = (u_[a][c + stride_[a]] - u_[a][c]) * per_length_[a];
       squares += along * along;
       divergence += along;
-      for (std::size_t b = a + 1; b < n; ++b)
-        shear += 0.25 * (edge(c, a, b) + edge(c + stride_[a], a, b) +
-                         (edge(c + stride_[b], a, b) + edge(c + stride_[a] + stride_[b], a, b)));
-    }
+      core::for_each_axis<dimensions>([&](auto b) {
+        if constexpr (b > a)
+          shear += 0.25 * (edge(c, a, b) + edge(c + stride_[a], a, b) +
+                           (edge(c + stride_[b], a, b) + edge(c + stride_[a] + stride_[b], a, b)));
+      });
+    });
     return 2 * std::max(squares - divergence * divergence / 3, 0.0) + shear;
   }
 
@@ -46,43 +47,64 @@ class Strain {
     return share_(c, stride_[a], stride_[b]) * rate * rate;
   }
 
-  const core::Grid& grid_;
   fluid::SolidEdge share_;
   std::array<const double*, 3> u_{};
   std::array<Index, 3> stride_{};
   std::array<double, 3> per_length_{};
 };
 
-}  // namespace
-
-void strain_rates(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+template <std::size_t dimensions>
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void strain_rates_in(const Constants& constants,
+                                                                const fluid::Boundaries& boundaries, Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
-    const Strain strain(constants.grid, fields.solids.velocity[j], fields.solids.fraction[j]);
+    const Strain<dimensions> strain(constants.grid, fields.solids.velocity[j], fields.solids.fraction[j]);
     double* out = fields.stress.strain[j].data();
     core::for_each_row(constants.grid, boundaries.solids_cells(), [&](Index begin, Index end) {
+#pragma GCC ivdep
       for (Index c = begin; c < end; ++c) out[c] = strain.squared(c);
     });
   }
 }
 
-void add_solids_viscosity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields,
-                          core::Field& weight) {
+template <std::size_t dimensions>
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_viscosity_in(const Constants& constants,
+                                                                 const fluid::Boundaries& boundaries, Fields& fields,
+                                                                 core::Field& weight) {
   const core::Grid& grid = constants.grid;
   for (std::size_t j = 0; j < constants.species(); ++j) {
-    const core::Field& phi = fields.solids.fraction[j];
-    for (std::size_t c = 0; c < weight.size(); ++c) weight[c] = std::max(phi[c], 0.0) * fields.stress.viscosity[c];
-    for (int axis = 0; axis < grid.dimensions; ++axis) {
-      const fluid::FaceStress stress(grid, weight, fields.solids.velocity[j], axis, fluid::SolidEdge(phi));
-      const Index s = grid.stride(axis);
-      double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
+    const core::Field& fraction = fields.solids.fraction[j];
+    const double *phi = fraction.data(), *viscosity = fields.stress.viscosity.data();
+    double* to = weight.data();
+    const std::size_t cells = weight.size();
+#pragma GCC ivdep
+    for (std::size_t c = 0; c < cells; ++c) to[c] = std::max(phi[c], 0.0) * viscosity[c];
+    core::for_each_axis<dimensions>([&](auto axis) {
+      const fluid::FaceStress<dimensions, axis, fluid::SolidEdge> stress(grid, weight, fields.solids.velocity[j],
+                                                                         fluid::SolidEdge(fraction));
+      const Index s = grid.stride(int(axis));
+      double* a = fields.solids.acceleration[j][axis].data();
       const double per_density = 1 / constants.density[j], floor = diffusion_floor(constants, j);
-      core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
+      core::for_each_row(grid, boundaries.moving_faces(int(axis), false), [&](Index begin, Index end) {
+#pragma GCC ivdep
         for (Index c = begin; c < end; ++c)
-          a[c] += per_density * stress.divergence(c) /
-                  (0.5 * (std::max(phi[std::size_t(c - s)], 0.0) + std::max(phi[std::size_t(c)], 0.0)) + floor);
+          a[c] +=
+              per_density * stress.divergence(c) / (0.5 * (std::max(phi[c - s], 0.0) + std::max(phi[c], 0.0)) + floor);
       });
-    }
+    });
   }
+}
+
+}  // namespace
+
+void strain_rates(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  constants.grid.dimensions == 2 ? strain_rates_in<2>(constants, boundaries, fields)
+                                 : strain_rates_in<3>(constants, boundaries, fields);
+}
+
+void add_solids_viscosity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields,
+                          core::Field& weight) {
+  constants.grid.dimensions == 2 ? add_viscosity_in<2>(constants, boundaries, fields, weight)
+                                 : add_viscosity_in<3>(constants, boundaries, fields, weight);
 }
 
 }  // namespace polybed::tfm

@@ -22,15 +22,47 @@ POLYBED_ALL_VECTOR_WIDTHS void scale_of(double c, const double* x, double* z, st
   for (std::size_t i = 0; i < n; ++i) z[i] = c * x[i];
 }
 
-/// sum of (x w)^2 in eight interleaved partial sums: the order of additions is fixed, whatever the width.
-POLYBED_ALL_VECTOR_WIDTHS double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
+POLYBED_ALL_VECTOR_WIDTHS void product_of(const double* x, const double* y, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = x[i] * y[i];
+}
+
+POLYBED_ALL_VECTOR_WIDTHS void ratio_of(const double* x, const double* y, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = x[i] / y[i];
+}
+
+POLYBED_ALL_VECTOR_WIDTHS void inverse_of(const double* x, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = 1 / x[i];
+}
+
+POLYBED_ALL_VECTOR_WIDTHS void magnitude_of(const double* x, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = std::abs(x[i]);
+}
+
+/// Sum of term(i) in eight interleaved partial sums: the order of additions is fixed, whatever the width. It is made
+/// part of each function that calls it, and so has all widths.
+template <class Term>
+[[gnu::always_inline]] inline double sum_of(std::size_t n, Term&& term) {
   constexpr std::size_t lanes = 8;
   std::array<double, lanes> part{};
   std::size_t i = 0;
   for (; i + lanes <= n; i += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) part[k] += (x[i + k] * w[i + k]) * (x[i + k] * w[i + k]);
-  for (std::size_t k = 0; i < n; ++i, ++k) part[k] += (x[i] * w[i]) * (x[i] * w[i]);
+    for (std::size_t k = 0; k < lanes; ++k) part[k] += term(i + k);
+  for (std::size_t k = 0; i < n; ++i, ++k) part[k] += term(i);
   return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+POLYBED_ALL_VECTOR_WIDTHS double dot_of(const double* x, const double* y, std::size_t n) {
+  return sum_of(n, [=](std::size_t i) { return x[i] * y[i]; });
+}
+
+POLYBED_ALL_VECTOR_WIDTHS double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
+  return sum_of(n, [=](std::size_t i) { return (x[i] * w[i]) * (x[i] * w[i]); });
+}
+
+/// The same of the entries with a mask of 1, where the others have 0: a factor, as a choice would be a branch.
+POLYBED_ALL_VECTOR_WIDTHS double masked_square_sum_of(const double* x, const double* w, const double* mask,
+                                                      std::size_t n) {
+  return sum_of(n, [=](std::size_t i) { return mask[i] * ((x[i] * w[i]) * (x[i] * w[i])); });
 }
 
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
@@ -58,17 +90,39 @@ int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
   return 0;
 }
 
-double wrms_norm(N_Vector x, N_Vector w) {
-  const std::span<double> values = entries(x);
-  return std::sqrt(weighted_square_sum_of(values.data(), entries(w).data(), values.size()) / double(values.size()));
+void product(N_Vector x, N_Vector y, N_Vector z) {
+  product_of(entries(x).data(), entries(y).data(), entries(z).data(), entries(z).size());
 }
 
-double wrms_norm_of_ranks(N_Vector x, N_Vector w) {
-  const std::span<double> values = entries(x);
-  const double part = weighted_square_sum_of(values.data(), entries(w).data(), values.size());
+void ratio(N_Vector x, N_Vector y, N_Vector z) {
+  ratio_of(entries(x).data(), entries(y).data(), entries(z).data(), entries(z).size());
+}
+
+void inverse(N_Vector x, N_Vector z) { inverse_of(entries(x).data(), entries(z).data(), entries(z).size()); }
+
+void magnitude(N_Vector x, N_Vector z) { magnitude_of(entries(x).data(), entries(z).data(), entries(z).size()); }
+
+/// A sum over the entries of this rank as one over all ranks, where the vector is cut into parts.
+double over_ranks(N_Vector x, double part) {
+  if (N_VGetVectorID(x) != SUNDIALS_NVEC_PARALLEL) return part;
   double sum = 0;
   check_mpi(MPI_Allreduce(&part, &sum, 1, MPI_DOUBLE, MPI_SUM, NV_COMM_P(x)), "MPI_Allreduce");
-  return std::sqrt(sum / double(NV_GLOBLENGTH_P(x)));
+  return sum;
+}
+
+double dot_product(N_Vector x, N_Vector y) {
+  return over_ranks(x, dot_of(entries(x).data(), entries(y).data(), entries(x).size()));
+}
+
+double wrms_norm(N_Vector x, N_Vector w) {
+  const double part = weighted_square_sum_of(entries(x).data(), entries(w).data(), entries(x).size());
+  return std::sqrt(over_ranks(x, part) / double(N_VGetLength(x)));
+}
+
+double wrms_norm_mask(N_Vector x, N_Vector w, N_Vector mask) {
+  const double part =
+      masked_square_sum_of(entries(x).data(), entries(w).data(), entries(mask).data(), entries(x).size());
+  return std::sqrt(over_ranks(x, part) / double(N_VGetLength(x)));
 }
 
 N_Vector new_vector(std::size_t size, const Ranks* ranks, SUNContext context) {
@@ -86,7 +140,13 @@ Vector::Vector(std::size_t size, const Ranks* ranks, SUNContext context) : vecto
   vector_->ops->nvlinearsum = linear_sum;
   vector_->ops->nvscale = scale;
   vector_->ops->nvlinearcombination = linear_combination;
-  vector_->ops->nvwrmsnorm = ranks == nullptr ? wrms_norm : wrms_norm_of_ranks;
+  vector_->ops->nvprod = product;
+  vector_->ops->nvdiv = ratio;
+  vector_->ops->nvinv = inverse;
+  vector_->ops->nvabs = magnitude;
+  vector_->ops->nvdotprod = dot_product;
+  vector_->ops->nvwrmsnorm = wrms_norm;
+  vector_->ops->nvwrmsnormmask = wrms_norm_mask;
   N_VConst(0, vector_);
 }
 

@@ -54,7 +54,7 @@ void make_table_stress(const Making& m, const std::string& file) {
       throw core::StartError(file + ": a restitution of " + std::to_string(e) + " with a friction of " +
                              std::to_string(friction) + " is beyond e - 1.5 mu exp(-3 mu), which the table is over");
   }
-  kinetic->multiply(std::move(ratios), std::move(restitution), file);
+  kinetic->multiply(std::move(ratios), restitution, file);
   effects.collisions = std::move(kinetic);
 }
 

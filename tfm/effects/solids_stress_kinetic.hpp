@@ -2,13 +2,14 @@
 // species, from a local balance or, as slot Scalar, from an equation of its own.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <span>
+#include <string>
+#include <vector>
 
 #include "closures/kinetic_theory.hpp"
 #include "closures/stress_ratios.hpp"
 #include "tfm/effects.hpp"
+#include "tfm/effects/kinetic_rows.hpp"
 
 namespace polybed::tfm {
 
@@ -27,40 +28,29 @@ class KineticStress : public CollisionalStress {
   /// Of a stress that was measured: pressure, viscosity and dissipation times these ratios, which are to Garzo and
   /// Dufty with the g0 of Carnahan and Starling. \param restitution  of each species, in that reference
   /// \param name  of the table, for the count of what lies outside it
-  void multiply(closures::StressRatios ratios, std::vector<double> restitution, const std::string& name);
+  void multiply(closures::StressRatios ratios, const std::vector<double>& restitution, const std::string& name);
   [[nodiscard]] std::optional<ClosureUse> use() const override { return use_; }
 
  private:
-  struct NoRatios {};
-  static constexpr std::size_t most_species = 15;  ///< as the case file allows
-  /// One species in one cell, per volume of the species; s = sqrt theta.
-  struct Local {
-    double g0, collisions;                        ///< sum_k x_k g_jk; sum_k h_jk
-    double viscosity;                             ///< mu_j/(phi s), kg/m2
-    double compression, shear, loss, drag, slip;  ///< of theta, s, s^3, theta, 1/s in the balance above, W/m3
-  };
-  void radial_distributions(const Fields& fields, std::size_t cell, double phi, std::span<Local> local) const;
-  struct Motion {
-    double divergence, strain;  ///< 1/s, 1/s2
-  };
-  [[nodiscard]] Motion motion_in(const Fields& fields, core::Index cell) const;
-  void balance_terms(const Fields& fields, std::size_t cell, double phi, std::size_t species, const Motion& motion,
-                     Local& local) const;
-  template <class Ratios>
-  void add_with(Fields& fields, const Ratios& ratios);
-  template <class Ratios>
-  void add_cell(Fields& fields, core::Index cell, const closures::RadialValue& radial, const Ratios& ratios) const;
-  void find_rate(Fields& fields, std::size_t cell, double phi, std::size_t species, const Local& local) const;
-  void add_wall_energy(Fields& fields) const;
+  /// Rows of cells from `begin` on; the species are those of the cells.
+  void add_row(Fields& fields, core::Index begin);
+  void set_motion(const Fields& fields, core::Index begin);
+  void flow_on_faces(const Fields& fields, std::size_t axis, core::Index begin, std::size_t faces, double* flow) const;
+  void set_ratios();
+  void collide(const Fields& fields, std::size_t species, core::Index begin);
+  void add_species(Fields& fields, std::size_t species, core::Index begin);
+  void add_wall_energy(Fields& fields);
+  [[nodiscard]] double wall_gain(const Fields& fields, int wall, std::size_t species, core::Index cell) const;
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
   closures::KineticModel model_;
   bool dense_, transported_;
-  std::vector<double> restitution_;
+  std::vector<Grain> grains_;
   std::optional<closures::StressRatios> ratios_;  ///< absent: kinetic theory alone
   std::optional<ClosureUse> use_;
   double specularity_, wall_restitution_, max_packing_, least_shear_rate_, conduction_diagonal_ = 0;
+  KineticRows rows_;
 };
 
 }  // namespace polybed::tfm

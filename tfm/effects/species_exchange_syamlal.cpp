@@ -11,7 +11,11 @@ using core::Index;
 
 SyamlalExchange::SyamlalExchange(const core::Scene& scene, const Constants& constants,
                                  const fluid::Boundaries& boundaries, Fields& fields)
-    : constants_(constants), boundaries_(boundaries), contact_(scene.tfm.exchange_pressure) {
+    : constants_(constants),
+      boundaries_(boundaries),
+      contact_(scene.tfm.exchange_pressure),
+      surface_(core::make_field(constants.grid)),
+      contact_of_cell_(core::make_field(constants.grid)) {
   for (std::size_t j = 0; j < constants.species(); ++j)
     for (std::size_t k = j + 1; k < constants.species(); ++k) {
       const auto mean = [&](auto member, double otherwise) {
@@ -25,34 +29,57 @@ SyamlalExchange::SyamlalExchange(const core::Scene& scene, const Constants& cons
 }
 
 void SyamlalExchange::evaluate(Fields& fields) {
-  const core::Grid& grid = constants_.grid;
-  core::for_each_row(grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) {
-      const auto at = std::size_t(c);
-      double surface = 0;
-      for (std::size_t m = 0; m < constants_.species(); ++m)
-        surface += std::max(fields.solids.fraction[m][at], 0.0) / constants_.diameter[m];
-      const double eps = std::max(fields.fluid.voidage[at], fluid::voidage_floor);
-      const double phi = std::max(fields.solids_fraction[at], stress_fraction_floor);
-      const double contact =
-          fields.stress.present() ? contact_ * std::max(fields.stress.pressure[at], 0.0) / (phi * phi) : 0.0;
-      std::size_t pair = 0;
-      for (std::size_t j = 0; j < constants_.species(); ++j)
-        for (std::size_t k = j + 1; k < constants_.species(); ++k, ++pair) {
-          double speed2 = 0;
-          for (int axis = 0; axis < grid.dimensions; ++axis) {
-            const double *u = fields.solids.velocity[j][std::size_t(axis)].data(),
-                         *v = fields.solids.velocity[k][std::size_t(axis)].data();
-            const Index s = grid.stride(axis);
-            const double w = 0.5 * ((u[c] - v[c]) + (u[c + s] - v[c + s]));
-            speed2 += w * w;
-          }
-          fields.species_exchange[pair][at] = closures::species_exchange(
-              pairs_[pair], closures::radial_distribution(pairs_[pair], eps, surface), std::sqrt(speed2), contact);
-        }
-    }
+  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
+    set_cells(fields, begin, end);
+    std::size_t pair = 0;
+    for (std::size_t j = 0; j < constants_.species(); ++j)
+      for (std::size_t k = j + 1; k < constants_.species(); ++k, ++pair) set_pair(fields, j, k, pair, begin, end);
   });
   boundaries_.fill_cells(fields.species_exchange);
+}
+
+/// What all pairs of a cell have in common.
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void SyamlalExchange::set_cells(const Fields& fields, Index begin,
+                                                                           Index end) {
+  double *surface = surface_.data(), *contact = contact_of_cell_.data();
+  std::fill(surface + begin, surface + end, 0.0);
+  for (std::size_t m = 0; m < constants_.species(); ++m) {
+    const double *phi = fields.solids.fraction[m].data(), per_diameter = 1 / constants_.diameter[m];
+#pragma GCC ivdep
+    for (Index c = begin; c < end; ++c) surface[c] += std::max(phi[c], 0.0) * per_diameter;
+  }
+  if (!fields.stress.present()) return;
+  const double *p = fields.stress.pressure.data(), *solids = fields.solids_fraction.data(), scale = contact_;
+#pragma GCC ivdep
+  for (Index c = begin; c < end; ++c) {
+    const double phi = std::max(solids[c], stress_fraction_floor);
+    contact[c] = scale * std::max(p[c], 0.0) / (phi * phi);
+  }
+}
+
+POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void SyamlalExchange::set_pair(Fields& fields, std::size_t j, std::size_t k,
+                                                                          std::size_t pair, Index begin,
+                                                                          Index end) const {
+  double* out = fields.species_exchange[pair].data();
+  std::fill(out + begin, out + end, 0.0);
+  for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
+    const double *u = fields.solids.velocity[j][std::size_t(axis)].data(),
+                 *v = fields.solids.velocity[k][std::size_t(axis)].data();
+    const Index s = constants_.grid.stride(axis);
+#pragma GCC ivdep
+    for (Index c = begin; c < end; ++c) {
+      const double w = 0.5 * ((u[c] - v[c]) + (u[c + s] - v[c + s]));
+      out[c] += w * w;
+    }
+  }
+  const closures::SpeciesPair between = pairs_[pair];
+  const double *voidage = fields.fluid.voidage.data(), *surface = surface_.data(), *contact = contact_of_cell_.data();
+#pragma GCC ivdep
+  for (Index c = begin; c < end; ++c) {
+    const double eps = std::max(voidage[c], fluid::voidage_floor);
+    out[c] = closures::species_exchange(between, closures::radial_distribution(between, eps, surface[c]),
+                                        std::sqrt(out[c]), contact[c]);
+  }
 }
 
 }  // namespace polybed::tfm

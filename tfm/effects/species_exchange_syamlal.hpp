@@ -13,10 +13,15 @@ class SyamlalExchange : public SolidsExchange {
   void evaluate(Fields& fields) override;
 
  private:
+  void set_cells(const Fields& fields, core::Index begin, core::Index end);
+  void set_pair(Fields& fields, std::size_t j, std::size_t k, std::size_t pair, core::Index begin,
+                core::Index end) const;
+
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
   std::vector<closures::SpeciesPair> pairs_;
-  double contact_;  ///< C_s, s/m2
+  double contact_;                         ///< C_s, s/m2
+  core::Field surface_, contact_of_cell_;  ///< work space: sum phi_m/D_m, 1/m; C_s p_s/phi^2
 };
 
 }  // namespace polybed::tfm

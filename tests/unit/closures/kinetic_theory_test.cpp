@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "closures/frictional_viscosity.hpp"
 #include "closures/kinetic_theory.hpp"
@@ -149,6 +150,26 @@ TEST(KineticTheory, BalancedSpeedSolvesItsEquation) {
           const double largest = std::max({a * s * s * s * s, std::abs(b) * s * s * s, p * s * s, c});
           EXPECT_NEAR(((a * s + b) * s - p) * s * s - c, 0, 1e-12 * largest) << a << " " << b << " " << p << " " << c;
         }
+}
+
+// Both sides of every size of the terms, each over sixteen powers of ten: seven steps always suffice.
+TEST(KineticTheory, BalancedSpeedReachesRoundOffFromItsStart) {
+  std::mt19937_64 draw(1);
+  const auto power = [&](double range) { return std::pow(10.0, std::uniform_real_distribution(-range, range)(draw)); };
+  for (int n = 0; n < 20000; ++n) {
+    const double a = power(4), b = (n % 4 == 0 ? -1 : 1) * power(8), p = power(8), c = power(8);
+    const double s = balanced_speed(a, b, p, c),
+                 largest = std::max({a * s * s * s * s, std::abs(b) * s * s * s, p * s * s, c});
+    EXPECT_NEAR(((a * s + b) * s - p) * s * s - c, 0, 1e-13 * largest) << a << " " << b << " " << p << " " << c;
+  }
+}
+
+TEST(KineticTheory, RootBoundIsAboveTheRootByAtMostSixPercent) {
+  for (double power : {1.0 / 3, 0.25})
+    for (double x = 1e-290; x < 1e290; x *= 1.0173) {  // 1.0612, 1.0583 are the largest of a mantissa for its logarithm
+      EXPECT_GE(root_bound(x, power), std::pow(x, power)) << x;
+      EXPECT_LE(root_bound(x, power), 1.062 * std::pow(x, power)) << x;
+    }
 }
 
 TEST(Walls, JohnsonAndJacksonByHand) {

@@ -15,7 +15,8 @@ TEST(SolidEdge, IsTheHarmonicOverThePlainMean) {
 TEST(SolidEdge, TransmitsNothingWhereSolidsEnd) {
   EXPECT_EQ(SolidEdge::of(0.5, 0.5, 0.5, 0), 0);
   EXPECT_EQ(SolidEdge::of(0.5, 0.5, -1e-6, 0.5), 0);
-  EXPECT_LT(SolidEdge::of(0.5, 0.5, 0.5, 1e-9), 1e-7);  // and gently so: 16 phi/1.5 near 0
+  EXPECT_EQ(SolidEdge::of(1e-100, 1e-100, 1e-100, 1e-100), 0);  // their products are below the least double
+  EXPECT_LT(SolidEdge::of(0.5, 0.5, 0.5, 1e-9), 1e-7);          // and gently so: 16 phi/1.5 near 0
 }
 
 // 1 + delta from cell to cell: the share is 1 - delta^2/4 to second order, delta on one axis.
