@@ -8,22 +8,22 @@
 
 #include "core/error.hpp"
 #include "core/numerics/mpi.hpp"
+#include "core/vectors.hpp"
 
 namespace polybed::core {
 
 namespace {
 
-POLYBED_ALL_VECTOR_WIDTHS void linear_sum_of(double a, const double* x, double b, const double* y, double* z,
-                                             std::size_t n) {
+void linear_sum_of(double a, const double* x, double b, const double* y, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = a * x[i] + b * y[i];
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void scale_of(double c, const double* x, double* z, std::size_t n) {
+void scale_of(double c, const double* x, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = c * x[i];
 }
 
 /// sum of (x w)^2 in eight interleaved partial sums: the order of additions is fixed, whatever the width.
-POLYBED_ALL_VECTOR_WIDTHS double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
+double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
   constexpr std::size_t lanes = 8;
   std::array<double, lanes> part{};
   std::size_t i = 0;
@@ -35,10 +35,12 @@ POLYBED_ALL_VECTOR_WIDTHS double weighted_square_sum_of(const double* x, const d
 
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
   const std::span<double> to = entries(z);
-  linear_sum_of(a, entries(x).data(), b, entries(y).data(), to.data(), to.size());
+  in_vectors<linear_sum_of>(a, entries(x).data(), b, entries(y).data(), to.data(), to.size());
 }
 
-void scale(double c, N_Vector x, N_Vector z) { scale_of(c, entries(x).data(), entries(z).data(), entries(z).size()); }
+void scale(double c, N_Vector x, N_Vector z) {
+  in_vectors<scale_of>(c, entries(x).data(), entries(z).data(), entries(z).size());
+}
 
 /// z = sum c_k x_k, where z may be x_0: two terms a pass, in blocks that stay in the cache.
 int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
@@ -49,23 +51,24 @@ int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
     double* out = to.data() + begin;
     const auto term = [&](int k) { return entries(x[k]).data() + begin; };
     if (count == 1) {
-      scale_of(c[0], term(0), out, n);
+      in_vectors<scale_of>(c[0], term(0), out, n);
       continue;
     }
-    linear_sum_of(c[0], term(0), c[1], term(1), out, n);
-    for (int k = 2; k < count; ++k) linear_sum_of(1.0, out, c[k], term(k), out, n);
+    in_vectors<linear_sum_of>(c[0], term(0), c[1], term(1), out, n);
+    for (int k = 2; k < count; ++k) in_vectors<linear_sum_of>(1.0, out, c[k], term(k), out, n);
   }
   return 0;
 }
 
 double wrms_norm(N_Vector x, N_Vector w) {
   const std::span<double> values = entries(x);
-  return std::sqrt(weighted_square_sum_of(values.data(), entries(w).data(), values.size()) / double(values.size()));
+  return std::sqrt(in_vectors<weighted_square_sum_of>(values.data(), entries(w).data(), values.size()) /
+                   double(values.size()));
 }
 
 double wrms_norm_of_ranks(N_Vector x, N_Vector w) {
   const std::span<double> values = entries(x);
-  const double part = weighted_square_sum_of(values.data(), entries(w).data(), values.size());
+  const double part = in_vectors<weighted_square_sum_of>(values.data(), entries(w).data(), values.size());
   double sum = 0;
   check_mpi(MPI_Allreduce(&part, &sum, 1, MPI_DOUBLE, MPI_SUM, NV_COMM_P(x)), "MPI_Allreduce");
   return std::sqrt(sum / double(NV_GLOBLENGTH_P(x)));
