@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 
 #include "app/commands.hpp"
+#include "core/error.hpp"
 #include "core/numerics/mpi_start.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/print.hpp"
+#include "core/vectors.hpp"
 #include "core/version.hpp"
 #include "multiscale/mpirun.hpp"
 
@@ -36,9 +39,19 @@ void flush_standard_output() {
     throw core::FileError(fmt::format("standard output: cannot be written ({})", std::strerror(reason)));
 }
 
+/// A wrong POLYBED_VECTORS ends the program here, not in the first loop.
+void check_vector_width() {
+  try {
+    (void)core::vector_width();
+  } catch (const std::invalid_argument& error) {
+    throw core::CaseError(error.what());
+  }
+}
+
 }  // namespace
 
 core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
+  check_vector_width();
   CLI::App app{"polybed: beds of particles of several sizes and densities in a liquid or a gas"};
   const std::string kind = core::build_kind().empty() ? "" : ", built with " + core::build_kind();
   app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")" + kind);

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/vectors.hpp"
+
 namespace polybed::closures {
 
 namespace {
@@ -23,8 +25,8 @@ void for_each_law(Body&& body) {
 /// Law over rows. A law without costly guard is called as it is; cello runs branch-free over all rows and a
 /// second pass redoes those outside its data.
 template <class Law>
-POLYBED_ALL_VECTOR_WIDTHS void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds,
-                                        double* f, double* re_dfdre, GuardCount& count) {
+void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds, double* f,
+              double* re_dfdre, GuardCount& count) {
   std::size_t outside = 0;
   if constexpr (std::is_same_v<Law, DragCello>) {
     std::size_t inside = 0;
@@ -64,8 +66,8 @@ struct Block {
 
 /// The block's cells from `begin` on as the law sees them.
 template <class Law>
-POLYBED_ALL_VECTOR_WIDTHS void compose(const Law& law, Block& block, std::size_t begin, std::span<const double> voidage,
-                                       std::span<const double* const> share, std::span<const double> diameter) {
+void compose(const Law& law, Block& block, std::size_t begin, std::span<const double> voidage,
+             std::span<const double* const> share, std::span<const double> diameter) {
   Block::Row average;
   double largest = 0;
   std::fill_n(average.begin(), block.cells, 0);
@@ -88,8 +90,8 @@ POLYBED_ALL_VECTOR_WIDTHS void compose(const Law& law, Block& block, std::size_t
 
 /// f of one species in all cells of a block.
 template <class Law>
-POLYBED_ALL_VECTOR_WIDTHS void evaluate_species(const Law& law, Block& b, const double* share, const double* slip,
-                                                double diameter, double per_viscosity, double* f, GuardCount& count) {
+void evaluate_species(const Law& law, Block& b, const double* share, const double* slip, double diameter,
+                      double per_viscosity, double* f, GuardCount& count) {
   for (std::size_t c = 0; c < b.cells; ++c) {
     const MixtureTerms term =
         law.term({b.cell_voidage[c], b.mean[c], b.per_mean[c], b.coefficient[c]}, diameter, share[c]);
@@ -109,8 +111,8 @@ struct ParticleRows {
 
 /// f of the particles of a block, each the one species wanted of its own mixture.
 template <class Law>
-POLYBED_ALL_VECTOR_WIDTHS void evaluate_particles(const Law& law, Block& b, const ParticleRows& in, double largest,
-                                                  double per_viscosity, double* f, GuardCount& count) {
+void evaluate_particles(const Law& law, Block& b, const ParticleRows& in, double largest, double per_viscosity,
+                        double* f, GuardCount& count) {
   for (std::size_t p = 0; p < b.cells; ++p) {  // apart from the next loop: together they are too long for vectors
     b.per_mean[p] = in.per_mean[p];
     b.coefficient[p] = law.coefficient(in.voidage[p], {in.per_mean[p], in.average[p], largest});
@@ -163,7 +165,8 @@ void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::sp
                     std::span<double> f, std::span<double> re_dfdre, GuardCount& count) {
   std::visit(
       [&](const auto& l) {
-        evaluate(l.base, voidage.size(), voidage.data(), reynolds.data(), f.data(), re_dfdre.data(), count);
+        core::in_vectors<evaluate<decltype(l.base)>>(l.base, voidage.size(), voidage.data(), reynolds.data(), f.data(),
+                                                     re_dfdre.data(), count);
       },
       law);
 }
@@ -213,13 +216,14 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
                    double viscosity, std::span<double* const> f, GuardCount& count) {
   std::visit(
       [&](const auto& l) {
+        using Law = std::remove_cvref_t<decltype(l)>;
         Block block;
         for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
           block.cells = std::min(voidage.size() - begin, Block::most);
-          compose(l, block, begin, voidage, share, diameter);
+          core::in_vectors<compose<Law>>(l, block, begin, voidage, share, diameter);
           for (std::size_t j = 0; j < diameter.size(); ++j)
-            evaluate_species(l, block, share[j] + begin, slip[j] + begin, diameter[j], fluid_density / viscosity,
-                             f[j] + begin, count);
+            core::in_vectors<evaluate_species<Law>>(l, block, share[j] + begin, slip[j] + begin, diameter[j],
+                                                    fluid_density / viscosity, f[j] + begin, count);
         }
       },
       law);
@@ -231,12 +235,13 @@ void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std:
                        double viscosity, std::span<double> f, GuardCount& count) {
   std::visit(
       [&](const auto& l) {
+        using Law = std::remove_cvref_t<decltype(l)>;
         Block block;
         for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
           block.cells = std::min(voidage.size() - begin, Block::most);
           const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin],
                                 &share[begin],   &diameter[begin], &slip[begin]};
-          evaluate_particles(l, block, in, largest, fluid_density / viscosity, &f[begin], count);
+          core::in_vectors<evaluate_particles<Law>>(l, block, in, largest, fluid_density / viscosity, &f[begin], count);
         }
       },
       law);

@@ -1,5 +1,7 @@
 #include "dem/ledger.hpp"
 
+#include "core/vectors.hpp"
+
 namespace polybed::dem {
 
 namespace {
@@ -7,8 +9,7 @@ namespace {
 using Row = ContactBatch::Row;
 
 /// Adds load . rate for the load of the last step, which the memory holds, and for that of now, which it takes.
-POLYBED_ALL_VECTOR_WIDTHS void add_power(ContactBatch& b, int m, const Row* load, const Row* rate, Row& before,
-                                         Row& now) {
+void add_power(ContactBatch& b, int m, const Row* load, const Row* rate, Row& before, Row& now) {
   for (int k = 0; k < 3; ++k)
     for (int c = 0; c < b.padded(); ++c) {
       before[c] += b.memory[m + k][c] * rate[k][c];
@@ -48,7 +49,7 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
   }
   int place = place_ + 2;
   if (laws_.tangential) {
-    add_power(batch, place, batch.tangential, batch.velocity, before, now);
+    core::in_vectors<add_power>(batch, place, batch.tangential, batch.velocity, before, now);
     laws_.tangential->energy(batch, stored);
     add_stored(batch, place + 3, stored, gained, held);
     place += 4;
@@ -57,7 +58,7 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
     alignas(64) Row spin[3], turned = {};
     for (int k = 0; k < 3; ++k)
       for (int c = 0; c < batch.padded(); ++c) spin[k][c] = batch.spin_i[k][c] - batch.spin_j[k][c];
-    add_power(batch, place, batch.moment, spin, before, now);
+    core::in_vectors<add_power>(batch, place, batch.moment, spin, before, now);
     laws_.rolling->add_energy(batch, turned);
     add_stored(batch, place + 3, turned, gained, held);
   }

@@ -251,16 +251,19 @@ void Model::restart() {
 }
 
 void Model::rebuild() {
-  std::vector<KeptContact> kept = kept_contacts();
+  KeptContacts kept(pairs_.memory_size);
+  kept.add(pairs_, particles_, false);
+  kept.add(walls_, particles_, true);
   if (outflow_) count_leaving();
   wrap();
   exchange_.balance(particles_, work_of(particles_, pairs_, walls_, own_work()));
   if (outflow_) take_out();
-  list_pairs(kept);
+  list_pairs(std::move(kept));
 }
 
 /// Moves particles to their owners and finds anew who is near whom; contacts go with their particles.
-void Model::list_pairs(std::vector<KeptContact>& kept) {
+void Model::list_pairs(KeptContacts kept) {
+  pairs_.memory = {};  // room for what is made meanwhile
   particles_.resize(particles_.owned);
   std::vector<KeptLoad> loads;
   KeptRows sides;
@@ -271,9 +274,7 @@ void Model::list_pairs(std::vector<KeptContact>& kept) {
     exchange_.send_ahead(particles_, sides);
   }
   exchange_.migrate(particles_, kept);
-  const std::vector<std::int32_t> order = search_.order(particles_);
-  const Particles before = particles_;
-  for (std::size_t n = 0; n < order.size(); ++n) particles_.set(n, before.at(std::size_t(order[n])));
+  particles_.arrange(search_.order(particles_));
   if (coupling_) {
     recall(loads, particles_, coupling_->motion().load);
     recall(sides, particles_, coupling_->sides().rows());

@@ -134,7 +134,7 @@ class Model : public core::Simulation {
   void take_out();
   void write_outflow(core::Checkpoint& checkpoint) const;
   void read_outflow(const core::Checkpoint& checkpoint);
-  void list_pairs(std::vector<KeptContact>& kept);
+  void list_pairs(KeptContacts kept);
   void find_forces(double dt);
   /// Time that the state belongs to, s.
   [[nodiscard]] double clock() const { return began_ + double(steps_ - began_at_) * limits_.dt; }

@@ -253,11 +253,11 @@ void Model::restore(const core::Checkpoint& checkpoint, bool same_step) {
   std::vector<Particle> all;
   for (std::size_t n = 0; n < particles.size(); n += particle_width)
     all.push_back(read_particle(particles.data() + n, materials_));
-  std::vector<KeptContact> kept = read_contacts(contacts, std::size_t(pairs_.memory_size));
+  const std::vector<KeptContact> kept = read_contacts(contacts, std::size_t(pairs_.memory_size));
   place(all, work_of(all, kept, own_work()));
   if (coupling_) restore_fluid(checkpoint, all);
   if (coupling_ && same_step && coupling_->sides().present()) restore_sides(checkpoint, all.size());
-  list_pairs(kept);
+  list_pairs({kept, pairs_.memory_size});
 }
 
 /// The fluid of a checkpoint, and what it does to the particles; or, where that had none, as at a start.

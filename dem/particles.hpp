@@ -62,6 +62,18 @@ struct Particles {
     motion[i] = p.motion;
     load[i] = p.load;
   }
+  /// Moves the n-th of an order to place n: column by column, so that only one is copied at a time.
+  void arrange(const std::vector<std::int32_t>& order) {
+    const auto move = [&](auto& column) {
+      const auto before = column;
+      for (std::size_t n = 0; n < order.size(); ++n) column[n] = before[std::size_t(order[n])];
+    };
+    move(id);
+    move(species);
+    move(place);
+    move(motion);
+    move(load);
+  }
   void add(const Particle& p) {
     resize(size() + 1);
     set(size() - 1, p);

@@ -11,6 +11,7 @@
 #include "core/numerics/ranks.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
+#include "core/vectors.hpp"
 #include "core/version.hpp"
 #include "multiscale/scene_rules.hpp"
 
@@ -185,6 +186,7 @@ void begin_record(Json& json, const core::Scene& scene, const std::string& model
   json.key("machine")
       .begin_object()
       .member("processor", processor())
+      .member("vectors", core::vector_width_name())
       .member("cores", std::int64_t(std::thread::hardware_concurrency()))
       .end_object();
 }

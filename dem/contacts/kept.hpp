@@ -2,8 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -22,20 +22,41 @@ struct KeptContact {
 /// Adds what is kept of the contacts that touch.
 void keep(const Contacts& contacts, const Particles& particles, bool walls, std::vector<KeptContact>& kept);
 
+/// The same of many contacts while a list is made anew: rows of both ids and as many numbers as the laws use. Ids are
+/// exact as doubles below 2^53.
+struct KeptContacts {
+  static constexpr std::size_t head = 2;
+  std::size_t width = head;
+  std::vector<double> rows;
+
+  explicit KeptContacts(int memory_size) : width(head + std::size_t(memory_size)) {}
+  KeptContacts(const std::vector<KeptContact>& contacts, int memory_size);
+  void add(const Contacts& contacts, const Particles& particles, bool walls);
+
+  [[nodiscard]] std::size_t size() const { return rows.size() / width; }
+  [[nodiscard]] const double* row(std::size_t n) const { return rows.data() + n * width; }
+  [[nodiscard]] std::int64_t low(std::size_t n) const { return std::int64_t(row(n)[0]); }
+  [[nodiscard]] std::int64_t high(std::size_t n) const { return std::int64_t(row(n)[1]); }
+  [[nodiscard]] const double* memory(std::size_t n) const { return row(n) + head; }
+};
+
 /// Kept contacts, found by their ids.
 class KeptById {
  public:
   /// \param kept  must stay
-  explicit KeptById(const std::vector<KeptContact>& kept);
+  explicit KeptById(const KeptContacts& kept);
   /// Gives the pairs of a new list the memory they had; those that have one are the ones that touch.
   void recall(Contacts& contacts, const Particles& particles, bool walls) const;
 
  private:
-  using Ids = std::pair<std::int64_t, std::int64_t>;
-  struct Hash {
-    std::size_t operator()(const Ids& ids) const;
-  };
-  std::unordered_map<Ids, const KeptContact*, Hash> found_;
+  /// Where the search for a contact begins, and where it goes on.
+  [[nodiscard]] std::size_t slot_of(std::int64_t low, std::int64_t high) const;
+  [[nodiscard]] std::size_t next(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
+  /// Place of a contact's row, or -1.
+  [[nodiscard]] std::int32_t find(std::int64_t low, std::int64_t high) const;
+
+  const KeptContacts& kept_;
+  std::vector<std::int32_t> slots_;  ///< places of rows, -1 where empty; at least twice as many, a power of two
 };
 
 }  // namespace polybed::dem

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/vectors.hpp"
 #include "dem/contacts/rows.hpp"
 
 namespace polybed::dem {
@@ -11,7 +12,7 @@ namespace polybed::dem {
 namespace {
 
 /// n, r and lever arms of pairs of particles; the distance becomes n, the velocity that of the surfaces.
-POLYBED_ALL_VECTOR_WIDTHS void shape_pairs(ContactBatch& b) {
+void shape_pairs(ContactBatch& b) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -28,7 +29,7 @@ POLYBED_ALL_VECTOR_WIDTHS void shape_pairs(ContactBatch& b) {
 }
 
 /// v_c = v_i - v_j - (l_i w_i + l_j w_j) x n, split into v_n and v_t.
-POLYBED_ALL_VECTOR_WIDTHS void split_velocity(ContactBatch& b) {
+void split_velocity(ContactBatch& b) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -50,7 +51,7 @@ POLYBED_ALL_VECTOR_WIDTHS void split_velocity(ContactBatch& b) {
 
 /// Velocities of both against each other, and their spins. Rows are filled by fours: beyond the last contact with more
 /// of the first, which is finite.
-POLYBED_ALL_VECTOR_WIDTHS void load_motion(const Motion* motion, ContactBatch& b) {
+void load_motion(const Motion* motion, ContactBatch& b) {
   for (int c = b.count; (c & 3) != 0; ++c) {
     b.first[c] = b.first[0];
     b.second[c] = b.second[0];
@@ -82,7 +83,7 @@ POLYBED_ALL_VECTOR_WIDTHS void load_motion(const Motion* motion, ContactBatch& b
 }
 
 /// Likewise, and what is left of their number one by one.
-POLYBED_ALL_VECTOR_WIDTHS void load_memory(const double* memory, int size, ContactBatch& b) {
+void load_memory(const double* memory, int size, ContactBatch& b) {
   for (int c = b.count; (c & 3) != 0; ++c) b.pair[c] = b.pair[0];
   int m = 0;
   for (; m + 4 <= size; m += 4)
@@ -181,7 +182,7 @@ std::int32_t ContactLoader::find_walls(const Particles& particles, const Contact
 
 void ContactLoader::load_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
                                ContactBatch& b) const {
-  load_motion(particles.motion.data(), b);
+  core::in_vectors<load_motion>(particles.motion.data(), b);
   fill_by_kind(b, kinds_, [&](const Kind& kind, int c) {
     b.radius_i[c] = kind.first;
     b.radius_j[c] = kind.second;
@@ -189,9 +190,9 @@ void ContactLoader::load_pairs(const Particles& particles, const Contacts& conta
   if (box_.shear_rate != 0)
     for (int c = 0; c < b.count; ++c)
       b.velocity[0][c] -= images.speed[std::size_t(contacts.pairs[std::size_t(b.pair[c])].image)];
-  load_memory(contacts.memory.data(), contacts.memory_size, b);
-  shape_pairs(b);
-  split_velocity(b);
+  core::in_vectors<load_memory>(contacts.memory.data(), contacts.memory_size, b);
+  core::in_vectors<shape_pairs>(b);
+  core::in_vectors<split_velocity>(b);
 }
 
 /// Contacts with the bottom, loaded as with a flat one: n, arm and overlap as the opening has them.
@@ -223,8 +224,8 @@ void ContactLoader::load_walls(const Particles& particles, const Contacts& conta
     b.overlap[c] = radius - b.arm_i[c];
   }
   if (box_.opening) turn_to_plate(particles, b);
-  load_memory(contacts.memory.data(), contacts.memory_size, b);
-  split_velocity(b);
+  core::in_vectors<load_memory>(contacts.memory.data(), contacts.memory_size, b);
+  core::in_vectors<split_velocity>(b);
 }
 
 void ContactLoader::load_touching_pairs(const Particles& particles, const Contacts& contacts, const Images& images,

@@ -212,6 +212,8 @@ void NeighbourSearch::find_pairs(const Particles& particles, double time, const 
   for (std::size_t i = 0; i < particles.size(); ++i)
     for (std::size_t l = level_of(particles.place[i].radius); l < levels_.size(); ++l)
       search(particles, i, l, images, pairs);
+  contacts.inner = pairs.size();
+  if (particles.size() == particles.owned) return;  // the sort needs as much memory again
   const auto here = std::int32_t(particles.owned);
   const auto outer = std::stable_partition(
       pairs.begin(), pairs.end(), [&](const Contacts::Pair& pair) { return pair.first < here && pair.second < here; });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/vectors.hpp"
 #include "dem/contacts/rows.hpp"
 
 namespace polybed::dem {
@@ -11,7 +12,7 @@ namespace polybed::dem {
 namespace {
 
 /// F = F_n n + F_t and n x F_t on both lever arms, in units.
-POLYBED_ALL_VECTOR_WIDTHS void count_units(ContactBatch& b, double per_force, double per_torque) {
+void count_units(ContactBatch& b, double per_force, double per_torque) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -31,7 +32,7 @@ POLYBED_ALL_VECTOR_WIDTHS void count_units(ContactBatch& b, double per_force, do
   }
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
+void add_moment(ContactBatch& b, double per_torque) {
   const int n = b.padded();
   for (int k = 0; k < 3; ++k)
     for (int c = 0; c < n; ++c) {
@@ -43,14 +44,14 @@ POLYBED_ALL_VECTOR_WIDTHS void add_moment(ContactBatch& b, double per_torque) {
 
 /// Empties the first rows of the memory of pairs within the reach of cohesion that do not touch: a new contact has
 /// none.
-POLYBED_ALL_VECTOR_WIDTHS void forget_open(ContactBatch& b, int rows) {
+void forget_open(ContactBatch& b, int rows) {
   const int n = b.padded();
   for (int m = 0; m < rows; ++m)
     for (int c = 0; c < n; ++c) b.memory[m][c] = b.overlap[c] > 0 ? b.memory[m][c] : 0;
 }
 
 /// Whether a contact is deeper than allowed, or its overlap is not a number.
-POLYBED_ALL_VECTOR_WIDTHS bool any_deeper(const ContactBatch& b, double max_overlap) {
+bool any_deeper(const ContactBatch& b, double max_overlap) {
   int deeper = 0;
   for (int c = 0; c < b.count; ++c) {
     const double least = b.radius_i[c] < b.radius_j[c] ? b.radius_i[c] : b.radius_j[c];
@@ -59,7 +60,7 @@ POLYBED_ALL_VECTOR_WIDTHS bool any_deeper(const ContactBatch& b, double max_over
   return deeper != 0;
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void store_memory(double* memory, int size, const ContactBatch& b) {
+void store_memory(double* memory, int size, const ContactBatch& b) {
   int m = 0;
   const int fours = b.count & ~3;
   for (; m + 4 <= size; m += 4) {
@@ -100,12 +101,12 @@ void PairForces::act(double dt) {
   laws_.normal->act(batch_);
   if (laws_.tangential) laws_.tangential->act(batch_, dt);
   if (laws_.rolling) laws_.rolling->act(batch_, dt);
-  if (laws_.reach() > 0) forget_open(batch_, laws_.contact_memory());
+  if (laws_.reach() > 0) core::in_vectors<forget_open>(batch_, laws_.contact_memory());
   if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
   if (laws_.cohesion) laws_.cohesion->act(batch_);
   if (laws_.film) add_film(dt);
-  count_units(batch_, force_.per_unit, torque_.per_unit);
-  if (laws_.rolling) add_moment(batch_, torque_.per_unit);
+  core::in_vectors<count_units>(batch_, force_.per_unit, torque_.per_unit);
+  if (laws_.rolling) core::in_vectors<add_moment>(batch_, torque_.per_unit);
   contact_steps_ += std::uint64_t(batch_.count);
 }
 
@@ -122,7 +123,7 @@ void PairForces::mark_counted(std::size_t owned) {
 }
 
 void PairForces::watch_overlap(bool wall) {
-  if (!any_deeper(batch_, max_overlap_)) return;
+  if (!core::in_vectors<any_deeper>(batch_, max_overlap_)) return;
   for (int c = 0; c < batch_.count; ++c) {
     const double excess = batch_.overlap[c] - 2 * max_overlap_ * std::min(batch_.radius_i[c], batch_.radius_j[c]);
     // Turned round, so that the distance of two centres at one place, whose n is not a number, is too small as well.
@@ -141,7 +142,7 @@ void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall
   }
   if (ledger_ != nullptr) mark_counted(particles.owned);
   act(dt);
-  store_memory(contacts.memory.data(), contacts.memory_size, batch_);
+  core::in_vectors<store_memory>(contacts.memory.data(), contacts.memory_size, batch_);
   contacts.touching.insert(contacts.touching.end(), batch_.pair, batch_.pair + batch_.count);
 }
 

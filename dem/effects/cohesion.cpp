@@ -7,6 +7,7 @@
 #include "closures/cohesion_jkr.hpp"
 #include "closures/cohesion_van_der_waals.hpp"
 #include "closures/contact_hertz.hpp"
+#include "core/vectors.hpp"
 #include "dem/effects.hpp"
 #include "dem/effects/maker.hpp"
 #include "relevance/effects/cohesion.hpp"
@@ -77,7 +78,7 @@ class VanDerWaalsCohesion final : public CohesionLaw {
 
 using Row = ContactBatch::Row;
 
-POLYBED_ALL_VECTOR_WIDTHS void dmt(ContactBatch& b, const Row& pull) {
+void dmt(ContactBatch& b, const Row& pull) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) b.normal[c] += closures::dmt_force(pull[c], b.overlap[c]);
@@ -86,7 +87,7 @@ POLYBED_ALL_VECTOR_WIDTHS void dmt(ContactBatch& b, const Row& pull) {
 /// Whether two surfaces hold after this step, 1 or 0: they touch, or held and the neck is not broken.
 double holds(double held, double overlap, double gap) { return overlap >= 0 ? 1.0 : (overlap >= -gap ? held : 0.0); }
 
-POLYBED_ALL_VECTOR_WIDTHS void jkr(ContactBatch& b, int place, const Row& force, const Row& gap) {
+void jkr(ContactBatch& b, int place, const Row& force, const Row& gap) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -97,7 +98,7 @@ POLYBED_ALL_VECTOR_WIDTHS void jkr(ContactBatch& b, int place, const Row& force,
   }
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void van_der_waals(ContactBatch& b, const Row& radius, double hamaker, double least_gap) {
+void van_der_waals(ContactBatch& b, const Row& radius, double hamaker, double least_gap) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c)
@@ -114,7 +115,7 @@ DmtCohesion::DmtCohesion(const Materials& materials, double work_of_adhesion) {
 void DmtCohesion::act(ContactBatch& batch) const {
   alignas(64) Row pull = {};
   for (int c = 0; c < batch.count; ++c) pull[c] = pull_[std::size_t(batch.kind[c])];
-  dmt(batch, pull);
+  core::in_vectors<dmt>(batch, pull);
 }
 
 void DmtCohesion::add_energy(const ContactBatch& batch, Row& stored) const {
@@ -140,7 +141,7 @@ void JkrCohesion::act(ContactBatch& batch) const {
     force[c] = s.force;
     gap[c] = s.gap;
   }
-  jkr(batch, place_, force, gap);
+  core::in_vectors<jkr>(batch, place_, force, gap);
 }
 
 void JkrCohesion::add_energy(const ContactBatch& batch, Row& stored) const {
@@ -183,7 +184,7 @@ VanDerWaalsCohesion::VanDerWaalsCohesion(const Materials& materials, double hama
 void VanDerWaalsCohesion::act(ContactBatch& batch) const {
   alignas(64) Row radius = {};
   for (int c = 0; c < batch.count; ++c) radius[c] = radius_[std::size_t(batch.kind[c])];
-  van_der_waals(batch, radius, hamaker_, least_gap_);
+  core::in_vectors<van_der_waals>(batch, radius, hamaker_, least_gap_);
 }
 
 void VanDerWaalsCohesion::add_energy(const ContactBatch& batch, Row& stored) const {

@@ -5,14 +5,15 @@
 
 #include "closures/contact_hertz.hpp"
 #include "closures/restitution.hpp"
+#include "core/vectors.hpp"
 #include "dem/contacts/rows.hpp"
 
 namespace polybed::dem {
 
 namespace {
 
-POLYBED_ALL_VECTOR_WIDTHS void hertz(ContactBatch& b, const ContactBatch::Row& radius, const ContactBatch::Row& modulus,
-                                     const ContactBatch::Row& dashpot, double least_force) {
+void hertz(ContactBatch& b, const ContactBatch::Row& radius, const ContactBatch::Row& modulus,
+           const ContactBatch::Row& dashpot, double least_force) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -47,7 +48,7 @@ void HertzContact::act(ContactBatch& batch) const {
     modulus[c] = k.modulus;
     dashpot[c] = k.dashpot;
   });
-  hertz(batch, radius, modulus, dashpot, least_force_);
+  core::in_vectors<hertz>(batch, radius, modulus, dashpot, least_force_);
 }
 
 double HertzContact::energy(int kind, double overlap) const {

@@ -6,13 +6,13 @@
 
 #include "closures/contact_linear.hpp"
 #include "closures/restitution.hpp"
+#include "core/vectors.hpp"
 
 namespace polybed::dem {
 
 namespace {
 
-POLYBED_ALL_VECTOR_WIDTHS void linear(ContactBatch& b, double stiffness, const ContactBatch::Row& dashpot,
-                                      double least_force) {
+void linear(ContactBatch& b, double stiffness, const ContactBatch::Row& dashpot, double least_force) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -39,7 +39,7 @@ LinearContact::LinearContact(const Materials& materials, double stiffness, core:
 void LinearContact::act(ContactBatch& batch) const {
   alignas(64) ContactBatch::Row dashpot = {};
   for (int c = 0; c < batch.count; ++c) dashpot[c] = constants_[std::size_t(batch.kind[c])].dashpot;
-  linear(batch, stiffness_, dashpot, least_force_);
+  core::in_vectors<linear>(batch, stiffness_, dashpot, least_force_);
 }
 
 double LinearContact::energy(int, double overlap) const { return closures::linear_stored_energy(stiffness_, overlap); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "closures/lubrication.hpp"
+#include "core/vectors.hpp"
 
 namespace polybed::dem {
 
@@ -15,8 +16,8 @@ constexpr double reach_over_radius = 0.1;
 /// What stands for the films of a particle together, see Film.
 constexpr double films = 6;
 
-POLYBED_ALL_VECTOR_WIDTHS void squeeze(const ContactBatch& b, const Row& radius, const Row& per_mass, double viscosity,
-                                       double roughness, Row& force) {
+void squeeze(const ContactBatch& b, const Row& radius, const Row& per_mass, double viscosity, double roughness,
+             Row& force) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -44,7 +45,7 @@ void Film::act(const ContactBatch& batch, Row& force) const {
     radius[c] = k.radius;
     per_mass[c] = k.per_mass;
   }
-  squeeze(batch, radius, per_mass, viscosity_, roughness_, force);
+  core::in_vectors<squeeze>(batch, radius, per_mass, viscosity_, roughness_, force);
 }
 
 double Film::reach() const {

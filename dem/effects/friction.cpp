@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "closures/contact_tangential.hpp"
+#include "core/vectors.hpp"
 #include "dem/contacts/rows.hpp"
 #include "dem/effects/rows.hpp"
 
@@ -12,9 +13,8 @@ namespace {
 
 using closures::Vec3;
 
-POLYBED_ALL_VECTOR_WIDTHS void spring(ContactBatch& b, int place, const ContactBatch::Row& friction,
-                                      const ContactBatch::Row& per_radius, const ContactBatch::Row& constant,
-                                      const ContactBatch::Row& dashpot, double dt) {
+void friction_spring(ContactBatch& b, int place, const ContactBatch::Row& friction, const ContactBatch::Row& per_radius,
+                     const ContactBatch::Row& constant, const ContactBatch::Row& dashpot, double dt) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -30,9 +30,8 @@ POLYBED_ALL_VECTOR_WIDTHS void spring(ContactBatch& b, int place, const ContactB
   }
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void increment(ContactBatch& b, int place, const ContactBatch::Row& friction,
-                                         const ContactBatch::Row& per_radius, const ContactBatch::Row& dashpot,
-                                         double dt) {
+void increment(ContactBatch& b, int place, const ContactBatch::Row& friction, const ContactBatch::Row& per_radius,
+               const ContactBatch::Row& dashpot, double dt) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -80,7 +79,7 @@ void SpringFriction::act(ContactBatch& batch, double dt) const {
     constant[c] = k.constant;
     dashpot[c] = k.dashpot;
   });
-  spring(batch, place_, friction, per_radius, constant, dashpot, dt);
+  core::in_vectors<friction_spring>(batch, place_, friction, per_radius, constant, dashpot, dt);
 }
 
 void SpringFriction::energy(const ContactBatch& batch, ContactBatch::Row& stored) const {
@@ -102,7 +101,7 @@ void MindlinFriction::act(ContactBatch& batch, double dt) const {
     per_radius[c] = k.per_radius;
     dashpot[c] = k.dashpot;
   });
-  increment(batch, place_, friction, per_radius, dashpot, dt);
+  core::in_vectors<increment>(batch, place_, friction, per_radius, dashpot, dt);
 }
 
 void MindlinFriction::energy(const ContactBatch& batch, ContactBatch::Row& stored) const {

@@ -4,6 +4,7 @@
 
 #include "closures/contact_tangential.hpp"
 #include "closures/rolling_friction.hpp"
+#include "core/vectors.hpp"
 #include "dem/effects.hpp"
 #include "dem/effects/maker.hpp"
 #include "dem/effects/rows.hpp"
@@ -60,7 +61,7 @@ double secant_stiffness(const ContactBatch& b, int c) {
   return b.overlap[c] > 0 ? b.elastic[c] / (b.overlap[c] > 0 ? b.overlap[c] : 1.0) : 0;
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void constant(ContactBatch& b, const Row& arm) {
+void roll_constant(ContactBatch& b, const Row& arm) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -69,8 +70,7 @@ POLYBED_ALL_VECTOR_WIDTHS void constant(ContactBatch& b, const Row& arm) {
   }
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void spring(ContactBatch& b, int place, const Row& arm, const Row& inertia, double damping,
-                                      double dt) {
+void roll_spring(ContactBatch& b, int place, const Row& arm, const Row& inertia, double damping, double dt) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -92,7 +92,7 @@ ConstantRolling::ConstantRolling(const Materials& materials, double rolling_fric
 void ConstantRolling::act(ContactBatch& batch, double) const {
   alignas(64) Row arm = {};
   for (int c = 0; c < batch.count; ++c) arm[c] = arm_[std::size_t(batch.kind[c])];
-  constant(batch, arm);
+  core::in_vectors<roll_constant>(batch, arm);
 }
 
 SpringRolling::SpringRolling(const Materials& materials, double rolling_friction, double damping, int place)
@@ -108,7 +108,7 @@ void SpringRolling::act(ContactBatch& batch, double dt) const {
     arm[c] = k.arm;
     inertia[c] = k.inertia;
   }
-  spring(batch, place_, arm, inertia, damping_, dt);
+  core::in_vectors<roll_spring>(batch, place_, arm, inertia, damping_, dt);
 }
 
 double SpringRolling::stiffness(int kind, double normal_stiffness) const {

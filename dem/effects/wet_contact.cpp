@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "closures/lubrication.hpp"
+#include "core/vectors.hpp"
 #include "dem/effects/rows.hpp"
 
 namespace polybed::dem {
@@ -13,7 +14,7 @@ namespace {
 
 using Row = ContactBatch::Row;
 
-POLYBED_ALL_VECTOR_WIDTHS void damp(ContactBatch& b, int place, const Row& dry, double least_force) {
+void damp(ContactBatch& b, int place, const Row& dry, double least_force) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
@@ -57,7 +58,7 @@ void WetContact::act(ContactBatch& batch) const {
     if (damping[c] == 0 && batch.overlap[c] > 0) damping[c] = damping_at_touch(batch.kind[c], batch.speed[c]);
     dry[c] = constants_[std::size_t(batch.kind[c])].dry;
   }
-  damp(batch, place_, dry, least_force_);
+  core::in_vectors<damp>(batch, place_, dry, least_force_);
 }
 
 }  // namespace polybed::dem

@@ -86,7 +86,7 @@ void Exchange::balance(const Particles& particles, std::span<const std::int32_t>
   ++cuts_;
 }
 
-void Exchange::migrate(Particles& particles, std::vector<KeptContact>& kept) {
+void Exchange::migrate(Particles& particles, KeptContacts& kept) {
   if (!ranks_) return;
   const auto ranks = std::size_t(ranks_->count());
   std::vector<std::vector<Particle>> leaving(ranks);
@@ -101,17 +101,21 @@ void Exchange::migrate(Particles& particles, std::vector<KeptContact>& kept) {
       particles.set(staying++, particles.at(i));
     }
   }
-  std::vector<std::vector<KeptContact>> contacts(ranks);
-  for (const KeptContact& c : kept) {
-    const auto low = gone.find(c.low), high = gone.find(c.high);
-    if (low != gone.end()) contacts[std::size_t(low->second)].push_back(c);
-    if (high != gone.end() && (low == gone.end() || low->second != high->second))
-      contacts[std::size_t(high->second)].push_back(c);
+  std::vector<std::vector<double>> contacts(ranks);
+  const auto add = [&](int rank, std::size_t n) {
+    std::vector<double>& to = contacts[std::size_t(rank)];
+    to.insert(to.end(), kept.row(n), kept.row(n) + kept.width);
+  };
+  for (std::size_t n = 0; n < kept.size(); ++n) {
+    const auto low = gone.find(kept.low(n)), high = gone.find(kept.high(n));
+    if (low != gone.end()) add(low->second, n);
+    if (high != gone.end() && (low == gone.end() || low->second != high->second)) add(high->second, n);
   }
   particles.resize(staying);
   for (const Particle& p : send(ranks_, leaving)) particles.add(p);
   particles.owned = particles.size();
-  for (const KeptContact& c : send(ranks_, contacts)) kept.push_back(c);
+  const std::vector<double> come = send(ranks_, contacts);
+  kept.rows.insert(kept.rows.end(), come.begin(), come.end());
 }
 
 void Exchange::send_ahead(const Particles& particles, std::vector<KeptLoad>& kept) {

@@ -28,7 +28,7 @@ class Exchange {
   // Collective, all of these; nothing happens without ranks.
 
   /// Sends particles to the ranks that own their places, with their contacts. No ghosts before or after.
-  void migrate(Particles& particles, std::vector<KeptContact>& kept);
+  void migrate(Particles& particles, KeptContacts& kept);
   /// Sends what is kept of particles, in their order, to the ranks that own their places: before they migrate.
   void send_ahead(const Particles& particles, std::vector<KeptLoad>& kept);
   /// Likewise; nothing where nothing is kept.

@@ -226,7 +226,8 @@ TEST(Exchange, ParticlesAndTheirContactsGoToTheirOwners) {
     // All at once to anywhere, across several ranks.
     for (std::size_t i = 0; i < particles.owned; ++i)
       particles.place[i].x = particle(box, particles.id[i], 1, 2).place.x;
-    exchange.migrate(particles, kept);
+    KeptContacts moved(kept, 1);
+    exchange.migrate(particles, moved);
     std::set<std::int64_t> own;
     for (std::size_t i = 0; i < particles.owned; ++i) {
       own.insert(particles.id[i]);
@@ -235,8 +236,10 @@ TEST(Exchange, ParticlesAndTheirContactsGoToTheirOwners) {
       EXPECT_EQ(particles.motion[i].v, particle(box, particles.id[i], 0.05, 1).motion.v);
     }
     std::set<std::pair<std::int64_t, std::int64_t>> known;
-    for (const KeptContact& c : kept)
-      if (c.memory[0] == (c.high < 0 ? double(c.low) : 0.5 * double(c.low))) known.insert({c.low, c.high});
+    for (std::size_t n = 0; n < moved.size(); ++n) {
+      const std::int64_t low = moved.low(n), high = moved.high(n);
+      if (moved.memory(n)[0] == (high < 0 ? double(low) : 0.5 * double(low))) known.insert({low, high});
+    }
     for (std::int64_t id = 0; id < all; ++id) {
       EXPECT_EQ(own.count(id) == 1, parts.owner(particle(box, id, 1, 2).place.x) == rank());
       if (own.count(id) == 0) continue;

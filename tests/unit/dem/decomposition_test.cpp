@@ -51,7 +51,7 @@ TEST(OneRank, HasNoGhostsAndEveryPairIsInner) {
   const Box box = unit_box();
   Exchange exchange(box, nullptr, 0.01, 0.05);
   Particles particles = two_apart(0.105);
-  std::vector<KeptContact> kept{{0, 1, {3.0}}};
+  KeptContacts kept({{0, 1, {3.0}}}, 1);
   exchange.balance(particles, std::vector<std::int32_t>{1, 1});
   exchange.migrate(particles, kept);
   exchange.choose_ghosts(particles);
