@@ -142,7 +142,7 @@ class DemRun final : public CaseRun {
   /// Collective.
   void find_fluid() {
     if (!observers_ || observers_->fluid() == nullptr) return;
-    std::array<dem::EnergySum, 1> work{model_.fluid_work()};
+    std::array<dem::EnergySum, 1> work{model_.counted_energy().fluid_work};
     dem::add_over_ranks(ranks_.get(), work);
     fluid_ = fluid_report(scene_, *model_.coupling(), observers_->fluid()->totals(), model_.limits().dt,
                           work[0].units() * model_.energy_unit().unit);

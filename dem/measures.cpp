@@ -83,10 +83,11 @@ Totals totals_of(const Model& model) {
   }
   add_contacts(model, model.pairs(), false, elastic, totals);
   add_contacts(model, model.walls(), true, elastic, totals);
-  EnergySum work = model.flow_work();
-  work.add(model.fluid_work());
+  const CountedEnergy counted = model.counted_energy();
+  EnergySum work = counted.flow_work;
+  work.add(counted.fluid_work);
   std::array<EnergySum, 10> sums{
-      kinetic.sum(), rotational.sum(),  potential.sum(),   elastic.sum(),     model.dissipated(),
+      kinetic.sum(), rotational.sum(),  potential.sum(),   elastic.sum(),     counted.dissipated,
       work,          momentum[0].sum(), momentum[1].sum(), momentum[2].sum(), highest.sum()};
   add_over_ranks(model.ranks(), sums);
   std::array<std::int64_t, 1> contacts{totals.contacts};

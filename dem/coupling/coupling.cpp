@@ -79,7 +79,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
 
 Coupling::~Coupling() = default;
 
-void Coupling::begin(const Particles& particles) {
+void Coupling::begin(Particles& particles) {
   motion_.load.assign(particles.owned, FluidLoad{});
   take_fields();
   collect(particles);
@@ -89,7 +89,8 @@ void Coupling::begin(const Particles& particles) {
   sides_.begin(particles, gather_, motion_.load);
 }
 
-void Coupling::find_forces(const Particles& particles) {
+void Coupling::find_forces(const Particles& particles, std::uint64_t timed) {
+  const auto scope = timers_.scope("fluid forces", timed);
   forces_.find(particles, gather_, motion_.load, own());
   sides_.find(particles, gather_, motion_.load);
 }
@@ -100,6 +101,10 @@ void Coupling::hold(const Particles& particles) {
     for (std::size_t k = 0; k < 3; ++k) f.impulse[k] += f.drag * dt_ * f.velocity[k];
   }
   sides_.hold(motion_.load);
+}
+
+void Coupling::end_step(Particles& particles, std::int64_t steps, double time) {
+  if (due(steps)) advance(particles, time);
 }
 
 void Coupling::advance(Particles& particles, double t) {

@@ -1,4 +1,5 @@
-// Particles and contacts of all ranks, put together on the first in an order that does not depend on the ranks.
+// Particles, contacts and what is kept of them, of all ranks, put together on the first in an order that does not
+// depend on the ranks.
 #pragma once
 
 #include <memory>
@@ -18,10 +19,9 @@ namespace polybed::dem {
 /// What the fluid does to them, by id.
 [[nodiscard]] std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
                                                    const std::shared_ptr<const core::Ranks>& ranks);
-/// What side forces keep of them, by id.
-[[nodiscard]] KeptRows gathered_rows(const KeptRows& rows, const std::shared_ptr<const core::Ranks>& ranks);
-/// Contacts of all ranks, by ids; a pair across ranks, which both keep, once.
-[[nodiscard]] std::vector<KeptContact> gathered_contacts(const std::vector<KeptContact>& contacts,
-                                                         const std::shared_ptr<const core::Ranks>& ranks);
+/// Rows of all ranks by their first numbers, which are ids; what several ranks have, as contacts across them, once.
+/// \param ids  one or two
+[[nodiscard]] std::vector<double> gathered_rows(std::vector<double> own, std::size_t width, std::size_t ids,
+                                                const std::shared_ptr<const core::Ranks>& ranks);
 
 }  // namespace polybed::dem
