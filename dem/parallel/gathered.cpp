@@ -21,6 +21,43 @@ std::vector<Item> on_first(const std::vector<Item>& own, const std::shared_ptr<c
   return all;
 }
 
+/// What the files show of a particle.
+struct Shown {
+  std::int64_t id;
+  std::int32_t species;
+  double radius;
+  Vector x, v, w;
+};
+
+Shown shown(const Particles& particles, std::size_t i) {
+  const Place& place = particles.place[i];
+  const Motion& m = particles.motion[i];
+  return {particles.id[i], particles.species[i], place.radius, place.x, m.v, m.w};
+}
+
+/// \param of  Shown of a number
+template <class Of>
+Snapshot snapshot_of(std::size_t count, Of&& of) {
+  std::vector<std::pair<std::int64_t, std::size_t>> order(count);
+  for (std::size_t n = 0; n < count; ++n) order[n] = {of(n).id, n};
+  std::sort(order.begin(), order.end());
+  Snapshot all;
+  all.id.reserve(count);
+  all.species.reserve(count);
+  all.radius.reserve(count);
+  for (auto* vectors : {&all.position, &all.velocity, &all.spin}) vectors->reserve(count);
+  for (const auto& [id, n] : order) {
+    const Shown& p = of(n);
+    all.id.push_back(id);
+    all.species.push_back(p.species);
+    all.radius.push_back(p.radius);
+    all.position.push_back(p.x);
+    all.velocity.push_back(p.v);
+    all.spin.push_back(p.w);
+  }
+  return all;
+}
+
 /// A row, told by its ids.
 struct Row {
   double low, high;
@@ -64,12 +101,13 @@ void put_in_order(std::vector<double>& rows, std::size_t width, std::size_t ids)
 
 }  // namespace
 
-std::vector<Particle> gathered_particles(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks) {
-  std::vector<Particle> own;
-  for (std::size_t i = 0; i < particles.owned; ++i) own.push_back(particles.at(i));
-  std::vector<Particle> all = on_first(own, ranks);
-  std::sort(all.begin(), all.end(), [](const Particle& a, const Particle& b) { return a.id < b.id; });
-  return all;
+Snapshot gathered_snapshot(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks) {
+  if (!ranks) return snapshot_of(particles.owned, [&](std::size_t i) { return shown(particles, i); });
+  std::vector<Shown> own;
+  own.reserve(particles.owned);
+  for (std::size_t i = 0; i < particles.owned; ++i) own.push_back(shown(particles, i));
+  const std::vector<Shown> all = on_first(own, ranks);
+  return snapshot_of(all.size(), [&](std::size_t i) -> const Shown& { return all[i]; });
 }
 
 std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,

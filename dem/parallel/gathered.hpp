@@ -2,10 +2,12 @@
 // depend on the ranks.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "core/numerics/ranks.hpp"
+#include "core/output/particles.hpp"
 #include "dem/parallel/exchange.hpp"
 #include "dem/particles.hpp"
 
@@ -13,9 +15,16 @@ namespace polybed::dem {
 
 // Collective; empty but on the first rank.
 
-/// Owned particles of all ranks, by id.
-[[nodiscard]] std::vector<Particle> gathered_particles(const Particles& particles,
-                                                       const std::shared_ptr<const core::Ranks>& ranks);
+/// Owned particles of all ranks by id, by component, as the files want them.
+struct Snapshot {
+  std::vector<std::int64_t> id;
+  std::vector<std::int32_t> species;
+  std::vector<double> radius;
+  std::vector<Vector> position, velocity, spin;
+
+  [[nodiscard]] core::ParticleSnapshot view() const { return {id, species, radius, position, velocity, spin}; }
+};
+[[nodiscard]] Snapshot gathered_snapshot(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks);
 /// What the fluid does to them, by id.
 [[nodiscard]] std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
                                                    const std::shared_ptr<const core::Ranks>& ranks);
