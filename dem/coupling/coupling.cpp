@@ -62,7 +62,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       phase_(flow_.grid(), has_inertia()),
       scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
       gather_(core::whole_column(flow_.grid()), diameters(materials)),
-      motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy),
+      motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy, scene.dem.ledger),
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
