@@ -142,10 +142,11 @@ class DemRun final : public CaseRun {
   /// Collective.
   void find_fluid() {
     if (!observers_ || observers_->fluid() == nullptr) return;
-    std::array<dem::EnergySum, 1> work{model_.fluid_work()};
+    std::array<dem::EnergySum, 1> work{model_.counted_energy().fluid_work};
     dem::add_over_ranks(ranks_.get(), work);
+    const double joules = work[0].units() * model_.energy_unit().unit;
     fluid_ = fluid_report(scene_, *model_.coupling(), observers_->fluid()->totals(), model_.limits().dt,
-                          work[0].units() * model_.energy_unit().unit);
+                          scene_.dem.ledger ? std::optional(joules) : std::nullopt);
   }
 
   void write_step(core::Json& json) const {

@@ -7,7 +7,8 @@
 #include "dem/box.hpp"
 #include "dem/contacts/batch.hpp"
 #include "dem/contacts/contacts.hpp"
-#include "dem/energy_sum.hpp"
+#include "dem/kept_sums.hpp"
+#include "dem/step_part.hpp"
 
 namespace polybed::dem {
 
@@ -19,7 +20,7 @@ namespace polybed::dem {
 /// step after the time it is found for, so the parts of two successive forces add up to the work over a drift, and the
 /// half step of a contact that parts is not lost. A particle that leaves through a face and comes back through the
 /// other changes its speed by U: what its energy changes by is the faces' work too.
-class FlowWork {
+class FlowWork final : public StepPart {
  public:
   /// \param force  unit of the forces of a batch  \param energy  unit of the sum, J  \param dt  s
   FlowWork(FixedPoint force, FixedPoint energy, double dt)
@@ -33,27 +34,33 @@ class FlowWork {
       now_.add(counted[c] * batch.force[0][c] * speed * per_force_);
     }
   }
-  /// After all forces at the start, and after all of a step.
-  void begin() { before_ = std::exchange(now_, EnergySum()); }
-  void end_step() {
+  void begin(Particles&) override { pass_on(); }
+  void find_forces(const Particles&, std::uint64_t) override {
     sum_.add(before_);
     sum_.add(now_);
-    begin();
+    pass_on();
   }
-  /// A particle has come back through the other face. \param mass  kg  \param from, to  v_x, m/s
-  void wrapped(double mass, double from, double to) { sum_.add(0.5 * mass * (to - from) * (to + from) * per_energy_); }
+  void wrapped(double mass, double from, double to) override {
+    sum_.add(0.5 * mass * (to - from) * (to + from) * per_energy_);
+  }
 
-  /// In the unit given: of this rank since the start, and the half of the last forces that is due in the next step.
-  [[nodiscard]] const EnergySum& sum() const { return sum_; }
-  [[nodiscard]] const EnergySum& due() const { return before_; }
-  void set(const EnergySum& sum, const EnergySum& due) {
-    sum_ = sum;
-    before_ = due;
+  void count(CountedEnergy& energy) const override { energy.flow_work.add(sum_); }
+  void write(core::Checkpoint& checkpoint, const Particles&, const core::Ranks* ranks) const override {
+    write_sum(checkpoint, ranks, "flow_work", sum_);
+    write_sum(checkpoint, ranks, "flow_work_due", before_);
+  }
+  void read(const Restored& from) override {
+    sum_ = sum_on_first(from.ranks, from.checkpoint, "flow_work");
+    before_ = sum_on_first(from.ranks, from.checkpoint, "flow_work_due");
   }
 
  private:
+  void pass_on() { before_ = std::exchange(now_, EnergySum()); }
+
   double per_force_, per_energy_;
-  EnergySum sum_, before_, now_;
+  EnergySum sum_;     ///< of this rank since the start, in the unit given
+  EnergySum before_;  ///< half of the last forces, due in the next step
+  EnergySum now_;
 };
 
 }  // namespace polybed::dem

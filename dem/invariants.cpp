@@ -73,10 +73,9 @@ double Invariants::energy_miss(const Totals& now) {
   return greatest_energy_ > 0 ? ledger_miss(now, start_.energy, greatest_energy_) : 0;
 }
 
-void Invariants::see(const Totals& now, const FluidRecord* fluid) {
+void Invariants::see(const Totals& now, const std::vector<std::int64_t>& number, const FluidRecord* fluid) {
   std::size_t which = 0;
   if (ledger_) worst_[which++].keep(energy_miss(now), model_.time());
-  const std::vector<std::int64_t> number = numbers_of(model_);
   for (std::size_t j = 0; j < number.size(); ++j) {
     const std::int64_t left = model_.outflow() != nullptr ? model_.outflow()->number[j] : 0;
     worst_[which].keep(double(std::abs(number[j] + left - start_.number[j])), model_.time(),

@@ -32,8 +32,8 @@ class Invariants {
   Invariants(const Model& model, RunStart start, bool ledger);
 
   /// Measures and keeps what is worst. Collective, with the same result on every rank.
-  /// \param fluid  null without one
-  void see(const Totals& now, const FluidRecord* fluid);
+  /// \param number  what numbers_of() says now  \param fluid  null without one
+  void see(const Totals& now, const std::vector<std::int64_t>& number, const FluidRecord* fluid);
 
   [[nodiscard]] const RunStart& start() const { return start_; }
   [[nodiscard]] const std::vector<measures::WorstInvariant>& worst() const { return worst_; }

@@ -9,16 +9,22 @@ namespace polybed::dem {
 
 namespace {
 
-/// Sums that are the same in any order: each number in whole units of the greatest there is, and parts of them.
+/// Sums that are the same in any order: each number in whole units of the greatest there is, and parts of them. Carried
+/// over once, at the end: a particle adds less than 2^31 parts, and a rank has fewer than 2^32 of them.
 class Sum {
  public:
-  explicit Sum(FixedPoint unit) : unit_(unit) {}
-  void add(double value) { sum_.add(value * unit_.per_unit); }
-  [[nodiscard]] const EnergySum& sum() const { return sum_; }
+  explicit Sum(FixedPoint unit) : per_unit_(unit.per_unit) {}
+  void add(double value, std::int64_t times = 1) {
+    const double units = value * per_unit_;
+    const auto whole = std::int64_t(units);
+    whole_ += whole * times;
+    part_ += std::int64_t((units - double(whole)) * EnergySum::parts) * times;
+  }
+  [[nodiscard]] EnergySum sum() const { return {whole_, part_}; }
 
  private:
-  FixedPoint unit_;
-  EnergySum sum_;
+  double per_unit_;
+  std::int64_t whole_ = 0, part_ = 0;
 };
 
 /// Calls for each contact that this rank counts, with its pair, its energy, of springs and of attraction, J, and the
@@ -71,22 +77,28 @@ Totals totals_of(const Model& model) {
   const Particles& particles = model.particles();
   const Vector g = model.gravity(), &size = model.box().size;
   const double far = std::abs(g[0]) * size[0] + std::abs(g[1]) * size[1] + std::abs(g[2]) * size[2];
+  std::vector<std::int64_t> number(model.materials().species().size(), 0);
+  double fastest = 0;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Motion& m = particles.motion[i];
     const double vv = square(m.v);
     kinetic.add(0.5 * vv / m.inverse_mass);
     rotational.add(0.5 * square(m.w) / m.inverse_inertia);
     potential.add(-product(g, particles.place[i].x) / m.inverse_mass);
-    highest.add(far / m.inverse_mass);
+    ++number[std::size_t(particles.species[i])];
     for (std::size_t k = 0; k < 3; ++k) momentum[k].add(m.v[k] / m.inverse_mass);
-    totals.greatest_speed = std::max(totals.greatest_speed, std::sqrt(vv));
+    fastest = std::max(fastest, vv);
   }
+  totals.greatest_speed = std::sqrt(fastest);
+  for (std::size_t j = 0; j < number.size(); ++j)
+    highest.add(far / (1 / model.materials().species()[j].mass), number[j]);
   add_contacts(model, model.pairs(), false, elastic, totals);
   add_contacts(model, model.walls(), true, elastic, totals);
-  EnergySum work = model.flow_work();
-  work.add(model.fluid_work());
+  const CountedEnergy counted = model.counted_energy();
+  EnergySum work = counted.flow_work;
+  work.add(counted.fluid_work);
   std::array<EnergySum, 10> sums{
-      kinetic.sum(), rotational.sum(),  potential.sum(),   elastic.sum(),     model.dissipated(),
+      kinetic.sum(), rotational.sum(),  potential.sum(),   elastic.sum(),     counted.dissipated,
       work,          momentum[0].sum(), momentum[1].sum(), momentum[2].sum(), highest.sum()};
   add_over_ranks(model.ranks(), sums);
   std::array<std::int64_t, 1> contacts{totals.contacts};

@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "dem/packing.hpp"
 #include "dem/scene.hpp"
+#include "dem/trouble.hpp"
 
 namespace polybed::dem {
 
 namespace {
 
-/// What each owned particle costs: itself and its contacts. \param own  Model::own_work()
+/// What each owned particle costs: itself and its contacts. \param own  Model::work_of_particle()
 std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pairs, const Contacts& walls,
                                   std::int32_t own) {
   std::vector<std::int32_t> work(particles.owned, own);
@@ -50,50 +50,57 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   require_room_for_images(box_, materials_.greatest_diameter(), laws_.reach(), skin_);
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
   if (laws_.film) laws_.film->set_step(limits_.dt);
-  if (box_.opening)
-    outflow_ = Outflow{materials_.greatest_diameter(), std::vector<std::int64_t>(scene.species.size(), 0), 0, {}};
   const std::vector<Particle> all = std::move(start_);
   measure(all);
   place(all, std::vector<std::int32_t>(all.size(), 1));
-  if (scene.dem.ledger) {
-    ledger_.emplace(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
-    pair_forces_.keep(*ledger_);
-    verlet_.keep(*ledger_);
-  }
-  if (scene.dem.ledger && box_.shear_rate != 0) {
-    flow_work_.emplace(force_unit_, energy_unit_, limits_.dt);
-    pair_forces_.keep(*flow_work_);
-  }
-  couple(scene, all);
+  make_parts(all);
   rebuild();
   find_forces(0);
-  if (flow_work_) flow_work_->begin();
-  if (coupling_) coupling_->begin(particles_);
+  for (const auto& part : parts_) part->begin(particles_);
   look_ahead();
 }
 
 Model::~Model() = default;
 
-/// The fluid between the particles, if there is one. A sheared box has no room for its motion: there it is the flow.
-void Model::couple(const core::Scene& scene, const std::vector<Particle>& all) {
-  if (!scene.fluid.present()) return;
-  double volume = 0;
-  std::vector<double> share(scene.species.size(), 0.0);
-  for (const Particle& p : all) {
-    volume += closures::sphere_volume(p.place.radius);
-    share[std::size_t(p.species)] += closures::sphere_volume(p.place.radius);
+template <class Made, class... Args>
+Made* Model::add_part(Args&&... args) {
+  auto part = std::make_unique<Made>(std::forward<Args>(args)...);
+  Made* made = part.get();
+  parts_.push_back(std::move(part));
+  return made;
+}
+
+/// A sheared box has no room for a fluid's motion: there it is the flow.
+void Model::make_parts(const std::vector<Particle>& all) {
+  const bool sheared = box_.shear_rate != 0;
+  if (box_.opening) outflow_ = add_part<Outflow>(materials_.greatest_diameter(), scene_.species.size());
+  if (scene_.dem.ledger) {
+    auto* ledger = add_part<Ledger>(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
+    pair_forces_.keep(*ledger);
+    verlet_.keep(*ledger);
   }
-  if (box_.shear_rate != 0) {
-    if (!has_affine_drag(scene)) return;
-    for (double& x : share) x /= volume;
-    const double voidage = 1 - volume / (box_.size[0] * box_.size[1] * box_.size[2]);
-    affine_drag_.emplace(scene, materials_, share, voidage, force_unit_, energy_unit_);
-    return;
+  if (scene_.dem.ledger && sheared) pair_forces_.keep(*add_part<FlowWork>(force_unit_, energy_unit_, limits_.dt));
+  const SolidsVolume solids = volume_of(all, scene_.species.size());
+  if (has_affine_drag(scene_)) add_part<AffineDrag>(scene_, materials_, solids, box_.size, force_unit_, energy_unit_);
+  if (scene_.fluid.present() && !sheared) {
+    coupling_ = add_part<Coupling>(scene_, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_},
+                                   limits_.dt, limits_.greatest_speed, solids.all, count_);
+    coupling_->motion().load.resize(particles_.owned);
+    coupling_->sides().rows().clear(particles_.owned);
   }
-  coupling_.emplace(scene, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
-                    limits_.greatest_speed, volume, count_);
-  coupling_->motion().load.resize(particles_.owned);
-  coupling_->sides().rows().clear(particles_.owned);
+  for (const auto& part : parts_) part->surround(around_);
+}
+
+CountedEnergy Model::counted_energy() const {
+  CountedEnergy energy;
+  for (const auto& part : parts_) part->count(energy);
+  return energy;
+}
+
+std::int32_t Model::work_of_particle() const {
+  std::int32_t most = 1;
+  for (const auto& part : parts_) most = std::max(most, part->work_of_particle());
+  return most;
 }
 
 /// Units of the sums over all particles.
@@ -135,10 +142,10 @@ void Model::step(double stop) {
   timed_ = steps_ < all_timed ? 1 : (steps_ % sampled == 0 ? std::uint64_t(sampled) : 0);
   ++steps_;
   if (held_)
-    coupling_->hold(particles_);
+    for (const auto& part : parts_) part->hold(particles_);
   else
     move(limits_.dt);
-  if (coupling_ && coupling_->due(steps_)) coupling_->advance(particles_, clock());
+  for (const auto& part : parts_) part->end_step(particles_, steps_, clock());
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
   look_ahead();
   if (ahead_ == Ahead::trouble) stop_in_trouble();
@@ -147,17 +154,21 @@ void Model::step(double stop) {
 void Model::move(double dt) {
   {
     const auto scope = timers_.scope("motion", timed_);
-    verlet_.begin(particles_, around());
+    verlet_.begin(particles_, around_);
   }
   find_forces(dt);
-  if (flow_work_) flow_work_->end_step();
-  if (coupling_) {
-    const auto scope = timers_.scope("fluid forces", timed_);
-    coupling_->find_forces(particles_);
-  }
+  for (const auto& part : parts_) part->find_forces(particles_, timed_);
   const auto scope = timers_.scope("motion", timed_);
-  verlet_.end(particles_, around());
-  if (coupling_) coupling_->turn(particles_);
+  verlet_.end(particles_, around_);
+  for (const auto& part : parts_) part->turn(particles_);
+}
+
+/// Collective: tells the deepest overlap of all ranks, or which particle is too fast.
+void Model::stop_in_trouble() const {
+  const bool pair = pair_forces_.trouble().pair >= 0;
+  const double urgency = pair ? 1 + pair_forces_.trouble().excess : (hasty_ >= 0 ? 0.5 : 0);
+  const std::string text = pair ? trouble_of_pair(*this, scene_) : (hasty_ >= 0 ? trouble_of_haste(*this, hasty_) : "");
+  throw core::NumericsError(core::said_by(ranks_.get(), core::rank_of_greatest(ranks_.get(), urgency), text));
 }
 
 void Model::push(const std::vector<Vector>& dv) {
@@ -170,7 +181,7 @@ void Model::push(const std::vector<Vector>& dv) {
 void Model::look_ahead() {
   const auto scope = timers_.scope("motion", timed_);
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
-  const Verlet::Drift drift = held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, around());
+  const Verlet::Drift drift = held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, around_);
   hasty_ = drift.hasty;
   met_ = std::max(met_, drift.speed);
   // The time of a contact goes with the fifth root of the speed: a quarter more is no matter.
@@ -189,11 +200,10 @@ bool Model::list_goes_stale(double drift, double since) const {
   return !(2 * drift + flow <= skin_);
 }
 
-/// Not where the length of a step is that of the case, or is counted in: strain of a sheared box, weights of the
-/// history force; and not within a step of the fluid.
+/// Not where the length of a step is that of the case, or is counted in, as is the strain of a sheared box.
 bool Model::may_shorten() const {
   if (scene_.dem.fixed_step || box_.shear_rate != 0 || held_) return false;
-  return !coupling_ || (coupling_->due(steps_) && !coupling_->sides().present());
+  return std::all_of(parts_.begin(), parts_.end(), [&](const auto& part) { return part->may_shorten(steps_); });
 }
 
 /// From here on steps are as short as the fastest particle asks for, and a quarter faster ones. Collective.
@@ -201,7 +211,7 @@ void Model::shorten_step() {
   constexpr double reserve = 1.25;
   const double met = core::greatest_of_ranks(ranks_.get(), met_);
   set_step_for(clock(), steps_, reserve * met);
-  if (coupling_) coupling_->restart();
+  for (const auto& part : parts_) part->restart();
   ++work_.shortenings;
 }
 
@@ -211,7 +221,7 @@ void Model::set_step_for(double began, std::int64_t began_at, double speed) {
   began_at_ = began_at;
   limits_ = step_limits(scene_, materials_, laws_, speed);
   verlet_.set_dt(limits_.dt);
-  if (coupling_) coupling_->set_dt(limits_.dt);
+  for (const auto& part : parts_) part->set_dt(limits_.dt);
 }
 
 void Model::wrap() {
@@ -223,7 +233,7 @@ void Model::wrap() {
       Motion& m = particles_.motion[i];
       const double from = m.v[0];
       m.v[0] -= boxes * box_.image_speed();
-      if (flow_work_) flow_work_->wrapped(1 / m.inverse_mass, from, m.v[0]);
+      for (const auto& part : parts_) part->wrapped(1 / m.inverse_mass, from, m.v[0]);
     }
     for (std::size_t k = 0; k < 3; ++k)
       if (box_.periodic[k]) {
@@ -247,17 +257,17 @@ void Model::refresh_ghosts() {
 
 void Model::restart() {
   rebuild();
-  if (coupling_) coupling_->restart();
+  for (const auto& part : parts_) part->restart();
 }
 
 void Model::rebuild() {
   KeptContacts kept(pairs_.memory_size);
   kept.add(pairs_, particles_, false);
   kept.add(walls_, particles_, true);
-  if (outflow_) count_leaving();
+  for (const auto& part : parts_) count_ -= part->count_leaving(*this);
   wrap();
-  exchange_.balance(particles_, work_of(particles_, pairs_, walls_, own_work()));
-  if (outflow_) take_out();
+  exchange_.balance(particles_, work_of(particles_, pairs_, walls_, work_of_particle()));
+  for (const auto& part : parts_) part->take_out(particles_);
   list_pairs(std::move(kept));
 }
 
@@ -265,21 +275,10 @@ void Model::rebuild() {
 void Model::list_pairs(KeptContacts kept) {
   pairs_.memory = {};  // room for what is made meanwhile
   particles_.resize(particles_.owned);
-  std::vector<KeptLoad> loads;
-  KeptRows sides;
-  if (coupling_) {
-    loads = keep(particles_, coupling_->motion().load);
-    exchange_.send_ahead(particles_, loads);
-    sides = keep(particles_, coupling_->sides().rows());
-    exchange_.send_ahead(particles_, sides);
-  }
+  for (const auto& part : parts_) part->send_ahead(exchange_, particles_);
   exchange_.migrate(particles_, kept);
   particles_.arrange(search_.order(particles_));
-  if (coupling_) {
-    recall(loads, particles_, coupling_->motion().load);
-    recall(sides, particles_, coupling_->sides().rows());
-    coupling_->settle_in(particles_);
-  }
+  for (const auto& part : parts_) part->settle_in(particles_);
   exchange_.choose_ghosts(particles_);
   search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(),
                      exchange_.decomposition().whole(materials_.greatest_diameter() + skin_ + laws_.reach()), pairs_);
@@ -321,7 +320,8 @@ void Model::find_forces(double dt) {
 Work Model::work() const {
   Work work = work_;
   work.steps = std::uint64_t(steps_);
-  work.particle_steps = work.steps * std::uint64_t(count_) + (outflow_ ? std::uint64_t(outflow_->steps) : 0);
+  work.particle_steps = work.steps * std::uint64_t(count_);
+  for (const auto& part : parts_) work.particle_steps += std::uint64_t(part->steps_of_gone());
   std::array<double, 3> sums{double(pair_forces_.pair_checks()), double(pair_forces_.contact_steps()),
                              double(work.candidates)};
   core::add_over_ranks(ranks_.get(), sums);
@@ -332,6 +332,57 @@ Work Model::work() const {
   work.greatest_speed = core::greatest_of_ranks(ranks_.get(), met_);
   work.imbalance = exchange_.imbalance();
   return work;
+}
+
+core::Checkpoint Model::checkpoint() const {
+  core::Checkpoint checkpoint;
+  write_particles(checkpoint, particles_, ranks_);
+  write_contacts(checkpoint, pairs_, walls_, particles_, ranks_);
+  checkpoint.integers["memory_size"] = pairs_.memory_size;
+  write_clock({double(steps_), limits_.dt, reported_, began_, double(began_at_), limits_.greatest_speed,
+               core::greatest_of_ranks(ranks_.get(), met_)},
+              checkpoint);
+  write_sum(checkpoint, ranks_.get(), "dissipated", counted_energy().dissipated);
+  for (const auto& part : parts_) part->write(checkpoint, particles_, ranks_.get());
+  return checkpoint;
+}
+
+void Model::resume(const core::Checkpoint& checkpoint) { restore(checkpoint, true); }
+
+void Model::start_from(const core::Checkpoint& checkpoint) {
+  restore(checkpoint, false);
+  steps_ = marked_at_ = 0;
+  reported_ = 0;
+  for (const auto& part : parts_) part->begin_from_other(particles_);
+}
+
+/// On the first rank: what else than particles and contacts has to fit this model.
+Clock Model::checked_clock(const core::Checkpoint& checkpoint, bool same_run) const {
+  core::require_numbers(checkpoint);
+  const Clock clock = read_clock(checkpoint, limits_.greatest_speed);
+  const double dt = step_limits(scene_, materials_, laws_, clock.speed).dt;
+  if (checkpoint.integer("memory_size") != pairs_.memory_size || (same_run && clock.dt != dt))
+    throw core::FileError("the checkpoint is of another law of contact or another time step");
+  if (!same_run) return clock;
+  require_clock(clock);
+  for (const auto& part : parts_) part->require(checkpoint);
+  return clock;
+}
+
+void Model::restore(const core::Checkpoint& checkpoint, bool same_run) {
+  Clock first;
+  core::on_first(ranks_.get(), [&] { first = checked_clock(checkpoint, same_run); });
+  KeptState state = read_state(checkpoint, first, {materials_, box_.size, pairs_.memory_size}, ranks_.get());
+  const Clock& clock = state.clock;
+  steps_ = std::int64_t(clock.steps);
+  reported_ = clock.time;
+  if (same_run) {
+    set_step_for(clock.began, std::int64_t(clock.began_at), clock.speed);
+    met_ = clock.greatest_met;
+  }
+  place(state.particles, work_of(state, work_of_particle()));
+  for (const auto& part : parts_) part->read({checkpoint, ranks_.get(), particles_, state.particles, same_run});
+  list_pairs({state.contacts, pairs_.memory_size});
 }
 
 }  // namespace polybed::dem

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,12 +18,14 @@
 #include "dem/coupling/affine_drag.hpp"
 #include "dem/coupling/coupling.hpp"
 #include "dem/effects.hpp"
+#include "dem/kept_state.hpp"
 #include "dem/outflow.hpp"
 #include "dem/overlap_forecast.hpp"
 #include "dem/parallel/exchange.hpp"
 #include "dem/particles.hpp"
 #include "dem/scene.hpp"
 #include "dem/step_limits.hpp"
+#include "dem/step_part.hpp"
 #include "dem/verlet.hpp"
 
 namespace polybed::dem {
@@ -86,15 +87,15 @@ class Model : public core::Simulation {
   [[nodiscard]] const core::Ranks* ranks() const { return ranks_.get(); }
   [[nodiscard]] const std::shared_ptr<const core::Ranks>& share() const { return ranks_; }
   /// Of a sheared box with drag; null where there is none.
-  [[nodiscard]] const AffineDrag* affine_drag() const { return affine_drag_ ? &*affine_drag_ : nullptr; }
+  [[nodiscard]] const AffineDrag* affine_drag() const { return around_.flow; }
   /// With the fluid; null where there is none.
-  [[nodiscard]] const Coupling* coupling() const { return coupling_ ? &*coupling_ : nullptr; }
+  [[nodiscard]] const Coupling* coupling() const { return coupling_; }
   [[nodiscard]] Vector gravity() const { return gravity_; }
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
   /// In the box now.
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
   /// Null where nothing can leave.
-  [[nodiscard]] const Outflow* outflow() const { return outflow_ ? &*outflow_ : nullptr; }
+  [[nodiscard]] const Outflow* outflow() const { return outflow_; }
   /// Where the images of the particles are now.
   [[nodiscard]] Images images() const { return {box_, clock(), double(steps_ - marked_at_) * limits_.dt}; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
@@ -106,23 +107,18 @@ class Model : public core::Simulation {
   /// Units of the energies and momenta of all particles together.
   [[nodiscard]] FixedPoint energy_unit() const { return energy_unit_; }
   [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
-  /// In the unit of energy: what this rank's contacts have dissipated, what the fluid has done on its particles, and
-  /// its part of a sheared box.
-  [[nodiscard]] EnergySum dissipated() const { return ledger_ ? ledger_->lost() : EnergySum(); }
-  [[nodiscard]] EnergySum fluid_work() const {
-    return coupling_ ? coupling_->motion().work() : (affine_drag_ ? affine_drag_->work() : EnergySum());
-  }
-  [[nodiscard]] EnergySum flow_work() const { return flow_work_ ? flow_work_->sum() : EnergySum(); }
+  /// Of this rank.
+  [[nodiscard]] CountedEnergy counted_energy() const;
 
  private:
   void measure(const std::vector<Particle>& all);
+  void make_parts(const std::vector<Particle>& all);
+  template <class Made, class... Args>
+  Made* add_part(Args&&... args);
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
-  /// What a particle costs over what it costs to be in a contact. With a fluid 5.5 was measured
-  /// (docs/theory/parallel.md).
-  [[nodiscard]] std::int32_t own_work() const { return coupling_ ? 5 : 1; }
-  void restore(const core::Checkpoint& checkpoint, bool same_step);
-  void restore_fluid(const core::Checkpoint& checkpoint, const std::vector<Particle>& all);
-  void restore_sides(const core::Checkpoint& checkpoint, std::size_t count);
+  [[nodiscard]] std::int32_t work_of_particle() const;
+  void restore(const core::Checkpoint& checkpoint, bool same_run);
+  [[nodiscard]] Clock checked_clock(const core::Checkpoint& checkpoint, bool same_run) const;
   void look_ahead();
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   [[nodiscard]] bool may_shorten() const;
@@ -130,24 +126,13 @@ class Model : public core::Simulation {
   void set_step_for(double began, std::int64_t began_at, double speed);
   [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
-  void count_leaving();
-  void take_out();
-  void write_outflow(core::Checkpoint& checkpoint) const;
-  void read_outflow(const core::Checkpoint& checkpoint);
   void list_pairs(KeptContacts kept);
   void find_forces(double dt);
   /// Time that the state belongs to, s.
   [[nodiscard]] double clock() const { return began_ + double(steps_ - began_at_) * limits_.dt; }
   [[noreturn]] void stop_in_trouble() const;
-  [[nodiscard]] std::string trouble_of_pair() const;
-  [[nodiscard]] std::string remedy_of_pair(const Contacts::Pair& pair, const PairTrouble& trouble) const;
-  [[nodiscard]] std::string trouble_of_haste() const;
   void wrap();
   void move(double dt);
-  [[nodiscard]] Around around() {
-    return {coupling_ ? &coupling_->motion() : nullptr, affine_drag_ ? &*affine_drag_ : nullptr};
-  }
-  void couple(const core::Scene& scene, const std::vector<Particle>& all);
 
   core::Scene scene_;
   std::shared_ptr<const core::Ranks> ranks_;
@@ -161,12 +146,11 @@ class Model : public core::Simulation {
   OverlapForecast overlap_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
-  std::optional<Ledger> ledger_;           ///< absent: energies lost are not counted
-  std::optional<Coupling> coupling_;       ///< absent: there is no fluid
-  std::optional<AffineDrag> affine_drag_;  ///< absent: the box is not sheared, or has no drag
-  bool held_;                              ///< the particles do not move
-  std::optional<FlowWork> flow_work_;      ///< absent: the box is not sheared, or there is no ledger
-  std::optional<Outflow> outflow_;         ///< absent: nothing can leave
+  std::vector<std::unique_ptr<StepPart>> parts_;  ///< those that the scene has, in the order in which they act
+  Around around_;
+  Coupling* coupling_ = nullptr;  ///< one of the parts, if it is there, as is the next
+  Outflow* outflow_ = nullptr;
+  bool held_;  ///< the particles do not move
   double skin_;
   Verlet verlet_;
   NeighbourSearch search_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/numerics/ranks.hpp"
+#include "dem/bed_sums.hpp"
 #include "dem/parallel/gathered.hpp"
 #include "measures/bed.hpp"
 
@@ -43,26 +44,6 @@ double weight_of(const Model& model, const std::vector<double>& mass, double are
   return weight * std::abs(model.gravity()[1]) / area;
 }
 
-/// Particles by component, as the files want them.
-struct Snapshot {
-  std::vector<std::int64_t> id;
-  std::vector<std::int32_t> species;
-  std::vector<double> radius;
-  std::vector<Vector> position, velocity, spin;
-
-  explicit Snapshot(const std::vector<Particle>& particles) {
-    for (const Particle& p : particles) {
-      id.push_back(p.id);
-      species.push_back(p.species);
-      radius.push_back(p.place.radius);
-      position.push_back(p.place.x);
-      velocity.push_back(p.motion.v);
-      spin.push_back(p.motion.w);
-    }
-  }
-  [[nodiscard]] core::ParticleSnapshot view() const { return {id, species, radius, position, velocity, spin}; }
-};
-
 std::vector<double> slab_centres(const measures::Slabs& slabs) {
   std::vector<double> y;
   for (std::size_t k = 0; k < slabs.count; ++k) y.push_back((double(k) + 0.5) * slabs.thickness());
@@ -98,21 +79,16 @@ void Observers::see_step() {
 void Observers::write_history(double time) {
   totals_ = totals_of(model_);
   see_step();
-  invariants_.see(totals_, fluid());
-  const std::vector<Particle> all = gathered_particles(model_.particles(), model_.share());
+  const BedSums sums = bed_sums(model_, slabs_);
+  invariants_.see(totals_, sums.number, fluid());
   const double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
+  measures::Bed bed{.profile = sums.profile.solids, .time = time, .step = model_.limits().dt, .centre = sums.centre};
+  for (std::size_t j = 0; j < sums.number.size(); ++j)
+    bed.mass.push_back(double(sums.number[j]) * model_.materials().species()[j].mass);
+  // Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
+  bed.pressure_drop = fluid_ ? fluid_->pressure_drop() : 0;
+  bed.buoyant_weight = weight_of(model_, bed.mass, slabs_.area);
   core::on_first(model_.ranks(), [&] {
-    const auto& species = model_.materials().species();
-    measures::Bed bed{.time = time, .step = model_.limits().dt, .mass = std::vector<double>(species.size(), 0.0)};
-    std::vector<double> density;
-    for (const Species& s : species) density.push_back(s.density);
-    for (const Particle& p : all) bed.mass[std::size_t(p.species)] += species[std::size_t(p.species)].mass;
-    const Snapshot snapshot(all);
-    bed.profile = measures::particle_profile(snapshot.view(), species.size(), slabs_).solids;
-    bed.centre = measures::particle_heights(snapshot.view(), density).mean;
-    // Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
-    bed.pressure_drop = fluid_ ? fluid_->pressure_drop() : 0;
-    bed.buoyant_weight = weight_of(model_, bed.mass, slabs_.area);
     bed_height_ = measures::bed_height(bed.profile);
     files_->history.write_row(history_.row(bed, told(most_solids)));
   });
@@ -129,16 +105,14 @@ Told Observers::told(double most_solids) const {
 }
 
 void Observers::write_particles(double time) {
-  const std::vector<Particle> all = gathered_particles(model_.particles(), model_.share());
+  const measures::ParticleProfile profile = bed_sums(model_, slabs_).profile;
+  const Snapshot snapshot = gathered_snapshot(model_.particles(), model_.share());
   std::optional<Coupling::Column> column;
   if (model_.coupling() != nullptr) column = model_.coupling()->column();
   core::on_first(model_.ranks(), [&] {
-    const Snapshot snapshot(all);
-    const std::size_t species = model_.materials().species().size();
-    const measures::ParticleProfile profile = measures::particle_profile(snapshot.view(), species, slabs_);
     std::vector<std::vector<double>> rows{std::vector<double>(slabs_.count, 0.0)};
     for (std::size_t k = 0; k < slabs_.count; ++k) rows[0][k] = 1 - profile.solids.solids_fraction(k);
-    for (std::size_t j = 0; j < species; ++j) {
+    for (std::size_t j = 0; j < profile.velocity.size(); ++j) {
       rows.push_back(profile.solids.fraction[j]);
       rows.push_back(profile.velocity[j]);
       rows.push_back(profile.temperature[j]);

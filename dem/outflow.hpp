@@ -6,26 +6,35 @@
 
 #include "dem/energy_sum.hpp"
 #include "dem/particles.hpp"
+#include "dem/step_part.hpp"
 
 namespace polybed::dem {
 
 /// Particles are taken out when the list of pairs is made anew, once they lie `fall` below the bottom. The same on
 /// every rank, and on any number of ranks to the bit.
-struct Outflow {
-  double fall = 0;                   ///< m, of centres
+class Outflow final : public StepPart {
+ public:
+  /// \param fall  m, of centres
+  Outflow(double fall, std::size_t species) : number(species, 0), fall_(fall) {}
+
   std::vector<std::int64_t> number;  ///< of each species, since the start
   std::int64_t steps = 0;            ///< that all of them took together before they left
   /// What they took with them, in the unit of energy: of motion, spin and gravity, and in the springs of all contacts
   /// that they were in.
   EnergySum energy;
 
-  [[nodiscard]] bool takes(const Place& place) const { return place.x[1] < -fall; }
+  [[nodiscard]] bool takes(const Place& place) const { return place.x[1] < -fall_; }
   /// Particles of all species.
-  [[nodiscard]] std::int64_t all() const {
-    std::int64_t sum = 0;
-    for (const std::int64_t n : number) sum += n;
-    return sum;
-  }
+  [[nodiscard]] std::int64_t all() const;
+
+  std::int64_t count_leaving(const Model& model) override;
+  void take_out(Particles& particles) override;
+  [[nodiscard]] std::int64_t steps_of_gone() const override { return steps; }
+  void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;
+  void read(const Restored& from) override;
+
+ private:
+  double fall_;
 };
 
 }  // namespace polybed::dem

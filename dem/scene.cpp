@@ -8,6 +8,7 @@
 
 #include "closures/contact_pair.hpp"
 #include "closures/drag_turton_levenspiel.hpp"
+#include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case/resolve_particles.hpp"
 #include "core/start_error.hpp"
@@ -172,6 +173,15 @@ void require_room_for_images(const Box& box, double greatest_diameter, double re
               reach > 0 ? " and twice what they reach beyond contact" : "",
               sheared ? " and, as the box is sheared, twice the skin (dem.skin)" : "") +
           (k == 2 ? "" : fmt::format(" ({})", names[k])));
+}
+
+SolidsVolume volume_of(const std::vector<Particle>& particles, std::size_t species) {
+  SolidsVolume volume{std::vector<double>(species, 0.0), 0};
+  for (const Particle& p : particles) {
+    volume.all += closures::sphere_volume(p.place.radius);
+    volume.of[std::size_t(p.species)] += closures::sphere_volume(p.place.radius);
+  }
+  return volume;
 }
 
 }  // namespace polybed::dem

@@ -1,6 +1,8 @@
 // What the particle model reads from a scene: its box, gravity, units of force, skin and speeds.
 #pragma once
 
+#include <vector>
+
 #include "core/case/scene.hpp"
 #include "dem/box.hpp"
 #include "dem/contacts/materials.hpp"
@@ -17,6 +19,13 @@ namespace polybed::dem {
 /// m, how much nearer than contact two surfaces may be before the list of pairs must know them: as the case gives it,
 /// or a tenth of the least diameter.
 [[nodiscard]] double skin_of(const core::Scene& scene, const Materials& materials);
+
+/// Volume of particles, m3: of each species, and of all.
+struct SolidsVolume {
+  std::vector<double> of;
+  double all = 0;
+};
+[[nodiscard]] SolidsVolume volume_of(const std::vector<Particle>& particles, std::size_t species);
 
 /// What particles are expected to reach, m/s.
 struct Speeds {

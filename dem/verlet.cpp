@@ -33,6 +33,18 @@ struct Free {
   void account(const Particles&, std::size_t, const Kick&, double, WorkShare) const {}
 };
 
+/// A fluid whose work nobody asks for.
+struct Uncounted {
+  FluidMotion& fluid;
+
+  [[nodiscard]] FluidMotion::Kick kick(const Particles& particles, std::size_t i, double time) const {
+    return fluid.kick(particles, i, time);
+  }
+  void account(const Particles& particles, std::size_t i, const FluidMotion::Kick& kick, double, WorkShare) {
+    fluid.account_impulse(particles, i, kick);
+  }
+};
+
 void turn(Particles& particles, std::size_t i, double unit, double time) {
   Motion& m = particles.motion[i];
   const double angular = m.inverse_inertia * unit * time;
@@ -94,7 +106,11 @@ void Verlet::end_with(Particles& particles, Push&& push) {
 
 template <class Act>
 auto Verlet::with(Around around, Act&& act) const {
-  if (around.fluid != nullptr) return act(*around.fluid);
+  if (around.fluid != nullptr && around.fluid->counts_work()) return act(*around.fluid);
+  if (around.fluid != nullptr) {
+    Uncounted fluid{*around.fluid};
+    return act(fluid);
+  }
   if (around.flow != nullptr) return act(*around.flow);
   Free free{gravity_, force_.unit};
   return act(free);

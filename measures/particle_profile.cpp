@@ -16,44 +16,7 @@ double unit_for(std::int64_t count, double most) {
   return bound > 0 ? std::ldexp(1.0, std::ilogb(bound) + 1 - 62) : 1.0;
 }
 
-std::int64_t in_units(double value, double unit) { return std::int64_t(std::nearbyint(value / unit)); }
-
 double speed_squared(const std::array<double, 3>& u) { return u[0] * u[0] + u[1] * u[1] + u[2] * u[2]; }
-
-/// Number of the slab at a height; heights beyond the ends belong to the outermost ones.
-std::size_t slab_at(const Slabs& slabs, double height) {
-  return std::size_t(std::clamp(std::floor(height / slabs.thickness()), 0.0, double(slabs.count - 1)));
-}
-
-/// Adds one particle to the sums [quantity][slab] of its species.
-void add_particle(double radius, double centre, const std::array<double, 3>& u, const Slabs& slabs,
-                  const std::array<double, ParticleSums::quantities>& unit, std::int64_t* sum) {
-  const std::size_t last = slab_at(slabs, centre + radius);
-  std::int64_t below = 0;
-  for (std::size_t k = slab_at(slabs, centre - radius); k <= last; ++k) {
-    const double plane = double(k + 1) * slabs.thickness();
-    const double cap = k == last ? volume_of(radius) : sphere_volume_below(radius, centre, plane);
-    const std::int64_t up_to_here = in_units(cap, unit[0]);
-    const std::int64_t part = up_to_here - below;  // of rounded caps: the parts add up to the rounded sphere
-    below = up_to_here;
-    const double volume = double(part) * unit[0];
-    sum[k] += part;
-    for (std::size_t a = 0; a < 3; ++a) sum[(a + 1) * slabs.count + k] += in_units(volume * u[a], unit[a + 1]);
-    sum[4 * slabs.count + k] += in_units(volume * speed_squared(u), unit[4]);
-  }
-}
-
-/// A sum of numbers no greater than `most` that does not depend on their order.
-class SteadySum {
- public:
-  SteadySum(std::int64_t count, double most) : unit_(unit_for(count, most)) {}
-  void add(double value) { sum_ += in_units(value, unit_); }
-  [[nodiscard]] double value() const { return double(sum_) * unit_; }
-
- private:
-  double unit_;
-  std::int64_t sum_ = 0;
-};
 
 }  // namespace
 
@@ -62,30 +25,64 @@ double sphere_volume_below(double radius, double centre, double plane) {
   return std::numbers::pi * h * h * (3 * radius - h) / 3;
 }
 
+void ParticleExtremes::add(double volume_of_one, const std::array<double, 3>& u) {
+  ++particles;
+  volume = std::max(volume, volume_of_one);
+  for (const double component : u) momentum = std::max(momentum, volume_of_one * std::abs(component));
+  energy = std::max(energy, volume_of_one * speed_squared(u));
+}
+
 ParticleExtremes extremes_of(const core::ParticleSnapshot& particles) {
   ParticleExtremes most;
-  most.particles = std::int64_t(particles.id.size());
-  for (std::size_t i = 0; i < particles.id.size(); ++i) {
-    const double volume = volume_of(particles.radius[i]);
-    most.volume = std::max(most.volume, volume);
-    for (double u : particles.velocity[i]) most.momentum = std::max(most.momentum, volume * std::abs(u));
-    most.energy = std::max(most.energy, volume * speed_squared(particles.velocity[i]));
-  }
+  for (std::size_t i = 0; i < particles.id.size(); ++i) most.add(volume_of(particles.radius[i]), particles.velocity[i]);
   return most;
+}
+
+ParticleAdder::ParticleAdder(std::size_t species, const Slabs& slabs, const ParticleExtremes& all)
+    : slabs_(slabs.count), thickness_(slabs.thickness()) {
+  const double momentum = unit_for(all.particles, all.momentum);
+  sums_.unit = {unit_for(all.particles, all.volume), momentum, momentum, momentum, unit_for(all.particles, all.energy)};
+  for (std::size_t q = 0; q < per_unit_.size(); ++q) per_unit_[q] = 1 / sums_.unit[q];
+  sums_.sum.assign(species * ParticleSums::quantities * slabs.count, 0);
+}
+
+/// Heights beyond the ends belong to the outermost ones.
+std::size_t ParticleAdder::slab_at(double height) const {
+  return std::size_t(std::clamp(std::floor(height / thickness_), 0.0, double(slabs_ - 1)));
+}
+
+void ParticleAdder::add(std::size_t species, double radius, double centre, const std::array<double, 3>& u) {
+  if (radius != radius_) {
+    radius_ = radius;
+    whole_ = std::llrint(volume_of(radius) * per_unit_[0]);
+  }
+  std::int64_t* sum = &sums_.sum[species * ParticleSums::quantities * slabs_];
+  const double square = speed_squared(u);
+  const std::size_t last = slab_at(centre + radius);
+  std::int64_t below = 0;
+  for (std::size_t k = slab_at(centre - radius); k <= last; ++k) {
+    const double plane = double(k + 1) * thickness_;
+    // Of rounded caps: the parts add up to the rounded sphere.
+    const std::int64_t up_to_here =
+        k == last ? whole_ : std::llrint(sphere_volume_below(radius, centre, plane) * per_unit_[0]);
+    const std::int64_t part = up_to_here - below;
+    below = up_to_here;
+    const double volume = double(part) * sums_.unit[0];
+    sum[k] += part;
+    for (std::size_t a = 0; a < 3; ++a) sum[(a + 1) * slabs_ + k] += std::llrint(volume * u[a] * per_unit_[a + 1]);
+    sum[4 * slabs_ + k] += std::llrint(volume * square * per_unit_[4]);
+  }
 }
 
 ParticleSums particle_sums(const core::ParticleSnapshot& particles, std::size_t species, const Slabs& slabs,
                            const ParticleExtremes& all) {
-  ParticleSums sums;
-  const double momentum = unit_for(all.particles, all.momentum);
-  sums.unit = {unit_for(all.particles, all.volume), momentum, momentum, momentum, unit_for(all.particles, all.energy)};
-  const std::size_t block = ParticleSums::quantities * slabs.count;
-  sums.sum.assign(species * block, 0);
+  ParticleAdder adder(species, slabs, all);
   for (std::size_t i = 0; i < particles.id.size(); ++i)
-    add_particle(particles.radius[i], particles.position[i][1], particles.velocity[i], slabs, sums.unit,
-                 &sums.sum[std::size_t(particles.species[i]) * block]);
-  return sums;
+    adder.add(std::size_t(particles.species[i]), particles.radius[i], particles.position[i][1], particles.velocity[i]);
+  return adder.take();
 }
+
+SteadySum::SteadySum(std::int64_t count, double most) : per_unit_(1 / unit_for(count, most)) {}
 
 ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, const Slabs& slabs) {
   ParticleProfile profile;
@@ -134,8 +131,9 @@ ParticleHeights particle_heights(const core::ParticleSnapshot& particles, std::s
   }
   ParticleHeights heights;
   for (std::size_t j = 0; j < density.size(); ++j)
-    heights.mean.push_back(count[j] > 0 ? std::optional(height[j].value() / double(count[j])) : std::nullopt);
-  if (weight.value() > 0) heights.mean_by_mass = moment.value() / weight.value();
+    heights.mean.push_back(count[j] > 0 ? std::optional(height[j].value_of(height[j].units()) / double(count[j]))
+                                        : std::nullopt);
+  if (weight.units() > 0) heights.mean_by_mass = moment.value_of(moment.units()) / weight.value_of(weight.units());
   return heights;
 }
 

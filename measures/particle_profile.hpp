@@ -6,9 +6,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/output/particles.hpp"
@@ -35,6 +37,8 @@ struct ParticleExtremes {
   double volume = 0;    ///< V, m3
   double momentum = 0;  ///< V |u_a| along any axis a, m4/s
   double energy = 0;    ///< V |u|^2, m5/s2
+
+  void add(double volume_of_one, const std::array<double, 3>& velocity);
 };
 [[nodiscard]] ParticleExtremes extremes_of(const core::ParticleSnapshot& particles);
 
@@ -45,9 +49,28 @@ struct ParticleSums {
   std::vector<std::int64_t> sum;  ///< [species][quantity][slab]; over ranks, to be added up
 };
 
-/// The sums of these particles. What of a particle lies beyond the ends of the column, as where it is pressed into the
-/// bottom, counts for the outermost slab: a species' sum of V is that of its particles, each rounded to a unit.
-/// \param all  of the particles on all ranks, these included
+/// Makes them, particle by particle. What of a particle lies beyond the ends of the column, as where it is pressed into
+/// the bottom, counts for the outermost slab: a species' sum of V is that of its particles, each rounded to a unit.
+class ParticleAdder {
+ public:
+  /// \param all  of the particles on all ranks
+  ParticleAdder(std::size_t species, const Slabs& slabs, const ParticleExtremes& all);
+  /// \param centre  height, m
+  void add(std::size_t species, double radius, double centre, const std::array<double, 3>& velocity);
+  [[nodiscard]] ParticleSums take() { return std::move(sums_); }
+
+ private:
+  [[nodiscard]] std::size_t slab_at(double height) const;
+
+  std::size_t slabs_;
+  double thickness_;                                       ///< m
+  std::array<double, ParticleSums::quantities> per_unit_;  ///< one over the units
+  ParticleSums sums_;
+  double radius_ = 0;       ///< of the last one, m
+  std::int64_t whole_ = 0;  ///< its volume in units
+};
+
+/// Of these particles. \param all  of the particles on all ranks, these included
 [[nodiscard]] ParticleSums particle_sums(const core::ParticleSnapshot& particles, std::size_t species,
                                          const Slabs& slabs, const ParticleExtremes& all);
 
@@ -62,6 +85,20 @@ struct ParticleProfile {
 /// The same in one go, where all particles are at hand.
 [[nodiscard]] ParticleProfile particle_profile(const core::ParticleSnapshot& particles, std::size_t species,
                                                const Slabs& slabs);
+
+/// A sum of numbers no greater than `most` that does not depend on their order.
+class SteadySum {
+ public:
+  SteadySum(std::int64_t count, double most);
+  void add(double value) { sum_ += std::llrint(value * per_unit_); }
+  /// In whole units: over ranks, to be added up.
+  [[nodiscard]] std::int64_t units() const { return sum_; }
+  [[nodiscard]] double value_of(std::int64_t units) const { return double(units) / per_unit_; }
+
+ private:
+  double per_unit_;  ///< a power of two
+  std::int64_t sum_ = 0;
+};
 
 /// Heights that the thesis takes from particles rather than from a profile.
 struct ParticleHeights {

@@ -7,7 +7,7 @@
 namespace polybed::multiscale {
 
 FluidReport fluid_report(const core::Scene& scene, const dem::Coupling& coupling, const dem::FluidTotals& totals,
-                         double dt, double work) {
+                         double dt, std::optional<double> work) {
   const auto drag = scene.effects.find("drag");
   return {totals,
           coupling.kernel_width() > 0 ? "diffusion" : "bilinear",
@@ -28,7 +28,8 @@ void write_fluid(core::Json& json, const FluidReport& r) {
       .member("kernel_width_m", r.kernel_width);
   json.key("drag").begin_object().member("law", r.law).member("evaluations", r.totals.law.evaluations);
   json.member("guarded", r.totals.law.guarded).member("clamped_voidage", r.totals.law.clamped_voidage).end_object();
-  json.member("work_J", r.work).end_object();
+  if (r.work) json.member("work_J", *r.work);
+  json.end_object();
 }
 
 std::vector<std::string> fluid_lines(const FluidReport& r) {
@@ -43,10 +44,10 @@ std::vector<std::string> fluid_lines(const FluidReport& r) {
       fmt::format("fluid: {} steps of {:.3g} s, every {} of the particles', {:.3g} iterations each, residual up to "
                   "{:.1e}, Courant number up to {:.2g}; {}",
                   t.steps, r.step, r.every, per(t.iterations, t.steps), t.worst_residual, t.greatest_courant, kernel),
-      fmt::format("drag {}: {:.3g} evaluations, {:.3g} % guarded, {:.3g} % at the bounds of voidage; work of the "
-                  "fluid {:.3g} J",
-                  r.law, double(t.law.evaluations), 100 * per(t.law.guarded, t.law.evaluations),
-                  100 * per(t.law.clamped_voidage, t.law.evaluations), r.work)};
+      fmt::format("drag {}: {:.3g} evaluations, {:.3g} % guarded, {:.3g} % at the bounds of voidage{}", r.law,
+                  double(t.law.evaluations), 100 * per(t.law.guarded, t.law.evaluations),
+                  100 * per(t.law.clamped_voidage, t.law.evaluations),
+                  r.work ? fmt::format("; work of the fluid {:.3g} J", *r.work) : "")};
 }
 
 }  // namespace polybed::multiscale

@@ -1,6 +1,7 @@
 // What a run of particles says of the fluid between them: in run.json and at its end on the screen.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,17 @@ namespace polybed::multiscale {
 
 struct FluidReport {
   dem::FluidTotals totals;
-  std::string kernel, law;  ///< diffusion | bilinear; of drag, or none
-  bool shared = false;      ///< each rank solves for a block of the fluid, not for all of it
-  double kernel_width = 0;  ///< m; 0 of bilinear weights
-  int every = 1;            ///< steps of the particles in one of the fluid
-  double step = 0;          ///< of the fluid, s
-  double work = 0;          ///< of the fluid on the particles, its buoyancy included, J
+  std::string kernel, law;     ///< diffusion | bilinear; of drag, or none
+  bool shared = false;         ///< each rank solves for a block of the fluid, not for all of it
+  double kernel_width = 0;     ///< m; 0 of bilinear weights
+  int every = 1;               ///< steps of the particles in one of the fluid
+  double step = 0;             ///< of the fluid, s
+  std::optional<double> work;  ///< of the fluid on the particles, its buoyancy included, J; absent without dem.ledger
 };
 
 /// \param dt  of the particles, s  \param work  of the fluid on all particles, J
 [[nodiscard]] FluidReport fluid_report(const core::Scene& scene, const dem::Coupling& coupling,
-                                       const dem::FluidTotals& totals, double dt, double work);
+                                       const dem::FluidTotals& totals, double dt, std::optional<double> work);
 
 /// The member "fluid" of an object that is open.
 void write_fluid(core::Json& json, const FluidReport& report);

@@ -31,7 +31,7 @@ void build(const fs::path& path, OutputFile& file, std::span<const BlockData> da
     file.make(d.name, d.slab.shape, d.packing, d.chunk.empty() ? d.slab.shape : d.chunk);
     room += bytes_of(d);
   }
-  const Bytes bytes = file.bytes();
+  const std::span<const std::byte> bytes = file.view();
   claim_file(path, bytes, bytes.size() + room);
 }
 

@@ -75,13 +75,15 @@ void refuse_slash(const std::string& name) {
     throw FileError(fmt::format("'{}' cannot name a part of a checkpoint", name));
 }
 
-OutputFile built(const Checkpoint& checkpoint) {
+/// The arrays that are in no part go as they are written: there may be no memory for all of them twice.
+OutputFile built(Checkpoint& checkpoint) {
   OutputFile file(kind);
   for (const char* group : {"arrays", "fields", "numbers", "integers", "texts"}) file.make_group(group);
-  for (const auto& [name, values] : checkpoint.arrays) {
+  for (auto& [name, values] : checkpoint.arrays) {
     refuse_slash(name);
     if (checkpoint.parts.contains(name)) continue;
     file.write("arrays/" + name, {values.size()}, values);
+    std::vector<double>().swap(values);
   }
   for (const auto& [name, value] : checkpoint.numbers) {
     refuse_slash(name);
@@ -139,16 +141,14 @@ std::vector<BlockData> block_data(const Checkpoint& checkpoint) {
 }
 
 /// Writes a whole checkpoint under a name: in one go from one rank, together from several.
-void write_fresh(const fs::path& fresh, const Checkpoint& checkpoint, const Ranks* ranks) {
+void write_fresh(const fs::path& fresh, Checkpoint& checkpoint, const Ranks* ranks) {
   const std::vector<BlockData> data = block_data(checkpoint);
   std::optional<OutputFile> file;
   on_first(ranks, [&] { file.emplace(built(checkpoint)); });
   if (ranks == nullptr) {
     write_blocks(*file, data);
-    Bytes bytes = file->bytes();
-    const Seal seal = seal_of(bytes.size(), crc64(bytes));
-    bytes.insert(bytes.end(), seal.begin(), seal.end());
-    write_atomically(fresh, bytes);
+    const std::span<const std::byte> bytes = file->view();
+    write_atomically(fresh, bytes, seal_of(bytes.size(), crc64(bytes)));
     return;
   }
   const fs::path temporary = fresh.string() + ".temporary";
@@ -218,7 +218,7 @@ fs::path previous_checkpoint(const fs::path& path) {
   return path.parent_path() / (path.stem().string() + ".previous" + path.extension().string());
 }
 
-void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint, const Ranks* ranks) {
+void write_checkpoint(const fs::path& path, Checkpoint checkpoint, const Ranks* ranks) {
   const fs::path fresh = path.string() + ".new";
   write_fresh(fresh, checkpoint, ranks);
   on_first(ranks, [&] {

@@ -61,7 +61,7 @@ void require_numbers(const Checkpoint& checkpoint);
 /// Writes a checkpoint: temporary name, flushed, renamed; the one before stays as previous_checkpoint(path).
 /// At no moment is there no whole checkpoint. Throws FileError (disk full, no permission; a name with '/').
 /// \param ranks  that share the column; what is in no part is taken from the first. Collective.
-void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const Ranks* ranks = nullptr);
+void write_checkpoint(const std::filesystem::path& path, Checkpoint checkpoint, const Ranks* ranks = nullptr);
 
 /// Reads a checkpoint without what is in parts, to the bit. Throws FileError if the file is missing, cut short, damaged
 /// or of another version; the message names the previous checkpoint if that one is whole.

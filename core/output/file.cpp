@@ -26,6 +26,25 @@ void require_room_for_a_file() {
   ::munmap(address, room);
 }
 
+/// Whether numbers repeat themselves: of a sample less than half are new.
+template <class Number>
+bool repeats(std::span<const Number> values) {
+  constexpr std::size_t runs = 32, length = 64;
+  std::vector<Number> sample;
+  for (std::size_t run = 0; run < runs; ++run) {
+    const std::size_t begin = values.size() / runs * run;
+    const auto piece = values.subspan(begin, std::min(length, values.size() - begin));
+    sample.insert(sample.end(), piece.begin(), piece.end());
+  }
+  std::sort(sample.begin(), sample.end());
+  return 2 * (std::unique(sample.begin(), sample.end()) - sample.begin()) < std::ptrdiff_t(sample.size());
+}
+
+template <class Number>
+bool is_packed(Packing packing, std::span<const Number> values) {
+  return packing != Packing::plain && !values.empty() && (packing != Packing::if_small || repeats(values));
+}
+
 }  // namespace
 
 struct OutputFile::State {
@@ -71,7 +90,7 @@ struct OutputFile::State {
     if (values.size() != product(shape))
       throw FileError(fmt::format("{}: {} numbers do not fill its shape", name, values.size()));
     const Handle space = simple_space(shape), properties = dataset_properties();
-    if (packing != Packing::plain && !values.empty() && !shape.empty()) set_packing(properties, chunk_shape(shape));
+    if (is_packed(packing, values) && !shape.empty()) set_packing(properties, chunk_shape(shape));
     const Handle data = make_dataset(name, stored, space, properties);
     if (values.empty()) return;
     checked(name, [&] { return H5Dwrite(data, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
@@ -345,14 +364,14 @@ std::vector<std::string> OutputFile::texts_attribute(const std::string& object, 
   return texts;
 }
 
-Bytes OutputFile::bytes() const {
+std::span<const std::byte> OutputFile::view() const {
   checked("the file", [&] { return H5Fflush(state_->file, H5F_SCOPE_GLOBAL); });
   const auto size = checked("the file", [&] { return H5Fget_file_image(state_->file, nullptr, 0); });
-  Bytes image(static_cast<std::size_t>(size));
-  checked("the file", [&] { return H5Fget_file_image(state_->file, image.data(), image.size()); });
-  return image;
+  void* image = nullptr;  // where the driver of files in memory keeps the address
+  checked("the file", [&] { return H5Fget_vfd_handle(state_->file, H5P_DEFAULT, &image); });
+  return {*static_cast<const std::byte**>(image), std::size_t(size)};
 }
 
-void OutputFile::save(const std::filesystem::path& path) const { write_atomically(path, bytes()); }
+void OutputFile::save(const std::filesystem::path& path) const { write_atomically(path, view()); }
 
 }  // namespace polybed::core

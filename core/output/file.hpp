@@ -31,6 +31,7 @@ struct DataSet {
 enum class Packing {
   plain,        ///< as it is
   small,        ///< deflate and shuffle
+  if_small,     ///< the same where a sample of the numbers repeats itself: others hardly get smaller, and it takes long
   small_single  ///< the same in single precision, for pictures
 };
 
@@ -98,8 +99,8 @@ class OutputFile {
   [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] std::vector<std::string> texts_attribute(const std::string& object, const std::string& name) const;
 
-  /// The file as bytes.
-  [[nodiscard]] Bytes bytes() const;
+  /// The file as bytes, where it stands in memory: until it is changed.
+  [[nodiscard]] std::span<const std::byte> view() const;
   /// Puts the file in place on the disk; it can be changed and saved again.
   void save(const std::filesystem::path& path) const;
 

@@ -39,8 +39,9 @@ int write_all(const Descriptor& file, std::span<const std::byte> bytes) {
 }
 
 /// 0 or the reason why not all bytes reached the disk.
-int write_and_flush(Descriptor& file, std::span<const std::byte> bytes) {
-  if (const int reason = write_all(file, bytes); reason != 0) return reason;
+int write_and_flush(Descriptor& file, std::span<const std::byte> bytes, std::span<const std::byte> more = {}) {
+  for (const auto& part : {bytes, more})
+    if (const int reason = write_all(file, part); reason != 0) return reason;
   if (::fsync(file.number()) != 0) return errno;
   return file.close();
 }
@@ -104,10 +105,10 @@ void LineFile::append(std::string_view line) {
   if (const int reason = write_all(file_, bytes_of(line)); reason != 0) cannot("write", path_, reason);
 }
 
-void write_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+void write_atomically(const fs::path& path, std::span<const std::byte> bytes, std::span<const std::byte> more) {
   const fs::path temporary = path.string() + ".temporary";
   Descriptor file = new_file(temporary);
-  int reason = write_and_flush(file, bytes);
+  int reason = write_and_flush(file, bytes, more);
   if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
   if (reason != 0) {
     ::unlink(temporary.c_str());

@@ -19,7 +19,9 @@ using Bytes = std::vector<std::byte>;
 /// Replaces the file `path` by `bytes`: written under a temporary name in the same directory, flushed to the
 /// disk, renamed. Whatever interrupts it, `path` holds either all of the old or all of the new content; on
 /// failure (disk full, no permission) the temporary file is removed and FileError thrown.
-void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// \param more  what follows the bytes
+void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                      std::span<const std::byte> more = {});
 void write_atomically(const std::filesystem::path& path, std::string_view text);
 
 /// Puts a file that lies complete under another name of the same directory in place: flushed to the disk, renamed. On

@@ -71,10 +71,8 @@ void check_finite(const ParticleSnapshot& p, double time) {
 }
 
 void write_vectors(OutputFile& file, const std::string& name, Vectors values) {
-  std::vector<double> flat;
-  flat.reserve(3 * values.size());
-  for (const auto& value : values) flat.insert(flat.end(), value.begin(), value.end());
-  file.write(name, {values.size(), 3}, flat, Packing::small);
+  const std::span<const double> flat(values.empty() ? nullptr : values.front().data(), 3 * values.size());
+  file.write(name, {values.size(), 3}, flat, Packing::if_small);
 }
 
 /// ParaView shows points only where a list says which points are shown: all of them.

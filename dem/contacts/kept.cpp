@@ -5,16 +5,6 @@
 
 namespace polybed::dem {
 
-namespace {
-
-/// Ids of a pair; of a wall: -1 - its number.
-std::pair<std::int64_t, std::int64_t> ids_of(const Contacts::Pair& pair, const Particles& particles, bool walls) {
-  return {particles.id[std::size_t(pair.first)],
-          walls ? -1 - std::int64_t(pair.second) : particles.id[std::size_t(pair.second)]};
-}
-
-}  // namespace
-
 void keep(const Contacts& contacts, const Particles& particles, bool walls, std::vector<KeptContact>& kept) {
   for (const std::int32_t p : contacts.touching) {
     const auto [low, high] = ids_of(contacts.pairs[std::size_t(p)], particles, walls);

@@ -19,6 +19,13 @@ struct KeptContact {
   std::array<double, ContactBatch::most_memory> memory;
 };
 
+/// Ids of a pair; of a wall: -1 - its number.
+[[nodiscard]] inline std::pair<std::int64_t, std::int64_t> ids_of(const Contacts::Pair& pair,
+                                                                  const Particles& particles, bool walls) {
+  return {particles.id[std::size_t(pair.first)],
+          walls ? -1 - std::int64_t(pair.second) : particles.id[std::size_t(pair.second)]};
+}
+
 /// Adds what is kept of the contacts that touch.
 void keep(const Contacts& contacts, const Particles& particles, bool walls, std::vector<KeptContact>& kept);
 

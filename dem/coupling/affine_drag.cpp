@@ -1,16 +1,17 @@
 #include "dem/coupling/affine_drag.hpp"
 
-#include <utility>
-
 #include "closures/drag.hpp"
 #include "closures/relevance.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
 
-AffineDrag::AffineDrag(const core::Scene& scene, const Materials& materials, std::vector<double> share, double voidage,
-                       FixedPoint force, FixedPoint energy)
+AffineDrag::AffineDrag(const core::Scene& scene, const Materials& materials, const SolidsVolume& solids,
+                       const Vector& box, FixedPoint force, FixedPoint energy)
     : shear_rate_(scene.dem.shear_rate), force_(force), energy_(energy) {
+  const double voidage = 1 - solids.all / (box[0] * box[1] * box[2]);
+  std::vector<double> share = solids.of;
+  for (double& x : share) x /= solids.all;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const closures::DragLaw law = closures::drag_law(core::law_of(scene, "drag"), closures::Guard::on);
   std::vector<double> diameter;

@@ -8,19 +8,20 @@
 #include "dem/box.hpp"
 #include "dem/contacts/materials.hpp"
 #include "dem/coupling/fluid_motion.hpp"
-#include "dem/energy_sum.hpp"
+#include "dem/kept_sums.hpp"
 #include "dem/particles.hpp"
+#include "dem/scene.hpp"
+#include "dem/step_part.hpp"
 
 namespace polybed::dem {
 
 /// Drag k_j (gamma y e_x - U) on each particle, k_j = 3 pi mu D_j eps f_j with f_j of the whole box's composition and
 /// voidage at no slip: the part of the wet stress boxes that stands for the fluid they have not. With k constant the
 /// motion under it is known: it is integrated exactly, so that no step is too long for it. A box without it holds none.
-class AffineDrag {
+class AffineDrag final : public StepPart {
  public:
-  /// \param share  of each species in the volume of all  \param voidage  of the box  \param force, energy  units of
-  /// the forces and of the work
-  AffineDrag(const core::Scene& scene, const Materials& materials, std::vector<double> share, double voidage,
+  /// \param solids  in the box  \param force, energy  units of the forces and of the work
+  AffineDrag(const core::Scene& scene, const Materials& materials, const SolidsVolume& solids, const Vector& box,
              FixedPoint force, FixedPoint energy);
 
   /// k_j of a species, kg/s.
@@ -51,20 +52,23 @@ class AffineDrag {
     work_.add(work / m.inverse_mass * energy_.per_unit);
   }
 
-  /// Work on this rank's particles since the start, at rest with the bottom of the box.
-  [[nodiscard]] const EnergySum& work() const { return work_; }
-  void set_work(const EnergySum& work) { work_ = work; }
+  void surround(Around& around) override { around.flow = this; }
+  void count(CountedEnergy& energy) const override { energy.fluid_work.add(work_); }
+  void write(core::Checkpoint& checkpoint, const Particles&, const core::Ranks* ranks) const override {
+    write_sum(checkpoint, ranks, "fluid_work", work_);
+  }
+  void read(const Restored& from) override { work_ = sum_on_first(from.ranks, from.checkpoint, "fluid_work"); }
 
  private:
   std::vector<double> drag_;  ///< k_j, kg/s
   double shear_rate_;
   FixedPoint force_, energy_;
-  EnergySum work_;
+  EnergySum work_;  ///< on this rank's particles since the start, at rest with the bottom of the box
 };
 
 /// Whether the drag of a scene is that of a sheared box.
 [[nodiscard]] inline bool has_affine_drag(const core::Scene& scene) {
-  return scene.dem.shear_rate != 0 && core::law_of(scene, "drag") != "none";
+  return scene.fluid.present() && scene.dem.shear_rate != 0 && core::law_of(scene, "drag") != "none";
 }
 
 }  // namespace polybed::dem

@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
 #include "dem/coupling/coupling.hpp"
+#include "dem/kept_sums.hpp"
+#include "dem/parallel/gathered.hpp"
 
 namespace polybed::dem {
 
@@ -51,7 +55,88 @@ void Coupling::take_own(const Field& column, Field& own) const {
             column[std::size_t(whole.index(i + block.before[0], j + block.before[1], k + block.before[2]))];
 }
 
-void Coupling::write(core::Checkpoint& checkpoint) const {
+namespace {
+
+constexpr std::size_t load_width = 11;
+
+void write_loads(core::Checkpoint& checkpoint, const std::vector<KeptLoad>& loads) {
+  std::vector<double>& out = checkpoint.arrays["fluid_loads"];
+  for (const auto& [id, f] : loads) {
+    out.insert(out.end(), f.velocity.begin(), f.velocity.end());
+    out.insert(out.end(), f.force.begin(), f.force.end());
+    out.insert(out.end(), f.impulse.begin(), f.impulse.end());
+    out.push_back(f.drag);
+    out.push_back(f.added);
+  }
+}
+
+FluidLoad read_load(const double* in) {
+  return {{in[0], in[1], in[2]}, in[9], {in[3], in[4], in[5]}, in[10], {in[6], in[7], in[8]}};
+}
+
+}  // namespace
+
+void Coupling::write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const {
+  write_loads(checkpoint, gathered_loads(keep(particles, motion_.load), ranks_));
+  if (sides_.present()) {
+    KeptRows rows = keep(particles, sides_.rows());
+    checkpoint.arrays["fluid_sides"] = gathered_rows(std::move(rows.numbers), rows.width, 1, ranks_);
+  }
+  write_fields(checkpoint);
+  write_sum(checkpoint, ranks, "fluid_work", motion_.work());
+}
+
+void Coupling::require(const core::Checkpoint& checkpoint) const {
+  require_sum(checkpoint, "fluid_work");
+  (void)checkpoint.integer("fluid_steps");
+  (void)checkpoint.array("fluid_loads");
+}
+
+void Coupling::read(const Restored& from) {
+  const bool with_fluid =
+      core::on_any_rank(from.ranks, core::is_first(from.ranks) && from.checkpoint.arrays.contains("fluid_loads"));
+  motion_.load.assign(from.particles.owned, FluidLoad{});
+  sides_.rows().clear(from.particles.owned);
+  if (with_fluid) {
+    read_loads(from);
+    read_fields(from.checkpoint);
+    motion_.set_work(sum_on_first(from.ranks, from.checkpoint, "fluid_work"));
+  }
+  if (from.same_run && sides_.present()) read_sides(from);
+}
+
+void Coupling::read_loads(const Restored& from) {
+  std::vector<double> loads(from.all.size() * load_width);
+  core::on_first(from.ranks, [&] {
+    if (from.checkpoint.array("fluid_loads").size() != loads.size())
+      core::refuse_checkpoint("fluid_loads is not of these particles");
+    loads = from.checkpoint.array("fluid_loads");
+  });
+  core::take_from_first(from.ranks, loads);
+  std::unordered_map<std::int64_t, std::size_t> row;
+  for (std::size_t n = 0; n < from.all.size(); ++n) row[from.all[n].id] = n;
+  for (std::size_t i = 0; i < from.particles.owned; ++i)
+    motion_.load[i] = read_load(loads.data() + row.at(from.particles.id[i]) * load_width);
+}
+
+/// What side forces had kept of the particles; of a run that had none those without a memory begin with nothing.
+void Coupling::read_sides(const Restored& from) {
+  SideRows& rows = sides_.rows();
+  const bool any =
+      core::on_any_rank(from.ranks, core::is_first(from.ranks) && from.checkpoint.arrays.contains("fluid_sides"));
+  if (!any && rows.width == SideRows::force_size) return;
+  KeptRows kept{rows.width + 1, std::vector<double>(from.all.size() * (rows.width + 1))};
+  core::on_first(from.ranks, [&] {
+    const auto found = from.checkpoint.arrays.find("fluid_sides");
+    if (found == from.checkpoint.arrays.end() || found->second.size() != kept.numbers.size())
+      throw core::FileError("the checkpoint lacks what a force on particles keeps of them: it is of other [effects]");
+    kept.numbers = found->second;
+  });
+  core::take_from_first(from.ranks, kept.numbers);
+  recall(kept, from.particles, rows);
+}
+
+void Coupling::write_fields(core::Checkpoint& checkpoint) const {
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
     checkpoint.arrays[fmt::format("fluid_velocity_{}", a)] = of_column(flow_.state().velocity[a]);
   checkpoint.arrays["fluid_pressure"] = of_column(flow_.state().pressure);
@@ -61,7 +146,7 @@ void Coupling::write(core::Checkpoint& checkpoint) const {
   checkpoint.integers["fluid_steps"] = std::int64_t(steps_);
 }
 
-void Coupling::read(const core::Checkpoint& checkpoint) {
+void Coupling::read_fields(const core::Checkpoint& checkpoint) {
   Field column = core::make_field(core::whole_column(flow_.grid()));
   const auto take = [&](const std::string& name, double least, double most, Field& own) {
     core::on_first(ranks_.get(), [&] {

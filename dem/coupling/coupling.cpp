@@ -62,7 +62,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       phase_(flow_.grid(), has_inertia()),
       scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
       gather_(core::whole_column(flow_.grid()), diameters(materials)),
-      motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy),
+      motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy, scene.dem.ledger),
       every_(scene.dem.fluid_every),
       held_(scene.dem.held),
       dt_(dt) {
@@ -79,7 +79,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
 
 Coupling::~Coupling() = default;
 
-void Coupling::begin(const Particles& particles) {
+void Coupling::begin(Particles& particles) {
   motion_.load.assign(particles.owned, FluidLoad{});
   take_fields();
   collect(particles);
@@ -89,7 +89,8 @@ void Coupling::begin(const Particles& particles) {
   sides_.begin(particles, gather_, motion_.load);
 }
 
-void Coupling::find_forces(const Particles& particles) {
+void Coupling::find_forces(const Particles& particles, std::uint64_t timed) {
+  const auto scope = timers_.scope("fluid forces", timed);
   forces_.find(particles, gather_, motion_.load, own());
   sides_.find(particles, gather_, motion_.load);
 }
@@ -100,6 +101,10 @@ void Coupling::hold(const Particles& particles) {
     for (std::size_t k = 0; k < 3; ++k) f.impulse[k] += f.drag * dt_ * f.velocity[k];
   }
   sides_.hold(motion_.load);
+}
+
+void Coupling::end_step(Particles& particles, std::int64_t steps, double time) {
+  if (due(steps)) advance(particles, time);
 }
 
 void Coupling::advance(Particles& particles, double t) {

@@ -15,15 +15,17 @@
 #include "core/timers.hpp"
 #include "dem/coupling/fluid_motion.hpp"
 #include "dem/coupling/gather.hpp"
+#include "dem/coupling/kept_loads.hpp"
 #include "dem/coupling/particle_forces.hpp"
 #include "dem/coupling/scatter.hpp"
 #include "dem/effects/side_forces.hpp"
+#include "dem/step_part.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/smoothing.hpp"
 
 namespace polybed::dem {
 
-class Coupling {
+class Coupling final : public StepPart {
  public:
   struct Units {
     FixedPoint force, energy;  ///< N, J
@@ -32,25 +34,33 @@ class Coupling {
   /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume, count  of all particles, m3
   Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
            core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count);
-  ~Coupling();
+  ~Coupling() override;
 
-  /// The fluid between the particles at the start of a run. Collective, as are advance and write.
-  void begin(const Particles& particles);
-  /// Collective: the particles have changed ranks.
-  void settle_in(const Particles& particles);
-  /// Loads of the particles where they are now.
-  void find_forces(const Particles& particles);
-  /// What the fluid does to their spins in a step.
-  void turn(Particles& particles) { sides_.turn(particles, motion_); }
-  /// Whether the fluid takes its step after so many of the particles.
-  [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
-  /// Step of the particles from now on, s; only between steps of the fluid, and without side forces, which know theirs.
-  void set_dt(double dt) { dt_ = dt; }
-  /// The fluid's step that ends at time t, s; each particle then receives the impulse of the change of the fluid.
-  /// does to them over it.
-  void advance(Particles& particles, double t);
+  void surround(Around& around) override { around.fluid = &motion_; }
+  /// The fluid between the particles at the start of a run.
+  void begin(Particles& particles) override;
+  void begin_from_other(Particles& particles) override { begin(particles); }
   /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
-  void hold(const Particles& particles);
+  void hold(const Particles& particles) override;
+  /// Loads of the particles where they are now.
+  void find_forces(const Particles& particles, std::uint64_t timed) override;
+  /// What the fluid does to their spins in a step.
+  void turn(Particles& particles) override { sides_.turn(particles, motion_); }
+  /// The fluid's step, if it is due; each particle then receives the impulse of the change of the fluid.
+  void end_step(Particles& particles, std::int64_t steps, double time) override;
+  void send_ahead(Exchange& exchange, const Particles& particles) override;
+  void settle_in(const Particles& particles) override;
+  /// 5.5 was measured (docs/theory/parallel.md).
+  [[nodiscard]] std::int32_t work_of_particle() const override { return 5; }
+  /// Only between steps of the fluid, and without side forces, which know the length of theirs.
+  [[nodiscard]] bool may_shorten(std::int64_t steps) const override { return due(steps) && !sides_.present(); }
+  void set_dt(double dt) override { dt_ = dt; }
+  void restart() override { flow_.forget(); }
+  void count(CountedEnergy& energy) const override { energy.fluid_work.add(motion_.work()); }
+  void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;
+  void require(const core::Checkpoint& checkpoint) const override;
+  /// The fluid of a checkpoint, and what it does to the particles; or, where that had none, as at a start.
+  void read(const Restored& from) override;
 
   [[nodiscard]] FluidMotion& motion() { return motion_; }
   [[nodiscard]] const FluidMotion& motion() const { return motion_; }
@@ -79,12 +89,13 @@ class Coupling {
   /// Steps of the fluid since the start.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
-  /// What comes next does not depend on earlier solves.
-  void restart() { flow_.forget(); }
-  void write(core::Checkpoint& checkpoint) const;
-  void read(const core::Checkpoint& checkpoint);
-
  private:
+  [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
+  void advance(Particles& particles, double t);
+  void write_fields(core::Checkpoint& checkpoint) const;
+  void read_loads(const Restored& from);
+  void read_fields(const core::Checkpoint& checkpoint);
+  void read_sides(const Restored& from);
   void collect(const Particles& particles);
   void require_voidage() const;
   void smooth(core::FaceField& field) const;
@@ -121,6 +132,8 @@ class Coupling {
   Gather gather_;
   std::optional<OwnShare> own_;  ///< absent: a particle is part of what it sees
   FluidMotion motion_;
+  std::vector<KeptLoad> loads_on_the_way_;  ///< while particles change ranks
+  KeptRows sides_on_the_way_;
   int every_;
   bool held_;
   double dt_;  ///< of the particles, s

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dem/coupling/coupling.hpp"
+#include "dem/parallel/exchange.hpp"
 #include "fluid/vorticity.hpp"
 
 namespace polybed::dem {
@@ -46,7 +47,18 @@ void Coupling::find_vorticity(core::FaceField velocity) {
   fluid::find_vorticity(flow_.grid(), velocity, vorticity_);
 }
 
+void Coupling::send_ahead(Exchange& exchange, const Particles& particles) {
+  loads_on_the_way_ = keep(particles, motion_.load);
+  exchange.send_ahead(particles, loads_on_the_way_);
+  sides_on_the_way_ = keep(particles, sides_.rows());
+  exchange.send_ahead(particles, sides_on_the_way_);
+}
+
 void Coupling::settle_in(const Particles& particles) {
+  recall(loads_on_the_way_, particles, motion_.load);
+  recall(sides_on_the_way_, particles, sides_.rows());
+  loads_on_the_way_ = {};
+  sides_on_the_way_ = {};
   if (!exchange_) return;
   exchange_->choose(particles);
   fetch();

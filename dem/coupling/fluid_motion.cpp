@@ -3,8 +3,8 @@
 namespace polybed::dem {
 
 FluidMotion::FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force,
-                         FixedPoint energy)
-    : gravity_(gravity), force_(force), energy_(energy) {
+                         FixedPoint energy, bool counts_work)
+    : gravity_(gravity), force_(force), energy_(energy), counts_work_(counts_work) {
   for (const Species& species : materials.species()) {
     mass_.push_back(species.mass);
     Vector net = gravity;

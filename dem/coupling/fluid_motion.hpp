@@ -47,7 +47,9 @@ struct WorkShare {
 class FluidMotion {
  public:
   /// \param fluid_density  kg/m3  \param gravity  m/s2  \param force, energy  units of loads and of the work
-  FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force, FixedPoint energy);
+  /// \param counts_work  whether the fluid's work is summed
+  FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force, FixedPoint energy,
+              bool counts_work = true);
 
   /// What happens to a particle in a time h under a load, the fluid, and its weight less the displaced fluid's.
   struct Kick {
@@ -70,15 +72,18 @@ class FluidMotion {
     }
     return kick;
   }
-  /// Keeps what a kick takes from the fluid, before the velocity changes.
-  void account(const Particles& particles, std::size_t i, const Kick& kick, double h, WorkShare share) {
-    const Motion& m = particles.motion[i];
+  /// Keeps what a kick takes from the fluid, before the velocity changes: the impulse alone, or its work too.
+  void account_impulse(const Particles& particles, std::size_t i, const Kick& kick) {
     FluidLoad& f = load[i];
-    const double mass = mass_[std::size_t(particles.species[i])], inertia = mass + f.added;
-    const double unit = force_.unit * h;
+    const double inertia = mass_[std::size_t(particles.species[i])] + f.added;
+    for (std::size_t k = 0; k < 3; ++k) f.impulse[k] += inertia * (kick.dv[k] - kick.free[k]) - f.added * kick.dv[k];
+  }
+  void account(const Particles& particles, std::size_t i, const Kick& kick, double h, WorkShare share) {
+    account_impulse(particles, i, kick);
+    const Motion& m = particles.motion[i];
+    const double mass = mass_[std::size_t(particles.species[i])], unit = force_.unit * h;
     double work = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      f.impulse[k] += inertia * (kick.dv[k] - kick.free[k]) - f.added * kick.dv[k];
       const double v = m.v[k], dv = kick.dv[k], contacts = double(particles.load[i].force[k]) * unit;
       work += (v + 0.5 * dv) * mass * dv - (v + share.weight * dv) * mass * (gravity_[k] * h) -
               (v + share.load * dv) * contacts;
@@ -95,8 +100,9 @@ class FluidMotion {
   /// Other work of the fluid, J.
   void account_work(double work) { work_.add(work * energy_.per_unit); }
 
-  /// Work of the fluid on this rank's particles since the start, its buoyancy included.
-  [[nodiscard]] const EnergySum& work() const { return work_; }
+  /// Work of the fluid on this rank's particles since the start, its buoyancy included; 0 where it is not counted.
+  [[nodiscard]] EnergySum work() const { return counts_work_ ? work_ : EnergySum(); }
+  [[nodiscard]] bool counts_work() const { return counts_work_; }
   void set_work(const EnergySum& work) { work_ = work; }
   [[nodiscard]] const Vector& net_gravity(std::int32_t species) const { return net_gravity_[std::size_t(species)]; }
 
@@ -107,6 +113,7 @@ class FluidMotion {
   std::vector<double> mass_;         ///< of each species, kg
   std::vector<Vector> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
   FixedPoint force_, energy_;
+  bool counts_work_;
   EnergySum work_;
 };
 

@@ -1,8 +1,7 @@
 #include "dem/parallel/gathered.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "core/numerics/messages.hpp"
 
@@ -22,14 +21,93 @@ std::vector<Item> on_first(const std::vector<Item>& own, const std::shared_ptr<c
   return all;
 }
 
+/// What the files show of a particle.
+struct Shown {
+  std::int64_t id;
+  std::int32_t species;
+  double radius;
+  Vector x, v, w;
+};
+
+Shown shown(const Particles& particles, std::size_t i) {
+  const Place& place = particles.place[i];
+  const Motion& m = particles.motion[i];
+  return {particles.id[i], particles.species[i], place.radius, place.x, m.v, m.w};
+}
+
+/// \param of  Shown of a number
+template <class Of>
+Snapshot snapshot_of(std::size_t count, Of&& of) {
+  std::vector<std::pair<std::int64_t, std::size_t>> order(count);
+  for (std::size_t n = 0; n < count; ++n) order[n] = {of(n).id, n};
+  std::sort(order.begin(), order.end());
+  Snapshot all;
+  all.id.reserve(count);
+  all.species.reserve(count);
+  all.radius.reserve(count);
+  for (auto* vectors : {&all.position, &all.velocity, &all.spin}) vectors->reserve(count);
+  for (const auto& [id, n] : order) {
+    const Shown& p = of(n);
+    all.id.push_back(id);
+    all.species.push_back(p.species);
+    all.radius.push_back(p.radius);
+    all.position.push_back(p.x);
+    all.velocity.push_back(p.v);
+    all.spin.push_back(p.w);
+  }
+  return all;
+}
+
+/// A row, told by its ids.
+struct Row {
+  double low, high;
+  std::size_t at;  ///< number in the vector
+
+  [[nodiscard]] bool same(const Row& other) const { return low == other.low && high == other.high; }
+};
+
+/// Moves rows to where `from` says, within the vector: there may be no memory for a second one.
+void permute(std::vector<double>& rows, std::size_t width, std::vector<Row>& from) {
+  std::vector<double> first(width);
+  for (std::size_t n = 0; n < from.size(); ++n) {
+    if (from[n].at == n) continue;
+    std::copy_n(&rows[n * width], width, first.begin());
+    std::size_t to = n;
+    while (from[to].at != n) {
+      const std::size_t next = std::exchange(from[to].at, to);
+      std::copy_n(&rows[next * width], width, &rows[to * width]);
+      to = next;
+    }
+    std::copy_n(first.begin(), width, &rows[to * width]);
+    from[to].at = to;
+  }
+}
+
+/// Sorted by the ids that rows begin with, equal ones once.
+void put_in_order(std::vector<double>& rows, std::size_t width, std::size_t ids) {
+  std::vector<Row> order(rows.size() / width);
+  for (std::size_t n = 0; n < order.size(); ++n) order[n] = {rows[n * width], ids > 1 ? rows[n * width + 1] : 0, n};
+  std::sort(order.begin(), order.end(),
+            [](const Row& a, const Row& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  permute(rows, width, order);
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    if (n > 0 && order[n].same(order[n - 1])) continue;
+    if (kept != n) std::copy_n(&rows[n * width], width, &rows[kept * width]);
+    ++kept;
+  }
+  rows.resize(kept * width);
+}
+
 }  // namespace
 
-std::vector<Particle> gathered_particles(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks) {
-  std::vector<Particle> own;
-  for (std::size_t i = 0; i < particles.owned; ++i) own.push_back(particles.at(i));
-  std::vector<Particle> all = on_first(own, ranks);
-  std::sort(all.begin(), all.end(), [](const Particle& a, const Particle& b) { return a.id < b.id; });
-  return all;
+Snapshot gathered_snapshot(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks) {
+  if (!ranks) return snapshot_of(particles.owned, [&](std::size_t i) { return shown(particles, i); });
+  std::vector<Shown> own;
+  own.reserve(particles.owned);
+  for (std::size_t i = 0; i < particles.owned; ++i) own.push_back(shown(particles, i));
+  const std::vector<Shown> all = on_first(own, ranks);
+  return snapshot_of(all.size(), [&](std::size_t i) -> const Shown& { return all[i]; });
 }
 
 std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
@@ -39,23 +117,12 @@ std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
   return all;
 }
 
-KeptRows gathered_rows(const KeptRows& rows, const std::shared_ptr<const core::Ranks>& ranks) {
-  KeptRows all{rows.width, on_first(rows.numbers, ranks)}, sorted{rows.width, {}};
-  std::vector<std::size_t> order(all.count());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all.of(a)[0] < all.of(b)[0]; });
-  for (const std::size_t n : order) sorted.numbers.insert(sorted.numbers.end(), all.of(n), all.of(n) + all.width);
-  return sorted;
-}
-
-std::vector<KeptContact> gathered_contacts(const std::vector<KeptContact>& contacts,
-                                           const std::shared_ptr<const core::Ranks>& ranks) {
-  std::vector<KeptContact> all = on_first(contacts, ranks);
-  const auto key = [](const KeptContact& c) { return std::tuple(c.low, c.high); };
-  std::sort(all.begin(), all.end(), [&](const KeptContact& a, const KeptContact& b) { return key(a) < key(b); });
-  all.erase(std::unique(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
-            all.end());
-  return all;
+std::vector<double> gathered_rows(std::vector<double> own, std::size_t width, std::size_t ids,
+                                  const std::shared_ptr<const core::Ranks>& ranks) {
+  std::vector<double> rows = ranks ? on_first(own, ranks) : std::move(own);
+  std::vector<double>().swap(own);
+  put_in_order(rows, width, ids);
+  return rows;
 }
 
 }  // namespace polybed::dem

@@ -1,10 +1,13 @@
-// Particles and contacts of all ranks, put together on the first in an order that does not depend on the ranks.
+// Particles, contacts and what is kept of them, of all ranks, put together on the first in an order that does not
+// depend on the ranks.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "core/numerics/ranks.hpp"
+#include "core/output/particles.hpp"
 #include "dem/parallel/exchange.hpp"
 #include "dem/particles.hpp"
 
@@ -12,16 +15,22 @@ namespace polybed::dem {
 
 // Collective; empty but on the first rank.
 
-/// Owned particles of all ranks, by id.
-[[nodiscard]] std::vector<Particle> gathered_particles(const Particles& particles,
-                                                       const std::shared_ptr<const core::Ranks>& ranks);
+/// Owned particles of all ranks by id, by component, as the files want them.
+struct Snapshot {
+  std::vector<std::int64_t> id;
+  std::vector<std::int32_t> species;
+  std::vector<double> radius;
+  std::vector<Vector> position, velocity, spin;
+
+  [[nodiscard]] core::ParticleSnapshot view() const { return {id, species, radius, position, velocity, spin}; }
+};
+[[nodiscard]] Snapshot gathered_snapshot(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks);
 /// What the fluid does to them, by id.
 [[nodiscard]] std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
                                                    const std::shared_ptr<const core::Ranks>& ranks);
-/// What side forces keep of them, by id.
-[[nodiscard]] KeptRows gathered_rows(const KeptRows& rows, const std::shared_ptr<const core::Ranks>& ranks);
-/// Contacts of all ranks, by ids; a pair across ranks, which both keep, once.
-[[nodiscard]] std::vector<KeptContact> gathered_contacts(const std::vector<KeptContact>& contacts,
-                                                         const std::shared_ptr<const core::Ranks>& ranks);
+/// Rows of all ranks by their first numbers, which are ids; what several ranks have, as contacts across them, once.
+/// \param ids  one or two
+[[nodiscard]] std::vector<double> gathered_rows(std::vector<double> own, std::size_t width, std::size_t ids,
+                                                const std::shared_ptr<const core::Ranks>& ranks);
 
 }  // namespace polybed::dem

@@ -247,9 +247,12 @@ TEST(Exchange, ParticlesAndTheirContactsGoToTheirOwners) {
       EXPECT_TRUE(id + 1 == all || known.count({id, id + 1}) == 1) << id;
       EXPECT_TRUE(id == 0 || known.count({id - 1, id}) == 1) << id;
     }
-    const std::vector<Particle> gathered = gathered_particles(particles, ranks());
-    EXPECT_EQ(gathered.size(), core::is_first(ranks().get()) ? std::size_t(all) : 0);
-    for (std::size_t n = 0; n < gathered.size(); ++n) EXPECT_EQ(gathered[n].id, std::int64_t(n));
+    const Snapshot gathered = gathered_snapshot(particles, ranks());
+    EXPECT_EQ(gathered.id.size(), core::is_first(ranks().get()) ? std::size_t(all) : 0);
+    for (std::size_t n = 0; n < gathered.id.size(); ++n) {
+      EXPECT_EQ(gathered.id[n], std::int64_t(n));
+      EXPECT_EQ(gathered.position[n], particle(box, std::int64_t(n), 1, 2).place.x);
+    }
   }
 }
 

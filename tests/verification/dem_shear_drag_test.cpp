@@ -66,7 +66,7 @@ TEST(DemShearDrag, EnergyClosesAndResumesToTheBit) {
   for (GasRun* run : {&whole, &again}) run->run_for(0.5 / gas.shear_rate);
   EXPECT_EQ(whole.model.checkpoint().arrays, again.model.checkpoint().arrays);
   EXPECT_EQ(whole.model.checkpoint().integers, again.model.checkpoint().integers);
-  EXPECT_NE(whole.model.fluid_work().units(), 0);
+  EXPECT_NE(whole.model.counted_energy().fluid_work.units(), 0);
 }
 
 TEST(DemShearDrag, ABoxWithoutItHasNone) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
@@ -83,6 +84,22 @@ TEST(Particles, TheStepIsFoundByItsNameWithItsTimeAndTheSpecies) {
   EXPECT_THAT(index.names("step"), ElementsAre("000001"));
   EXPECT_THAT(index.read("particles").values, ElementsAre(3));
   EXPECT_THAT(xdmf_of(scratch.path()), HasSubstr("NumberOfElements=\"3\""));
+}
+
+TEST(Particles, NumbersThatRepeatArePackedAndOthersAreNot) {
+  const test::Scratch scratch;
+  constexpr std::size_t count = 5000, bytes_of_vectors = 24 * count;
+  ParticleStep p = telling(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    p.velocity[i] = p.spin[i] = {0, -1e-3 * double(i / 64), 0};
+    for (double& x : p.position[i]) x = std::sin(12345.678 * x);
+  }
+  ParticleWriter writer(scratch.path(), scene);
+  writer.write_step(0, snapshot(p));
+  const auto size = fs::file_size(scratch.path() / "particles/000001.h5");
+  EXPECT_GT(size, bytes_of_vectors);        // the positions as they are
+  EXPECT_LT(size, 1.5 * bytes_of_vectors);  // velocities and spins as they are would make it three times as much
+  expect_equal(ParticleReader(scratch.path()).step(0), p);
 }
 
 TEST(Particles, ResumingRemovesLaterStepsAndKeepsTheNumbers) {

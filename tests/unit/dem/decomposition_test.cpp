@@ -74,16 +74,15 @@ TEST(OneRank, HasNoGhostsAndEveryPairIsInner) {
 }
 
 TEST(OneRank, GathersById) {
-  const std::vector<Particle> all = gathered_particles(two_apart(0.1), nullptr);
-  ASSERT_EQ(all.size(), 2);
-  EXPECT_EQ(all[0].id, 0);
-  EXPECT_EQ(all[0].place.x[0], 0.6);
-  // A pair across ranks is kept on both and comes out once.
-  const std::vector<KeptContact> once = gathered_contacts({{2, 5, {}}, {1, -3, {}}, {2, 5, {}}, {1, 4, {}}}, nullptr);
-  ASSERT_EQ(once.size(), 3);
-  EXPECT_EQ(once[0].high, -3);
-  EXPECT_EQ(once[1].high, 4);
-  EXPECT_EQ(once[2].low, 2);
+  const Snapshot all = gathered_snapshot(two_apart(0.1), nullptr);
+  EXPECT_EQ(all.id, (std::vector<std::int64_t>{0, 1}));
+  EXPECT_EQ(all.position[0][0], 0.6);
+  // A pair across ranks is kept on both and comes out once. The last number of a row tells where it stood.
+  const std::vector<double> rows{2, 5, 0, 1, -3, 1, 2, 5, 0, 1, 4, 3, 0, 9, 4};
+  EXPECT_EQ(gathered_rows(rows, 3, 2, nullptr), (std::vector<double>{0, 9, 4, 1, -3, 1, 1, 4, 3, 2, 5, 0}));
+  EXPECT_EQ(gathered_rows({3, 30, 1, 10, 2, 20, 0, 0}, 2, 1, nullptr),
+            (std::vector<double>{0, 0, 1, 10, 2, 20, 3, 30}));
+  EXPECT_TRUE(gathered_rows({}, 2, 1, nullptr).empty());
 }
 
 /// The list is made again if a place is not a number, also where particles behind it in the order are fine.

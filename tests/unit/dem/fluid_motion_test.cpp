@@ -38,6 +38,23 @@ struct One {
   }
 };
 
+TEST(FluidMotion, TakesTheSameImpulseWhereItsWorkIsNotCounted) {
+  One one;
+  one.feels().drag = 2e-5;
+  one.feels().added = 0.3 * one.mass;
+  one.push(load);
+  FluidMotion other(one.cloud.materials, 1000, {0, -9.81, 0}, {std::ldexp(1.0, 60), std::ldexp(1.0, -60)},
+                    {std::ldexp(1.0, 80), std::ldexp(1.0, -80)}, false);
+  other.load = one.motion.load;
+  other.account_impulse(one.cloud.particles, 0, other.kick(one.cloud.particles, 0, 1e-3));
+  other.account_work(1);
+  one.kick(1e-3);
+  EXPECT_NE(one.motion.work(), EnergySum());
+  EXPECT_EQ(other.work(), EnergySum());
+  EXPECT_NE(other.load[0].impulse, Vector{});
+  EXPECT_EQ(other.load[0].impulse, one.feels().impulse);
+}
+
 // In long double, where neither difference loses digits that matter.
 TEST(FluidMotion, RelaxesExactlyForStepsOfAnyLength) {
   for (const double x : {1e-6, 1e-3, 0.0199, 0.0201, 1.0, 10.0, 1e3}) {
