@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "closures/sphere.hpp"
 #include "core/case/particle_list.hpp"
 #include "core/numerics/random.hpp"
 #include "core/start_error.hpp"
+#include "dem/equilibration.hpp"
+#include "dem/hard_spheres.hpp"
 #include "dem/relaxation.hpp"
+#include "dem/spreading.hpp"
 
 namespace polybed::dem {
 
@@ -19,7 +23,11 @@ namespace {
 /// Solids fraction that random particles are pushed apart to in short time; a denser bed has to settle.
 constexpr double loose = 0.55;
 
-enum Sequence : std::uint64_t { place_x, place_y, place_z, speed_x, speed_y, speed_z };
+enum Sequence : std::uint64_t { speed_x = 3, speed_y, speed_z };
+
+/// Of the least diameter: the largest gap at which pairs are held at first. Of gaps up to 0.15, 0.2 and 0.25 this one
+/// comes nearest to a fluid of hard spheres at a fraction of 0.5.
+constexpr double gap = 0.2;
 
 Particle particle(const Materials& materials, std::int32_t species, std::int64_t id) {
   const Species& s = materials.species()[std::size_t(species)];
@@ -106,6 +114,35 @@ void shear(std::vector<Particle>& particles, double rate) {
   }
 }
 
+void require_room(const Particle& p, const Region& region, const Box& box) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!box.periodic[k] && region.high[k] - region.low[k] < 2 * p.place.radius)
+      throw core::StartError(fmt::format("column.size: {:.4g} m has no room for a particle of diameter {:.4g} m",
+                                         region.high[k] - region.low[k], 2 * p.place.radius));
+}
+
+/// \param layer  of each species
+void place_without_overlap(std::vector<Particle>& particles, const std::vector<Layer>& layer, const Box& box,
+                           const Materials& materials, std::uint64_t seed) {
+  if (particles.empty()) return;
+  std::vector<Region> region;
+  double volume = 0, top = 0;
+  std::map<std::pair<double, double>, std::vector<Particle*>> together;
+  for (Particle& p : particles) {
+    const Layer& own = layer[std::size_t(p.species)];
+    region.push_back({{0, own.low, 0}, {box.size[0], own.high, box.size[2]}});
+    require_room(p, region.back(), box);
+    together[{own.low, own.high}].push_back(&p);
+    volume += closures::sphere_volume(p.place.radius);
+    top = std::max(top, own.high);
+  }
+  for (auto& [heights, group] : together) spread(group, region[std::size_t(group.front()->id)], seed);
+  HardSpheres spheres(particles, region, box, materials);
+  push_apart(spheres, gap * materials.least_diameter());
+  equilibrate(spheres, materials.least_diameter(), volume / (box.size[0] * top * box.size[2]), seed);
+  spheres.give_back(particles);
+}
+
 }  // namespace
 
 std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Materials& materials, const Box& box) {
@@ -132,19 +169,10 @@ std::vector<Particle> start_particles(const core::Scene& scene, const Materials&
   const std::vector<Layer> layer = layers(scene, materials, box, numbers);
   const std::uint64_t seed = scene.bed.seed;
   std::vector<Particle> particles;
-  std::vector<Vector> low, high;
   for (std::size_t j = 0; j < numbers.size(); ++j)
-    for (std::int64_t n = 0; n < numbers[j]; ++n) {
-      Particle p = particle(materials, std::int32_t(j), std::int64_t(particles.size()));
-      const double top = layer[j].high, bottom = layer[j].low;
-      low.push_back({0, bottom, 0});
-      high.push_back({box.size[0], top, box.size[2]});
-      for (std::size_t k = 0; k < 3; ++k)
-        p.place.x[k] =
-            low.back()[k] + (high.back()[k] - low.back()[k]) * core::uniform(seed, place_x + k, std::uint64_t(p.id));
-      particles.push_back(p);
-    }
-  push_apart(particles, low, high, box, materials);
+    for (std::int64_t n = 0; n < numbers[j]; ++n)
+      particles.push_back(particle(materials, std::int32_t(j), std::int64_t(particles.size())));
+  place_without_overlap(particles, layer, box, materials, seed);
   set_in_motion(particles, scene.dem.start_speed, seed);
   shear(particles, scene.dem.shear_rate);
   return particles;

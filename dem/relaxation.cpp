@@ -6,145 +6,100 @@
 #include <cmath>
 
 #include "core/interrupt.hpp"
+#include "core/numerics/random.hpp"
 #include "core/start_error.hpp"
-#include "dem/contacts/neighbours.hpp"
 
 namespace polybed::dem {
 
 namespace {
 
-/// Overlap that is left, as a share of the smaller radius.
+/// How often pairs are listed, and how often they are pushed by each list, with gaps.
+constexpr int listings = 3, rounds = 20;
+/// Likewise after that, at most.
+constexpr int last_listings = 1000, last_rounds = 5;
+/// Overlap that is left where gaps cannot be had, over the smaller radius; and after how many listings that will do.
 constexpr double left_over = 1e-3;
+constexpr int patience = 20;
 
-class Relaxation {
- public:
-  Relaxation(std::vector<Particle>& all, const std::vector<Vector>& low, const std::vector<Vector>& high,
-             const Box& box, const Materials& materials)
-      : all_(all),
-        low_(low),
-        high_(high),
-        box_(at_rest(box)),
-        images_(box_, 0, 0),
-        skin_(0.3 * materials.least_diameter()),
-        search_(box_, materials, skin_) {
-    for (const Particle& p : all_) particles_.add(p);
-    particles_.owned = particles_.size();
-  }
-
-  /// Pushes particles apart whose radii are `size` times theirs. Returns the greatest overlap left, in radii.
-  double push(double size, int rounds) {
-    double worst = 0;  // so that the first round makes a list
-    for (int round = 0; round < rounds; ++round) {
-      core::stop_if_wanted("particles were placed");
-      const bool fresh = worst < left_over || 2 * farthest() > skin_;
-      if (fresh) list();
-      worst = 0;
-      for (const Contacts::Pair& pair : near_.pairs) {
-        const double overlap = part(std::size_t(pair.first), std::size_t(pair.second), size);
-        const double radius = std::min(particles_.place[std::size_t(pair.first)].radius,
-                                       particles_.place[std::size_t(pair.second)].radius);
-        worst = std::max(worst, overlap / radius);
-      }
-      for (std::size_t i = 0; i < particles_.size(); ++i) keep_inside(i, size);
-      if (worst < left_over && fresh) break;
-    }
-    return worst;
-  }
-
-  void give_back() {
-    for (std::size_t i = 0; i < all_.size(); ++i) all_[i].place.x = wrapped(particles_.place[i].x);
-  }
-
- private:
-  static Box at_rest(Box box) {
-    box.shear_rate = 0;
-    return box;
-  }
-
-  [[nodiscard]] Vector wrapped(Vector x) const {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (box_.periodic[k]) {
-        x[k] -= std::floor(x[k] / box_.size[k]) * box_.size[k];
-        if (x[k] >= box_.size[k]) x[k] = 0;
-      }
-    return x;
-  }
-
-  void list() {
-    for (std::size_t i = 0; i < particles_.size(); ++i) particles_.place[i].x = wrapped(particles_.place[i].x);
-    search_.find_pairs(particles_, 0, {}, {true, true, true}, near_);
-    listed_ = particles_.place;
-  }
-
-  /// The greatest distance that a particle has come since the pairs were listed, m.
-  [[nodiscard]] double farthest() const {
-    double most = 0;
-    for (std::size_t i = 0; i < listed_.size(); ++i) {
-      const Vector &x = particles_.place[i].x, &from = listed_[i].x;
-      const double dx = x[0] - from[0], dy = x[1] - from[1], dz = x[2] - from[2];
-      most = std::max(most, dx * dx + dy * dy + dz * dz);
-    }
-    return std::sqrt(most);
-  }
-
-  /// Moves two particles that overlap apart, a little further than need be, so that the last overlaps end soon.
-  double part(std::size_t i, std::size_t j, double size) {
-    Vector &a = particles_.place[i].x, &b = particles_.place[j].x;
-    const Vector away{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    const Vector d = images_.seen(away, images_.nearest(away));
-    const double r = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    const double wanted = size * (particles_.place[i].radius + particles_.place[j].radius);
-    if (r >= wanted) return 0;
-    const double light = particles_.motion[i].inverse_mass, other = particles_.motion[j].inverse_mass;
-    const double step = (wanted - r) * (1 + left_over) + 0.1 * left_over * wanted;
-    const double share = light / (light + other);
-    for (std::size_t k = 0; k < 3; ++k) {
-      // Two centres at one place part upward.
-      const double n = r > 0 ? d[k] / r : (k == 1 ? 1.0 : 0.0);
-      a[k] += share * step * n;
-      b[k] -= (1 - share) * step * n;
-    }
-    return wanted - r;
-  }
-
-  void keep_inside(std::size_t i, double size) {
-    Place& p = particles_.place[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const bool free = box_.periodic[k] && low_[i][k] <= 0 && high_[i][k] >= box_.size[k];
-      if (!free) p.x[k] = std::clamp(p.x[k], low_[i][k] + size * p.radius, high_[i][k] - size * p.radius);
-    }
-  }
-
-  std::vector<Particle>& all_;
-  const std::vector<Vector>&low_, &high_;
-  Box box_;
-  Images images_;
-  double skin_;
-  NeighbourSearch search_;
-  Particles particles_;
-  Contacts near_;
-  std::vector<Place> listed_;
+struct Push {
+  std::int32_t first, second, image;
+  float share, distance;  ///< of the way that the first goes; m, wanted between the centres
 };
+
+/// The listed pairs, each with the distance that its radii and its number ask for. Pairs of one particle follow each
+/// other in the list; here they stand apart, so that no push has to wait for the one before.
+template <class Distance>
+void fill(std::vector<Push>& pushes, const HardSpheres& spheres, const Distance& distance) {
+  constexpr std::size_t side = 32;
+  const std::vector<Contacts::Pair>& pairs = spheres.pairs();
+  pushes.clear();
+  const auto add = [&](std::size_t n) {
+    const Contacts::Pair& pair = pairs[n];
+    const double one = spheres.inverse_mass(pair.first), other = spheres.inverse_mass(pair.second);
+    pushes.push_back({pair.first, pair.second, pair.image, float(one / (one + other)), float(distance(pair))});
+  };
+  const std::size_t blocks = pairs.size() / (side * side);
+  for (std::size_t block = 0; block < blocks; ++block)
+    for (std::size_t column = 0; column < side; ++column)
+      for (std::size_t row = 0; row < side; ++row) add((block * side + row) * side + column);
+  for (std::size_t n = blocks * side * side; n < pairs.size(); ++n) add(n);
+}
+
+/// Two centres at one place part upward.
+void push(Place& a, Place& b, const Vector& d, const Push& p) {
+  const double r = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), way = double(p.distance) - r;
+  const Vector normal = r > 0 ? Vector{d[0] / r, d[1] / r, d[2] / r} : Vector{0, 1, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    a.x[k] += double(p.share) * way * normal[k];
+    b.x[k] -= (1 - double(p.share)) * way * normal[k];
+  }
+}
+
+void push_all(HardSpheres& spheres, const std::vector<Push>& pushes) {
+  std::vector<Place>& place = spheres.places();
+  for (const Push& p : pushes) {
+    Place &a = place[std::size_t(p.first)], &b = place[std::size_t(p.second)];
+    const Vector& shift = spheres.shift(p.image);
+    const Vector d{a.x[0] - b.x[0] - shift[0], a.x[1] - b.x[1] - shift[1], a.x[2] - b.x[2] - shift[2]};
+    if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < double(p.distance) * double(p.distance)) push(a, b, d, p);
+  }
+  for (std::size_t i = 0; i < place.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      place[i].x[k] = std::clamp(place[i].x[k], spheres.bounds()[i].low[k], spheres.bounds()[i].high[k]);
+}
+
+double touching(HardSpheres& spheres, const Contacts::Pair& pair) {
+  return spheres.places()[std::size_t(pair.first)].radius + spheres.places()[std::size_t(pair.second)].radius;
+}
 
 }  // namespace
 
-void push_apart(std::vector<Particle>& particles, const std::vector<Vector>& low, const std::vector<Vector>& high,
-                const Box& box, const Materials& materials) {
-  if (particles.empty()) return;
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (!box.periodic[k] && high[i][k] - low[i][k] < 2 * particles[i].place.radius)
-        throw core::StartError(fmt::format("column.size: {:.4g} m has no room for a particle of diameter {:.4g} m",
-                                           high[i][k] - low[i][k], 2 * particles[i].place.radius));
-  Relaxation relaxation(particles, low, high, box, materials);
-  for (const double size : {0.7, 0.8, 0.9, 0.95}) relaxation.push(size, 20);
-  const double worst = relaxation.push(1, 5000);
-  if (worst >= left_over)
-    throw core::StartError(fmt::format(
-        "bed: the particles do not fit: some still overlap by {:.2g} of their radius; give the bed more room "
-        "(column.size, bed.start_solids_fraction)",
-        worst));
-  relaxation.give_back();
+void push_apart(HardSpheres& spheres, double gap) {
+  std::vector<Push> pushes;
+  for (int n = 0; n < listings; ++n) {
+    core::stop_if_wanted("particles were placed");
+    spheres.list(2.5 * gap);
+    fill(pushes, spheres, [&](const Contacts::Pair& pair) {
+      const std::uint64_t number = std::uint64_t(pair.first) << 32 | std::uint64_t(pair.second);
+      return touching(spheres, pair) + gap * core::uniform(0, 0, number);
+    });
+    for (int round = 0; round < rounds; ++round) push_all(spheres, pushes);
+  }
+  double overlap = 1;
+  for (int n = 0; n < last_listings; ++n) {
+    core::stop_if_wanted("particles were placed");
+    spheres.list(1.5 * gap);
+    overlap = spheres.greatest_overlap();
+    if (overlap <= (n < patience ? 0 : left_over)) return;
+    // A little further than need be, so that the last overlaps end soon.
+    const double more = 1 + (n < patience ? 0.02 : 1.5 * left_over);
+    fill(pushes, spheres, [&](const Contacts::Pair& pair) { return more * touching(spheres, pair); });
+    for (int round = 0; round < last_rounds; ++round) push_all(spheres, pushes);
+  }
+  throw core::StartError(
+      fmt::format("bed: the particles do not fit: some still overlap by {:.2g} of their radius; give the bed more room "
+                  "(column.size, bed.start_solids_fraction)",
+                  overlap));
 }
 
 }  // namespace polybed::dem

@@ -57,15 +57,18 @@ class NeighbourSearch {
   void search(const Particles& particles, std::size_t i, std::size_t level, const Images& images,
               std::vector<Contacts::Pair>& pairs);
 
+  [[nodiscard]] bool may_be_near(const Place& here, const Place& there) const;
   void add_if_near(const Particles& particles, std::size_t i, std::size_t j, const Place& there, const Images& images,
                    std::vector<Contacts::Pair>& pairs) const;
 
   const Box& box_;
   const Materials& materials_;
   double reach_;
-  double narrowest_ = std::numeric_limits<double>::infinity();  ///< extent of the box where it is joined, m
-  std::vector<Level> levels_;                                   ///< from the smallest particles' to the largest's
-  std::vector<Vector> near_;                                    ///< positions with images taken near the centre
+  static constexpr double far_away = std::numeric_limits<double>::infinity();
+  double narrowest_ = far_away;                  ///< extent of the box where it is joined, m
+  Vector period_{far_away, far_away, far_away};  ///< m
+  std::vector<Level> levels_;                    ///< from the smallest particles' to the largest's
+  std::vector<Vector> near_;                     ///< positions with images taken near the centre
   std::uint64_t candidates_ = 0;
 };
 

@@ -22,7 +22,7 @@ struct Machine {
   double tfm_step = 1e-4;                         ///< per step, however few the cells
   double start = 0.1;                             ///< of the program, s
   double stored_step = 6e-3, history_row = 1e-4;  ///< of output, beyond what grows with the case, s
-  double placed_particle = 3e-4;                  ///< of a random start, s; 1e-4 to 5e-4 by how dense it is
+  double placed_particle = 3e-5;                  ///< of a random start, s; 2e-5 to 5e-5 by how dense it is
   ParticleSpeed particles;
   bool measured = false;  ///< on this machine
   std::string processor;  ///< on which they were measured
