@@ -1,19 +1,19 @@
-// polybed oracles: what `polybed cost selftest` examines of the program itself. A particle that settles, by both
+// polybed-hard --oracles: what `polybed cost selftest` examines of the program itself. A particle that settles, by both
 // integrators, which must buy error with work at the rate of their order; and particles counted into slabs.
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/options.hpp"
 #include "closures/sphere.hpp"
 #include "core/numerics/integrator.hpp"
 #include "core/output/json.hpp"
 #include "core/output/particles.hpp"
 #include "core/print.hpp"
+#include "hard/options.hpp"
 #include "measures/particle_profile.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::hard {
 
 namespace {
 
@@ -101,10 +101,11 @@ measures::Profile counted_layers() {
 
 }  // namespace
 
-void run_oracles() {
+core::ExitCode run_oracles() {
   const measures::Profile layers = counted_layers();
   core::print("{}\n", core::json_text({{"settling", settling()},
                                        {"counted", {{"slab", layers.slab}, {"fraction", layers.fraction}}}}));
+  return core::ExitCode::done;
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::hard
