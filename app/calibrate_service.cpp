@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -16,7 +17,6 @@
 #include "core/output/directory.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
-#include "core/output/json_value.hpp"
 #include "core/print.hpp"
 #include "core/version.hpp"
 #include "fluid/solids_table.hpp"
@@ -47,12 +47,6 @@ BoxPoint point_of(const std::string& text) {
   return p;
 }
 
-void write_numbers(core::Json& json, const std::vector<double>& values) {
-  json.begin_array();
-  for (const double value : values) json.value(value);
-  json.end_array();
-}
-
 class Service {
  public:
   Service(std::shared_ptr<const core::Ranks> ranks, std::function<void()> show)
@@ -60,69 +54,74 @@ class Service {
 
   /// \param words  the question and what it is about
   std::string answer(const Texts& words) {
-    using Answer = void (Service::*)(core::Json&, const Texts&);
+    using Answer = core::Json (Service::*)(const Texts&);
     static const std::map<std::string, Answer> answers{{"case", &Service::read_case},   {"take", &Service::take},
                                                        {"boxes", &Service::name_boxes}, {"run", &Service::run},
                                                        {"table", &Service::read},       {"bed", &Service::read_bed},
                                                        {"ratios", &Service::ratios}};
-    core::Json json;
-    (this->*answers.at(words.at(0)))(json, Texts(words.begin() + 1, words.end()));
-    return json.text();
+    return core::json_text((this->*answers.at(words.at(0)))(Texts(words.begin() + 1, words.end())));
   }
 
  private:
-  void read_case(core::Json& json, const Texts& words) {
+  core::Json read_case(const Texts& words) {
     scene_ = read_chosen_case(words.at(0), Texts(words.begin() + 1, words.end()));
     const Plan plan = plan_of(scene_);
     const MeanSphere mean = mean_sphere(scene_.species, scene_.bed.volume_share);
-    json.begin_object().member("regime", plan.regime.name).member("reason", plan.regime.reason);
-    json.member("reference", plan.regime.name == "wet" ? "viscous" : fluid::effective_reference);
-    json.key("numbers").begin_array();
-    for (const fluid::RegimeNumbers& n : plan.regime.numbers) {
-      json.begin_object().member("species", n.species).member("shear_times_relaxation", n.shear_times_relaxation);
-      json.member("stokes_least", n.stokes_least).member("stokes_most", n.stokes_most);
-      json.member("stokes_of_shear", n.stokes_of_shear).member("voidage", n.voidage);
-      json.member("shear_rate", n.shear_rate).end_object();
-    }
-    json.end_array().key("axes").begin_object();
-    write_numbers(json.key("phi"), plan.axes.phi);
-    write_numbers(json.key("stokes"), plan.axes.stokes);
-    write_numbers(json.key("e"), plan.axes.restitution);
-    write_numbers(json.key("mu_p"), plan.axes.friction);
-    write_numbers(json.key("x2"), plan.axes.share);
-    json.end_object().member("binary", plan.binary).member("seeds", scene_.calibrate.seeds);
-    json.member("size_ratio", plan.binary ? scene_.species[1].diameter / scene_.species[0].diameter : 1);
+    core::Json numbers = core::Json::array();
+    for (const fluid::RegimeNumbers& n : plan.regime.numbers)
+      numbers.push_back({{"species", n.species},
+                         {"shear_times_relaxation", n.shear_times_relaxation},
+                         {"stokes_least", n.stokes_least},
+                         {"stokes_most", n.stokes_most},
+                         {"stokes_of_shear", n.stokes_of_shear},
+                         {"voidage", n.voidage},
+                         {"shear_rate", n.shear_rate}});
+    core::Json json = {{"regime", plan.regime.name},
+                       {"reason", plan.regime.reason},
+                       {"reference", plan.regime.name == "wet" ? "viscous" : fluid::effective_reference},
+                       {"numbers", numbers},
+                       {"axes",
+                        {{"phi", plan.axes.phi},
+                         {"stokes", plan.axes.stokes},
+                         {"e", plan.axes.restitution},
+                         {"mu_p", plan.axes.friction},
+                         {"x2", plan.axes.share}}},
+                       {"binary", plan.binary},
+                       {"seeds", scene_.calibrate.seeds}};
+    json["size_ratio"] = plan.binary ? scene_.species[1].diameter / scene_.species[0].diameter : 1;
     if (plan.regime.name == "bed")  // |rho_p - rho_f| g D/rho_p
-      json.member("weight_m2_s2", std::abs(1 - relevance::fluid_constants(scene_.fluid).density / mean.density) *
-                                      scene_.column.gravity * mean.diameter);
-    json.member("ranks", ranks_ ? ranks_->count() : 1).member("git_commit", core::git_commit());
-    json.member("case_hash", core::text_hash(core::resolved_case(scene_))).end_object();
+      json["weight_m2_s2"] = std::abs(1 - relevance::fluid_constants(scene_.fluid).density / mean.density) *
+                             scene_.column.gravity * mean.diameter;
+    json["ranks"] = ranks_ ? ranks_->count() : 1;
+    json["git_commit"] = core::git_commit();
+    json["case_hash"] = core::text_hash(core::resolved_case(scene_));
+    return json;
   }
 
-  void take(core::Json& json, const Texts& words) {
+  core::Json take(const Texts& words) {
     core::on_first(ranks_.get(), [&] {
       taken_.emplace(words.at(0));
       core::make_folder(std::filesystem::path(words.at(0)) / "boxes");
     });
-    json.null();
+    return nullptr;
   }
 
   [[nodiscard]] double expected(const BoxPoint& point) const {
     return particle_steps_of(scene_, point) / particle_steps_per_second;
   }
 
-  void name_boxes(core::Json& json, const Texts& words) {
-    json.begin_array();
+  core::Json name_boxes(const Texts& words) {
+    core::Json boxes = core::Json::array();
     for (const std::string& word : words) {
       const BoxPoint point = point_of(word);
-      json.begin_array().value(box_hash(scene_, point)).value(expected(point)).end_array();
+      boxes.push_back(core::Json::array({box_hash(scene_, point), expected(point)}));
     }
-    json.end_array();
+    return boxes;
   }
 
   /// A fluidised box is shared by all ranks; of sheared boxes, which one rank runs, the next one goes to the rank that
   /// has least to do.
-  void run(core::Json& json, const Texts& words) {
+  core::Json run(const Texts& words) {
     std::vector<double> load(std::size_t(ranks_ ? ranks_->count() : 1), 0.0);
     std::vector<std::int64_t> failed(words.size() / 2, 0);
     const auto here = std::size_t(ranks_ ? ranks_->rank() : 0);
@@ -142,47 +141,46 @@ class Service {
       }
     }
     core::add_over_ranks(ranks_.get(), failed);
-    json.begin_array();
+    core::Json places = core::Json::array();
     for (std::size_t n = 0; n < failed.size(); ++n)
-      if (failed[n] != 0) json.value(std::uint64_t(n));
-    json.end_array();
+      if (failed[n] != 0) places.push_back(n);
+    return places;
   }
 
-  void read(core::Json& json, const Texts& words) {
+  core::Json read(const Texts& words) {
+    core::Json json;
     core::on_first(ranks_.get(), [&] {
       const fluid::SolidsTable table = fluid::read_solids_table(words.at(0));
-      json.begin_object().key("falls").begin_array();
-      for (const std::string& fall : falls_of(table)) json.value(fall);
-      json.end_array().member("falls_in_shear_up_to", falls_in_shear_up_to(table));
-      write_numbers(json.key("a"), structure_coefficients(table));
-      json.end_object();
+      json = {{"falls", falls_of(table)},
+              {"falls_in_shear_up_to", falls_in_shear_up_to(table)},
+              {"a", structure_coefficients(table)}};
     });
+    return json;
   }
 
-  void read_bed(core::Json& json, const Texts& words) {
+  core::Json read_bed(const Texts& words) {
     core::on_first(ranks_.get(), [&] {
       if (fluid::regime_of_table(words.at(0)) != "bed")
         throw core::CaseError(words[0] + ": no table of fluidised boxes, as --bed takes one");
       (void)fluid::read_bed_table(words[0]);
     });
-    json.null();
+    return nullptr;
   }
 
-  void ratios(core::Json& json, const Texts& words) {
+  core::Json ratios(const Texts& words) {
+    core::Json rows = core::Json::array();
     core::on_first(ranks_.get(), [&] {
       const fluid::SolidsTable table = fluid::read_solids_table(words.at(0));
-      json.begin_array();
       for (std::size_t n = 1; n < words.size(); ++n) {
         const BoxPoint p = point_of(words[n]);
         const auto at = [&](double sigma) {
           return fluid::ratios_at(table, {p.restitution, p.friction, p.share, sigma})(p.phi, p.stokes);
         };
         const closures::RatioValues mean = at(0), up = at(1);
-        write_numbers(json,
-                      {mean.pressure.pressure, up.pressure.pressure, mean.viscosity.pressure, up.viscosity.pressure});
+        rows.push_back({mean.pressure.pressure, up.pressure.pressure, mean.viscosity.pressure, up.viscosity.pressure});
       }
-      json.end_array();
     });
+    return rows;
   }
 
   std::shared_ptr<const core::Ranks> ranks_;
@@ -205,8 +203,8 @@ std::string next_line(std::FILE* stream) {
 
 Texts words_of(const std::string& line) {
   Texts words;
-  const core::JsonValue question = core::parse_json(line);
-  for (const core::JsonValue& word : question.array()) words.push_back(word.text());
+  const core::Json question = core::parse_json(line);
+  for (const core::Json& word : core::array_of(question)) words.push_back(core::text_of(word));
   return words;
 }
 

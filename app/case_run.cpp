@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/case/file.hpp"
 #include "core/error.hpp"
@@ -205,9 +206,10 @@ namespace {
 void record_failed_start(const RunStart& run, const std::string& state) {
   core::Json json;
   begin_record(json, run.scene, run.model, state, run.ranks == nullptr ? 1 : run.ranks->count());
-  json.member("time_s", 0.0).key("warnings").begin_array().end_array().end_object();
+  json["time_s"] = 0;
+  json["warnings"] = core::Json::array();
   try {
-    core::write_atomically(run.directory / "run.json", json.text() + "\n");
+    core::write_atomically(run.directory / "run.json", core::json_text(json) + "\n");
   } catch (const core::FileError&) {  // what has ended the start says more
   }
 }

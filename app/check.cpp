@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "app/run_directory.hpp"
 #include "closures/drag.hpp"
@@ -103,34 +104,34 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
   return derived;
 }
 
-void write_state(core::Json& json, const char* name, const BedState& bed) {
-  json.key(name).begin_object().member("solids_fraction", bed.solids_fraction);
+core::Json json_of(const BedState& bed) {
+  core::Json json = {{"solids_fraction", bed.solids_fraction}};
   for (const tfm::TimeScale& scale : bed.scales)
-    if (std::isfinite(scale.seconds)) json.member(scale.process + "_s", scale.seconds);
-  json.member("expected_step_s", bed.step).end_object();
+    if (std::isfinite(scale.seconds)) json[scale.process + "_s"] = scale.seconds;
+  json["expected_step_s"] = bed.step;
+  return json;
 }
 
 void write_requirements(core::Json& json, const Requirements& need) {
   constexpr double mega = 1e-6;
-  json.member("integrator", core::name_of(need.integrator))
-      .member("momentum", core::name_of(need.momentum.form))
-      .member("unknowns", std::uint64_t(need.unknowns));
-  json.member("cells", std::uint64_t(need.cells)).member("memory_MB", mega * need.memory.total());
-  json.key("memory").begin_object().member("state_MB", mega * need.memory.state);
-  json.member("fields_MB", mega * need.memory.fields).member("solver_MB", mega * need.memory.solver);
-  json.member("program_MB", mega * need.memory.program).end_object();
-  json.key("dt_limits").begin_object();
-  write_state(json, "at_rest", need.rest);
-  write_state(json, "lifted", need.lifted);
-  write_state(json, "expanded", need.expanded);
-  json.end_object();
-  if (!need.time) {
-    json.key("time").null();
-    return;
-  }
-  json.key("time").begin_object().member("steps", need.time->steps).member("s_per_step", need.time->seconds_per_step);
-  json.member("expected_s", need.time->expected).member("least_s", need.time->least);
-  json.member("most_s", need.time->most).end_object();
+  json.update({{"integrator", core::name_of(need.integrator)},
+               {"momentum", core::name_of(need.momentum.form)},
+               {"unknowns", need.unknowns},
+               {"cells", need.cells},
+               {"memory_MB", mega * need.memory.total()}});
+  json["memory"] = {{"state_MB", mega * need.memory.state},
+                    {"fields_MB", mega * need.memory.fields},
+                    {"solver_MB", mega * need.memory.solver},
+                    {"program_MB", mega * need.memory.program}};
+  json["dt_limits"] = {
+      {"at_rest", json_of(need.rest)}, {"lifted", json_of(need.lifted)}, {"expanded", json_of(need.expanded)}};
+  json["time"] = nullptr;
+  if (const std::optional<TimeNeed>& time = need.time)
+    json["time"] = {{"steps", time->steps},
+                    {"s_per_step", time->seconds_per_step},
+                    {"expected_s", time->expected},
+                    {"least_s", time->least},
+                    {"most_s", time->most}};
 }
 
 void print_state(const char* name, const BedState& bed) {
@@ -192,15 +193,11 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   notes.insert(notes.end(), reasons.begin(), reasons.end());
   for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
   if (as_json) {
-    core::Json json;
-    json.begin_object().member("case", text).member("hash", core::text_hash(text));
+    core::Json json = {{"case", text}, {"hash", core::text_hash(text)}};
     write_particle_requirements(json, scene, need);
     write_size_classes(json, scene);
-    json.key("notes").begin_array();
-    for (const std::string& note : notes) json.value(note);
-    json.end_array().end_object();
-    core::print("{}\n", json.text());
-    return;
+    json["notes"] = notes;
+    return core::print("{}\n", core::json_text(json));
   }
   core::print("{}\n", text);
   print_size_classes(scene);
@@ -241,23 +238,18 @@ void run_check(const RunOptions& options) {
   derived.notes.insert(derived.notes.end(), hindrances.begin(), hindrances.end());
   const std::string text = core::resolved_case(scene);
   if (options.json) {
-    core::Json json;
-    json.begin_object().member("case", text).member("hash", core::text_hash(text));
-    json.member("fluid_density_kg_m3", derived.fluid.density).member("fluid_viscosity_Pa_s", derived.fluid.viscosity);
-    if (derived.sound > 0) json.member("speed_of_sound_m_s", derived.sound);
-    json.member("buoyant_weight_Pa", derived.weight).member("static_height_m", scene.bed.static_height);
+    core::Json json = {{"case", text},
+                       {"hash", core::text_hash(text)},
+                       {"fluid_density_kg_m3", derived.fluid.density},
+                       {"fluid_viscosity_Pa_s", derived.fluid.viscosity}};
+    if (derived.sound > 0) json["speed_of_sound_m_s"] = derived.sound;
+    json["buoyant_weight_Pa"] = derived.weight;
+    json["static_height_m"] = scene.bed.static_height;
     write_requirements(json, need);
-    if (particles) {
-      json.key("dem").begin_object();
-      write_particle_requirements(json, scene, *particles);
-      json.end_object();
-    }
+    if (particles) write_particle_requirements(json["dem"], scene, *particles);
     write_size_classes(json, scene);
-    json.key("notes").begin_array();
-    for (const std::string& note : derived.notes) json.value(note);
-    json.end_array().end_object();
-    core::print("{}\n", json.text());
-    return;
+    json["notes"] = derived.notes;
+    return core::print("{}\n", core::json_text(json));
   }
   core::print("{}\n", text);
   print_size_classes(scene);

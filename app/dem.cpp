@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "app/case_run.hpp"
 #include "core/output/json.hpp"
@@ -112,31 +113,31 @@ class DemRun final : public CaseRun {
     const int ranks = ranks_ ? ranks_->count() : 1;
     core::Json json;
     begin_record(json, scene_, "dem", state, ranks);
-    json.member("particles", model_.particle_count()).member("time_s", model_.time()).member("cpu_s", cpu_);
-    json.member("wall_s", wall_seconds());
-    json.member("integrator", model_.synchronised() ? "synchronised" : "thesis");
-    json.member("integrator_reason", model_.limits().integrator_reason);
+    json.update({{"particles", model_.particle_count()},
+                 {"time_s", model_.time()},
+                 {"cpu_s", cpu_},
+                 {"wall_s", wall_seconds()},
+                 {"integrator", model_.synchronised() ? "synchronised" : "thesis"},
+                 {"integrator_reason", model_.limits().integrator_reason}});
     write_prediction_of(json, state, cpu_);
-    write_step(json);
+    json["step"] = step_json();
     write_overlap(json, model_.overlap_expected());
-    write_work(json);
+    json["work"] = work_json();
     write_timers(json, timers_);
     if (fluid_) write_fluid(json, *fluid_);
     const std::vector<measures::WorstInvariant> watched =
         observers_ ? observers_->invariants().worst() : std::vector<measures::WorstInvariant>{};
     if (!watched.empty()) write_invariants(json, watched);
     if (observers_) write_ledger(json);
-    if (model_.outflow() != nullptr) write_outflow(json, *model_.outflow());
+    if (model_.outflow() != nullptr) json["outflow"] = outflow_json(*model_.outflow());
     write_left_out(json, left_out_);
     if (promise) write_neglected(json, *promise);
-    json.key("warnings").begin_array();
-    for (const std::string& line : exceeded_lines(watched)) json.value(line);
-    for (const std::string& line : warnings_before()) json.value(line);
-    for (const std::string& line : scene_warnings(scene_)) json.value(line);
+    core::Json& warnings = json["warnings"] = exceeded_lines(watched);
+    for (const std::string& line : warnings_before()) warnings.push_back(line);
+    for (const std::string& line : scene_warnings(scene_)) warnings.push_back(line);
     if (monitor_)
-      for (const std::string& line : monitor_->warnings()) json.value(line);
-    json.end_array().end_object();
-    return json.text();
+      for (const std::string& line : monitor_->warnings()) warnings.push_back(line);
+    return core::json_text(json);
   }
 
   /// Collective.
@@ -149,48 +150,54 @@ class DemRun final : public CaseRun {
                           scene_.dem.ledger ? std::optional(joules) : std::nullopt);
   }
 
-  void write_step(core::Json& json) const {
-    json.key("step").begin_object().member("dt_s", model_.limits().dt);
-    json.member("limited_by", model_.limits().limited_by);
-    json.member("greatest_speed_expected_m_s", model_.expected().greatest);
-    json.key("limits").begin_array();
+  [[nodiscard]] core::Json step_json() const {
+    core::Json limits = core::Json::array();
     for (const dem::StepLimit& limit : model_.limits().all)
-      json.begin_object().member("name", limit.name).member("dt_s", limit.dt).end_object();
-    json.end_array().end_object();
+      limits.push_back({{"name", limit.name}, {"dt_s", limit.dt}});
+    return {{"dt_s", model_.limits().dt},
+            {"limited_by", model_.limits().limited_by},
+            {"greatest_speed_expected_m_s", model_.expected().greatest},
+            {"limits", limits}};
   }
 
-  void write_work(core::Json& json) const {
-    json.key("work").begin_object().member("steps", work_.steps).member("particle_steps", work_.particle_steps);
-    json.member("pair_checks", work_.pair_checks).member("contact_steps", work_.contact_steps);
-    json.member("rebuilds", work_.rebuilds).member("candidates", work_.candidates);
-    json.member("shortenings", work_.shortenings).member("greatest_speed_m_s", work_.greatest_speed);
-    json.member("cuts", work_.cuts).member("imbalance", work_.imbalance).end_object();
+  [[nodiscard]] core::Json work_json() const {
+    return {{"steps", work_.steps},
+            {"particle_steps", work_.particle_steps},
+            {"pair_checks", work_.pair_checks},
+            {"contact_steps", work_.contact_steps},
+            {"rebuilds", work_.rebuilds},
+            {"candidates", work_.candidates},
+            {"shortenings", work_.shortenings},
+            {"greatest_speed_m_s", work_.greatest_speed},
+            {"cuts", work_.cuts},
+            {"imbalance", work_.imbalance}};
   }
 
-  void write_outflow(core::Json& json, const dem::Outflow& outflow) const {
-    json.key("outflow").begin_object();
+  [[nodiscard]] core::Json outflow_json(const dem::Outflow& outflow) const {
+    core::Json json;
     for (std::size_t j = 0; j < outflow.number.size(); ++j) {
       const dem::Species& species = model_.materials().species()[j];
-      json.key(species.name).begin_object().member("particles", outflow.number[j]);
-      json.member("mass_kg", double(outflow.number[j]) * species.mass).end_object();
+      json[species.name] = {{"particles", outflow.number[j]}, {"mass_kg", double(outflow.number[j]) * species.mass}};
     }
-    json.end_object();
+    return json;
   }
 
   void write_ledger(core::Json& json) const {
     const dem::Totals& t = observers_->totals();
-    json.key("energy").begin_object().member("kinetic_J", t.kinetic).member("rotational_J", t.rotational);
-    json.member("elastic_J", t.elastic).member("potential_J", t.potential);
-    if (scene_.dem.ledger && model_.outflow() != nullptr) json.member("carried_out_J", t.carried_out);
+    core::Json& ledger = json["energy"] = {{"kinetic_J", t.kinetic},
+                                           {"rotational_J", t.rotational},
+                                           {"elastic_J", t.elastic},
+                                           {"potential_J", t.potential}};
+    if (scene_.dem.ledger && model_.outflow() != nullptr) ledger["carried_out_J"] = t.carried_out;
     if (const measures::WorstInvariant* energy = observers_->invariants().energy())
-      json.member("dissipated_J", t.dissipated)
-          .member("work_J", t.work)
-          .member("initial_J", observers_->invariants().start().energy)
-          .member("worst_error", energy->value)
-          .member("limit", energy->limit);
-    json.end_object().key("momentum_kg_m_s").begin_array();
-    for (const double p : t.momentum) json.value(p);
-    json.end_array().member("contacts", t.contacts).member("max_overlap_m", t.max_overlap);
+      ledger.update({{"dissipated_J", t.dissipated},
+                     {"work_J", t.work},
+                     {"initial_J", observers_->invariants().start().energy},
+                     {"worst_error", energy->value},
+                     {"limit", energy->limit}});
+    json["momentum_kg_m_s"] = t.momentum;
+    json["contacts"] = t.contacts;
+    json["max_overlap_m"] = t.max_overlap;
   }
 
   TimeBand predicted() override { return dem_time(scene_, known_machine()); }

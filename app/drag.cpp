@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -64,10 +65,12 @@ void print_point(const DragOptions& options, const DragLaw& law) {
   closures::GuardCount count;
   const double f = at_point(law, *options.voidage, *options.reynolds, count, "");
   if (options.json) {
-    core::Json json;
-    json.begin_object().member("law", options.law).member("voidage", *options.voidage).member("re", *options.reynolds);
-    json.member("f", f).member("n", f / *options.voidage).member("guarded", count.guarded > 0).end_object();
-    core::print("{}\n", json.text());
+    core::print("{}\n", core::json_text({{"law", options.law},
+                                         {"voidage", *options.voidage},
+                                         {"re", *options.reynolds},
+                                         {"f", f},
+                                         {"n", f / *options.voidage},
+                                         {"guarded", count.guarded > 0}}));
     return;
   }
   core::print("{}\n", f);
@@ -198,19 +201,16 @@ void print_csv(const DragOptions& options, const DragLaw& law) {
 }
 
 void print_json(const DragOptions& options, const DragLaw& law) {
-  core::Json json;
-  json.begin_object().member("law", options.law).key("rows").begin_array();
+  core::Json rows = core::Json::array();
   read_points(options.csv, [&](const std::vector<std::string>& header, const std::optional<Row>& row) {
     if (!row) return;
-    json.begin_object();
-    for (std::size_t c = 0; c < header.size(); ++c) json.member(header[c], row->values[c]);
+    core::Json& one = rows.emplace_back();
+    for (std::size_t c = 0; c < header.size(); ++c) one[header[c]] = row->values[c];
     const std::vector<std::string> names = answer_names(row->share.size());
     const std::vector<double> answers = answer(law, *row);
-    for (std::size_t c = 0; c < names.size(); ++c) json.member(names[c], answers[c]);
-    json.end_object();
+    for (std::size_t c = 0; c < names.size(); ++c) one[names[c]] = answers[c];
   });
-  json.end_array().end_object();
-  core::print("{}\n", json.text());
+  core::print("{}\n", core::json_text({{"law", options.law}, {"rows", rows}}));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // polybed effects: which effects a scene calls for, with the number that decides each; nothing is run.
+#include <nlohmann/json.hpp>
 
 #include "app/options.hpp"
 #include "core/print.hpp"
@@ -15,30 +16,24 @@ void run_effects(const CaseOptions& options) {
   const relevance::Choice choice = choose(scene);
   if (!options.json) return core::print("{}", effects_table(scene, choice));
   core::Json json;
-  json.begin_object();
   write_effects(json, scene, choice);
-  json.end_object();
-  core::print("{}\n", json.text());
+  core::print("{}\n", core::json_text(json));
 }
 
 void run_effects_bench(int rounds, bool as_json) {
   const std::vector<EffectCost> costs = bench_effects(rounds);
   if (!as_json) return core::print("{}", bench_table(costs));
   core::Json json;
-  json.begin_object();
   write_bench(json, costs);
-  json.end_object();
-  core::print("{}\n", json.text());
+  core::print("{}\n", core::json_text(json));
 }
 
 core::ExitCode run_effects_audit(const std::filesystem::path& run, bool as_json) {
   const Neglected neglected = audit_run(run);
   if (as_json) {
-    core::Json json;
-    json.begin_object().member("run", run.string());
+    core::Json json = {{"run", run.string()}};
     write_neglected(json, neglected);
-    json.end_object();
-    core::print("{}\n", json.text());
+    core::print("{}\n", core::json_text(json));
   } else {
     const char* said = !neglected.kept()   ? "not to be told: all that was met is beyond the laws' range"
                        : *neglected.kept() ? "kept"

@@ -1,6 +1,8 @@
 // polybed estimate: what a run will take, before it.
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "app/options.hpp"
 #include "core/case/units.hpp"
 #include "core/error.hpp"
@@ -60,10 +62,9 @@ void run_estimate(const EstimateOptions& options) {
   const CostEstimate estimate = model_of(options, scene) == "dem" ? estimate_dem(scene, machine, probe, options.ranks)
                                                                   : estimate_tfm(scene, machine, probe, options.ranks);
   if (!options.json) return print_estimate(scene, estimate);
-  core::Json json;
-  json.begin_object().member("until_s", scene.run.until);
+  core::Json json = {{"until_s", scene.run.until}};
   write_estimate(json, estimate);
-  core::print("{}\n", json.end_object().text());
+  core::print("{}\n", core::json_text(json));
 }
 
 }  // namespace polybed::multiscale

@@ -3,6 +3,7 @@
 #include "multiscale/inversion/models.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/options.hpp"
 #include "core/case/file.hpp"
@@ -51,20 +52,21 @@ std::vector<Band> bands(const core::Scene& scene, const closures::DragLaw& law, 
   return result;
 }
 
+core::Json json_of(const std::vector<InversionPoint>& points) {
+  core::Json json = core::Json::array();
+  for (const InversionPoint& p : points) json.push_back({{"velocity_m_s", p.velocity}, {"voidage", p.voidage}});
+  return json;
+}
+
 void print_json(const std::string& law, const std::string& method, const std::vector<InversionPoint>& points,
                 const std::vector<Band>& band) {
-  core::Json json;
-  json.begin_object().member("law", law);
-  points.empty() ? json.key("velocity_m_s").null() : json.member("velocity_m_s", points.back().velocity);
-  points.empty() ? json.key("voidage").null() : json.member("voidage", points.back().voidage);
-  json.key("roots").begin_array();
-  for (const InversionPoint& p : points)
-    json.begin_object().member("velocity_m_s", p.velocity).member("voidage", p.voidage).end_object();
-  json.end_array().member("method", method).key("bands").begin_array();
-  for (const Band& b : band)
-    json.begin_object().member("input", b.input).member("low_m_s", b.low).member("high_m_s", b.high).end_object();
-  json.end_array().end_object();
-  core::print("{}\n", json.text());
+  core::Json json = {{"law", law}, {"velocity_m_s", nullptr}, {"voidage", nullptr}};
+  if (!points.empty()) json.update(json_of(points).back());
+  json["roots"] = json_of(points);
+  json["method"] = method;
+  core::Json& bands = json["bands"] = core::Json::array();
+  for (const Band& b : band) bands.push_back({{"input", b.input}, {"low_m_s", b.low}, {"high_m_s", b.high}});
+  core::print("{}\n", core::json_text(json));
 }
 
 /// A row of the table of all methods.
@@ -91,29 +93,30 @@ std::vector<MethodRow> all_methods(const BinaryBed& bed) {
   return rows;
 }
 
-void print_methods(const std::vector<MethodRow>& rows, bool as_json) {
-  core::Json json;
-  json.begin_object().key("methods").begin_array();
-  if (!as_json) core::print("{:16} {:20} {:>8} {:>8}\n", "method", "law", "mm/s", "voidage");
+void print_methods_json(const std::vector<MethodRow>& rows) {
+  core::Json methods = core::Json::array();
+  for (const MethodRow& row : rows)
+    methods.push_back({{"method", row.method},
+                       {"law", row.law.empty() ? core::Json() : core::Json(row.law)},
+                       {"roots", json_of(row.points)}});
+  core::print("{}\n", core::json_text({{"methods", methods}}));
+}
+
+void print_methods(const std::vector<MethodRow>& rows) {
+  core::print("{:16} {:20} {:>8} {:>8}\n", "method", "law", "mm/s", "voidage");
   for (const MethodRow& row : rows) {
-    json.begin_object().member("method", row.method).key("law");
-    row.law.empty() ? json.null() : json.value(row.law);
-    json.key("roots").begin_array();
-    for (const InversionPoint& p : row.points)
-      json.begin_object().member("velocity_m_s", p.velocity).member("voidage", p.voidage).end_object();
-    json.end_array().end_object();
-    if (as_json) continue;
     if (row.points.empty()) core::print("{:16} {:20} {:>8} {:>8}\n", row.method, row.law, "-", "-");
     for (const InversionPoint& p : row.points)
       core::print("{:16} {:20} {:8.2f} {:8.4f}\n", row.method, row.law, 1e3 * p.velocity, p.voidage);
   }
-  json.end_array().end_object();
-  if (as_json) core::print("{}\n", json.text());
 }
 
 void run_without_a_run(const InversionOptions& options) {
   const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
-  if (options.method == "all") return print_methods(all_methods(binary_bed(scene)), options.json);
+  if (options.method == "all") {
+    const std::vector<MethodRow> rows = all_methods(binary_bed(scene));
+    return options.json ? print_methods_json(rows) : print_methods(rows);
+  }
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
   const closures::DragLaw law = closures::drag_law(named->second, closures::Guard::on);

@@ -1,6 +1,8 @@
 // polybed inversion --scan: the inversion velocity by runs of one model or of both, a study of the Python package.
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "app/run_directory.hpp"
 #include "app/stress_uncertainty.hpp"
 #include "app/study_request.hpp"
@@ -57,13 +59,13 @@ void refuse_what_a_model_cannot_run(const InversionOptions& options, const core:
 /// The request to the study, as JSON.
 std::string request_of(const InversionOptions& options, const ScanRange& range,
                        const std::optional<InversionPoint>& balance) {
-  core::Json json = begin_request(options, "inversion");
-  json.member("scan", options.scan).member("from_m_s", range.low).member("to_m_s", range.high).key("force_balance");
-  if (balance)
-    json.begin_object().member("velocity_m_s", balance->velocity).member("voidage", balance->voidage).end_object();
-  else
-    json.null();
-  return json.end_object().text();
+  core::Json json = common_request(options, "inversion");
+  json["scan"] = options.scan;
+  json["from_m_s"] = range.low;
+  json["to_m_s"] = range.high;
+  json["force_balance"] = nullptr;
+  if (balance) json["force_balance"] = {{"velocity_m_s", balance->velocity}, {"voidage", balance->voidage}};
+  return core::json_text(json);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "app/options.hpp"
 #include "core/case/keys.hpp"
@@ -18,17 +19,30 @@ namespace {
 
 using core::Key;
 
-void write_key(core::Json& json, const Key& key) {
-  json.begin_object()
-      .member("key", key.path())
-      .member("kind", core::kind_name(key))
-      .member("unit", core::unit_name(key.dimension))
-      .member("range", core::range_text(key))
-      .member("required", key.required);
-  key.standard.empty() ? json.key("default").null() : json.member("default", key.standard);
-  json.member("help", key.help);
-  if (!key.equation.empty()) json.member("equation", key.equation);
-  json.end_object();
+core::Json json_of(const Key& key) {
+  core::Json json = {{"key", key.path()},
+                     {"kind", core::kind_name(key)},
+                     {"unit", core::unit_name(key.dimension)},
+                     {"range", core::range_text(key)},
+                     {"required", key.required},
+                     {"default", nullptr},
+                     {"help", key.help}};
+  if (!key.standard.empty()) json["default"] = key.standard;
+  if (!key.equation.empty()) json["equation"] = key.equation;
+  return json;
+}
+
+core::Json json_of(const core::Role& role) {
+  core::Json laws = core::Json::array();
+  for (const core::Law& law : role.laws) laws.push_back({{"law", law.name}, {"help", law.help}});
+  return {{"role", role.name}, {"models", role.models}, {"slot", role.slot}, {"help", role.help}, {"laws", laws}};
+}
+
+void print_list_json(const std::vector<core::Role>& all) {
+  core::Json roles = core::Json::array(), rules = core::Json::array();
+  for (const core::Role& role : all) roles.push_back(json_of(role));
+  for (const core::Rule& rule : scene_rules()) rules.push_back({{"message", rule.message}, {"keys", rule.keys}});
+  core::print("{}\n", core::json_text({{"roles", roles}, {"rules", rules}}));
 }
 
 /// A cell of a Markdown table.
@@ -70,11 +84,9 @@ void print_markdown() {
 void run_schema(bool json, bool markdown) {
   if (markdown) return print_markdown();
   if (json) {
-    core::Json out;
-    out.begin_object().key("keys").begin_array();
-    for (const Key& key : core::keys()) write_key(out, key);
-    out.end_array().end_object();
-    core::print("{}\n", out.text());
+    core::Json all = core::Json::array();
+    for (const Key& key : core::keys()) all.push_back(json_of(key));
+    core::print("{}\n", core::json_text({{"keys", all}}));
     return;
   }
   for (const Key& key : core::keys())
@@ -94,12 +106,7 @@ void run_explain(const std::string& path, bool json) {
     throw core::CaseError("no key '" + path + "'" +
                           (near.empty() ? "; see polybed schema" : "; did you mean '" + near + "'?"));
   }
-  if (json) {
-    core::Json out;
-    write_key(out, *found);
-    core::print("{}\n", out.text());
-    return;
-  }
+  if (json) return core::print("{}\n", core::json_text(json_of(*found)));
   core::print("{}\n  {}\n  {}{}\n", found->path(), found->help, core::kind_name(*found),
               found->required ? ", required" : "");
   if (const std::string range = core::range_text(*found); !range.empty()) core::print("  range: {}\n", range);
@@ -109,30 +116,7 @@ void run_explain(const std::string& path, bool json) {
 
 void run_list(bool json) {
   const std::vector<core::Role> roles = all_roles();
-  if (json) {
-    core::Json out;
-    out.begin_object().key("roles").begin_array();
-    for (const core::Role& role : roles) {
-      out.begin_object()
-          .member("role", role.name)
-          .member("models", role.models)
-          .member("slot", role.slot)
-          .member("help", role.help);
-      out.key("laws").begin_array();
-      for (const core::Law& law : role.laws)
-        out.begin_object().member("law", law.name).member("help", law.help).end_object();
-      out.end_array().end_object();
-    }
-    out.end_array().key("rules").begin_array();
-    for (const core::Rule& rule : scene_rules()) {
-      out.begin_object().member("message", rule.message).key("keys").begin_array();
-      for (const std::string& key : rule.keys) out.value(key);
-      out.end_array().end_object();
-    }
-    out.end_array().end_object();
-    core::print("{}\n", out.text());
-    return;
-  }
+  if (json) return print_list_json(roles);
   for (const core::Role& role : roles) {
     core::print("{} ({}; slot {}): {}\n", role.name, role.models, role.slot, role.help);
     for (const core::Law& law : role.laws) core::print("  {:20} {}\n", law.name, law.help);

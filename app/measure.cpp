@@ -7,6 +7,7 @@
 #include <iostream>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/measure_list.hpp"
@@ -14,7 +15,6 @@
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
-#include "core/output/json_value.hpp"
 #include "core/output/output.hpp"
 #include "core/print.hpp"
 #include "measures/bed_table.hpp"
@@ -37,9 +37,10 @@ struct Asked {
 
 // ---- reading
 
-double finite(const core::JsonValue& value) {
-  if (!std::isfinite(value.number())) throw core::FileError("a number is not finite");
-  return value.number();
+double finite(const core::Json& value) {
+  const double number = core::number_of(value);
+  if (!std::isfinite(number)) throw core::FileError("a number is not finite");
+  return number;
 }
 
 /// What `read` returns; an error says of what it is.
@@ -52,35 +53,35 @@ auto naming(const std::string& what, const Read& read) {
   }
 }
 
-const core::JsonValue* member(const core::JsonValue& value, const std::string& name) {
-  const auto found = value.object().find(name);
-  return found == value.object().end() || found->second.is_null() ? nullptr : &found->second;
+const core::Json* member(const core::Json& value, const std::string& name) {
+  const auto found = value.find(name);
+  return found == value.end() || found->is_null() ? nullptr : &*found;
 }
 
 template <class Member>
-auto of(const core::JsonValue& value, const std::string& name, const Member& read) {
-  const core::JsonValue& found = value.of(name);
+auto of(const core::Json& value, const std::string& name, const Member& read) {
+  const core::Json& found = core::member_of(value, name);
   return naming(name, [&] { return read(found); });
 }
 
-std::vector<double> numbers(const core::JsonValue& value) {
+std::vector<double> numbers(const core::Json& value) {
   std::vector<double> found;
-  for (const core::JsonValue& number : value.array()) found.push_back(finite(number));
+  for (const core::Json& number : core::array_of(value)) found.push_back(finite(number));
   return found;
 }
 
-double thickness(const core::JsonValue& value) {
+double thickness(const core::Json& value) {
   const double slab = finite(value);
   if (!(slab > 0)) throw core::FileError(fmt::format("{} m is no thickness of a slab", slab));
   return slab;
 }
 
-Profile read_profile(const core::JsonValue& value, std::size_t species) {
+Profile read_profile(const core::Json& value, std::size_t species) {
   Profile profile;
   profile.slab = of(value, "slab", thickness);
-  profile.fraction = of(value, "fraction", [](const core::JsonValue& rows) {
+  profile.fraction = of(value, "fraction", [](const core::Json& rows) {
     std::vector<std::vector<double>> found;
-    for (const core::JsonValue& row : rows.array()) found.push_back(numbers(row));
+    for (const core::Json& row : core::array_of(rows)) found.push_back(numbers(row));
     return found;
   });
   if (profile.fraction.size() != species)
@@ -94,16 +95,16 @@ Profile read_profile(const core::JsonValue& value, std::size_t species) {
   return profile;
 }
 
-std::vector<std::string> read_species(const core::JsonValue& value) {
+std::vector<std::string> read_species(const core::Json& value) {
   std::vector<std::string> names;
-  for (const core::JsonValue& name : value.array()) names.push_back(name.text());
+  for (const core::Json& name : core::array_of(value)) names.push_back(core::text_of(name));
   if (names.empty()) throw core::FileError("none is named");
   if (std::set<std::string>(names.begin(), names.end()).size() < names.size())
     throw core::FileError("a name stands twice");
   return names;
 }
 
-std::size_t count_of(const core::JsonValue& value) {
+std::size_t count_of(const core::Json& value) {
   constexpr double most = 1e6;
   const double count = finite(value);
   if (!(count >= 1 && count <= most) || count != std::floor(count))
@@ -112,7 +113,7 @@ std::size_t count_of(const core::JsonValue& value) {
 }
 
 /// Lays all on the slabs that are asked for.
-void lay(const core::JsonValue& on, Asked& asked) {
+void lay(const core::Json& on, Asked& asked) {
   constexpr double most_ratio = 1e9;
   const double slab = of(on, "slab", thickness);
   const std::size_t count = of(on, "count", count_of);
@@ -135,23 +136,24 @@ void require_slabs_of_reference(const Asked& asked) {
   }
 }
 
-Asked read_asked(const core::JsonValue& value) {
+Asked read_asked(const core::Json& value) {
   Asked asked;
   asked.species = of(value, "species", read_species);
-  const core::JsonValue::Array& profiles = of(value, "profiles", [](const auto& v) { return std::cref(v.array()); });
+  const std::vector<core::Json>& profiles =
+      of(value, "profiles", [](const auto& v) { return std::cref(core::array_of(v)); });
   for (std::size_t n = 0; n < profiles.size(); ++n)
     asked.beds.push_back(
         {naming(fmt::format("profiles[{}]", n), [&] { return read_profile(profiles[n], asked.species.size()); })});
-  if (const core::JsonValue* reference = member(value, "reference"))
+  if (const core::Json* reference = member(value, "reference"))
     asked.reference = naming("reference", [&] { return read_profile(*reference, asked.species.size()); });
-  if (const core::JsonValue* on = member(value, "on")) naming("on", [&] { lay(*on, asked); });
+  if (const core::Json* on = member(value, "on")) naming("on", [&] { lay(*on, asked); });
   require_slabs_of_reference(asked);
   return asked;
 }
 
 Asked read_profiles_of(const std::string& file) {
   if (file != "-") {
-    const core::JsonValue value = core::read_json(file);
+    const core::Json value = core::read_json(file);
     return naming(file, [&] { return read_asked(value); });
   }
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
@@ -234,42 +236,30 @@ std::vector<Column> distances(const Asked& asked) {
 
 // ---- telling
 
-template <class Numbers>
-void write_array(core::Json& json, const Numbers& numbers) {
-  json.begin_array();
-  for (const auto& number : numbers) json.value(number);
-  json.end_array();
+core::Json json_of(const Values& values) {
+  core::Json json = core::Json::array();
+  for (const measures::Value& value : values) json.push_back(core::or_null(value));
+  return json;
 }
 
-void write_profiles(core::Json& json, const std::vector<measures::Bed>& beds) {
-  json.key("profiles").begin_array();
-  for (const measures::Bed& bed : beds) {
-    json.begin_object().member("slab", bed.profile.slab).key("fraction").begin_array();
-    for (const auto& phi : bed.profile.fraction) write_array(json, phi);
-    json.end_array().key("pressure");
-    write_array(json, bed.profile.pressure);
-    json.end_object();
-  }
-  json.end_array();
+core::Json json_of(const std::vector<measures::Bed>& beds) {
+  core::Json json = core::Json::array();
+  for (const measures::Bed& bed : beds)
+    json.push_back(
+        {{"slab", bed.profile.slab}, {"fraction", bed.profile.fraction}, {"pressure", bed.profile.pressure}});
+  return json;
 }
 
 void print_json(const Asked& asked, bool of_run) {
   core::Json json;
-  json.begin_object();
-  if (of_run) write_array(json.key("time_s"), asked.time);
-  json.key("measures").begin_object();
-  for (const Column& column : measured(asked)) {
-    json.key(column.name).begin_object().member("unit", column.unit).member("help", column.help).key("values");
-    write_array(json, column.values);
-    json.end_object();
-  }
-  json.end_object();
-  if (asked.reference) json.key("distances").begin_object();
-  for (const Column& column : distances(asked)) write_array(json.key(column.name), column.values);
-  if (asked.reference) json.end_object();
-  if (asked.laid) write_profiles(json, asked.beds);
-  json.end_object();
-  core::print("{}\n", json.text());
+  if (of_run) json["time_s"] = asked.time;
+  core::Json& of_beds = json["measures"] = core::Json::object();
+  for (const Column& column : measured(asked))
+    of_beds[column.name] = {{"unit", column.unit}, {"help", column.help}, {"values", json_of(column.values)}};
+  if (asked.reference) json["distances"] = core::Json::object();
+  for (const Column& column : distances(asked)) json["distances"][column.name] = json_of(column.values);
+  if (asked.laid) json["profiles"] = json_of(asked.beds);
+  core::print("{}\n", core::json_text(json));
 }
 
 void print_table(const Asked& asked, bool of_run) {

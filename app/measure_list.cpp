@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "dem/history_table.hpp"
@@ -62,26 +64,23 @@ void print_page() {
   }
 }
 
+core::Json json_of(const Line& line) {
+  const auto text_or_null = [](const std::string& text) { return text.empty() ? core::Json() : core::Json(text); };
+  return {{"name", text_or_null(line.name)},
+          {"column", text_or_null(line.column)},
+          {"unit", line.unit},
+          {"help", line.help},
+          {"drift", line.readers.drift},
+          {"picture", line.readers.picture}};
+}
+
 void print_list_json() {
   core::Json json;
-  json.begin_object();
-  const auto text = [&json](const char* key, const std::string& what) {
-    json.key(key);
-    what.empty() ? json.null() : json.value(what);
-  };
   for (const Section& section : sections()) {
-    json.key(section.key).begin_array();
-    for (const Line& line : section.lines) {
-      json.begin_object();
-      text("name", line.name);
-      text("column", line.column);
-      json.member("unit", line.unit).member("help", line.help);
-      json.member("drift", line.readers.drift).member("picture", line.readers.picture).end_object();
-    }
-    json.end_array();
+    core::Json& lines = json[section.key] = core::Json::array();
+    for (const Line& line : section.lines) lines.push_back(json_of(line));
   }
-  json.end_object();
-  core::print("{}\n", json.text());
+  core::print("{}\n", core::json_text(json));
 }
 
 }  // namespace

@@ -85,7 +85,6 @@ void run_effects_bench(int rounds, bool json);
 /// The code to end with: of numbers that failed where the promise is broken.
 core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
 void run_estimate(const EstimateOptions& options);
-void run_oracles();
 void run_drag(const DragOptions& options);
 void run_measure(const MeasureOptions& options);
 void run_inversion(const InversionOptions& options);

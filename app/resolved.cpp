@@ -1,5 +1,7 @@
 // polybed check --resolved: the case as a record of its run has it, and whether each model runs it; nothing is
 // estimated.
+#include <nlohmann/json.hpp>
+
 #include "app/run_directory.hpp"
 #include "core/case/file.hpp"
 #include "core/output/json.hpp"
@@ -22,30 +24,19 @@ std::string hash_of_scanned(core::Scene scene) {
   return core::text_hash(core::resolved_case(scene));
 }
 
-/// Why a model cannot run the case; an empty list if it can.
-void write_reasons(core::Json& json, const char* model, const std::vector<std::string>& reasons) {
-  json.key(model).begin_array();
-  for (const std::string& reason : reasons) json.value(reason);
-  json.end_array();
-}
-
 }  // namespace
 
 void print_resolved(const RunOptions& options) {
   const core::Scene scene = read_scene(options);
   const std::string text = core::resolved_case(scene);
   if (!options.json) return core::print("{}\n", text);
-  core::Json json;
-  json.begin_object()
-      .member("git_commit", core::git_commit())
-      .member("case", text)
-      .member("hash", core::text_hash(text));
-  json.member("scan_hash", hash_of_scanned(scene)).key("overrides").begin_array();
-  for (const std::string& override : scene.overrides) json.value(override);
-  json.end_array().key("refused").begin_object();
-  write_reasons(json, "tfm", tfm::only_for_particles(scene));
-  write_reasons(json, "dem", dem::only_for_continuum(scene));
-  core::print("{}\n", json.end_object().end_object().text());
+  const core::Json refused = {{"tfm", tfm::only_for_particles(scene)}, {"dem", dem::only_for_continuum(scene)}};
+  core::print("{}\n", core::json_text({{"git_commit", core::git_commit()},
+                                       {"case", text},
+                                       {"hash", core::text_hash(text)},
+                                       {"scan_hash", hash_of_scanned(scene)},
+                                       {"overrides", scene.overrides},
+                                       {"refused", refused}}));
 }
 
 }  // namespace polybed::multiscale

@@ -14,7 +14,7 @@ void require_table(const core::Scene& scene) {
 
 void run_stress_uncertainty(const RunOptions& options) {
   require_table(read_scene(options));
-  become_python("polybed.study.stress_uncertainty", {begin_request(options, "tfm").end_object().text()});
+  become_python("polybed.study.stress_uncertainty", {core::json_text(common_request(options, "tfm"))});
 }
 
 }  // namespace polybed::multiscale

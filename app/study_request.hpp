@@ -8,8 +8,8 @@
 
 namespace polybed::multiscale {
 
-/// An object that is begun, with the options of the runs that the study makes.
+/// The options of the runs that the study makes.
 /// \param kind  of the study's folder: runs/<case name>-<kind> unless -o names another
-[[nodiscard]] core::Json begin_request(const RunOptions& options, const std::string& kind);
+[[nodiscard]] core::Json common_request(const RunOptions& options, const std::string& kind);
 
 }  // namespace polybed::multiscale

@@ -11,8 +11,6 @@ void add_cost(CLI::App& app, Commands& commands) {
   command.set_help_flag();
   commands.push_back(
       {&command, [&command]() -> core::ExitCode { multiscale::become_python("polybed.cost", command.remaining()); }});
-  CLI::App& oracles = *app.add_subcommand("oracles", "what `polybed cost selftest` examines of the program")->group("");
-  commands.push_back({&oracles, doing(multiscale::run_oracles)});
 }
 
 void add_inversion(CLI::App& app, Commands& commands) {

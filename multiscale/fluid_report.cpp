@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace polybed::multiscale {
 
@@ -20,16 +21,21 @@ FluidReport fluid_report(const core::Scene& scene, const dem::Coupling& coupling
 }
 
 void write_fluid(core::Json& json, const FluidReport& r) {
-  json.key("fluid").begin_object().member("every", std::int64_t(r.every)).member("dt_s", r.step);
-  json.member("steps", r.totals.steps).member("iterations", r.totals.iterations);
-  json.member("worst_residual", r.totals.worst_residual).member("greatest_courant", r.totals.greatest_courant);
-  json.member("ranks", r.shared ? "shared" : "each")
-      .member("kernel", r.kernel)
-      .member("kernel_width_m", r.kernel_width);
-  json.key("drag").begin_object().member("law", r.law).member("evaluations", r.totals.law.evaluations);
-  json.member("guarded", r.totals.law.guarded).member("clamped_voidage", r.totals.law.clamped_voidage).end_object();
-  if (r.work) json.member("work_J", *r.work);
-  json.end_object();
+  json["fluid"] = {{"every", r.every},
+                   {"dt_s", r.step},
+                   {"steps", r.totals.steps},
+                   {"iterations", r.totals.iterations},
+                   {"worst_residual", r.totals.worst_residual},
+                   {"greatest_courant", r.totals.greatest_courant},
+                   {"ranks", r.shared ? "shared" : "each"},
+                   {"kernel", r.kernel},
+                   {"kernel_width_m", r.kernel_width},
+                   {"drag",
+                    {{"law", r.law},
+                     {"evaluations", r.totals.law.evaluations},
+                     {"guarded", r.totals.law.guarded},
+                     {"clamped_voidage", r.totals.law.clamped_voidage}}},
+                   {"work_J", r.work}};
 }
 
 std::vector<std::string> fluid_lines(const FluidReport& r) {

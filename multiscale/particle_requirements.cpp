@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "core/memory.hpp"
@@ -146,34 +147,36 @@ void choose_stiffness(core::Scene& scene) {
 }
 
 void write_overlap(core::Json& json, const dem::OverlapForecast& overlap) {
-  json.key("overlap").begin_object().member("pair", overlap.pair).member("expected_m", overlap.overlap);
-  json.member("over_diameter", overlap.share).end_object();
+  json["overlap"] = {{"pair", overlap.pair}, {"expected_m", overlap.overlap}, {"over_diameter", overlap.share}};
 }
 
 void write_particle_requirements(core::Json& json, const core::Scene& scene, const ParticleRequirements& need) {
-  json.key("particles").begin_object();
-  for (std::size_t j = 0; j < need.numbers.size(); ++j) json.member(scene.species[j].name, need.numbers[j]);
-  json.end_object().member("memory_MB", mega * need.memory());
-  json.key("memory").begin_object().member("particles_MB", mega * need.particles);
-  if (need.fluid) json.member("fluid_MB", mega * need.fluid->memory);
-  json.member("program_MB", mega * need.program).end_object();
-  if (need.fluid) {
-    const FluidNeed& fluid = *need.fluid;
-    json.key("fluid").begin_object().member("every", std::int64_t(fluid.every)).member("dt_s", fluid.step);
-    json.member("steps", fluid.steps).member("cells", std::uint64_t(fluid.cells));
-    json.member("kernel", fluid.kernel.width > 0 ? "diffusion" : "bilinear");
-    json.member("kernel_width_m", fluid.kernel.width).member("kernel_reason", fluid.kernel.reason).end_object();
-  }
-  json.member("integrator", need.limits.synchronised ? "synchronised" : "thesis");
-  json.key("step").begin_object().member("dt_s", need.limits.dt).member("limited_by", need.limits.limited_by);
-  json.member("greatest_speed_expected_m_s", need.limits.greatest_speed).key("limits").begin_array();
-  for (const dem::StepLimit& limit : need.limits.all)
-    json.begin_object().member("name", limit.name).member("dt_s", limit.dt).end_object();
-  json.end_array().end_object();
+  core::Json& particles = json["particles"] = core::Json::object();
+  for (std::size_t j = 0; j < need.numbers.size(); ++j) particles[scene.species[j].name] = need.numbers[j];
+  json["memory_MB"] = mega * need.memory();
+  core::Json& memory = json["memory"] = {{"particles_MB", mega * need.particles}};
+  if (need.fluid) memory["fluid_MB"] = mega * need.fluid->memory;
+  memory["program_MB"] = mega * need.program;
+  if (const std::optional<FluidNeed>& fluid = need.fluid)
+    json["fluid"] = {{"every", fluid->every},
+                     {"dt_s", fluid->step},
+                     {"steps", fluid->steps},
+                     {"cells", fluid->cells},
+                     {"kernel", fluid->kernel.width > 0 ? "diffusion" : "bilinear"},
+                     {"kernel_width_m", fluid->kernel.width},
+                     {"kernel_reason", fluid->kernel.reason}};
+  json["integrator"] = need.limits.synchronised ? "synchronised" : "thesis";
+  core::Json limits = core::Json::array();
+  for (const dem::StepLimit& limit : need.limits.all) limits.push_back({{"name", limit.name}, {"dt_s", limit.dt}});
+  json["step"] = {{"dt_s", need.limits.dt},
+                  {"limited_by", need.limits.limited_by},
+                  {"greatest_speed_expected_m_s", need.limits.greatest_speed},
+                  {"limits", limits}};
   write_overlap(json, need.overlap);
-  json.key("time").begin_object().member("settling_s", need.settling).member("before_s", need.before);
-  json.member("steps", need.steps).member("particle_steps", need.particle_steps);
-  json.member("expected_s", need.expected).member("least_s", need.least).member("most_s", need.most).end_object();
+  json["time"] = {{"settling_s", need.settling}, {"before_s", need.before},
+                  {"steps", need.steps},         {"particle_steps", need.particle_steps},
+                  {"expected_s", need.expected}, {"least_s", need.least},
+                  {"most_s", need.most}};
 }
 
 void print_particle_requirements(const core::Scene& scene, const ParticleRequirements& need) {

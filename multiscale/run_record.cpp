@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/case/file.hpp"
@@ -21,84 +22,80 @@ namespace {
 
 using core::Json;
 
-void write_work(Json& json, const tfm::Work& work) {
-  json.key("work").begin_object();
-  json.member("steps", work.steps).member("rejected_steps", work.rejected_steps);
-  json.member("rhs_evaluations", work.right_hand_sides).member("pressure_solves", work.pressure_solves);
-  json.member("linear_iterations", work.pressure_iterations + work.krylov_iterations);
-  json.member("newton_iterations", work.newton_iterations);
-  json.member("first_order_cells", work.first_order_cells).end_object();
+Json work_of(const tfm::Work& work) {
+  return {{"steps", work.steps},
+          {"rejected_steps", work.rejected_steps},
+          {"rhs_evaluations", work.right_hand_sides},
+          {"pressure_solves", work.pressure_solves},
+          {"linear_iterations", work.pressure_iterations + work.krylov_iterations},
+          {"newton_iterations", work.newton_iterations},
+          {"first_order_cells", work.first_order_cells}};
 }
 
 /// Of a run that has failed: the steps before, with what limited each.
-void write_last_steps(Json& json, const std::deque<tfm::StepLine>& steps) {
-  json.key("last_steps").begin_array();
+Json last_steps_of(const std::deque<tfm::StepLine>& steps) {
+  Json json = Json::array();
   for (const tfm::StepLine& step : steps)
-    json.begin_object()
-        .member("time_s", step.time)
-        .member("dt_s", step.step)
-        .member("limited_by", step.limited_by)
-        .end_object();
-  json.end_array();
+    json.push_back({{"time_s", step.time}, {"dt_s", step.step}, {"limited_by", step.limited_by}});
+  return json;
 }
 
 /// How often closures were asked outside their range.
-void write_guards(Json& json, const std::vector<tfm::ClosureUse>& closures) {
-  json.key("guards").begin_array();
+Json guards_of(const std::vector<tfm::ClosureUse>& closures) {
+  Json json = Json::array();
   for (const tfm::ClosureUse& use : closures)
-    json.begin_object()
-        .member("closure", use.name)
-        .member("evaluations", use.evaluations)
-        .member("outside_range", use.guarded)
-        .end_object();
-  json.end_array();
+    json.push_back({{"closure", use.name}, {"evaluations", use.evaluations}, {"outside_range", use.guarded}});
+  return json;
 }
 
 /// The smallest G/G_crit of the run with its place; null if nothing ever slipped.
-void write_well_posedness(Json& json, const tfm::LeastWellPosed& least, int dimensions) {
-  json.key("well_posedness");
-  if (!std::isfinite(least.cell.least)) {
-    json.null();
-    return;
-  }
-  json.begin_object().member("least", least.cell.least).member("critical_slope_Pa", least.cell.critical_slope);
-  json.member("time_s", least.time).key("place_m").begin_array();
-  for (int axis = 0; axis < dimensions; ++axis) json.value(least.cell.place[std::size_t(axis)]);
-  json.end_array().member("share_below_1", least.share_below_now).end_object();
+Json well_posedness_of(const tfm::LeastWellPosed& least, int dimensions) {
+  if (!std::isfinite(least.cell.least)) return nullptr;
+  const auto place = least.cell.place.begin();
+  return {{"least", least.cell.least},
+          {"critical_slope_Pa", least.cell.critical_slope},
+          {"time_s", least.time},
+          {"place_m", std::vector<double>(place, place + dimensions)},
+          {"share_below_1", least.share_below_now}};
 }
 
-void write_drifts(Json& json, const measures::Drifts& drifts) {
-  json.key("drift").begin_object().member("window_s", drifts.window()).key("measures").begin_array();
+Json drift_of(const measures::Drifts& drifts) {
+  Json measures = Json::array();
   for (const measures::DriftOfMeasure& d : drifts.judge())
-    json.begin_object()
-        .member("name", d.name)
-        .member("rate_m_per_s", d.drift.rate)
-        .member("error_m_per_s", d.drift.error)
-        .member("steady", d.steady)
-        .end_object();
-  json.end_array().end_object();
+    measures.push_back(
+        {{"name", d.name}, {"rate_m_per_s", d.drift.rate}, {"error_m_per_s", d.drift.error}, {"steady", d.steady}});
+  return {{"window_s", drifts.window()}, {"measures", measures}};
 }
 
-/// Mass of each species at the start, in, out and in the column, and how well they add up; nothing if no end is open.
-void write_ledger(Json& json, const tfm::Constants& constants, const RunTotals& totals,
-                  const measures::Invariants& invariants) {
-  if (!constants.openings.present()) return;
-  const std::vector<fluid::Passed>& passed = totals.passed;
-  const std::vector<double>& now = totals.masses;
-  json.key("ledger").begin_array();
+/// Mass of each species at the start, in, out and in the column, and how well they add up.
+Json ledger_of(const tfm::Constants& constants, const RunTotals& totals, const measures::Invariants& invariants) {
+  Json ledger = Json::array();
   for (std::size_t j = 0; j < constants.species(); ++j) {
-    const double start = invariants.initial_mass()[j], in = passed[j].in * constants.density[j],
-                 out = passed[j].out * constants.density[j];
-    json.begin_object()
-        .member("species", constants.name[j])
-        .member("start_kg", start)
-        .member("in_kg", in)
-        .member("out_kg", out)
-        .member("stored_kg", now[j])
-        .member("relative_error", measures::ledger_error(start, in, out, now[j]))
-        .end_object();
+    const double start = invariants.initial_mass()[j], in = totals.passed[j].in * constants.density[j],
+                 out = totals.passed[j].out * constants.density[j], now = totals.masses[j];
+    ledger.push_back({{"species", constants.name[j]},
+                      {"start_kg", start},
+                      {"in_kg", in},
+                      {"out_kg", out},
+                      {"stored_kg", now},
+                      {"relative_error", measures::ledger_error(start, in, out, now)}});
   }
-  json.end_array();
+  return ledger;
+}
+
+/// A species with a distribution and its classes.
+Json size_classes_of(const core::SizeClasses& record) {
+  Json json = {{"species", record.species}, {"distribution", core::name_of(record.given.kind.value())}};
+  if (record.given.median) json["median_m"] = *record.given.median;
+  if (record.given.mean) json["mean_m"] = *record.given.mean;
+  if (record.given.deviation) json["deviation"] = *record.given.deviation;
+  for (const auto& [opening, share] : record.given.sieves)
+    json["sieves"].push_back({{"opening_m", opening}, {"share", share}});
+  for (std::size_t k = 0; k < record.diameter.size(); ++k)
+    json["classes"].push_back({{"name", record.species + "." + std::to_string(k + 1)},
+                               {"diameter_m", record.diameter[k]},
+                               {"share", record.share[k]}});
+  return json;
 }
 
 }  // namespace
@@ -119,7 +116,7 @@ std::vector<std::string> drift_lines(const measures::Drifts& drifts) {
   return lines;
 }
 
-core::JsonValue read_run_record(const std::filesystem::path& directory) {
+core::Json read_run_record(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "run.json";
   if (!std::filesystem::exists(path))
     throw core::FileError(fmt::format("{}: no run (it has no run.json)", directory.string()));
@@ -150,59 +147,29 @@ RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_sec
 }
 
 void write_size_classes(Json& json, const core::Scene& scene) {
-  if (scene.size_classes.empty()) return;
-  json.key("size_classes").begin_array();
-  for (const core::SizeClasses& record : scene.size_classes) {
-    json.begin_object()
-        .member("species", record.species)
-        .member("distribution", core::name_of(record.given.kind.value()));
-    if (record.given.median) json.member("median_m", *record.given.median);
-    if (record.given.mean) json.member("mean_m", *record.given.mean);
-    if (record.given.deviation) json.member("deviation", *record.given.deviation);
-    if (!record.given.sieves.empty()) json.key("sieves").begin_array();
-    for (const auto& [opening, share] : record.given.sieves)
-      json.begin_object().member("opening_m", opening).member("share", share).end_object();
-    if (!record.given.sieves.empty()) json.end_array();
-    json.key("classes").begin_array();
-    for (std::size_t k = 0; k < record.diameter.size(); ++k)
-      json.begin_object()
-          .member("name", record.species + "." + std::to_string(k + 1))
-          .member("diameter_m", record.diameter[k])
-          .member("share", record.share[k])
-          .end_object();
-    json.end_array().end_object();
-  }
-  json.end_array();
+  for (const core::SizeClasses& record : scene.size_classes) json["size_classes"].push_back(size_classes_of(record));
 }
 
 void begin_record(Json& json, const core::Scene& scene, const std::string& model, const std::string& state, int ranks) {
   const std::string text = core::resolved_case(scene);
-  json.begin_object().member("filetype", "polybed run").member("version", 1).member("model", model);
-  json.member("program", core::version()).member("git_commit", core::git_commit()).member("state", state);
-  json.member("case", text).member("case_hash", core::text_hash(text)).key("overrides").begin_array();
-  for (const std::string& override : scene.overrides) json.value(override);
-  json.end_array().member("ranks", std::int64_t(ranks));
+  json = {{"filetype", "polybed run"},        {"version", 1},   {"model", model}, {"program", core::version()},
+          {"git_commit", core::git_commit()}, {"state", state}, {"case", text},   {"case_hash", core::text_hash(text)},
+          {"overrides", scene.overrides},     {"ranks", ranks}};
   write_size_classes(json, scene);
-  json.key("machine")
-      .begin_object()
-      .member("processor", processor())
-      .member("vectors", core::vector_width_name())
-      .member("cores", std::int64_t(std::thread::hardware_concurrency()))
-      .end_object();
+  json["machine"] = {{"processor", processor()},
+                     {"vectors", core::vector_width_name()},
+                     {"cores", std::thread::hardware_concurrency()}};
 }
 
 void write_invariants(Json& json, std::span<const measures::WorstInvariant> worst) {
-  json.key("invariants").begin_array();
+  Json& all = json["invariants"] = Json::array();
   for (const measures::WorstInvariant& w : worst)
-    json.begin_object()
-        .member("name", w.name)
-        .member("worst", w.value)
-        .member("limit", w.limit)
-        .member("time_s", w.time)
-        .member("held", w.value <= w.limit)
-        .member("judged", w.judged)
-        .end_object();
-  json.end_array();
+    all.push_back({{"name", w.name},
+                   {"worst", w.value},
+                   {"limit", w.limit},
+                   {"time_s", w.time},
+                   {"held", w.value <= w.limit},
+                   {"judged", w.judged}});
 }
 
 std::vector<std::string> exceeded_lines(std::span<const measures::WorstInvariant> worst) {
@@ -215,9 +182,8 @@ std::vector<std::string> exceeded_lines(std::span<const measures::WorstInvariant
 }
 
 void write_timers(Json& json, const core::Timers& timers) {
-  json.key("timers").begin_object();
-  for (const core::Timers::Term& term : timers.terms()) json.member(term.name, term.seconds);
-  json.end_object();
+  Json& seconds = json["timers"] = Json::object();
+  for (const core::Timers::Term& term : timers.terms()) seconds[term.name] = term.seconds;
 }
 
 std::string run_record_text(const RunRecord& record) {
@@ -225,33 +191,33 @@ std::string run_record_text(const RunRecord& record) {
   const double simulated = model.time() - record.begin;
   Json json;
   begin_record(json, record.scene, "tfm", record.state, record.totals.ranks);
-  json.member("integrator", core::name_of(model.integrator_kind()))
-      .member("integrator_reason", model.integrator_reason());
-  json.member("momentum", core::name_of(model.momentum().form)).member("momentum_reason", model.momentum().reason);
-  json.member("unknowns", std::uint64_t(model.unknowns())).member("time_s", model.time());
-  json.member("cpu_s", record.totals.cpu_seconds)
-      .member("wall_s", record.totals.wall_seconds)
-      .member("cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0);
+  json.update({{"integrator", core::name_of(model.integrator_kind())},
+               {"integrator_reason", model.integrator_reason()},
+               {"momentum", core::name_of(model.momentum().form)},
+               {"momentum_reason", model.momentum().reason},
+               {"unknowns", model.unknowns()},
+               {"time_s", model.time()},
+               {"cpu_s", record.totals.cpu_seconds},
+               {"wall_s", record.totals.wall_seconds},
+               {"cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0}});
   record.write_prediction(json);
-  write_work(json, model.work());
-  if (record.state.starts_with("failed")) write_last_steps(json, record.observers.last_steps());
+  json["work"] = work_of(model.work());
+  if (record.state.starts_with("failed")) json["last_steps"] = last_steps_of(record.observers.last_steps());
   write_timers(json, record.timers);
   write_invariants(json, record.observers.invariants().worst());
-  write_ledger(json, model.constants(), record.totals, record.observers.invariants());
-  json.member("pressure_drop_over_weight", record.observers.force_balance());
-  write_well_posedness(json, record.observers.least_well_posed(), model.constants().grid.dimensions);
-  write_drifts(json, record.observers.drifts());
-  write_guards(json, record.totals.closures);
+  if (model.constants().openings.present())
+    json["ledger"] = ledger_of(model.constants(), record.totals, record.observers.invariants());
+  json["pressure_drop_over_weight"] = core::or_null(record.observers.force_balance());
+  json["well_posedness"] = well_posedness_of(record.observers.least_well_posed(), model.constants().grid.dimensions);
+  json["drift"] = drift_of(record.observers.drifts());
+  json["guards"] = guards_of(record.totals.closures);
   write_left_out(json, record.left_out);
   if (record.promise != nullptr) write_neglected(json, *record.promise);
-  json.key("warnings").begin_array();
-  for (const std::string& line : exceeded_lines(record.observers.invariants().worst())) json.value(line);
-  for (const std::string& line : drift_lines(record.observers.drifts())) json.value(line);
-  for (const std::string& line : model.effects().warnings) json.value(line);
-  for (const std::string& line : scene_warnings(record.scene)) json.value(line);
-  for (const std::string& line : record.warnings) json.value(line);
-  json.end_array().end_object();
-  return json.text();
+  Json& warnings = json["warnings"] = exceeded_lines(record.observers.invariants().worst());
+  for (const auto& lines : {drift_lines(record.observers.drifts()), model.effects().warnings,
+                            scene_warnings(record.scene), record.warnings})
+    for (const std::string& line : lines) warnings.push_back(line);
+  return core::json_text(json);
 }
 
 }  // namespace polybed::multiscale

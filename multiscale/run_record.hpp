@@ -9,7 +9,6 @@
 
 #include "core/case/scene.hpp"
 #include "core/output/json.hpp"
-#include "core/output/json_value.hpp"
 #include "core/timers.hpp"
 #include "measures/invariants.hpp"
 #include "multiscale/effects/left_out.hpp"
@@ -19,7 +18,7 @@
 namespace polybed::multiscale {
 
 /// The record of a run, run.json. Throws FileError if there is none, or of another version.
-[[nodiscard]] core::JsonValue read_run_record(const std::filesystem::path& directory);
+[[nodiscard]] core::Json read_run_record(const std::filesystem::path& directory);
 
 /// What the ranks of a run have done together.
 struct RunTotals {
@@ -57,7 +56,7 @@ struct RunRecord {
 /// Writes "size_classes": what became of the species with a distribution; nothing if there is none.
 void write_size_classes(core::Json& json, const core::Scene& scene);
 
-/// Opens a record with what is the same for both models: program, case, machine.
+/// Begins a record with what is the same for both models: program, case, machine.
 void begin_record(core::Json& json, const core::Scene& scene, const std::string& model, const std::string& state,
                   int ranks);
 

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "core/case/depth.hpp"
-#include "core/output/json.hpp"
 
 namespace polybed::core {
 
@@ -18,7 +17,9 @@ toml::table parse_override(const std::string& value, const std::string& source) 
     if (parsed.size() == 1) return parsed;  // a line end and a second key would go unread
   } catch (const toml::parse_error&) {
   }
-  return toml::parse("value = " + Json().value(value).text(), source);
+  std::ostringstream quoted;
+  quoted << toml::table{{"value", value}};
+  return toml::parse(quoted.str(), source);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/output/files.hpp"
-#include "core/output/json_value.hpp"
+#include "core/output/json.hpp"
 
 namespace polybed::core {
 
@@ -49,7 +49,7 @@ bool is_file(const fs::path& path) {
 bool is_record(const fs::path& path) {
   if (!is_file(path)) return false;
   try {
-    return read_json(path).of("filetype").text().starts_with("polybed ");
+    return filetype_of(path).starts_with("polybed ");
   } catch (const FileError&) {  // of somebody else
     return false;
   }

@@ -2,80 +2,93 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/output/files.hpp"
+
 namespace polybed::core {
 
-void Json::separate() {
-  if (!first_ && !after_key_) text_ += ", ";
-  first_ = false;
-  after_key_ = false;
+namespace {
+
+constexpr int deepest = 100;  // brackets within brackets: copies and texts of values recurse
+
+/// The library would write null.
+void refuse_not_finite(const Json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>()))
+    throw NumericsError("a number that is not finite was about to be written as JSON");
+  if (value.is_structured())
+    for (const Json& part : value) refuse_not_finite(part);
 }
 
-Json& Json::open(char bracket) {
-  separate();
-  text_ += bracket;
-  first_ = true;
-  return *this;
+/// What the library says without the number of the error before it.
+std::string reason_of(const Json::exception& error) {
+  const std::string_view text = error.what();
+  const std::size_t end = text.find("] ");
+  return std::string(end == std::string_view::npos ? text : text.substr(end + 2));
 }
 
-Json& Json::close(char bracket) {
-  text_ += bracket;
-  first_ = false;
-  return *this;
+}  // namespace
+
+std::string json_text(const Json& value) {
+  refuse_not_finite(value);
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json& Json::key(std::string_view name) {
-  value(name);
-  text_ += ": ";
-  after_key_ = true;
-  return *this;
-}
+Json or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
 
-Json& Json::value(std::string_view text) {
-  separate();
-  text_ += '"';
-  for (char c : text) {
-    if (c == '"' || c == '\\')
-      text_ += std::string("\\") + c;
-    else if (c == '\n')
-      text_ += "\\n";
-    else if (static_cast<unsigned char>(c) < 0x20)
-      text_ += fmt::format("\\u{:04x}", int(c));
-    else
-      text_ += c;
+Json parse_json(std::string_view text) {
+  try {
+    return Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
+      if (depth > deepest) throw FileError("no JSON: too many brackets within brackets");
+      return true;
+    });
+  } catch (const Json::exception& error) {
+    throw FileError("no JSON: " + reason_of(error));
   }
-  text_ += '"';
-  return *this;
 }
 
-Json& Json::value(bool truth) {
-  separate();
-  text_ += truth ? "true" : "false";
-  return *this;
+Json read_json(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  try {
+    return parse_json(text);
+  } catch (const FileError& error) {
+    throw FileError(fmt::format("{}: {}", path.string(), error.what()));
+  }
 }
 
-Json& Json::value(double number) {
-  if (!std::isfinite(number)) throw NumericsError("a number that is not finite was about to be written as JSON");
-  separate();
-  text_ += fmt::format("{}", number);
-  return *this;
+Json read_json(const std::filesystem::path& path, const std::string& filetype) {
+  Json value = read_json(path);
+  try {
+    if (text_of(member_of(value, "filetype")) == filetype && number_of(member_of(value, "version")) == 1) return value;
+  } catch (const FileError&) {  // it does not even say
+  }
+  throw FileError(fmt::format("{}: no \"{}\" of version 1", path.string(), filetype));
 }
 
-Json& Json::value(std::int64_t number) {
-  separate();
-  text_ += std::to_string(number);
-  return *this;
+std::string filetype_of(const std::filesystem::path& path) { return text_of(member_of(read_json(path), "filetype")); }
+
+double number_of(const Json& value) {
+  if (!value.is_number()) throw FileError("expected a number");
+  return value.get<double>();
 }
 
-Json& Json::value(std::uint64_t number) {
-  separate();
-  text_ += std::to_string(number);
-  return *this;
+const std::string& text_of(const Json& value) {
+  if (!value.is_string()) throw FileError("expected a text");
+  return value.get_ref<const std::string&>();
 }
 
-Json& Json::null() {
-  separate();
-  text_ += "null";
-  return *this;
+const std::vector<Json>& array_of(const Json& value) {
+  if (!value.is_array()) throw FileError("expected an array");
+  return value.get_ref<const Json::array_t&>();
+}
+
+const Json& member_of(const Json& object, const std::string& name) {
+  if (!object.is_object()) throw FileError("expected an object");
+  const auto found = object.find(name);
+  if (found == object.end()) throw FileError("no member " + name);
+  return *found;
 }
 
 }  // namespace polybed::core

@@ -1,46 +1,42 @@
-// Writes JSON: one value at a time, in the order given. A number that is not finite is refused.
+// JSON by nlohmann-json; an object keeps its members in the order in which they were given. A source that builds a
+// value includes <nlohmann/json.hpp> itself: it takes more than a second to compile, which headers spare all others.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "core/error.hpp"
+#include <vector>
 
 namespace polybed::core {
 
-class Json {
- public:
-  Json& begin_object() { return open('{'); }
-  Json& end_object() { return close('}'); }
-  Json& begin_array() { return open('['); }
-  Json& end_array() { return close(']'); }
-  /// Name of the next value.
-  Json& key(std::string_view name);
-  Json& value(std::string_view text);
-  Json& value(const char* text) { return value(std::string_view(text)); }
-  Json& value(const std::string& text) { return value(std::string_view(text)); }
-  Json& value(bool truth);
-  Json& value(double number);  ///< 17 digits at most, shortest that reads back; throws NumericsError if not finite
-  Json& value(std::int64_t number);
-  Json& value(std::uint64_t number);
-  Json& value(int number) { return value(std::int64_t(number)); }
-  Json& value(const std::optional<double>& number) { return number ? value(*number) : null(); }
-  Json& null();
-  template <class T>
-  Json& member(std::string_view name, const T& v) {
-    return key(name).value(v);
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
+using Json = nlohmann::ordered_json;
 
- private:
-  Json& open(char bracket);
-  Json& close(char bracket);
-  void separate();
-  std::string text_;
-  bool first_ = true, after_key_ = false;
-};
+/// The value on one line; each number reads back to the bit. Throws NumericsError if a number is not finite. Bytes that
+/// are no UTF-8, as the name of a file may have them, become U+FFFD.
+[[nodiscard]] std::string json_text(const Json& value);
+
+/// The number, or null without one.
+[[nodiscard]] Json or_null(const std::optional<double>& number);
+
+/// Reads one value that is all of the text. Throws FileError with the place of what is no JSON, as of a text that ends
+/// early or has brackets within brackets beyond all measure.
+[[nodiscard]] Json parse_json(std::string_view text);
+
+/// The same of a file; the error names it.
+[[nodiscard]] Json read_json(const std::filesystem::path& path);
+
+/// The same of a file that has to say of itself that it is of this type, and of version 1.
+[[nodiscard]] Json read_json(const std::filesystem::path& path, const std::string& filetype);
+
+/// The type that a file says it is of; throws FileError if it says none.
+[[nodiscard]] std::string filetype_of(const std::filesystem::path& path);
+
+/// What a value that was read is. Each throws FileError if it is something else, or if there is no such member.
+[[nodiscard]] double number_of(const Json& value);
+[[nodiscard]] const std::string& text_of(const Json& value);
+[[nodiscard]] const std::vector<Json>& array_of(const Json& value);
+[[nodiscard]] const Json& member_of(const Json& object, const std::string& name);
 
 }  // namespace polybed::core

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
@@ -42,49 +43,49 @@ bool error_grows(const std::vector<double>& blocks) {
 }
 
 void write_box(const std::filesystem::path& path, const BoxResult& r) {
-  core::Json json;
-  const auto estimate = [&](const char* name, const Estimate& value) {
-    json.key(name).begin_array().value(value.mean).value(value.error).end_array();
-  };
-  json.begin_object().member("hash", r.hash).member("regime", r.point.regime).member("seed", r.point.seed);
-  json.member("binary", r.point.binary).member("pushed", r.point.pushed);
-  json.member("solids_fraction", r.point.phi);
-  json.member("stokes", r.point.stokes);
-  json.member("restitution", r.point.restitution);
-  json.member("friction", r.point.friction);
-  json.member("share", r.point.share);
-  json.member("first_normal_over_p", r.first_normal);
-  json.member("second_normal_over_p", r.second_normal);
-  json.member("contact_share", r.contact_share);
-  json.member("contacts_per_particle", r.contacts);
-  json.member("sink_W_m3", r.sink);
-  json.member("balance", r.balance);
-  json.member("drift", r.drift);
-  json.member("shear_rate_1_s", r.shear_rate);
-  json.member("diameter_m", r.diameter);
-  json.member("density_kg_m3", r.density);
-  json.member("strain", r.strain);
-  json.member("drag_rate", r.drag_rate);
-  json.member("softness", r.softness);
-  json.member("max_overlap", r.max_overlap);
-  json.member("cpu_s", r.cpu_seconds);
-  json.member("particle_steps", r.particle_steps);
-  json.member("bed_phi", r.bed_phi);
-  json.member("slip_over_sqrt_theta", r.slip);
-  json.member("velocity_m_s", r.velocity);
-  estimate("theta_m2_s2", r.theta);
-  estimate("pressure_Pa", r.pressure);
-  estimate("viscosity_Pa_s", r.viscosity);
-  estimate("dissipation_W_m3", r.dissipation);
-  estimate("temperature_ratio", r.temperature_ratio);
-  estimate("p_ratio", r.pressure_ratio);
-  estimate("mu_ratio", r.viscosity_ratio);
-  estimate("gamma_ratio", r.dissipation_ratio);
-  estimate("exchange_kg_m3_s", r.exchange);
-  estimate("exchange_ratio", r.exchange_ratio);
-  estimate("p_bed", r.bed_pressure);
-  estimate("p_bed_by_balance", r.bed_balance);
-  core::write_atomically(path, json.end_object().text() + "\n");
+  const auto estimate = [](const Estimate& value) { return core::Json::array({value.mean, value.error}); };
+  const core::Json json = {{"hash", r.hash},
+                           {"regime", r.point.regime},
+                           {"seed", r.point.seed},
+                           {"binary", r.point.binary},
+                           {"pushed", r.point.pushed},
+                           {"solids_fraction", r.point.phi},
+                           {"stokes", r.point.stokes},
+                           {"restitution", r.point.restitution},
+                           {"friction", r.point.friction},
+                           {"share", r.point.share},
+                           {"first_normal_over_p", r.first_normal},
+                           {"second_normal_over_p", r.second_normal},
+                           {"contact_share", r.contact_share},
+                           {"contacts_per_particle", r.contacts},
+                           {"sink_W_m3", r.sink},
+                           {"balance", r.balance},
+                           {"drift", r.drift},
+                           {"shear_rate_1_s", r.shear_rate},
+                           {"diameter_m", r.diameter},
+                           {"density_kg_m3", r.density},
+                           {"strain", r.strain},
+                           {"drag_rate", r.drag_rate},
+                           {"softness", r.softness},
+                           {"max_overlap", r.max_overlap},
+                           {"cpu_s", r.cpu_seconds},
+                           {"particle_steps", r.particle_steps},
+                           {"bed_phi", r.bed_phi},
+                           {"slip_over_sqrt_theta", r.slip},
+                           {"velocity_m_s", r.velocity},
+                           {"theta_m2_s2", estimate(r.theta)},
+                           {"pressure_Pa", estimate(r.pressure)},
+                           {"viscosity_Pa_s", estimate(r.viscosity)},
+                           {"dissipation_W_m3", estimate(r.dissipation)},
+                           {"temperature_ratio", estimate(r.temperature_ratio)},
+                           {"p_ratio", estimate(r.pressure_ratio)},
+                           {"mu_ratio", estimate(r.viscosity_ratio)},
+                           {"gamma_ratio", estimate(r.dissipation_ratio)},
+                           {"exchange_kg_m3_s", estimate(r.exchange)},
+                           {"exchange_ratio", estimate(r.exchange_ratio)},
+                           {"p_bed", estimate(r.bed_pressure)},
+                           {"p_bed_by_balance", estimate(r.bed_balance)}};
+  core::write_atomically(path, core::json_text(json) + "\n");
 }
 
 }  // namespace polybed::multiscale

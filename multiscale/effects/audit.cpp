@@ -1,11 +1,12 @@
 #include "multiscale/effects/audit.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "core/output/fields.hpp"
-#include "core/output/json_value.hpp"
+#include "core/output/json.hpp"
 #include "core/output/particles.hpp"
 #include "multiscale/effects/fluid_map.hpp"
 #include "multiscale/roles.hpp"
@@ -78,10 +79,10 @@ void audit_particles(const core::FieldReader& reader, const core::ParticleReader
 }  // namespace
 
 Neglected audit_run(const fs::path& directory) {
-  const core::JsonValue record = read_run_record(directory);
-  const std::string model = record.of("model").text();
-  const core::Scene scene =
-      core::parse_case(record.of("case").text(), (directory / "run.json").string(), {}, all_roles(), size_classes);
+  const core::Json record = read_run_record(directory);
+  const std::string model = core::text_of(core::member_of(record, "model"));
+  const core::Scene scene = core::parse_case(core::text_of(core::member_of(record, "case")),
+                                             (directory / "run.json").string(), {}, all_roles(), size_classes);
   Neglected neglected(scene, model);
   const core::FieldReader reader(directory);
   std::optional<core::ParticleReader> particles;

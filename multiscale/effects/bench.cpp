@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/case/file.hpp"
@@ -162,18 +163,15 @@ std::string bench_table(const std::vector<EffectCost>& costs) {
 }
 
 void write_bench(core::Json& json, const std::vector<EffectCost>& costs) {
-  json.key("costs").begin_array();
+  core::Json& all = json["costs"] = core::Json::array();
   for (const EffectCost& c : costs)
-    json.begin_object()
-        .member("effect", c.effect)
-        .member("law", c.law)
-        .member("model", c.model)
-        .member("per", c.per)
-        .member("ns", c.nanoseconds)
-        .member("spread_ns", c.spread)
-        .member("bytes", std::uint64_t(c.bytes))
-        .end_object();
-  json.end_array();
+    all.push_back({{"effect", c.effect},
+                   {"law", c.law},
+                   {"model", c.model},
+                   {"per", c.per},
+                   {"ns", c.nanoseconds},
+                   {"spread_ns", c.spread},
+                   {"bytes", c.bytes}});
 }
 
 }  // namespace polybed::multiscale

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 namespace polybed::multiscale {
 
 namespace {
@@ -75,39 +77,50 @@ std::string effects_table(const core::Scene& scene, const relevance::Choice& cho
   return text;
 }
 
+namespace {
+
+core::Json finite_or_null(const std::optional<double>& value) {
+  return core::or_null(value && std::isfinite(*value) ? value : std::nullopt);
+}
+
+core::Json json_of(const core::Scene& scene, const relevance::EffectRow& row) {
+  core::Json json = {{"effect", row.effect},
+                     {"model", row.model},
+                     {"on", row.state == State::unknown ? core::Json() : core::Json(row.state == State::on)},
+                     {"number", row.number},
+                     {"value", finite_or_null(row.value)},
+                     {"threshold", finite_or_null(row.threshold)},
+                     {"neglected_bound", finite_or_null(row.neglected)},
+                     {"reason", reason_text(row)},
+                     {"models", row.models},
+                     {"below", row.below},
+                     {"kind", row.kind == Kind::role        ? "role"
+                              : row.kind == Kind::condition ? "condition"
+                                                            : "unmodelled"}};
+  if (row.up_to) json["up_to"] = *row.up_to;
+  json["built"] = row.not_built.empty() && row.kind != Kind::unmodelled;
+  json["in_case"] = case_text(scene, row);
+  if (row.band) json["band"] = {row.band->least, row.band->most};
+  core::Json& zones = json["zones"] = core::Json::object();
+  for (const auto& [zone, value] : row.zones) zones[zone] = finite_or_null(value);
+  return json;
+}
+
+}  // namespace
+
 void write_effects(core::Json& json, const core::Scene& scene, const relevance::Choice& choice) {
-  const auto optional = [&](const char* name, const std::optional<double>& value) {
-    value&& std::isfinite(*value) ? json.member(name, *value) : json.key(name).null();
+  core::Json& rows = json["effects"] = core::Json::array();
+  for (const relevance::EffectRow& row : choice.rows) rows.push_back(json_of(scene, row));
+  json["neglected_sum"] = choice.neglected_sum;
+  json["neglected_up_to"] = choice.sum_up_to;
+  json["neglected_sum_of_case"] = choice.case_sum;
+  const auto by_model = [](const std::vector<relevance::EffectRow>& of) -> core::Json {
+    return {{"tfm", relevance::neglected_sum(of, "tfm")}, {"dem", relevance::neglected_sum(of, "dem")}};
   };
-  json.key("effects").begin_array();
-  for (const relevance::EffectRow& row : choice.rows) {
-    json.begin_object().member("effect", row.effect).member("model", row.model);
-    row.state == State::unknown ? json.key("on").null() : json.member("on", row.state == State::on);
-    json.member("number", row.number);
-    optional("value", row.value);
-    optional("threshold", row.threshold);
-    optional("neglected_bound", row.neglected);
-    json.member("reason", reason_text(row)).member("models", row.models).member("below", row.below);
-    json.member("kind", row.kind == Kind::role ? "role" : row.kind == Kind::condition ? "condition" : "unmodelled");
-    if (row.up_to) json.member("up_to", *row.up_to);
-    json.member("built", row.not_built.empty() && row.kind != Kind::unmodelled)
-        .member("in_case", case_text(scene, row));
-    if (row.band) json.key("band").begin_array().value(row.band->least).value(row.band->most).end_array();
-    json.key("zones").begin_object();
-    for (const auto& [zone, value] : row.zones) optional(zone.c_str(), value);
-    json.end_object().end_object();
-  }
-  json.end_array()
-      .member("neglected_sum", choice.neglected_sum)
-      .member("neglected_up_to", choice.sum_up_to)
-      .member("neglected_sum_of_case", choice.case_sum);
-  const auto by_model = [&](const char* name, const std::vector<relevance::EffectRow>& rows) {
-    json.key(name).begin_object().member("tfm", relevance::neglected_sum(rows, "tfm"));
-    json.member("dem", relevance::neglected_sum(rows, "dem")).end_object();
-  };
-  by_model("neglected_sum_by_model", choice.rows);
-  by_model("neglected_sum_of_case_by_model", choice.of_case);
-  json.member("tolerance", choice.tolerance).member("purpose", core::name_of(scene.chooser.purpose));
+  json["neglected_sum_by_model"] = by_model(choice.rows);
+  json["neglected_sum_of_case_by_model"] = by_model(choice.of_case);
+  json["tolerance"] = choice.tolerance;
+  json["purpose"] = core::name_of(scene.chooser.purpose);
 }
 
 }  // namespace polybed::multiscale

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "multiscale/effects/choice.hpp"
 
@@ -75,16 +76,23 @@ LeftOut left_out(const core::Scene& scene, const std::string& model) {
 }
 
 void write_left_out(core::Json& json, const LeftOut& left_out) {
-  json.key("neglected").begin_object().member("sum", left_out.sum).member("promise", left_out.promise);
-  json.member("up_to", left_out.up_to).member("purpose", left_out.purpose).key("rows").begin_array();
+  core::Json rows = core::Json::array();
   for (const LeftOutEffect& one : left_out.effects) {
-    json.begin_object().member("effect", one.row.effect).member("kind", name_of(one.row.kind)).member("why", one.why);
-    json.member("number", one.row.number).member("bound", one.bound).member("summed", one.row.summed);
-    if (one.row.band) json.key("band").begin_array().value(one.row.band->least).value(one.row.band->most).end_array();
-    if (one.row.up_to) json.member("up_to", *one.row.up_to);
-    json.member("reason", one.row.reason).end_object();
+    core::Json& row = rows.emplace_back(core::Json{{"effect", one.row.effect},
+                                                   {"kind", name_of(one.row.kind)},
+                                                   {"why", one.why},
+                                                   {"number", one.row.number},
+                                                   {"bound", core::or_null(one.bound)},
+                                                   {"summed", one.row.summed}});
+    if (one.row.band) row["band"] = {one.row.band->least, one.row.band->most};
+    if (one.row.up_to) row["up_to"] = *one.row.up_to;
+    row["reason"] = one.row.reason;
   }
-  json.end_array().end_object();
+  json["neglected"] = {{"sum", left_out.sum},
+                       {"promise", left_out.promise},
+                       {"up_to", left_out.up_to},
+                       {"purpose", left_out.purpose},
+                       {"rows", rows}};
 }
 
 std::vector<std::string> left_out_lines(const LeftOut& left_out) {

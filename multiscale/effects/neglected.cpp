@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "closures/relevance.hpp"
 #include "multiscale/effects/choice.hpp"
@@ -127,20 +128,22 @@ std::string neglected_table(const Neglected& neglected) {
 }
 
 void write_neglected(core::Json& json, const Neglected& neglected) {
-  json.key("promise").begin_object().member("tolerance", neglected.tolerance());
-  neglected.kept() ? json.member("kept", *neglected.kept()) : json.key("kept").null();
-  json.key("observed").begin_array();
-  for (const Observed& o : neglected.observed()) {
-    json.begin_object().member("effect", o.effect).member("bound", o.bound).member("greatest", o.greatest);
-    json.member("percentile_99", o.count > 0 ? o.percentile() : 0.0).member("encounters", o.count);
-    json.member("above_tolerance", o.above).member("out_of_range", o.outside).member("time_s", o.time);
-    json.key("place_m").begin_array();
-    for (const double x : o.place) json.value(x);
-    json.end_array().end_object();
-  }
-  json.end_array().key("not_evaluated").begin_array();
-  for (const std::string& effect : neglected.not_evaluated()) json.value(effect);
-  json.end_array().end_object();
+  core::Json observed = core::Json::array();
+  for (const Observed& o : neglected.observed())
+    observed.push_back({{"effect", o.effect},
+                        {"bound", o.bound},
+                        {"greatest", o.greatest},
+                        {"percentile_99", o.count > 0 ? o.percentile() : 0.0},
+                        {"encounters", o.count},
+                        {"above_tolerance", o.above},
+                        {"out_of_range", o.outside},
+                        {"time_s", o.time},
+                        {"place_m", {o.place[0], o.place[1], o.place[2]}}});
+  const std::optional<bool> kept = neglected.kept();
+  json["promise"] = {{"tolerance", neglected.tolerance()},
+                     {"kept", kept ? core::Json(*kept) : core::Json()},
+                     {"observed", observed},
+                     {"not_evaluated", neglected.not_evaluated()}};
 }
 
 }  // namespace polybed::multiscale

@@ -1,6 +1,8 @@
 // What an estimate says, to people and to programs.
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/print.hpp"
 #include "core/progress.hpp"
 #include "multiscale/estimate/estimate.hpp"
@@ -21,19 +23,21 @@ std::string bytes_text(double bytes) {
 }  // namespace
 
 void write_estimate(core::Json& json, const CostEstimate& e) {
-  json.member("model", e.model).member("ranks", e.ranks).key("cpu_s").begin_object();
-  json.member("least", e.time.least).member("expected", e.time.expected).member("most", e.time.most).end_object();
-  json.member("band", 0.8).member("wall_s", e.wall).member("basis", e.basis).member("steps", e.steps);
-  json.member("step_s", e.step).member("limited_by", e.limited_by).member("memory_MB", 1e-6 * e.memory);
-  json.member("disk_MB", 1e-6 * e.disk).key("ways").begin_array();
+  core::Json ways = core::Json::array();
   for (const Way& way : e.ways)
-    json.begin_object()
-        .member("change", way.change)
-        .member("time", way.time)
-        .member("loss", way.loss)
-        .member("evidence", way.evidence)
-        .end_object();
-  json.end_array();
+    ways.push_back({{"change", way.change}, {"time", way.time}, {"loss", way.loss}, {"evidence", way.evidence}});
+  json.update({{"model", e.model},
+               {"ranks", e.ranks},
+               {"cpu_s", {{"least", e.time.least}, {"expected", e.time.expected}, {"most", e.time.most}}},
+               {"band", 0.8},
+               {"wall_s", e.wall},
+               {"basis", e.basis},
+               {"steps", e.steps},
+               {"step_s", e.step},
+               {"limited_by", e.limited_by},
+               {"memory_MB", 1e-6 * e.memory},
+               {"disk_MB", 1e-6 * e.disk},
+               {"ways", ways}});
 }
 
 void print_estimate(const core::Scene& scene, const CostEstimate& e) {
@@ -50,13 +54,11 @@ void print_estimate(const core::Scene& scene, const CostEstimate& e) {
 }
 
 void write_prediction(core::Json& json, const TimeBand& predicted, bool ended, double actual) {
-  json.key("prediction").begin_object().member("cpu_s", predicted.expected).member("least_s", predicted.least);
-  json.member("most_s", predicted.most).key("actual_s");
-  if (ended)
-    json.value(actual).member("within", actual >= predicted.least && actual <= predicted.most);
-  else
-    json.null();
-  json.end_object();
+  core::Json& prediction = json["prediction"] = {{"cpu_s", predicted.expected},
+                                                 {"least_s", predicted.least},
+                                                 {"most_s", predicted.most},
+                                                 {"actual_s", ended ? core::Json(actual) : core::Json()}};
+  if (ended) prediction["within"] = actual >= predicted.least && actual <= predicted.most;
 }
 
 }  // namespace polybed::multiscale

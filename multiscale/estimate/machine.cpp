@@ -1,12 +1,12 @@
 #include "multiscale/estimate/machine.hpp"
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
-#include "core/output/json_value.hpp"
 #include "core/timers.hpp"
 #include "core/version.hpp"
 #include "dem/model.hpp"
@@ -131,30 +131,34 @@ Machine measure_machine(double seconds) {
 }
 
 std::string machine_text(const Machine& machine) {
-  core::Json json;
-  json.begin_object().member("filetype", filetype).member("version", 1).member("git_commit", core::git_commit());
-  json.member("processor", machine.processor).member("explicit_cell_step_s", machine.explicit_step);
-  json.member("implicit_cell_step_s", machine.implicit_step).member("tfm_step_s", machine.tfm_step);
-  json.member("particle_step_s", machine.particles.particle_step);
-  json.member("particle_step_in_fluid_s", machine.particles.particle_step_in_fluid);
-  json.member("exchange_s", machine.particles.exchange).member("fluid_cell_step_s", machine.particles.cell);
-  return json.end_object().text();
+  return core::json_text({{"filetype", filetype},
+                          {"version", 1},
+                          {"git_commit", core::git_commit()},
+                          {"processor", machine.processor},
+                          {"explicit_cell_step_s", machine.explicit_step},
+                          {"implicit_cell_step_s", machine.implicit_step},
+                          {"tfm_step_s", machine.tfm_step},
+                          {"particle_step_s", machine.particles.particle_step},
+                          {"particle_step_in_fluid_s", machine.particles.particle_step_in_fluid},
+                          {"exchange_s", machine.particles.exchange},
+                          {"fluid_cell_step_s", machine.particles.cell}});
 }
 
 Machine machine_of_text(const std::string& text) {
-  const core::JsonValue json = core::parse_json(text);
-  if (json.of("filetype").text() != filetype || json.of("version").number() != 1)
+  const core::Json json = core::parse_json(text);
+  const auto number = [&](const char* name) { return core::number_of(core::member_of(json, name)); };
+  if (core::text_of(core::member_of(json, "filetype")) != filetype || number("version") != 1)
     throw core::FileError("no \"polybed machine\" of version 1");
   Machine machine;
   machine.measured = true;
-  machine.processor = json.of("processor").text();
-  machine.explicit_step = json.of("explicit_cell_step_s").number();
-  machine.implicit_step = json.of("implicit_cell_step_s").number();
-  machine.tfm_step = json.of("tfm_step_s").number();
-  machine.particles.particle_step = json.of("particle_step_s").number();
-  machine.particles.particle_step_in_fluid = json.of("particle_step_in_fluid_s").number();
-  machine.particles.exchange = json.of("exchange_s").number();
-  machine.particles.cell = json.of("fluid_cell_step_s").number();
+  machine.processor = core::text_of(core::member_of(json, "processor"));
+  machine.explicit_step = number("explicit_cell_step_s");
+  machine.implicit_step = number("implicit_cell_step_s");
+  machine.tfm_step = number("tfm_step_s");
+  machine.particles.particle_step = number("particle_step_s");
+  machine.particles.particle_step_in_fluid = number("particle_step_in_fluid_s");
+  machine.particles.exchange = number("exchange_s");
+  machine.particles.cell = number("fluid_cell_step_s");
   return machine;
 }
 

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from polybed.in_place import in_place
-from polybed.packages import NO_FILE, needed
+from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
@@ -22,7 +22,7 @@ with needed(__name__ == "__main__"):
     from polybed.drawing import comparison as drawing
     from polybed.drawing.profiles import shown_top
     from polybed.drawing.style import NAMES, STYLE
-    from polybed.files import FAULTS, contents_of, read_json
+    from polybed.files import contents_of, print_made, read_json
     from polybed.plot import stored_times
     from polybed.read import nearest, read
     from polybed.study.compare_report import with_error
@@ -209,12 +209,8 @@ def write_page(directory):
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="polybed.comparison", description="Makes the page of a comparison.")
     parser.add_argument("directory", help="folder of comparison.json")
-    try:
-        print(write_page(parser.parse_args(arguments).directory))
-    except FAULTS as error:
-        print(error, file=sys.stderr)
-        return NO_FILE
-    return 0
+    directory = parser.parse_args(arguments).directory
+    return print_made(lambda: [write_page(directory)])
 
 
 if __name__ == "__main__":

@@ -3,10 +3,13 @@
 import contextlib
 import json
 import re
+import sys
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+from polybed.packages import NO_FILE
 
 VERSIONS = {
     "polybed fields": 1,
@@ -42,6 +45,16 @@ class ReplacedError(Exception):
 FAULTS = (FormatError, ReplacedError, OSError)
 # What taking apart something that does not hold what it should may raise.
 MISFITS = (KeyError, IndexError, TypeError, ValueError, AttributeError, ArithmeticError, MemoryError, RecursionError, RuntimeError)
+
+
+def print_made(make):
+    """Prints the paths of the files that `make` makes, or what is wrong with those it reads; returns the exit code."""
+    try:
+        print(*make(), sep="\n")
+    except FAULTS as error:
+        print(error, file=sys.stderr)
+        return NO_FILE
+    return 0
 
 
 def reason(error):

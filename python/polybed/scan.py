@@ -9,14 +9,14 @@ import argparse
 import sys
 from pathlib import Path
 
-from polybed.packages import NO_FILE, needed
+from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
     import numpy as np
 
     from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
-    from polybed.files import FAULTS, contents_of, read_json
+    from polybed.files import contents_of, print_made, read_json
     from polybed.plot import save
     from polybed.study.inversion_search import known
 
@@ -66,12 +66,8 @@ def picture(directory, output=None):
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="polybed.scan", description="Draws a scan for the inversion velocity.")
     parser.add_argument("directory", help="folder of inversion.json")
-    try:
-        print(picture(parser.parse_args(arguments).directory))
-    except FAULTS as error:
-        print(error, file=sys.stderr)
-        return NO_FILE
-    return 0
+    directory = parser.parse_args(arguments).directory
+    return print_made(lambda: [picture(directory)])
 
 
 if __name__ == "__main__":

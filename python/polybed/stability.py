@@ -10,27 +10,27 @@ import argparse
 import sys
 from pathlib import Path
 
-from polybed.packages import NO_FILE, needed
+from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
     from polybed.drawing import hard_cases
-    from polybed.files import FAULTS, contents_of, read_json
+    from polybed.files import contents_of, print_made, read_json
     from polybed.plot import save
+
+
+def pictures(directory):
+    """Draws the matrix in a folder as PNG and SVG and returns their paths."""
+    path = directory / "stability.json"
+    matrix = read_json(path, "polybed stability")
+    with contents_of(path):
+        return [save(hard_cases.draw(matrix), path.with_suffix(f".{ending}")) for ending in ("png", "svg")]
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="polybed.stability", description="Draws the matrix of hard cases.")
     parser.add_argument("directory", type=Path)
     directory = parser.parse_args(arguments).directory
-    try:
-        matrix = read_json(directory / "stability.json", "polybed stability")
-        with contents_of(directory / "stability.json"):
-            for ending in ("png", "svg"):
-                print(save(hard_cases.draw(matrix), directory / f"stability.{ending}"))
-    except FAULTS as error:
-        print(error, file=sys.stderr)
-        return NO_FILE
-    return 0
+    return print_made(lambda: pictures(directory))
 
 
 if __name__ == "__main__":

@@ -27,6 +27,8 @@ LIBRARIES = {
     r"hdf5": r"core/output/((file|blocks)\.cpp|hdf5\.hpp)",
     r"toml\+\+/": r"core/case/(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
     r"CLI/": r"app/commands\.hpp",
+    r"nlohmann/json\.hpp": r".*\.cpp",
+    r"nlohmann/json_fwd\.hpp": r"core/output/json\.hpp",
     r"mpi\.h": r"(core/numerics/mpi\.hpp|app/mpi_session\.hpp)",
     r"core/numerics/mpi\.hpp": r"core/(output/blocks|numerics/(ranks|mpi_start|blocks|halo|messages|linear_solver|hypre_rows|integrator_vector))\.cpp",
 }
@@ -51,6 +53,7 @@ USES = {
     "string_view": r"std::string_view\b",
     "variant": r"std::(variant|visit|get_if|holds_alternative)\b",
     "vector": r"std::vector\b",
+    "nlohmann/json.hpp": r"\b(core::)?Json(::\w+\(|\(|\{| \w+( =|;|,))",
     "fmt/format.h": r"fmt::(format|print|format_to|join)\b",
 }
 

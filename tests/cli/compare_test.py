@@ -192,7 +192,7 @@ class Comparison(Scratch):
 
     def test_an_unfinished_run_is_compared_as_far_as_it_goes(self):
         path = self.folder / "both/dem/run.json"
-        path.write_text(path.read_text().replace('"state": "done"', '"state": "stopped by the user"'))
+        path.write_text(path.read_text().replace('"state":"done"', '"state":"stopped by the user"'))
         rows = (self.folder / "both/dem/history.csv").read_text().splitlines(True)
         (self.folder / "both/dem/history.csv").write_text("".join(rows[:102]))  # to 10 ms
         found = strict_json(self.given("--json").stdout)

@@ -58,7 +58,7 @@ class Scan(Scratch):
         whole = strict_json(self.scan(DONE, "--json").stdout)
         last = self.folder / "scan" / whole["models"]["tfm"]["runs"][-1]["directory"]
         record = last / "run.json"
-        record.write_text(record.read_text().replace('"state": "done"', '"state": "running"'))
+        record.write_text(record.read_text().replace('"state":"done"', '"state":"running"'))
         (last / "checkpoint.h5").unlink()
         (last / "checkpoint.previous.h5").unlink(missing_ok=True)
         again = strict_json(self.scan(DONE, "--json").stdout)

@@ -65,7 +65,7 @@ class Plot(Scratch):
         unfinished = self.folder / "unfinished"
         shutil.copytree(self.directory, unfinished)
         record = (unfinished / "run.json").read_text()
-        (unfinished / "run.json").write_text(record.replace('"state": "done"', '"state": "running"'))
+        (unfinished / "run.json").write_text(record.replace('"state":"done"', '"state":"running"'))
         (unfinished / "profiles.h5").rename(unfinished / "elsewhere.h5")
         self.plot(DONE, unfinished, "--what", "overview,fields,history")
         self.assertIn("no stored profiles yet", self.plot(FILE, unfinished, "--what", "profiles").stderr)

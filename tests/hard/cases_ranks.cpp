@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/error.hpp"
 #include "core/numerics/random.hpp"
 #include "core/output/files.hpp"
-#include "core/output/json_value.hpp"
+#include "core/output/json.hpp"
 #include "hard/cases.hpp"
 #include "hard/program.hpp"
 #include "hard/textbook.hpp"
@@ -119,7 +120,8 @@ double contact_steps(Trial& trial, const Box& box) {
   const scenes::Scratch folder;
   const fs::path output = folder.path() / "out";
   (void)end_of(trial, 1, dem(write_case(folder.path(), box), output), output);
-  return core::read_json(output / "run.json").of("work").of("contact_steps").number();
+  const core::Json record = core::read_json(output / "run.json");
+  return core::number_of(core::member_of(core::member_of(record, "work"), "contact_steps"));
 }
 
 /// P6: two spheres roll on each other across the face of a slab, two more across a corner of the box; each pair has a

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -24,13 +23,10 @@ namespace polybed::hard {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 struct Child {
   std::size_t piece;
   pid_t process;
   int answers;  ///< what it writes comes out here
-  Clock::time_point deadline;
   std::string text = {};
 };
 
@@ -59,6 +55,7 @@ void write_all(int output, const std::string& text) {
   };
   limit(RLIMIT_CPU, limits.cpu, 5);  // first SIGXCPU, so that SIGKILL is somebody else's: of a system without memory
   limit(RLIMIT_AS, limits.bytes, 0);
+  ::alarm(unsigned(std::ceil(limits.seconds)));
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
   try {
@@ -81,8 +78,7 @@ Child start(std::size_t piece, const ChildLimits& limits, const std::function<st
   }
   ::setpgid(process, process);
   ::close(pipe[1]);
-  return {piece, process, pipe[0],
-          Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds))};
+  return {piece, process, pipe[0]};
 }
 
 /// Reads what is there; false at its end.
@@ -94,19 +90,20 @@ bool read_some(Child& child) {
   return count > 0;
 }
 
-ChildEnd end_of(Child& child, bool late, const ChildLimits& limits) {
-  ::kill(-child.process, SIGKILL);  // it, if it is late, and what it has left behind
+ChildEnd end_of(Child& child, const ChildLimits& limits) {
+  ::kill(-child.process, SIGKILL);  // it, if it still runs, and what it has left behind
   int status = 0;
   pid_t found = 0;
   do found = ::waitpid(child.process, &status, 0);
   while (found < 0 && errno == EINTR);
   ::close(child.answers);
   if (found < 0) return {false, fmt::format("lost: {}", std::strerror(errno))};
-  if (late) return {false, fmt::format("no end after {:.0f} s", limits.seconds)};
   if (!child.text.empty() && child.text.back() == whole) {
     child.text.pop_back();
     return {true, child.text};
   }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+    return {false, fmt::format("no end after {:.0f} s", limits.seconds)};
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
     return {false, fmt::format("no end after {:.0f} s of computing", limits.cpu)};
   if (WIFSIGNALED(status)) return {false, fmt::format("crashed: {}", strsignal(WTERMSIG(status)))};
@@ -118,7 +115,7 @@ class Children {
  public:
   explicit Children(const ChildLimits& limits) : limits_(limits) {}
   ~Children() {
-    for (Child& child : all) (void)end_of(child, true, limits_);
+    for (Child& child : all) (void)end_of(child, limits_);
   }
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
@@ -140,13 +137,12 @@ void in_children(std::size_t count, const ChildLimits& limits, const std::functi
     while (next < count && running.size() < std::size_t(limits.jobs)) running.push_back(start(next++, limits, work));
     std::vector<pollfd> inputs;
     for (const Child& child : running) inputs.push_back({child.answers, POLLIN, 0});
-    constexpr int look_every = 100;  // ms, at the deadlines
+    constexpr int look_every = 100;  // ms, whether the user stops it
     ::poll(inputs.data(), inputs.size(), look_every);
     if (interrupt.wanted()) throw core::Stopped("stopped by the user");
     for (std::size_t n = running.size(); n-- > 0;) {
-      const bool over = inputs[n].revents != 0 && !read_some(running[n]), late = Clock::now() > running[n].deadline;
-      if (!over && !late) continue;
-      const ChildEnd end = end_of(running[n], !over, limits);
+      if (inputs[n].revents == 0 || read_some(running[n])) continue;
+      const ChildEnd end = end_of(running[n], limits);
       const std::size_t piece = running[n].piece;
       running.erase(running.begin() + std::ptrdiff_t(n));
       done(piece, end);

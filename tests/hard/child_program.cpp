@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <system_error>
 #include <thread>
@@ -78,8 +79,6 @@ int reason_of(int pipe) {
   throw core::FileError(text);
 }
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
 }  // namespace
 
 ChildProgram::ChildProgram(const ChildOrder& order) {
@@ -133,33 +132,18 @@ bool ChildProgram::has_ended() {
   return true;
 }
 
-void ChildProgram::ask_to_end() const {
-  if (!ended_) ::kill(process_, SIGTERM);
-}
-
 void ChildProgram::end() {
   if (has_ended()) return;
-  ask_to_end();
+  ::kill(process_, SIGTERM);
   for (const Clock::time_point last = Clock::now() + grace; !has_ended(); std::this_thread::sleep_for(look_every))
     if (Clock::now() > last) ::kill(-process_, SIGKILL);
 }
 
-ChildExit run_child(const ChildOrder& order, double seconds, const std::function<void(const ChildProgram&)>& look) {
-  const Clock::time_point begin = Clock::now();
+int run_child(const ChildOrder& order, const std::function<void(const ChildProgram&)>& look) {
   ChildProgram child(order);
-  ChildExit end;
-  while (!child.has_ended()) {
+  for (; !child.has_ended(); std::this_thread::sleep_for(look_every))
     if (look) look(child);
-    if (seconds_since(begin) > seconds) {
-      end.timed_out = true;
-      child.end();
-      break;
-    }
-    std::this_thread::sleep_for(look_every);
-  }
-  end.wall = seconds_since(begin);
-  end.code = child.code();
-  return end;
+  return child.code();
 }
 
 }  // namespace polybed::hard

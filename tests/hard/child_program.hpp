@@ -4,10 +4,8 @@
 
 #include <sys/types.h>
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,13 +20,6 @@ struct ChildOrder {
   std::filesystem::path program = {};  ///< empty: this program
 };
 
-/// How it ended.
-struct ChildExit {
-  int code = 0;            ///< its exit code; 128 and the number of the signal if one ended it
-  bool timed_out = false;  ///< it was ended because its time was over
-  double wall = 0;         ///< s
-};
-
 /// A process of a group of its own, which ends with this object and with this process, however these end.
 class ChildProgram {
  public:
@@ -41,11 +32,10 @@ class ChildProgram {
   [[nodiscard]] pid_t process() const { return process_; }
   /// Throws core::FileError if the process has got lost.
   [[nodiscard]] bool has_ended();
-  /// Asks it to end; mpirun ends its ranks then, which outlive an mpirun that is killed.
-  void ask_to_end() const;
-  /// Asks it to end, and ends its group if it does not within some seconds.
+  /// Asks it to end, as mpirun then does with its ranks, which outlive an mpirun that is killed; ends its group if it
+  /// does not within some seconds.
   void end();
-  /// Of one that has ended.
+  /// Of one that has ended; 128 and the number of the signal if one ended it.
   [[nodiscard]] int code() const { return code_; }
 
  private:
@@ -54,10 +44,8 @@ class ChildProgram {
   int code_ = 0;
 };
 
-/// Starts a program and waits for its end. Throws as ChildProgram does.
-/// \param seconds  after which it is ended
+/// Starts a program, waits for its end and returns its code; throws as ChildProgram does.
 /// \param look  called with it some hundred times a second
-[[nodiscard]] ChildExit run_child(const ChildOrder& order, double seconds = std::numeric_limits<double>::infinity(),
-                                  const std::function<void(const ChildProgram&)>& look = {});
+[[nodiscard]] int run_child(const ChildOrder& order, const std::function<void(const ChildProgram&)>& look = {});
 
 }  // namespace polybed::hard

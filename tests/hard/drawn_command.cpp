@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "core/output/directory.hpp"
@@ -38,21 +39,26 @@ std::vector<std::uint64_t> numbers_of(const Options& options) {
   return numbers;
 }
 
-std::string json_text(const Options& options, const Results& results) {
-  core::Json json;
-  json.begin_object().member("filetype", "polybed fuzz").member("version", 1);
-  json.member("git_commit", core::git_commit())
-      .member("draws", numbers_of(options).size())
-      .member("seed", options.seed);
-  json.key("results").begin_array();
-  for (const auto& [n, r] : results) {
-    json.begin_object().member("draw", n).member("outcome", name_of(r.outcome));
-    json.member("broken", r.broken).member("worst", r.worst.id).member("value", r.worst.value);
-    json.member("limit", r.worst.limit).member("steps", r.work.steps).member("cpu_s", r.cpu);
-    json.member("cause", r.cause).member("reported", r.reported).end_object();
-  }
-  json.end_array().end_object();
-  return json.text() + "\n";
+std::string fuzz_text(const Options& options, const Results& results) {
+  core::Json all = core::Json::array();
+  for (const auto& [n, r] : results)
+    all.push_back({{"draw", n},
+                   {"outcome", name_of(r.outcome)},
+                   {"broken", r.broken},
+                   {"worst", r.worst.id},
+                   {"value", r.worst.value},
+                   {"limit", r.worst.limit},
+                   {"steps", r.work.steps},
+                   {"cpu_s", r.cpu},
+                   {"cause", r.cause},
+                   {"reported", r.reported}});
+  return core::json_text({{"filetype", "polybed fuzz"},
+                          {"version", 1},
+                          {"git_commit", core::git_commit()},
+                          {"draws", numbers_of(options).size()},
+                          {"seed", options.seed},
+                          {"results", all}}) +
+         "\n";
 }
 
 /// Keeps the least case of each kind of failure: others of a kind are most likely the same mistake.
@@ -86,7 +92,7 @@ core::ExitCode run_drawn(const Options& options) {
     results[n] = r;
     // Thousands take hours: what has been found is there whatever ends the command.
     if (constexpr std::size_t often = 20; results.size() % often == 0)
-      core::write_atomically(directory / "fuzz.json", json_text(options, results));
+      core::write_atomically(directory / "fuzz.json", fuzz_text(options, results));
     if (chosen || r.outcome == Outcome::fail)
       core::write_atomically(directory / fmt::format("draw-{}.toml", n), texts[place]);
     const bool well = r.outcome == Outcome::pass || r.outcome == Outcome::refused;
@@ -96,9 +102,9 @@ core::ExitCode run_drawn(const Options& options) {
     std::fflush(stdout);
   };
   (void)results_of(texts, options.jobs, cpu_each, seen);
-  core::write_atomically(directory / "fuzz.json", json_text(options, results));
+  core::write_atomically(directory / "fuzz.json", fuzz_text(options, results));
   keep_least_cases(options, results, directory);
-  if (options.json) core::print("{}", json_text(options, results));
+  if (options.json) core::print("{}", fuzz_text(options, results));
   for (const Outcome outcome : outcomes) {
     const auto count =
         std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.second.outcome == outcome; });

@@ -17,12 +17,14 @@ struct Options {
   int jobs = 1;
   std::uint64_t draws = 0, seed = 1;  ///< of --fuzz: scenes drawn in the place of the catalogue
   std::vector<std::uint64_t> draw;    ///< of --draw: these alone, by their numbers
-  bool json = false;
+  bool oracles = false, json = false;
 };
 
 /// Runs the catalogue. Returns `numerics` if a cell differs from its expected outcome.
 core::ExitCode run_matrix(const Options& options);
 /// Runs the drawn scenes of --fuzz and --draw. Returns `numerics` if one fails.
 core::ExitCode run_drawn(const Options& options);
+/// Prints the numbers of the program that `polybed cost selftest` examines.
+core::ExitCode run_oracles();
 
 }  // namespace polybed::hard

@@ -1,7 +1,5 @@
 #include "hard/program.hpp"
 
-#include <limits>
-
 #include "core/output/files.hpp"
 #include "multiscale/installed.hpp"
 #include "scenes/scratch.hpp"
@@ -21,9 +19,8 @@ ProgramEnd run_program(int ranks, const std::vector<std::string>& words,
                        const std::function<void(const ChildProgram&)>& look) {
   const scenes::Scratch folder;
   const std::filesystem::path printed = folder.path() / "printed", said = folder.path() / "said";
-  const ChildExit end = run_child({words, ranks, printed, said, multiscale::this_program().parent_path() / "polybed"},
-                                  std::numeric_limits<double>::infinity(), look);
-  return {end.code, text_of_file(printed), text_of_file(said)};
+  const int code = run_child({words, ranks, printed, said, multiscale::this_program().parent_path() / "polybed"}, look);
+  return {code, text_of_file(printed), text_of_file(said)};
 }
 
 }  // namespace polybed::hard

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <nlohmann/json.hpp>
 
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
@@ -48,30 +49,37 @@ std::string today() {
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
 }
 
-void write_cell(core::Json& json, const Cell& cell) {
+core::Json json_of(const Cell& cell) {
   const Result& r = cell.result;
-  json.begin_object().member("case", cell.one.id).member("title", cell.one.title);
-  json.member("scheme", cell.treatment.naive.empty() ? cell.treatment.name() : std::string("textbook"));
-  cell.treatment.naive.empty() ? json.key("naive").null() : json.member("naive", cell.treatment.naive);
-  json.member("outcome", name_of(r.outcome)).member("broken", r.broken).member("expected", cell.expected);
-  json.member("as_expected", cell.as_expected()).key("worst").begin_object().member("id", r.worst.id);
-  json.member("value", r.worst.value).member("limit", r.worst.limit).end_object();
-  json.member("dt_min", r.least_step).member("steps", r.work.steps).member("rejected_steps", r.work.rejected_steps);
-  json.member("cpu_s", r.cpu).member("cost", cell.cost).member("cause", r.cause).member("reported", r.reported);
-  json.end_object();
+  const bool product = cell.treatment.naive.empty();
+  return {{"case", cell.one.id},
+          {"title", cell.one.title},
+          {"scheme", product ? cell.treatment.name() : "textbook"},
+          {"naive", product ? core::Json() : core::Json(cell.treatment.naive)},
+          {"outcome", name_of(r.outcome)},
+          {"broken", r.broken},
+          {"expected", cell.expected},
+          {"as_expected", cell.as_expected()},
+          {"worst", {{"id", r.worst.id}, {"value", r.worst.value}, {"limit", r.worst.limit}}},
+          {"dt_min", r.least_step},
+          {"steps", r.work.steps},
+          {"rejected_steps", r.work.rejected_steps},
+          {"cpu_s", r.cpu},
+          {"cost", cell.cost},
+          {"cause", r.cause},
+          {"reported", r.reported}};
 }
 
-std::string json_text(std::span<const Cell> cells, const std::string& suite) {
-  core::Json json;
-  json.begin_object()
-      .member("filetype", "polybed stability")
-      .member("version", 1)
-      .member("git_commit", core::git_commit());
-  json.member("suite", suite).member("date", today());
-  json.key("cells").begin_array();
-  for (const Cell& cell : cells) write_cell(json, cell);
-  json.end_array().end_object();
-  return json.text() + "\n";
+std::string stability_text(std::span<const Cell> cells, const std::string& suite) {
+  core::Json all = core::Json::array();
+  for (const Cell& cell : cells) all.push_back(json_of(cell));
+  return core::json_text({{"filetype", "polybed stability"},
+                          {"version", 1},
+                          {"git_commit", core::git_commit()},
+                          {"suite", suite},
+                          {"date", today()},
+                          {"cells", all}}) +
+         "\n";
 }
 
 std::string csv_text(std::span<const Cell> cells) {
@@ -176,7 +184,7 @@ std::string summary(std::span<const Cell> cells) {
 }
 
 void write_files(std::span<const Cell> cells, const std::string& suite, const std::filesystem::path& directory) {
-  core::write_atomically(directory / "stability.json", json_text(cells, suite));
+  core::write_atomically(directory / "stability.json", stability_text(cells, suite));
   core::write_atomically(directory / "stability.csv", csv_text(cells));
   core::write_atomically(directory / "stability.md", markdown(cells, suite));
   core::write_atomically(directory / "outcomes.csv", outcomes_text(cells));

@@ -1,36 +1,43 @@
 #include "hard/result_text.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.hpp"
 #include "core/output/json.hpp"
-#include "core/output/json_value.hpp"
 
 namespace polybed::hard {
 
 std::string text_of(const Result& result) {
-  core::Json json;
-  json.begin_object().member("outcome", name_of(result.outcome));
-  json.member("id", result.worst.id).member("value", result.worst.value).member("limit", result.worst.limit);
-  json.member("least_step", result.least_step).member("cpu", result.cpu);
-  json.member("steps", result.work.steps).member("rejected", result.work.rejected_steps);
-  json.member("cause", result.cause).member("broken", result.broken).member("reported", result.reported).end_object();
-  return json.text();
+  return core::json_text({{"outcome", name_of(result.outcome)},
+                          {"id", result.worst.id},
+                          {"value", result.worst.value},
+                          {"limit", result.worst.limit},
+                          {"least_step", result.least_step},
+                          {"cpu", result.cpu},
+                          {"steps", result.work.steps},
+                          {"rejected", result.work.rejected_steps},
+                          {"cause", result.cause},
+                          {"broken", result.broken},
+                          {"reported", result.reported}});
 }
 
 Result result_of(const std::string& text) {
-  const core::JsonValue json = core::parse_json(text);
+  const core::Json json = core::parse_json(text);
+  const auto number = [&](const char* name) { return core::number_of(core::member_of(json, name)); };
+  const auto text_in = [&](const char* name) { return core::text_of(core::member_of(json, name)); };
   Result result;
-  const std::string outcome = json.of("outcome").text();
+  const std::string outcome = text_in("outcome");
   for (const Outcome known : {Outcome::pass, Outcome::degraded, Outcome::refused, Outcome::fail})
     if (name_of(known) == outcome) result.outcome = known;
   if (name_of(result.outcome) != outcome) throw core::FileError("no outcome: " + outcome);
-  result.worst = {json.of("id").text(), json.of("value").number(), json.of("limit").number()};
-  result.least_step = json.of("least_step").number();
-  result.cpu = json.of("cpu").number();
-  result.work.steps = std::uint64_t(json.of("steps").number());
-  result.work.rejected_steps = std::uint64_t(json.of("rejected").number());
-  result.cause = json.of("cause").text();
-  result.broken = json.of("broken").text();
-  result.reported = json.of("reported").text();
+  result.worst = {text_in("id"), number("value"), number("limit")};
+  result.least_step = number("least_step");
+  result.cpu = number("cpu");
+  result.work.steps = std::uint64_t(number("steps"));
+  result.work.rejected_steps = std::uint64_t(number("rejected"));
+  result.cause = text_in("cause");
+  result.broken = text_in("broken");
+  result.reported = text_in("reported");
   return result;
 }
 

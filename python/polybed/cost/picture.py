@@ -9,14 +9,14 @@ import argparse
 import sys
 from pathlib import Path
 
-from polybed.packages import NO_FILE, needed
+from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
 
     from polybed.drawing import cost
     from polybed.drawing.style import STYLE
-    from polybed.files import FAULTS, contents_of, read_json
+    from polybed.files import contents_of, print_made, read_json
     from polybed.plot import save
 
 
@@ -35,12 +35,7 @@ def main(arguments=None):
     parser.add_argument("directory")
     parser.add_argument("--out", help="folder of the pictures (default: that of the sweep)")
     options = parser.parse_args(arguments)
-    try:
-        print("\n".join(map(str, pictures(options.directory, options.out))))
-    except FAULTS as error:
-        print(error, file=sys.stderr)
-        return NO_FILE
-    return 0
+    return print_made(lambda: pictures(options.directory, options.out))
 
 
 if __name__ == "__main__":

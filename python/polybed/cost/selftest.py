@@ -1,5 +1,5 @@
 """The oracles of cost that need no run: what `polybed cost selftest` shows. What they examine of the program itself, both integrators and
-the counting of particles into slabs, it computes: `polybed oracles`."""
+the counting of particles into slabs, `polybed-hard` computes."""
 
 import json
 from typing import NamedTuple
@@ -150,7 +150,7 @@ def k14(measures, composition):
 
 def oracles():
     """K1 to K7 and K12 to K14 of the specification of cost; the others need runs."""
-    computed, cells = json.loads(call("oracles")), layered()
+    computed, cells = json.loads(call("stability", "--oracles")), layered()
     counted = Profile(computed["counted"]["slab"], computed["counted"]["fraction"])
     found = measures_of([cells, counted], "ab", reference=cells)
     measures, distances = found["measures"], found["distances"]

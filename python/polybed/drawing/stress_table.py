@@ -10,14 +10,14 @@ import argparse
 import sys
 from pathlib import Path
 
-from polybed.packages import NO_FILE, needed
+from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
     import numpy as np
 
     from polybed.drawing.style import COLOURS, PALE, STYLE
-    from polybed.files import FAULTS, FormatError, contents_of
+    from polybed.files import FormatError, contents_of, print_made
     from polybed.plot import save
     from polybed.solids_table import AXES, read_table
 
@@ -63,12 +63,7 @@ def main(arguments=None):
     parser.add_argument("table", type=Path)
     parser.add_argument("-o", "--out", type=Path, help="default: beside the table")
     words = parser.parse_args(arguments)
-    try:
-        print(draw(words.table, words.out or words.table.with_suffix(".png")))
-    except FAULTS as error:
-        print(error, file=sys.stderr)
-        return NO_FILE
-    return 0
+    return print_made(lambda: [draw(words.table, words.out or words.table.with_suffix(".png"))])
 
 
 if __name__ == "__main__":

@@ -1,18 +1,19 @@
-// polybed oracles: what `polybed cost selftest` examines of the program itself. A particle that settles, by both
+// polybed-hard --oracles: what `polybed cost selftest` examines of the program itself. A particle that settles, by both
 // integrators, which must buy error with work at the rate of their order; and particles counted into slabs.
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/options.hpp"
 #include "closures/sphere.hpp"
 #include "core/numerics/integrator.hpp"
 #include "core/output/json.hpp"
 #include "core/output/particles.hpp"
 #include "core/print.hpp"
+#include "hard/options.hpp"
 #include "measures/particle_profile.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::hard {
 
 namespace {
 
@@ -49,30 +50,28 @@ class ImplicitSettling : public core::DaeProblem {
   double slope_ = 1;
 };
 
-/// Writes the steps that an integrator takes and the relative error that it ends with.
-void write_settling(core::Json& json, core::Integrator& integrator) {
+/// The steps that an integrator takes and the relative error that it ends with.
+core::Json settling_by(core::Integrator& integrator) {
   constexpr double until = relaxation;
   integrator.restart(0, std::vector<double>{0}, std::vector<double>{acceleration}, 0);
   const auto before = integrator.statistics().steps;
   for (double t = 0; t < until;) t = integrator.step(until).time;
   const double exact = terminal * std::tanh(until / relaxation);
-  json.begin_object().member("steps", double(integrator.statistics().steps - before));
-  json.member("error", std::abs(integrator.state()[0] / exact - 1)).end_object();
+  return {{"steps", integrator.statistics().steps - before}, {"error", std::abs(integrator.state()[0] / exact - 1)}};
 }
 
-void write_both_integrators(core::Json& json) {
-  json.key("explicit").begin_array();
+core::Json settling() {
+  core::Json by_explicit = core::Json::array(), by_implicit = core::Json::array();
   for (const int n : {8, 16, 32, 64}) {
     Settling problem;
-    write_settling(json, *core::make_explicit(problem, {.atol = {1e-12}, .fixed_step = relaxation / n}));
+    by_explicit.push_back(settling_by(*core::make_explicit(problem, {.atol = {1e-12}, .fixed_step = relaxation / n})));
   }
-  json.end_array().key("implicit").begin_array();
   for (const double rtol : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
     ImplicitSettling problem;
-    write_settling(json, *core::make_implicit(
-                             problem, {.rtol = rtol, .atol = {rtol * terminal}, .id = {1}, .linear_tolerance = 1e-3}));
+    by_implicit.push_back(settling_by(
+        *core::make_implicit(problem, {.rtol = rtol, .atol = {rtol * terminal}, .id = {1}, .linear_tolerance = 1e-3})));
   }
-  json.end_array();
+  return {{"explicit", by_explicit}, {"implicit", by_implicit}};
 }
 
 /// Spheres on a vertical line in two layers, 0.6 below 60 mm and 0.3 above, counted into slabs by their exact parts.
@@ -102,18 +101,11 @@ measures::Profile counted_layers() {
 
 }  // namespace
 
-void run_oracles() {
-  core::Json json;
-  json.begin_object().key("settling").begin_object();
-  write_both_integrators(json);
+core::ExitCode run_oracles() {
   const measures::Profile layers = counted_layers();
-  json.end_object().key("counted").begin_object().member("slab", layers.slab).key("fraction").begin_array();
-  for (const std::vector<double>& phi : layers.fraction) {
-    json.begin_array();
-    for (const double value : phi) json.value(value);
-    json.end_array();
-  }
-  core::print("{}\n", json.end_array().end_object().end_object().text());
+  core::print("{}\n", core::json_text({{"settling", settling()},
+                                       {"counted", {{"slab", layers.slab}, {"fraction", layers.fraction}}}}));
+  return core::ExitCode::done;
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::hard
