@@ -34,8 +34,8 @@ void write_fluid(core::Json& json, const FluidReport& r) {
                     {{"law", r.law},
                      {"evaluations", r.totals.law.evaluations},
                      {"guarded", r.totals.law.guarded},
-                     {"clamped_voidage", r.totals.law.clamped_voidage}}},
-                   {"work_J", r.work}};
+                     {"clamped_voidage", r.totals.law.clamped_voidage}}}};
+  if (r.work) json["fluid"]["work_J"] = *r.work;
 }
 
 std::vector<std::string> fluid_lines(const FluidReport& r) {
