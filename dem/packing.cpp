@@ -146,7 +146,7 @@ std::vector<Particle> start_particles(const core::Scene& scene, const Materials&
     }
   push_apart(particles, low, high, box, materials);
   set_in_motion(particles, scene.dem.start_speed, seed);
-  shear(particles, scene.dem.shear_rate);
+  shear(particles, scene.column.shear_rate);
   return particles;
 }
 

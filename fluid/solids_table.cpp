@@ -99,8 +99,8 @@ TablePlace place_of(const core::Scene& scene) {
   const std::vector<double>& share = scene.bed.volume_share;
   TablePlace place;
   for (std::size_t j = 0; j < scene.species.size(); ++j) {
-    place.restitution += share[j] * scene.species[j].restitution.value_or(scene.dem.restitution);
-    place.friction += share[j] * scene.species[j].friction.value_or(scene.dem.friction);
+    place.restitution += share[j] * scene.species[j].restitution;
+    place.friction += share[j] * scene.species[j].friction;
   }
   if (scene.species.size() != 2) return place;
   place.share = share[1];

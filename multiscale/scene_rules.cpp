@@ -39,7 +39,7 @@ Broken fluid_unknown_in_range(const core::Scene& scene) {
   for (const double kelvin : scene.chooser.temperature_range) {
     core::Scene there = scene;
     there.fluid.temperature = kelvin;
-    if (const Broken broken = fluid_unknown(there)) return broken;
+    if (Broken broken = fluid_unknown(there)) return broken;
   }
   return {};
 }

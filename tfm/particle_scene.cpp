@@ -21,7 +21,7 @@ std::vector<std::string> only_for_particles(const core::Scene& scene) {
   add(leans && column.sides == core::Boundary::periodic, aslant + "with column.sides = \"periodic\"");
   add(leans && start == core::StartKind::settled, aslant + "with bed.start = \"settled\"");
   add(leans && scene.fluid.compressible(), aslant + "with a compressible fluid");
-  add(scene.dem.shear_rate != 0, "dem.shear_rate other than 0");
+  add(scene.column.shear_rate != 0, "dem.shear_rate other than 0");
   add(start == core::StartKind::random || start == core::StartKind::list,
       "bed.start = \"" + text_of(scene.bed.start) + "\"");
   return found;

@@ -238,7 +238,7 @@ void CaseReader::check_given() {
   check_amount();
   check_fluid();
   const bool inlet = given_.contains("inlet.superficial_velocity");
-  const bool flows = scene_.fluid.present() && scene_.dem.shear_rate == 0;
+  const bool flows = scene_.fluid.present() && scene_.column.shear_rate == 0;
   if (!scene_.column.closed && !inlet && flows && wrong_.sound({"column.closed", "fluid.name", "dem.shear_rate"}))
     values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");
   if (scene_.column.closed && inlet) values_.add("inlet.superficial_velocity cannot act: column.closed = true");
@@ -283,11 +283,10 @@ void CaseReader::place(const CaseProblem& problem) {
 void CaseReader::judge(const Rule& rule) {
   if (!std::all_of(rule.keys.begin(), rule.keys.end(), [&](const std::string& key) { return wrong_.sound(key); }))
     return;
-  const std::string fault = rule.fault(scene_);
-  if (fault.empty()) return;
   const auto is_given = [&](const std::string& key) { return given_.contains(key); };
   const auto place = std::find_if(rule.keys.begin(), rule.keys.end(), is_given);
-  place == rule.keys.end() ? values_.add(fault) : values_.add(given_.at(*place), fault);
+  for (const std::string& fault : rule.faults(scene_))
+    place == rule.keys.end() ? values_.add(fault) : values_.add(given_.at(*place), fault);
 }
 
 Scene CaseReader::finish() {

@@ -271,6 +271,7 @@ void Checker::numerics() {
 
 std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool by_particles, WrongKeys wrong) {
   join_times(scene);
+  resolve_materials(scene);
   Checker checker(scene, name, wrong);
   checker.all(by_particles);
   Problems problems = std::move(checker).problems();

@@ -41,16 +41,16 @@ void periodic_ends(const Scene& scene, Messages& wrong) {
   contradicts(column.closed, "column.closed = true");
   contradicts(column.outlet == Outlet::open, "column.outlet = \"open\"");
   contradicts(!scene.feeds.empty(), "[[feed]]");
-  if (scene.fluid.present() && scene.dem.shear_rate == 0)
+  if (scene.fluid.present() && scene.column.shear_rate == 0)
     wrong.push_back(
         "column.ends = \"periodic\" is for particles without a fluid, or for a sheared box whose fluid moves with its "
         "flow: set fluid.name = \"none\", or dem.shear_rate");
 }
 
 void shear(const Scene& scene, Messages& wrong) {
-  if (scene.dem.shear_rate == 0) return;
+  if (scene.column.shear_rate == 0) return;
   const auto needs = [&](bool met, const std::string& what) {
-    if (!met) wrong.push_back(fmt::format("dem.shear_rate = {:g} 1/s needs {}", scene.dem.shear_rate, what));
+    if (!met) wrong.push_back(fmt::format("dem.shear_rate = {:g} 1/s needs {}", scene.column.shear_rate, what));
   };
   needs(scene.column.sides == Boundary::periodic, "column.sides = \"periodic\"");
   needs(scene.column.ends == Boundary::periodic, "column.ends = \"periodic\"");
@@ -61,7 +61,7 @@ void shear(const Scene& scene, Messages& wrong) {
   };
   idle(!scene.inlet.superficial_velocity.empty(), "inlet.superficial_velocity");
   idle(!scene.jets.empty(), "[[jet]]");
-  idle(scene.dem.held, "dem.held = true");
+  idle(scene.bed.held, "dem.held = true");
   idle(scene.fluid.compressible(), "fluid.equation_of_state");
 }
 
@@ -93,7 +93,7 @@ void in_fluid(const Scene& scene, Messages& wrong) {
   const bool fluid = scene.fluid.present();
   const bool tilted = column.down[0] != 0 || column.down[2] != 0 || !(column.down[1] < 0);
   const bool inflow = !scene.inlet.superficial_velocity.empty() || !scene.jets.empty();
-  say(scene.dem.held && !fluid, "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"");
+  say(scene.bed.held && !fluid, "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"");
   say(scene.dem.kernel == Kernel::bilinear && scene.dem.kernel_width.has_value(),
       "dem.kernel_width cannot act: dem.kernel = \"bilinear\" has the width of the cells; use \"diffusion\" or "
       "\"auto\"");

@@ -10,7 +10,7 @@ namespace polybed::dem {
 
 AffineDrag::AffineDrag(const core::Scene& scene, const Materials& materials, std::vector<double> share, double voidage,
                        FixedPoint force, FixedPoint energy)
-    : shear_rate_(scene.dem.shear_rate), force_(force), energy_(energy) {
+    : shear_rate_(scene.column.shear_rate), force_(force), energy_(energy) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const closures::DragLaw law = closures::drag_law(core::law_of(scene, "drag"), closures::Guard::on);
   std::vector<double> diameter;

@@ -64,7 +64,7 @@ class AffineDrag {
 
 /// Whether the drag of a scene is that of a sheared box.
 [[nodiscard]] inline bool has_affine_drag(const core::Scene& scene) {
-  return scene.dem.shear_rate != 0 && core::law_of(scene, "drag") != "none";
+  return scene.column.shear_rate != 0 && core::law_of(scene, "drag") != "none";
 }
 
 }  // namespace polybed::dem

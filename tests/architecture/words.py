@@ -18,11 +18,11 @@ REMAIN = {
     "app": 14,                    # laws of [effects], regimes of a calibration, names of timers
     "dem": 1,                    # laws of [effects]
     "dem/coupling": 1,            # laws of [effects]
-    "dem/effects": 9,             # laws of [effects], each in its own maker
+    "dem/effects": 12,            # laws of [effects], each in its own maker
     "fluid": 3,                   # laws of [effects], regimes of sheared particles
     "measures": 1,                # the unit of a number
     "relevance": 9,               # laws of [effects], zones of a bed
-    "relevance/effects": 16,      # laws of [effects], zones of a bed
+    "relevance/effects": 13,      # laws of [effects], zones of a bed
     "multiscale": 3,              # laws of [effects], the name of a score
     "multiscale/calibrate": 16,   # regimes of a calibration
     "multiscale/effects": 17,     # names of effects, laws and zones

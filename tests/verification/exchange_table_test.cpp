@@ -38,8 +38,8 @@ core::Scene gas(const std::string& exchange, double phi) {
   scene.bed.volume_share = {0.5, 0.5};
   scene.bed.solids_fraction = scene.bed.start_solids_fraction = phi;
   scene.column.closed = true;
-  scene.dem.friction = 0.3;
-  scene.dem.restitution = 0.9;
+  core::set_friction(scene, 0.3);
+  core::set_restitution(scene, 0.9);
   scene.calibrate.regime = core::BoxRegime::dry;
   scene.effects = {{"drag", "gidaspow"}, {"solids_stress", "kinetic"}, {"species_exchange", exchange}};
   return scene;

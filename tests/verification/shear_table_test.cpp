@@ -41,7 +41,7 @@ core::Scene sheared(const std::string& stress) {
   scene.column.size = {0.1, 0.1, 0.0125};
   scene.column.closed = true;
   scene.effects["solids_stress"] = stress;
-  scene.dem.friction = 0.3;
+  core::set_friction(scene, 0.3);
   scene.tfm.max_packing = 0.62;
   return scene;
 }

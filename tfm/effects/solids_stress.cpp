@@ -48,11 +48,10 @@ void make_table_stress(const Making& m, const std::string& file) {
                                                  effects.solids_stress->max_packing(), fields);
   std::vector<double> restitution;
   for (const core::Species& s : scene.species) {
-    const double e = s.restitution.value_or(scene.dem.restitution), friction = s.friction.value_or(scene.dem.friction);
-    restitution.push_back(table.reference_restitution(e, friction));
+    restitution.push_back(table.reference_restitution(s.restitution, s.friction));
     if (!(restitution.back() > 0))
-      throw core::StartError(file + ": a restitution of " + std::to_string(e) + " with a friction of " +
-                             std::to_string(friction) + " is beyond e - 1.5 mu exp(-3 mu), which the table is over");
+      throw core::StartError(file + ": a restitution of " + std::to_string(s.restitution) + " with a friction of " +
+                             std::to_string(s.friction) + " is beyond e - 1.5 mu exp(-3 mu), which the table is over");
   }
   kinetic->multiply(std::move(ratios), std::move(restitution), file);
   effects.collisions = std::move(kinetic);

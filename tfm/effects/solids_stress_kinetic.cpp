@@ -43,8 +43,7 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
       wall_restitution_(scene.tfm.wall_restitution),
       max_packing_(max_packing),
       least_shear_rate_(scene.tfm.least_shear_rate) {
-  for (const core::Species& species : scene.species)
-    restitution_.push_back(species.restitution.value_or(scene.dem.restitution));
+  for (const core::Species& species : scene.species) restitution_.push_back(species.restitution);
   const std::vector<core::Field> per_species(constants.species(), core::make_field(constants.grid));
   fields.stress.make_viscous(constants);
   fields.solids.temperature = per_species;

@@ -102,9 +102,9 @@ TEST(SolidsTable, TellsWhereASceneLiesBeyondIt) {
 // By hand: 3/4 of the bed's volume with friction 0.2 and the case's restitution 0.9, 1/4 with 0.6 and 0.5.
 TEST(SolidsTable, PlaceOfASceneIsTheMeanByVolume) {
   core::Scene scene;
-  scene.dem.restitution = 0.9;
-  scene.dem.friction = 0.6;
   scene.species.resize(2);
+  core::set_restitution(scene, 0.9);
+  core::set_friction(scene, 0.6);
   scene.species[0].diameter = 1e-3;
   scene.species[0].friction = 0.2;
   scene.species[1].diameter = 3e-3;

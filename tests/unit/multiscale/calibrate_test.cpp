@@ -19,7 +19,7 @@ core::Scene dry_scene() {
   scene.species[0].diameter = 1e-3;
   scene.species[0].density = 2500;
   scene.bed.volume_share = {1};
-  scene.dem.friction = 0;
+  core::set_friction(scene, 0);
   scene.calibrate.solids_fraction = {0.1, 0.2, 0.3, 0.4, 0.45};
   scene.calibrate.restitution = {0.8, 0.9};
   return scene;
@@ -43,7 +43,7 @@ TEST(CalibratePlan, WrongAxesAreRefused) {
   scene.calibrate.share = {0, 0.5};
   EXPECT_THROW((void)plan_of(scene), core::CaseError) << "one species alone exchanges nothing";
   scene = dry_scene();
-  scene.dem.friction = 0.3;
+  core::set_friction(scene, 0.3);
   scene.calibrate.restitution = {0.15};
   EXPECT_THROW((void)plan_of(scene), core::CaseError) << "0.15 - 0.183 is no restitution";
 }
