@@ -5,12 +5,15 @@
 #include <cstdio>
 
 #include "app/options.hpp"
+#include "core/case/case_rules.hpp"
 #include "core/case/keys.hpp"
 #include "core/error.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
+#include "dem/continuum_scene.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "tfm/particle_scene.hpp"
 
 namespace polybed::multiscale {
 
@@ -29,6 +32,13 @@ void write_key(core::Json& json, const Key& key) {
   json.member("help", key.help);
   if (!key.equation.empty()) json.member("equation", key.equation);
   json.end_object();
+}
+
+/// \param models  that judge by it; another model may run a case that breaks it
+void write_rule(core::Json& json, const core::Rule& rule, const char* models) {
+  json.begin_object().member("message", rule.message).member("models", models).key("keys").begin_array();
+  for (const std::string& key : rule.keys) json.value(key);
+  json.end_array().end_object();
 }
 
 /// A cell of a Markdown table.
@@ -124,11 +134,10 @@ void run_list(bool json) {
       out.end_array().end_object();
     }
     out.end_array().key("rules").begin_array();
-    for (const core::Rule& rule : scene_rules()) {
-      out.begin_object().member("message", rule.message).key("keys").begin_array();
-      for (const std::string& key : rule.keys) out.value(key);
-      out.end_array().end_object();
-    }
+    for (const core::Rule& rule : core::case_rules()) write_rule(out, rule, "tfm, dem");
+    for (const core::Rule& rule : scene_rules()) write_rule(out, rule, "tfm, dem");
+    for (const core::Rule& rule : tfm::model_rules()) write_rule(out, rule, "tfm");
+    for (const core::Rule& rule : dem::model_rules()) write_rule(out, rule, "dem");
     out.end_array().end_object();
     core::print("{}\n", out.text());
     return;

@@ -9,7 +9,6 @@
 #include "closures/contact_pair.hpp"
 #include "closures/drag_turton_levenspiel.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "core/start_error.hpp"
 #include "dem/packing.hpp"
 #include "relevance/fluid_properties.hpp"

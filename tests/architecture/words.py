@@ -10,7 +10,7 @@ COMPARED = re.compile(r'[!=]=\s*"(?:[^"\\]|\\.)*"(?!\s*_)|"(?:[^"\\]|\\.)*"\s*[!
 FOLDERS = ("closures", "core", "relevance", "fluid", "measures", "tfm", "dem", "multiscale", "app")
 # files that read or write a case, read another file, or the words of a command
 READERS = {f"{name}.cpp" for name in (
-    *(f"core/case/{n}" for n in ("contact_properties", "file", "resolve", "resolved", "scene", "units", "values")),
+    *(f"core/case/{n}" for n in ("contact_properties", "file", "resolved", "scene", "units", "values")),
     "core/output/directory", "core/output/history", "core/output/profiles", "fluid/solids_table", "multiscale/case_differences",
     "app/asking", "app/drag", "app/estimate", "app/plot", "app/run_directory")}
 # folder -> comparisons that remain, with what; lower the number with every one that goes

@@ -264,12 +264,6 @@ TEST(ParticleCaseInAFluid, IsHeldOnlyInAFluid) {
               HasSubstr("dem.held = true is a fixed bed for a fluid"));
 }
 
-TEST(ParticleCaseInAFluid, HasAWidthOnlyWithAKernelThatTakesOne) {
-  EXPECT_EQ(message_in_fluid(closed, "kernel_width = \"5 mm\"", ""), "");
-  EXPECT_THAT(message_in_fluid(closed, "kernel = \"bilinear\"\nkernel_width = \"5 mm\"", ""),
-              HasSubstr("dem.kernel_width cannot act: dem.kernel = \"bilinear\""));
-}
-
 TEST(ParticleCaseInAFluid, IsTiltedOnlyWhereNothingFlowsInAndDensityIsConstant) {
   const std::string tilted = "gravity_direction = [1, -1]\n", inlet = "[inlet]\nsuperficial_velocity = 0.1";
   EXPECT_EQ(message_in_fluid(tilted + "closed = true", "", ""), "");

@@ -55,8 +55,6 @@ TEST(ParticleScene, MayLeanWhereItIsClosed) {
               HasSubstr("column.sides"));
   EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.bed.start = {core::StartKind::settled}; }),
               HasSubstr("bed.start"));
-  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.fluid.equation_of_state = core::Compressibility::tait; }),
-              HasSubstr("compressible"));
 }
 
 TEST(ParticleScene, IsToldWithAllItsKeysAtOnce) {
