@@ -41,7 +41,7 @@ BoxPoint point_of(const std::string& text) {
   if (std::sscanf(text.c_str(), "%7s %lf %lf %lf %lf %lf %d %d %d", regime, &p.phi, &p.stokes, &p.restitution,
                   &p.friction, &p.share, &binary, &pushed, &p.seed) != 9)
     throw core::CaseError(fmt::format("calibrate: \"{}\" is no box", text));
-  p.regime = regime;
+  p.regime = core::choice_of<core::BoxRegime>(regime);
   p.binary = binary != 0;
   p.pushed = pushed != 0;
   return p;
@@ -75,8 +75,8 @@ class Service {
     scene_ = read_chosen_case(words.at(0), Texts(words.begin() + 1, words.end()));
     const Plan plan = plan_of(scene_);
     const MeanSphere mean = mean_sphere(scene_.species, scene_.bed.volume_share);
-    json.begin_object().member("regime", plan.regime.name).member("reason", plan.regime.reason);
-    json.member("reference", plan.regime.name == "wet" ? "viscous" : fluid::effective_reference);
+    json.begin_object().member("regime", core::name_of(plan.regime.kind)).member("reason", plan.regime.reason);
+    json.member("reference", plan.regime.kind == core::BoxRegime::wet ? "viscous" : fluid::effective_reference);
     json.key("numbers").begin_array();
     for (const fluid::RegimeNumbers& n : plan.regime.numbers) {
       json.begin_object().member("species", n.species).member("shear_times_relaxation", n.shear_times_relaxation);
@@ -92,7 +92,7 @@ class Service {
     write_numbers(json.key("x2"), plan.axes.share);
     json.end_object().member("binary", plan.binary).member("seeds", scene_.calibrate.seeds);
     json.member("size_ratio", plan.binary ? scene_.species[1].diameter / scene_.species[0].diameter : 1);
-    if (plan.regime.name == "bed")  // |rho_p - rho_f| g D/rho_p
+    if (plan.regime.kind == core::BoxRegime::bed)  // |rho_p - rho_f| g D/rho_p
       json.member("weight_m2_s2", std::abs(1 - relevance::fluid_constants(scene_.fluid).density / mean.density) *
                                       scene_.column.gravity * mean.diameter);
     json.member("ranks", ranks_ ? ranks_->count() : 1).member("git_commit", core::git_commit());
@@ -128,7 +128,7 @@ class Service {
     const auto here = std::size_t(ranks_ ? ranks_->rank() : 0);
     for (std::size_t n = 0; n < failed.size(); ++n) {
       const BoxPoint point = point_of(words[2 * n + 1]);
-      const bool shared = point.regime == "bed";
+      const bool shared = point.regime == core::BoxRegime::bed;
       const auto who = std::size_t(std::min_element(load.begin(), load.end()) - load.begin());
       load[who] += expected(point);
       if (!shared && who != here) continue;
@@ -161,7 +161,7 @@ class Service {
 
   void read_bed(core::Json& json, const Texts& words) {
     core::on_first(ranks_.get(), [&] {
-      if (fluid::regime_of_table(words.at(0)) != "bed")
+      if (fluid::regime_of_table(words.at(0)) != core::BoxRegime::bed)
         throw core::CaseError(words[0] + ": no table of fluidised boxes, as --bed takes one");
       (void)fluid::read_bed_table(words[0]);
     });

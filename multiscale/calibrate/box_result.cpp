@@ -46,7 +46,10 @@ void write_box(const std::filesystem::path& path, const BoxResult& r) {
   const auto estimate = [&](const char* name, const Estimate& value) {
     json.key(name).begin_array().value(value.mean).value(value.error).end_array();
   };
-  json.begin_object().member("hash", r.hash).member("regime", r.point.regime).member("seed", r.point.seed);
+  json.begin_object()
+      .member("hash", r.hash)
+      .member("regime", core::name_of(r.point.regime))
+      .member("seed", r.point.seed);
   json.member("binary", r.point.binary).member("pushed", r.point.pushed);
   json.member("solids_fraction", r.point.phi);
   json.member("stokes", r.point.stokes);

@@ -224,7 +224,7 @@ class BoxRun {
   void find_ratios() {
     BoxResult& r = result_;
     ReferenceStress form{};
-    if (r.point.regime == "dry") {
+    if (r.point.regime == core::BoxRegime::dry) {
       std::vector<BoxSpecies> species;
       for (std::size_t j = 0; j < phi_.size(); ++j)
         species.push_back(
@@ -278,7 +278,7 @@ class BoxRun {
 }  // namespace
 
 BoxResult run_box(const core::Scene& scene, const BoxPoint& point, std::shared_ptr<const core::Ranks> ranks) {
-  if (point.regime == "bed") return run_bed_box(scene, point, std::move(ranks));
+  if (point.regime == core::BoxRegime::bed) return run_bed_box(scene, point, std::move(ranks));
   return BoxRun(scene, point).run();
 }
 

@@ -111,7 +111,7 @@ void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
 }  // namespace
 
 core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point) {
-  if (point.regime == "bed") return scene_of_bed(scene, point);
+  if (point.regime == core::BoxRegime::bed) return scene_of_bed(scene, point);
   core::Scene box;
   box.title = "a box of polybed calibrate";
   box.fluid.name = "none";
@@ -140,7 +140,7 @@ core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point) {
   std::vector<double> share{1};
   if (point.binary) share = {1 - point.share, point.share};
   scales.mean = mean_sphere(box.species, share);
-  if (point.regime == "dry")
+  if (point.regime == core::BoxRegime::dry)
     make_dry(box, scene, point, scales);
   else
     make_wet(box, scene, point, scales);

@@ -58,15 +58,16 @@ std::vector<core::Rule> share_rules() {
        }}};
 }
 
-TableAxes axes_of(const core::Scene& scene, const std::string& regime) {
+TableAxes axes_of(const core::Scene& scene, core::BoxRegime regime) {
   const core::Calibrate& c = scene.calibrate;
-  const bool sheared = regime != "bed";
+  const bool sheared = regime != core::BoxRegime::bed;
   const fluid::TablePlace of_case = fluid::place_of(scene);
   TableAxes a;
   a.phi = axis(c.solids_fraction,
                sheared ? std::vector{0.1, 0.2, 0.3, 0.4, 0.45, 0.5} : std::vector{0.2, 0.3, 0.4, 0.45, 0.5});
-  a.stokes = regime == "wet" ? axis(c.stokes, {1, 3, 10}) : std::vector{0.0};
-  a.restitution = regime == "dry" ? axis(c.restitution, {of_case.restitution}) : std::vector{of_case.restitution};
+  a.stokes = regime == core::BoxRegime::wet ? axis(c.stokes, {1, 3, 10}) : std::vector{0.0};
+  a.restitution =
+      regime == core::BoxRegime::dry ? axis(c.restitution, {of_case.restitution}) : std::vector{of_case.restitution};
   a.friction = sheared ? axis(c.friction, {of_case.friction}) : std::vector{of_case.friction};
   a.share = sheared ? axis(c.share, {0}) : std::vector{0.0};
   for (const double mu : a.friction)
@@ -77,7 +78,7 @@ TableAxes axes_of(const core::Scene& scene, const std::string& regime) {
                       a.phi.back(), mu, closures::jamming_fraction(mu)));
   for (const double e : a.restitution)
     for (const double mu : a.friction)
-      if (regime == "dry" && !(e < 1 && closures::effective_restitution(e, mu) > 0))
+      if (regime == core::BoxRegime::dry && !(e < 1 && closures::effective_restitution(e, mu) > 0))
         throw core::CaseError(
             "calibrate.restitution: a dry box needs less than 1, and e - 1.5 mu exp(-3 mu) above 0 of its friction");
   return a;
@@ -88,10 +89,10 @@ fluid::Regime regime_of(const core::Scene& scene) {
   const core::BoxRegime given = scene.calibrate.regime;
   fluid::Regime regime = fluid::shear_regime(scene);
   if (given == core::BoxRegime::bed) {
-    regime.name = core::name_of(given);
+    regime.kind = given;
     regime.reason = "as the case says";
   }
-  if (regime.name.empty())
+  if (regime.kind == core::BoxRegime::automatic)
     throw core::CaseError("calibrate.regime = \"auto\" needs inlet.superficial_velocity, or say dry or wet");
   return regime;
 }
@@ -120,7 +121,7 @@ Plan plan_of(const core::Scene& scene) {
     throw core::CaseError(
         fmt::format("calibrate needs bed.volume_share; bed.start = \"{}\" has none", text_of(scene.bed.start)));
   Plan plan{regime_of(scene), {}, !scene.calibrate.share.empty()};
-  plan.axes = axes_of(scene, plan.regime.name);
+  plan.axes = axes_of(scene, plan.regime.kind);
   return plan;
 }
 
@@ -137,7 +138,7 @@ MeanSphere mean_sphere(const std::vector<core::Species>& species, const std::vec
 std::string box_hash(const core::Scene& scene, const BoxPoint& point) {
   const core::Calibrate& c = scene.calibrate;
   // Counted up when such a box would be measured in another way.
-  const int method = point.regime == "bed" || point.pushed ? 4 : 3;
+  const int method = point.regime == core::BoxRegime::bed || point.pushed ? 4 : 3;
   core::Scene box = scene_of_box(scene, point);
   return core::text_hash(fmt::format("{} {} {} {} {} {}{}\n{}", method, point.seed, c.strain, c.discard_strain,
                                      c.doublings, c.softness, point.pushed ? " pushed" : "", core::resolved_case(box)));

@@ -13,7 +13,7 @@ namespace polybed::multiscale {
 
 /// One box: where it stands in the table, and with which random numbers it begins.
 struct BoxPoint {
-  std::string regime;  ///< dry | wet | bed
+  core::BoxRegime regime = core::BoxRegime::dry;  ///< dry | wet | bed
   double phi = 0, stokes = 0, restitution = 0, friction = 0, share = 0;
   bool binary = false;  ///< two species, `share` the volume of the second; else one of the bed's mean size
   bool pushed = false;  ///< both species also pushed apart, for what they exchange; its stress is not taken

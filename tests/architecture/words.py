@@ -15,20 +15,19 @@ READERS = {f"{name}.cpp" for name in (
     "app/asking", "app/drag", "app/estimate", "app/plot", "app/run_directory")}
 # folder -> comparisons that remain, with what; lower the number with every one that goes
 REMAIN = {
-    "app": 14,                    # laws of [effects], regimes of a calibration, names of timers
+    "app": 10,                    # laws of [effects], names of timers, words of a command
     "dem": 1,                    # laws of [effects]
     "dem/coupling": 1,            # laws of [effects]
     "dem/effects": 12,            # laws of [effects], each in its own maker
-    "fluid": 3,                   # laws of [effects], regimes of sheared particles
+    "fluid": 2,                   # laws of [effects]
     "measures": 1,                # the unit of a number
     "relevance": 9,               # laws of [effects], zones of a bed
     "relevance/effects": 13,      # laws of [effects], zones of a bed
     "multiscale": 3,              # laws of [effects], the name of a score
-    "multiscale/calibrate": 16,   # regimes of a calibration
+    "multiscale/calibrate": 3,    # laws of [effects]
     "multiscale/effects": 17,     # names of effects, laws and zones
-    "multiscale/inversion": 4,    # methods of an estimate
     "tfm": 4,                    # laws of [effects]
-    "tfm/effects": 9,             # laws of [effects], each in its own maker
+    "tfm/effects": 5,             # laws of [effects], each in its own maker
 }
 
 
