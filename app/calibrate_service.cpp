@@ -41,7 +41,7 @@ BoxPoint point_of(const std::string& text) {
   if (std::sscanf(text.c_str(), "%7s %lf %lf %lf %lf %lf %d %d %d", regime, &p.phi, &p.stokes, &p.restitution,
                   &p.friction, &p.share, &binary, &pushed, &p.seed) != 9)
     throw core::CaseError(fmt::format("calibrate: \"{}\" is no box", text));
-  p.regime = regime;
+  p.regime = core::choice_of<core::BoxRegime>(regime);
   p.binary = binary != 0;
   p.pushed = pushed != 0;
   return p;
@@ -76,9 +76,9 @@ class Service {
                          {"stokes_of_shear", n.stokes_of_shear},
                          {"voidage", n.voidage},
                          {"shear_rate", n.shear_rate}});
-    core::Json json = {{"regime", plan.regime.name},
+    core::Json json = {{"regime", core::name_of(plan.regime.kind)},
                        {"reason", plan.regime.reason},
-                       {"reference", plan.regime.name == "wet" ? "viscous" : fluid::effective_reference},
+                       {"reference", plan.regime.kind == core::BoxRegime::wet ? "viscous" : fluid::effective_reference},
                        {"numbers", numbers},
                        {"axes",
                         {{"phi", plan.axes.phi},
@@ -89,7 +89,7 @@ class Service {
                        {"binary", plan.binary},
                        {"seeds", scene_.calibrate.seeds}};
     json["size_ratio"] = plan.binary ? scene_.species[1].diameter / scene_.species[0].diameter : 1;
-    if (plan.regime.name == "bed")  // |rho_p - rho_f| g D/rho_p
+    if (plan.regime.kind == core::BoxRegime::bed)  // |rho_p - rho_f| g D/rho_p
       json["weight_m2_s2"] = std::abs(1 - relevance::fluid_constants(scene_.fluid).density / mean.density) *
                              scene_.column.gravity * mean.diameter;
     json["ranks"] = ranks_ ? ranks_->count() : 1;
@@ -127,7 +127,7 @@ class Service {
     const auto here = std::size_t(ranks_ ? ranks_->rank() : 0);
     for (std::size_t n = 0; n < failed.size(); ++n) {
       const BoxPoint point = point_of(words[2 * n + 1]);
-      const bool shared = point.regime == "bed";
+      const bool shared = point.regime == core::BoxRegime::bed;
       const auto who = std::size_t(std::min_element(load.begin(), load.end()) - load.begin());
       load[who] += expected(point);
       if (!shared && who != here) continue;
@@ -160,7 +160,7 @@ class Service {
 
   core::Json read_bed(const Texts& words) {
     core::on_first(ranks_.get(), [&] {
-      if (fluid::regime_of_table(words.at(0)) != "bed")
+      if (fluid::regime_of_table(words.at(0)) != core::BoxRegime::bed)
         throw core::CaseError(words[0] + ": no table of fluidised boxes, as --bed takes one");
       (void)fluid::read_bed_table(words[0]);
     });

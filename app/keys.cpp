@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "app/options.hpp"
+#include "core/case/case_rules.hpp"
 #include "core/case/keys.hpp"
 #include "core/error.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
+#include "dem/continuum_scene.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "tfm/particle_scene.hpp"
 
 namespace polybed::multiscale {
 
@@ -41,7 +45,15 @@ core::Json json_of(const core::Role& role) {
 void print_list_json(const std::vector<core::Role>& all) {
   core::Json roles = core::Json::array(), rules = core::Json::array();
   for (const core::Role& role : all) roles.push_back(json_of(role));
-  for (const core::Rule& rule : scene_rules()) rules.push_back({{"message", rule.message}, {"keys", rule.keys}});
+  // models: that judge by them; another model may run a case that breaks one
+  const auto add = [&](std::span<const core::Rule> some, const char* models) {
+    for (const core::Rule& rule : some)
+      rules.push_back({{"message", rule.message}, {"models", models}, {"keys", rule.keys}});
+  };
+  add(core::case_rules(), "tfm, dem");
+  add(scene_rules(), "tfm, dem");
+  add(tfm::model_rules(), "tfm");
+  add(dem::model_rules(), "dem");
   core::print("{}\n", core::json_text({{"roles", roles}, {"rules", rules}}));
 }
 

@@ -4,9 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
 
 namespace polybed::dem {
+
+/// What this model alone asks of a scene.
+[[nodiscard]] const std::vector<core::Rule>& model_rules();
 
 /// What keeps a scene from the particle model, each with its key; empty if nothing does.
 [[nodiscard]] std::vector<std::string> only_for_continuum(const core::Scene& scene);

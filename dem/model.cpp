@@ -41,7 +41,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       gravity_(gravity_of(scene)),
       force_unit_(force_unit(scene, materials_, laws_)),
       torque_unit_(torque_unit(force_unit_, materials_)),
-      held_(scene.dem.held),
+      held_(scene.bed.held),
       skin_(skin_of(scene, materials_)),
       verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
       search_(box_, materials_, skin_ + laws_.reach()),

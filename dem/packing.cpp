@@ -174,7 +174,7 @@ std::vector<Particle> start_particles(const core::Scene& scene, const Materials&
       particles.push_back(particle(materials, std::int32_t(j), std::int64_t(particles.size())));
   place_without_overlap(particles, layer, box, materials, seed);
   set_in_motion(particles, scene.dem.start_speed, seed);
-  shear(particles, scene.dem.shear_rate);
+  shear(particles, scene.column.shear_rate);
   return particles;
 }
 

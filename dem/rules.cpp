@@ -1,13 +1,24 @@
 #include "dem/rules.hpp"
 
+#include "dem/effects/maker.hpp"
+#include "relevance/effect_rules.hpp"
+
 namespace polybed::dem {
 
 std::vector<core::Rule> key_rules() {
-  return {{{"dem.held", "fluid.name", "effects.drag"},
-           "dem.held = true without drag: nothing resists the flow through the bed; name a law in effects.drag",
-           [](const core::Scene& scene) {
-             return core::broken_if(scene.dem.held && scene.fluid.present() && !scene.effects.contains("drag"));
-           }}};
+  const std::vector<core::Rule> own{
+      {{"dem.held", "fluid.name", "effects.drag"},
+       "dem.held = true without drag: nothing resists the flow through the bed; name a law in effects.drag",
+       [](const core::Scene& scene) {
+         return core::broken_if(scene.bed.held && scene.fluid.present() && !scene.effects.contains("drag"));
+       }},
+      {{"dem.kernel_width", "dem.kernel"},
+       "dem.kernel_width cannot act: dem.kernel = \"bilinear\" has the width of the cells; use \"diffusion\" or "
+       "\"auto\"",
+       [](const core::Scene& scene) {
+         return core::broken_if(scene.dem.kernel == core::Kernel::bilinear && scene.dem.kernel_width.has_value());
+       }}};
+  return relevance::joined({rules_of_keys(), own});
 }
 
 }  // namespace polybed::dem

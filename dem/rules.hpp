@@ -1,4 +1,4 @@
-// What the keys of [dem] require, whatever effects there are.
+// What the keys of [dem] require, of the effects that read them and whatever effects there are.
 #pragma once
 
 #include <vector>

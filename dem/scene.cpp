@@ -10,7 +10,6 @@
 #include "closures/drag_turton_levenspiel.hpp"
 #include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "core/start_error.hpp"
 #include "dem/packing.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -81,7 +80,7 @@ Box box_of(const core::Scene& scene) {
   box.size = column.size;
   box.periodic = {column.sides == core::Boundary::periodic, column.ends == core::Boundary::periodic,
                   column.dimensions == 2 || column.sides == core::Boundary::periodic};
-  box.shear_rate = scene.dem.shear_rate;
+  box.shear_rate = scene.column.shear_rate;
   if (scene.dem.opening)
     box.opening = Opening{0.5 * box.size[0], 0.5 * box.size[2], 0.5 * *scene.dem.opening, column.dimensions == 3};
   for (int axis = 0; axis < 3; ++axis) {
@@ -113,7 +112,7 @@ Speeds known_speeds(const core::Scene& scene, const Materials& materials, const 
   const double fall = std::sqrt(first * first + 2 * scene.column.gravity * fall_height(scene, materials, box, start));
   const double shear = std::abs(box.image_speed());
   const Speeds dry{std::max(fall, shear), std::max(fall * most_passed_on(materials), shear)};
-  if (!scene.fluid.present() || scene.dem.shear_rate != 0) return dry;
+  if (!scene.fluid.present() || scene.column.shear_rate != 0) return dry;
   const double wet = speed_in_fluid(scene, first);
   return {std::min(dry.impact, wet), std::min(dry.greatest, wet)};
 }

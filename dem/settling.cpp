@@ -33,8 +33,7 @@ core::Scene falling(core::Scene scene, double step) {
   scene.dem.opening.reset();
   scene.inlet.superficial_velocity.clear();
   scene.jets.clear();
-  scene.dem.restitution = dull;
-  for (core::Species& s : scene.species) s.restitution = dull;
+  core::set_restitution(scene, dull);
   for (core::ContactPair& pair : scene.contact_pairs) pair.restitution.reset();
   return scene;
 }

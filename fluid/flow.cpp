@@ -37,8 +37,10 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       gravity_(scene.column.gravity),
       tolerance_(tolerance),
       viscous_(core::law_of(scene, "fluid_stress") != "none"),
-      conservative_(scene.tfm.momentum != core::Momentum::upwind && scene.tfm.momentum != core::Momentum::limited),
-      limited_(scene.tfm.momentum != core::Momentum::upwind && scene.tfm.momentum != core::Momentum::conservative),
+      conservative_(scene.scheme.momentum != core::Momentum::upwind &&
+                    scene.scheme.momentum != core::Momentum::limited),
+      limited_(scene.scheme.momentum != core::Momentum::upwind &&
+               scene.scheme.momentum != core::Momentum::conservative),
       solver_(grid),
       fluid_(grid),
       convected_(core::make_face_field(grid)),

@@ -62,21 +62,21 @@ RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, doub
 }
 
 Regime shear_regime(const core::Scene& scene) {
-  if (!scene.fluid.present()) return {"dry", "there is no fluid", {}};
+  if (!scene.fluid.present()) return {core::BoxRegime::dry, "there is no fluid", {}};
   const core::BoxRegime given = scene.calibrate.regime;
   const bool sheared = given == core::BoxRegime::dry || given == core::BoxRegime::wet;
-  Regime regime{std::string(sheared ? core::name_of(given) : ""), "as the case says", {}};
+  Regime regime{sheared ? given : core::BoxRegime::automatic, "as the case says", {}};
   const double velocity = greatest_velocity(scene);
   for (std::size_t j = 0; velocity > 0 && j < scene.species.size(); ++j)
     regime.numbers.push_back(regime_numbers(scene, j, velocity, 0));
-  if (!regime.name.empty() || regime.numbers.empty()) return regime;
+  if (sheared || regime.numbers.empty()) return regime;
   const RegimeNumbers& most = *std::max_element(
       regime.numbers.begin(), regime.numbers.end(),
       [](const auto& a, const auto& b) { return a.shear_times_relaxation < b.shear_times_relaxation; });
-  regime.name = most.shear_times_relaxation >= 1 ? "dry" : "wet";
+  regime.kind = most.shear_times_relaxation >= 1 ? core::BoxRegime::dry : core::BoxRegime::wet;
   regime.reason =
       fmt::format("gamma tau_p = {:.2g} of {}, {}; St* = {:.2g} to {:.2g}", most.shear_times_relaxation, most.species,
-                  regime.name == "dry" ? "1 or more" : "below 1", most.stokes_least, most.stokes_most);
+                  regime.kind == core::BoxRegime::dry ? "1 or more" : "below 1", most.stokes_least, most.stokes_most);
   return regime;
 }
 

@@ -19,8 +19,8 @@ struct RegimeNumbers {
 };
 
 struct Regime {
-  std::string name;    ///< dry | wet; empty: nothing moves the bed
-  std::string reason;  ///< in one line, with the numbers that decided
+  core::BoxRegime kind = core::BoxRegime::automatic;  ///< dry | wet; automatic: nothing moves the bed
+  std::string reason;                                 ///< in one line, with the numbers that decided
   std::vector<RegimeNumbers> numbers;
 };
 

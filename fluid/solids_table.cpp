@@ -66,11 +66,17 @@ constexpr Numbers numbers{{{"lambda", &SolidsTable::inertia},
                            {"size_ratio", &SolidsTable::size_ratio},
                            {"fit_residual", &SolidsTable::residual},
                            {"left_out_residual", &SolidsTable::left_out}}};
-using Texts = std::array<std::pair<const char*, std::string SolidsTable::*>, 4>;
-constexpr Texts texts{{{"regime", &SolidsTable::regime},
-                       {"reference", &SolidsTable::reference},
+using Texts = std::array<std::pair<const char*, std::string SolidsTable::*>, 3>;
+constexpr Texts texts{{{"reference", &SolidsTable::reference},
                        {"case_hash", &SolidsTable::case_hash},
                        {"created", &SolidsTable::created}}};
+
+core::BoxRegime regime_of(const core::OutputFile& file, const std::filesystem::path& path) {
+  const std::string name = file.text_attribute("/", "regime");
+  for (const core::BoxRegime regime : {core::BoxRegime::dry, core::BoxRegime::wet, core::BoxRegime::bed})
+    if (core::name_of(regime) == name) return regime;
+  throw core::FileError(path.string() + ": a table of regime \"" + name + "\"; there are dry, wet and bed");
+}
 
 BedPressure bed_pressure(const core::OutputFile& file, const char* phi) {
   const bool uncertain = file.has("p_bed_se");
@@ -99,8 +105,8 @@ TablePlace place_of(const core::Scene& scene) {
   const std::vector<double>& share = scene.bed.volume_share;
   TablePlace place;
   for (std::size_t j = 0; j < scene.species.size(); ++j) {
-    place.restitution += share[j] * scene.species[j].restitution.value_or(scene.dem.restitution);
-    place.friction += share[j] * scene.species[j].friction.value_or(scene.dem.friction);
+    place.restitution += share[j] * scene.species[j].restitution;
+    place.friction += share[j] * scene.species[j].friction;
   }
   if (scene.species.size() != 2) return place;
   place.share = share[1];
@@ -116,7 +122,7 @@ std::vector<std::string> beyond(const SolidsTable& table, const TablePlace& plac
     lines.push_back(fmt::format("{} {:.4g} lies outside the table's {:.4g} to {:.4g}: its edge is held", name, value,
                                 axis.front(), axis.back()));
   };
-  if (table.regime == "dry") hold("restitution", table.restitution, place.restitution);
+  if (table.regime == core::BoxRegime::dry) hold("restitution", table.restitution, place.restitution);
   hold("friction", table.friction, place.friction);
   if (!table.of_two_species()) return lines;
   hold("share of the second species", table.share, place.share);
@@ -126,9 +132,7 @@ std::vector<std::string> beyond(const SolidsTable& table, const TablePlace& plac
   return lines;
 }
 
-std::string regime_of_table(const std::filesystem::path& path) {
-  return open_table(path).text_attribute("/", "regime");
-}
+core::BoxRegime regime_of_table(const std::filesystem::path& path) { return regime_of(open_table(path), path); }
 
 std::string missing_checksum(const std::filesystem::path& path) {
   if (is_sealed(open_table(path))) return "";
@@ -137,6 +141,7 @@ std::string missing_checksum(const std::filesystem::path& path) {
 
 void write_solids_table(const std::filesystem::path& path, const SolidsTable& table) {
   core::OutputFile file = new_table();
+  file.set_attribute("/", "regime", std::string(core::name_of(table.regime)));
   for (const auto& [name, text] : texts) file.set_attribute("/", name, table.*text);
   for (const auto& [name, number] : numbers) file.set_attribute("/", name, table.*number);
   file.set_attribute("/", "units", std::string("ratios to the reference; p_bed over |rho_p - rho_f| g D"));
@@ -169,10 +174,10 @@ void write_solids_table(const std::filesystem::path& path, const SolidsTable& ta
 SolidsTable read_solids_table(const std::filesystem::path& path) {
   const core::OutputFile file = open_table(path);
   SolidsTable table;
+  table.regime = regime_of(file, path);
+  if (table.regime == core::BoxRegime::bed)
+    throw core::FileError(path.string() + ": a table of regime \"bed\" holds no sheared boxes");
   for (const auto& [name, text] : texts) table.*text = file.text_attribute("/", name);
-  if (table.regime != "dry" && table.regime != "wet")
-    throw core::FileError(
-        fmt::format("{}: a table of regime \"{}\" holds no sheared boxes", path.string(), table.regime));
   for (const auto& [name, number] : numbers) table.*number = file.attribute("/", name);
   for (const auto& [name, axis] : axes) table.*axis = file.read(name).values;
   for (const auto& [name, quantity] : quantities) {

@@ -25,7 +25,7 @@ struct BedPressure {
 };
 
 struct SolidsTable {
-  std::string regime;                                             ///< dry | wet
+  core::BoxRegime regime = core::BoxRegime::dry;                  ///< dry | wet
   std::string reference;                                          ///< GD-CS | GD-CS e_eff | viscous
   std::vector<double> phi, stokes, restitution, friction, share;  ///< axes; stokes of a dry table: 0
   TableQuantity pressure, viscosity, dissipation, temperature;    ///< temperature: T_2/T_1
@@ -78,7 +78,7 @@ struct TablePlace {
 [[nodiscard]] std::vector<std::string> beyond(const SolidsTable& table, const TablePlace& place);
 
 /// Regime of a file of type "polybed solids table": dry, wet or bed. Throws core::FileError.
-[[nodiscard]] std::string regime_of_table(const std::filesystem::path& path);
+[[nodiscard]] core::BoxRegime regime_of_table(const std::filesystem::path& path);
 
 /// One line for a table that carries no checksum, as those of earlier versions do not; empty of one that does. Throws
 /// core::FileError.

@@ -63,7 +63,7 @@ constexpr double mega = 1e-6;
 
 std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materials& materials, std::int64_t particles,
                                     double dt, double steps) {
-  if (!scene.fluid.present() || scene.dem.shear_rate != 0) return {};
+  if (!scene.fluid.present() || scene.column.shear_rate != 0) return {};
   const core::Grid grid = core::grid_of(scene.column, nullptr);
   FluidNeed need;
   need.every = scene.dem.fluid_every;

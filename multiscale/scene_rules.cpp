@@ -11,6 +11,7 @@
 #include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "dem/rules.hpp"
+#include "multiscale/calibrate/plan.hpp"
 #include "multiscale/roles.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "tfm/rules.hpp"
@@ -39,7 +40,7 @@ Broken fluid_unknown_in_range(const core::Scene& scene) {
   for (const double kelvin : scene.chooser.temperature_range) {
     core::Scene there = scene;
     there.fluid.temperature = kelvin;
-    if (const Broken broken = fluid_unknown(there)) return broken;
+    if (Broken broken = fluid_unknown(there)) return broken;
   }
   return {};
 }
@@ -126,7 +127,8 @@ bool flows_in(const core::Scene& scene) {
 const std::vector<core::Rule>& scene_rules() {
   static const std::vector<core::Rule> all = [] {
     std::vector<core::Rule> rules = relevance::rules_of(menu());
-    for (const auto& more : {dem::key_rules(), tfm::key_rules(), tfm::start_rules(), scene_rules_of_both()})
+    for (const auto& more :
+         {dem::key_rules(), tfm::key_rules(), tfm::start_rules(), calibrate_rules(), scene_rules_of_both()})
       rules.insert(rules.end(), more.begin(), more.end());
     return rules;
   }();

@@ -11,8 +11,8 @@ bool Encountered::certain() const {
 }
 
 Surfaces surfaces_of(const core::Scene& scene, const Survey& survey) {
-  const double known = scene.dem.hamaker_constant, usual = survey.is_gas || !survey.has_fluid ? 1e-19 : 1e-20;
-  return {scene.chooser.roughness.value_or(scene.dem.roughness),
+  const double known = scene.material.hamaker_constant, usual = survey.is_gas || !survey.has_fluid ? 1e-19 : 1e-20;
+  return {scene.chooser.roughness.value_or(scene.material.roughness),
           scene.chooser.hamaker.value_or(known > 0 ? known : usual)};
 }
 

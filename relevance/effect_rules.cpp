@@ -41,10 +41,11 @@ Rule needs_a_fluid(const std::string& role) {
 }
 
 Rule idle_in_a_sheared_box(const std::string& role) {
-  return {keys_of(role, {"dem.shear_rate", "fluid.name"}),
-          key_of(role) + " cannot act in a sheared box: its fluid moves with its flow", [role](const Scene& scene) {
-            return core::broken_if(scene.dem.shear_rate != 0 && scene.fluid.present() && scene.effects.contains(role));
-          }};
+  return {
+      keys_of(role, {"dem.shear_rate", "fluid.name"}),
+      key_of(role) + " cannot act in a sheared box: its fluid moves with its flow", [role](const Scene& scene) {
+        return core::broken_if(scene.column.shear_rate != 0 && scene.fluid.present() && scene.effects.contains(role));
+      }};
 }
 
 std::vector<Rule> excludes(const std::string& role, const std::string& law, const std::string& other,

@@ -11,7 +11,6 @@
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case/particle_list.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "relevance/gas_slip.hpp"
 

@@ -3,7 +3,7 @@
 namespace polybed::tfm {
 
 MomentumForm momentum_form(const core::Scene& scene) {
-  if (scene.tfm.momentum != core::Momentum::automatic) return {scene.tfm.momentum, "as the case says"};
+  if (scene.scheme.momentum != core::Momentum::automatic) return {scene.scheme.momentum, "as the case says"};
   return {core::Momentum::conservative, "(U.grad)U would show beds heavier than they are"};
 }
 

@@ -4,9 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
 
 namespace polybed::tfm {
+
+/// What this model alone asks of a scene: each rule names what is for the DEM only.
+[[nodiscard]] const std::vector<core::Rule>& model_rules();
 
 /// What in a scene is for the DEM only, one message each that names the key; empty: the two-fluid model can run it.
 [[nodiscard]] std::vector<std::string> only_for_particles(const core::Scene& scene);

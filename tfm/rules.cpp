@@ -19,6 +19,8 @@ using core::Scene;
 /// kind.
 bool may_collide(const std::string& stress) { return stress == "kinetic" || stress.starts_with("table:"); }
 
+bool is_implicit(const Scene& scene) { return scene.tfm.integrator == core::TfmIntegrator::implicit_steps; }
+
 bool has_stress(const Scene& scene) { return core::law_of(scene, "solids_stress") != "none"; }
 
 Broken wall_without_viscosity(const Scene& scene) {
@@ -77,7 +79,16 @@ std::vector<core::Rule> key_rules() {
            packing_below_onset},
           {{"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"},
            "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
-           bed_below_onset}};
+           bed_below_onset},
+          {{"tfm.fixed_step", "tfm.integrator"},
+           "tfm.fixed_step works with the explicit integrator only",
+           [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }},
+          {{"tfm.rtol", "tfm.integrator"},
+           "tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past packing",
+           [](const Scene& scene) {
+             const double rtol = scene.tfm.rtol;
+             return is_implicit(scene) && rtol > 2e-3 ? Broken({fmt::format("{}", rtol)}) : Broken();
+           }}};
 }
 
 std::vector<core::Rule> start_rules() {

@@ -8,22 +8,20 @@ namespace polybed::core {
 
 namespace {
 
-struct Material {
+struct Body {
   ElasticProperties elastic;
   double restitution, friction;
 };
 
-Material material_of(const Scene& scene, const std::string& name) {
-  const Dem& dem = scene.dem;
-  const Material common{{dem.youngs_modulus.value_or(least_modulus), dem.poisson_ratio}, dem.restitution, dem.friction};
-  if (name == "wall") return common;
+Body body_of(const Scene& scene, const std::string& name) {
+  const ElasticProperties common{scene.dem.youngs_modulus.value_or(least_modulus), scene.dem.poisson_ratio};
+  if (name == "wall") return {common, scene.material.restitution, scene.material.friction};
   const auto found =
       std::find_if(scene.species.begin(), scene.species.end(), [&](const Species& s) { return s.name == name; });
   if (found == scene.species.end()) throw CaseError("no species '" + name + "'");
-  return {{found->youngs_modulus.value_or(common.elastic.youngs_modulus),
-           found->poisson_ratio.value_or(common.elastic.poisson_ratio)},
-          found->restitution.value_or(common.restitution),
-          found->friction.value_or(common.friction)};
+  return {{found->youngs_modulus.value_or(common.youngs_modulus), found->poisson_ratio.value_or(common.poisson_ratio)},
+          found->restitution,
+          found->friction};
 }
 
 bool is_between(const ContactPair& pair, const std::string& a, const std::string& b) {
@@ -34,7 +32,7 @@ bool is_between(const ContactPair& pair, const std::string& a, const std::string
 }  // namespace
 
 ContactProperties contact_properties(const Scene& scene, const std::string& a, const std::string& b) {
-  const Material first = material_of(scene, a), second = material_of(scene, b);
+  const Body first = body_of(scene, a), second = body_of(scene, b);
   ContactProperties contact{first.elastic, second.elastic, 0.5 * (first.restitution + second.restitution),
                             0.5 * (first.friction + second.friction)};
   for (const ContactPair& pair : scene.contact_pairs) {

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cctype>
 #include <map>
+#include <set>
 
+#include "core/case/case_rules.hpp"
 #include "core/case/depth.hpp"
 #include "core/case/keys.hpp"
 #include "core/case/override.hpp"
+#include "core/case/resolve.hpp"
 #include "core/case/values.hpp"
 #include "core/output/files.hpp"
 
@@ -30,13 +32,11 @@ class CaseReader {
   void spell_out_effects(toml::table& root) const;
   void read_effects(const toml::node& node);
   void read_key(const Key& key, std::size_t index, const toml::node& node);
-  void check_given();
   void check_amount();
   void check_fluid();
   void check_sizes(const toml::table& species);
   void check_scene();
-  void judge(const Rule& rule);
-  void place(const CaseProblem& problem);
+  bool judge(const Rule& rule);
   void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message);
   void wrong_key(const toml::key& key, std::string_view table);
 
@@ -47,11 +47,12 @@ class CaseReader {
   CaseValues values_;
   Scene scene_;
   std::map<std::string, toml::source_region> given_;  ///< the keys that the case sets, by path, and where
+  std::set<std::string> repeated_;                    ///< those of several entries of an array
   WrongKeys wrong_;
 };
 
 void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& node) {
-  given_.emplace(key.path(), node.source());
+  if (!given_.emplace(key.path(), node.source()).second) repeated_.insert(key.path());
   const std::size_t problems = values_.problems().size();
   const Value value = values_.read(key, node);
   if (!std::holds_alternative<std::monostate>(value)) key.set(scene_, index, value);
@@ -233,65 +234,41 @@ void CaseReader::check_fluid() {
   wrong_.add("fluid.name");
 }
 
-/// What must be given together, or not together.
-void CaseReader::check_given() {
-  check_amount();
-  check_fluid();
-  const bool inlet = given_.contains("inlet.superficial_velocity");
-  const bool flows = scene_.fluid.present() && scene_.dem.shear_rate == 0;
-  if (!scene_.column.closed && !inlet && flows && wrong_.sound({"column.closed", "fluid.name", "dem.shear_rate"}))
-    values_.add("inlet.superficial_velocity is missing (or set column.closed = true)");
-  if (scene_.column.closed && inlet) values_.add("inlet.superficial_velocity cannot act: column.closed = true");
-}
-
-/// What the keys say of each other, as far as they are sound.
+/// Fills in what follows from the keys, between the rules that this rests on and the others.
 void CaseReader::check_scene() {
-  const auto take = [&](const std::vector<CaseProblem>& more) {
-    for (const CaseProblem& problem : more) place(problem);
-    return !more.empty();
-  };
-  const bool one_size = std::all_of(scene_.species.begin(), scene_.species.end(),
-                                    [](const Species& species) { return !species.sizes.kind; });
-  const bool readable = wrong_.sound({"species.", "bed.volume_share"});
-  // Without its classes a distribution has no diameter.
-  if (!wrong_.sound("species.distribution") ||
-      (!one_size && (!readable || take(expand_size_classes(scene_, classes_, name_)))))
-    wrong_.add("species.diameter");
-  take(resolve(scene_, name_, given_.contains("bed.particles"), wrong_));
+  const auto has_sizes = [](const Species& species) { return species.sizes.kind.has_value(); };
+  const auto by_sizes = [&] { return std::any_of(scene_.species.begin(), scene_.species.end(), has_sizes); };
+  if (by_sizes() && wrong_.sound({"species.", "bed.volume_share"})) {
+    if (classes_)
+      expand_size_classes(scene_, classes_);
+    else
+      values_.add("species.distribution: this program knows no classes");
+  }
+  if (by_sizes() || !wrong_.sound("species.distribution"))
+    wrong_.add("species.diameter");  // without its classes a distribution has none
+  for (const Rule& rule : case_rules())
+    if (rule.first && judge(rule)) wrong_.add(rule.keys.front());
+  resolve(scene_, name_, wrong_);
+  for (const Rule& rule : case_rules())
+    if (!rule.first) judge(rule);
   for (const Rule& rule : rules_) judge(rule);
 }
 
-/// Adds a problem: one without a line at the first key of the case that its message names.
-void CaseReader::place(const CaseProblem& problem) {
-  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  std::size_t first = std::string::npos;
-  const toml::source_region* source = nullptr;
-  for (const auto& [path, region] : given_) {
-    const std::size_t at = problem.line > 0 ? std::string::npos : problem.message.find(path);
-    const Table* table = find_table(path.substr(0, path.find('.')));
-    const bool many = table != nullptr && table->array;  // whose key may be that of another entry
-    if (at == std::string::npos || at >= first || many) continue;
-    const std::size_t end = at + path.size();
-    if (end < problem.message.size() && in_word(problem.message[end])) continue;
-    first = at;
-    source = &region;
-  }
-  source == nullptr ? values_.problems().push_back(problem) : values_.add(*source, problem.message);
-}
-
-/// A rule whose keys are sound; it is reported at the first of them that the case gives.
-void CaseReader::judge(const Rule& rule) {
+/// Whether the scene breaks a rule whose keys are sound; it is reported at the first of them that the case gives.
+bool CaseReader::judge(const Rule& rule) {
   if (!std::all_of(rule.keys.begin(), rule.keys.end(), [&](const std::string& key) { return wrong_.sound(key); }))
-    return;
-  const std::string fault = rule.fault(scene_);
-  if (fault.empty()) return;
+    return false;
   const auto is_given = [&](const std::string& key) { return given_.contains(key); };
   const auto place = std::find_if(rule.keys.begin(), rule.keys.end(), is_given);
-  place == rule.keys.end() ? values_.add(fault) : values_.add(given_.at(*place), fault);
+  const bool has_line = place != rule.keys.end() && !repeated_.contains(*place);  // else it may be another entry's
+  const std::vector<std::string> faults = rule.faults(scene_);
+  for (const std::string& fault : faults) has_line ? values_.add(given_.at(*place), fault) : values_.add(fault);
+  return !faults.empty();
 }
 
 Scene CaseReader::finish() {
-  check_given();
+  check_amount();
+  check_fluid();
   check_scene();
   std::vector<CaseProblem>& problems = values_.problems();
   std::stable_sort(problems.begin(), problems.end(), [](const CaseProblem& a, const CaseProblem& b) {

@@ -22,7 +22,7 @@ namespace polybed::core {
 /// "species.fine.diameter=1 mm"
 /// \param roles      what [effects] may name
 /// \param classes    how a distribution of sizes becomes species; without it a case may have none
-/// \param rules      what a scene must satisfy beyond its single keys; reported together with all others
+/// \param rules      what a scene must satisfy beyond case_rules(); reported together with all others
 [[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
                               std::span<const Role> roles, const ClassRule& classes = {},
                               std::span<const Rule> rules = {});
@@ -31,12 +31,6 @@ namespace polybed::core {
 [[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
                                std::span<const Role> roles, const ClassRule& classes = {},
                                std::span<const Rule> rules = {});
-
-/// What the keys say of each other: sums, sizes, conflicts, a bed that does not fit. Fills in what follows
-/// from them (axes of the column, depth, shares, defaults of output). Problems have no line.
-/// \param wrong  keys with problems of their own: what rests on them is not checked
-[[nodiscard]] std::vector<CaseProblem> resolve(Scene& scene, const std::string& name, bool bed_given_by_particles,
-                                               WrongKeys wrong = {});
 
 /// The whole case in SI as TOML; reads back to the same scene.
 [[nodiscard]] std::string resolved_case(const Scene& scene);

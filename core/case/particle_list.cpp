@@ -13,7 +13,6 @@
 #include <string_view>
 
 #include "core/case/keys.hpp"
-#include "core/case/resolve_particles.hpp"
 #include "core/output/files.hpp"
 #include "core/start_error.hpp"
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/case/scene.hpp"
@@ -33,21 +33,35 @@ class WrongKeys {
   std::set<std::string, std::less<>> paths_;
 };
 
-/// The words of a rule that a scene breaks, in the order of its gaps; empty if the scene keeps it.
-using Broken = std::optional<std::vector<std::string>>;
+/// How often a scene breaks a rule: once for each of its jets, say. Nothing if the scene keeps it.
+class Broken {
+ public:
+  using Words = std::vector<std::string>;  ///< of one fault, in the order of the gaps of the rule's message
+  Broken() = default;
+  Broken(Words words) { add(std::move(words)); }
+  void add(Words words) { faults_.push_back(std::move(words)); }
+  explicit operator bool() const { return !faults_.empty(); }
+  [[nodiscard]] const std::vector<Words>& faults() const { return faults_; }
+
+ private:
+  std::vector<Words> faults_;
+};
 
 /// One requirement.
 struct Rule {
   std::vector<std::string> keys;  ///< where it is reported, then those it rests on: it is not judged if one is wrong
   std::string message;            ///< with {} for each word
   std::function<Broken(const Scene&)> broken;  ///< values of keys that are wrong are at their defaults
+  /// Judged before what follows from its keys is filled in. A scene that breaks it is judged by no rule that rests on
+  /// the first of its keys.
+  bool first = false;
 
-  /// The message with its words; empty if the scene keeps the rule.
-  [[nodiscard]] std::string fault(const Scene& scene) const;
+  /// The message with the words of each fault.
+  [[nodiscard]] std::vector<std::string> faults(const Scene& scene) const;
 };
 
 /// Broken without words.
-[[nodiscard]] inline Broken broken_if(bool broken) { return broken ? Broken(std::in_place) : std::nullopt; }
+[[nodiscard]] inline Broken broken_if(bool broken) { return broken ? Broken(Broken::Words()) : Broken(); }
 
 /// Throws CaseError with the messages of all rules that a scene breaks, if there are any: for scenes that no reader has
 /// seen.

@@ -13,6 +13,23 @@ std::string text_of(const Start& start) {
   return std::string(word.substr(0, word.find("FILE"))) + start.file;
 }
 
+void set_friction(Scene& scene, double friction) {
+  scene.material.friction = friction;
+  for (Species& species : scene.species) species.friction = friction;
+}
+
+void set_restitution(Scene& scene, double restitution) {
+  scene.material.restitution = restitution;
+  for (Species& species : scene.species) species.restitution = restitution;
+}
+
+void resolve_materials(Scene& scene) {
+  for (Species& species : scene.species) {
+    species.friction = species.given_friction.value_or(scene.material.friction);
+    species.restitution = species.given_restitution.value_or(scene.material.restitution);
+  }
+}
+
 Scene::Scene() = default;
 Scene::Scene(const Scene& other) = default;
 Scene::Scene(Scene&& other) noexcept = default;

@@ -26,6 +26,7 @@ struct Column {
   double gravity = 9.81;                  ///< m/s2, along `down`
   std::vector<double> gravity_direction;  ///< as the case gives it, in the order of given_size; empty: down
   std::array<double, 3> down{0, -1, 0};   ///< follows: its unit vector on the axes x, y, z
+  double shear_rate = 0;                  ///< Lees-Edwards, dv_x/dy, 1/s; key of [dem]
   Outlet outlet = Outlet::screen;
   bool closed = false;  ///< walls all round: no inlet, no outlet
 };
@@ -56,13 +57,23 @@ struct SizeDistribution {
   int classes = 3;
 };
 
+inline constexpr double usual_friction = 0.3, usual_restitution = 0.9;
+
+/// What walls are made of, and species that do not say otherwise; keys of [dem].
+struct Material {
+  double friction = usual_friction, restitution = usual_restitution;
+  double hamaker_constant = 0;  ///< A, J; 0: not known
+  double roughness = 1e-7;      ///< least thickness of a film between surfaces, m
+};
+
 struct Species {
   std::string name;
   double diameter = 0;  ///< m
   SizeDistribution sizes;
-  double density = 0;                                                          ///< kg/m3
-  double max_packing = 0.64;                                                   ///< of this species alone
-  std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;  ///< else those of [dem]
+  double density = 0;                                                                      ///< kg/m3
+  double max_packing = 0.64;                                                               ///< of this species alone
+  std::optional<double> youngs_modulus, poisson_ratio, given_friction, given_restitution;  ///< else those of [dem]
+  double friction = usual_friction, restitution = usual_restitution;  ///< follow from those given and the material
 };
 
 /// The bed at time zero, and the file of a checkpoint or a list of particles.
@@ -83,6 +94,7 @@ struct Bed {
   std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
   Start start;
   std::uint64_t seed = 1;
+  bool held = false;  ///< particles do not move: a fixed bed; key of [dem]
 };
 
 struct Inlet {
@@ -134,6 +146,11 @@ struct OutputPlan {
   std::optional<double> checkpoint_every;  ///< s, between checkpoints; else a tenth of the run
 };
 
+/// How the equations of the fluid are discretised, in both models; key of [tfm].
+struct FluidScheme {
+  Momentum momentum = Momentum::automatic;
+};
+
 /// A rule, or a number.
 using MaxPacking = std::variant<PackingRule, double>;
 
@@ -142,7 +159,6 @@ struct Tfm {
   bool follow_bed = true;
   double rtol = 1e-4;
   FractionFlux flux = FractionFlux::limited;
-  Momentum momentum = Momentum::automatic;
   SolidsWall solids_wall = SolidsWall::free_slip;
   MaxPacking max_packing = PackingRule::automatic;
   double frictional_pressure = 0.05;     ///< Fr of p_f, Pa
@@ -168,13 +184,12 @@ inline constexpr double least_modulus = 5e6;
 struct Dem {
   double steps_per_contact = 20;
   std::optional<double> youngs_modulus;  ///< Pa; else chosen for the speeds to expect, at least least_modulus
-  double poisson_ratio = 0.25, friction = 0.3, restitution = 0.9;
+  double poisson_ratio = 0.25;
   int fluid_every = 16;
   Kernel kernel = Kernel::automatic;
   std::optional<double> kernel_width;  ///< of diffusion, full width at half height, m
   OwnShare own_share = OwnShare::kept;
   FluidRanks fluid_ranks = FluidRanks::automatic;
-  bool held = false;  ///< particles do not move: a fixed bed
   Tangential tangential = Tangential::hdd;
   Tail tail = Tail::clip;
   DemIntegrator integrator = DemIntegrator::automatic;
@@ -187,14 +202,11 @@ struct Dem {
   std::optional<double> fixed_step;        ///< s
   std::optional<double> greatest_speed;    ///< expected, sets the time step, m/s
   double start_speed = 0;                  ///< rms of each component of random velocities at the start, m/s
-  double shear_rate = 0;                   ///< Lees-Edwards, dv_x/dy, 1/s
   std::optional<double> opening;           ///< of the bottom: width of a slot or a round hole, m; closed without
   bool ledger = true;                      ///< account of the energy
   double cohesion_energy = 0;              ///< W of DMT and JKR, J/m2
-  double hamaker_constant = 0;             ///< A, J
   double cohesion_gap = 1.65e-10;          ///< z_0, least gap of the van der Waals force, m
   std::optional<double> asperity_radius;   ///< R* of the van der Waals force, m; else that of the spheres
-  double roughness = 1e-7;                 ///< least thickness of a film between surfaces, m
 };
 
 /// Boxes of particles that are run for a table of the solids stress; what is empty has a default of the plan.
@@ -233,6 +245,8 @@ struct Scene {
   std::string title;
   Column column;
   Fluid fluid;
+  FluidScheme scheme;
+  Material material;
   std::vector<Species> species;
   Bed bed;
   Inlet inlet;
@@ -258,5 +272,12 @@ inline constexpr const char* automatic = "auto";
   const auto found = scene.effects.find(role);
   return found == scene.effects.end() ? "none" : found->second;
 }
+
+/// Gives walls and all species one friction, one restitution.
+void set_friction(Scene& scene, double friction);
+void set_restitution(Scene& scene, double restitution);
+
+/// Fills in what species do not say of their friction and restitution.
+void resolve_materials(Scene& scene);
 
 }  // namespace polybed::core

@@ -110,6 +110,8 @@ struct KeyOf {
   bool no_default = false;
   std::function<Value(const S&)> get;
   std::function<void(S&, const Value&)> set;
+  std::function<Value(const Scene&)> get_elsewhere{};  ///< instead, of a key whose value is kept in another struct
+  std::function<void(Scene&, const Value&)> set_elsewhere{};
 
   void say(const Help& fact) { key.help = fact.text; }
   void say(const Equation& fact) { key.equation = fact.text; }
@@ -141,6 +143,15 @@ KeyOf<S> within(Part S::*part, const KeyOf<Part>& inner) {
           [part, inner](S& into, const Value& value) { inner.set(into.*part, value); }};
 }
 
+/// A key of the table of S whose value both models read: it is kept in another part of the scene.
+template <class S, class Part>
+KeyOf<S> shared(Part Scene::*part, const KeyOf<Part>& inner) {
+  KeyOf<S> made{inner.key, inner.no_default, {}, {}};
+  made.get_elsewhere = [part, inner](const Scene& from) { return inner.get(from.*part); };
+  made.set_elsewhere = [part, inner](Scene& into, const Value& value) { inner.set(into.*part, value); };
+  return made;
+}
+
 /// A value as text that a case could give, with the unit of its key; empty if there is nothing.
 [[nodiscard]] std::string text_of(const Value& value, const Dimension& dimension);
 
@@ -152,9 +163,15 @@ Table table_of(std::string_view name, bool array, const At& at, std::initializer
   for (const KeyOf<S>& given : keys) {
     Key key = given.key;
     key.table = name;
-    key.get = [at, get = given.get](const Scene& scene, std::size_t n) { return get(at(scene, n)); };
-    key.set = [at, set = given.set](Scene& scene, std::size_t n, const Value& value) { set(at(scene, n), value); };
-    if (!given.no_default) key.standard = text_of(given.get(untouched), key.dimension);
+    if (given.get_elsewhere) {
+      key.get = [get = given.get_elsewhere](const Scene& scene, std::size_t) { return get(scene); };
+      key.set = [set = given.set_elsewhere](Scene& scene, std::size_t, const Value& value) { set(scene, value); };
+    } else {
+      key.get = [at, get = given.get](const Scene& scene, std::size_t n) { return get(at(scene, n)); };
+      key.set = [at, set = given.set](Scene& scene, std::size_t n, const Value& value) { set(at(scene, n), value); };
+    }
+    if (!given.no_default)
+      key.standard = text_of(given.get_elsewhere ? given.get_elsewhere(Scene()) : given.get(untouched), key.dimension);
     made.keys.push_back(std::move(key));
   }
   return made;

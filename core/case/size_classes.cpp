@@ -8,8 +8,6 @@ namespace polybed::core {
 
 namespace {
 
-constexpr double least_diameter = 1e-8, greatest_diameter = 1;  // m, as of species.diameter
-
 /// The species that stand for one of the case, with their shares of its volume.
 struct Expanded {
   std::vector<Species> species;
@@ -52,7 +50,7 @@ std::vector<ContactPair> expanded_pairs(const std::vector<ContactPair>& pairs,
                                         const std::vector<SizeClasses>& records) {
   std::vector<ContactPair> result;
   for (const ContactPair& pair : pairs) {
-    if (pair.between.size() != 2) return pairs;  // told by resolve()
+    if (pair.between.size() != 2) return pairs;  // a rule tells of it
     for (const std::string& a : names_of(pair.between[0], records))
       for (const std::string& b : names_of(pair.between[1], records)) {
         if (pair.between[0] == pair.between[1] && b < a) continue;
@@ -83,36 +81,25 @@ std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vect
 
 }  // namespace
 
-std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule, const std::string& case_name) {
-  std::vector<CaseProblem> problems;
-  const auto add = [&](std::string message) { problems.push_back({case_name, 0, 0, std::move(message)}); };
+void expand_size_classes(Scene& scene, const ClassRule& rule) {
   if (std::none_of(scene.species.begin(), scene.species.end(), [](const auto& s) { return s.sizes.kind.has_value(); }))
-    return problems;
-  if (!rule) return {{case_name, 0, 0, "species.distribution: this program knows no classes"}};
-  if (!scene.bed.particles.empty())
-    add("bed.particles counts spheres of one size: with a species.distribution give bed.volume_share and "
-        "bed.static_height");
+    return;
   Bed& bed = scene.bed;
-  const bool shares_fit = bed.volume_share.size() == scene.species.size();  // else told by resolve()
+  const bool shares_fit = bed.volume_share.size() == scene.species.size();
+  if (!shares_fit && bed.start.kind != StartKind::list) return;  // a rule tells of it
   std::vector<Species> species;
   std::vector<double> shares;
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
     const Expanded classes = expanded(scene.species[n], rule, scene.size_classes);
     for (std::size_t k = 0; k < classes.species.size(); ++k) {
-      const double diameter = classes.species[k].diameter;
-      if (!(diameter >= least_diameter && diameter <= greatest_diameter))
-        add(fmt::format("{} would have a diameter of {:.3g} m: fewer species.classes, or a smaller species.deviation",
-                        classes.species[k].name, diameter));
       species.push_back(classes.species[k]);
       if (shares_fit) shares.push_back(bed.volume_share[n] * classes.share[k]);
     }
   }
-  if (!shares_fit && bed.start.kind != StartKind::list) return problems;
   scene.feeds = expanded_feeds(scene.feeds, scene.size_classes);
   scene.contact_pairs = expanded_pairs(scene.contact_pairs, scene.size_classes);
   scene.species = std::move(species);
   if (shares_fit) bed.volume_share = std::move(shares);
-  return problems;
 }
 
 }  // namespace polybed::core

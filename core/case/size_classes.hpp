@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/case/scene.hpp"
-#include "core/error.hpp"
 
 namespace polybed::core {
 
@@ -18,8 +17,8 @@ using ClassRule = std::function<std::vector<std::pair<double, double>>(const Siz
 
 /// Puts `name.1`, `name.2`, ... in the place of each species with a distribution: with its properties, its share of
 /// bed.volume_share divided among them, and in
-/// the contact pairs and the feeds that name it. Fills scene.size_classes.
-[[nodiscard]] std::vector<CaseProblem> expand_size_classes(Scene& scene, const ClassRule& rule,
-                                                           const std::string& case_name);
+/// the contact pairs and the feeds that name it. Fills scene.size_classes. Does nothing to a scene that has no share
+/// for each species.
+void expand_size_classes(Scene& scene, const ClassRule& rule);
 
 }  // namespace polybed::core

@@ -96,8 +96,8 @@ Table species_table() {
           key(&Species::youngs_modulus, "youngs_modulus", dimension::pressure, above(0, 1e13),
               help("else that of [dem]")),
           key(&Species::poisson_ratio, "poisson_ratio", range(0, 0.5), help("else that of [dem]")),
-          key(&Species::friction, "friction", range(0, 10), help("else that of [dem]")),
-          key(&Species::restitution, "restitution", above(0, 1), help("else that of [dem]")),
+          key(&Species::given_friction, "friction", range(0, 10), help("else that of [dem]")),
+          key(&Species::given_restitution, "restitution", above(0, 1), help("else that of [dem]")),
       });
 }
 

@@ -17,9 +17,11 @@ Table tfm_table() {
                    "column; explicit and imex steps only")),
           key(&Tfm::rtol, "rtol", range(1e-12, 0.1), help("relative tolerance of the time integration")),
           key(&Tfm::flux, "flux", help("solids fractions at faces: second order with a limiter, or first order")),
-          key(&Tfm::momentum, "momentum",
-              help("convection of velocities: first order, or second with a limiter; as (U.grad)U, or in the "
-                   "conservative form; auto: conservative, for particles conservative_limited")),
+          shared<Tfm>(
+              &Scene::scheme,
+              key(&FluidScheme::momentum, "momentum",
+                  help("convection of velocities: first order, or second with a limiter; as (U.grad)U, or in the "
+                       "conservative form; auto: conservative, for particles conservative_limited"))),
           key(&Tfm::solids_wall, "solids_wall",
               help("velocity of the solids along walls; johnson_jackson: partial slip, with a viscosity of the "
                    "solids"),
@@ -76,8 +78,10 @@ Table dem_table() {
               help("E of all species that do not say otherwise; default: 5 MPa, or the least at which impacts "
                    "at dem.greatest_speed overlap by no more than dem.max_overlap")),
           key(&Dem::poisson_ratio, "poisson_ratio", range(0, 0.5), help("likewise")),
-          key(&Dem::friction, "friction", range(0, 10), help("likewise; the TFM's species exchange reads it too")),
-          key(&Dem::restitution, "restitution", above(0, 1), help("likewise; the TFM's species exchange reads it too")),
+          shared<Dem>(&Scene::material, key(&Material::friction, "friction", range(0, 10),
+                                            help("likewise; the TFM's species exchange reads it too"))),
+          shared<Dem>(&Scene::material, key(&Material::restitution, "restitution", above(0, 1),
+                                            help("likewise; the TFM's species exchange reads it too"))),
           key(&Dem::fluid_every, "fluid_every", range(1, 1e6), help("solid steps per fluid step")),
           key(&Dem::kernel, "kernel",
               help("how particles are averaged for the fluid: bilinear in the cells around them; diffusion: "
@@ -90,7 +94,8 @@ Table dem_table() {
               help("what a particle counts for in the averages that its drag follows from, less the neighbours "
                    "that it keeps away: kept as the thesis has it, or removed, as drag laws are made of means "
                    "of the mixture")),
-          key(&Dem::held, "held", help("particles stay where they are: a fixed bed, for its pressure drop")),
+          shared<Dem>(&Scene::bed, key(&Bed::held, "held",
+                                       help("particles stay where they are: a fixed bed, for its pressure drop"))),
           key(&Dem::fluid_ranks, "fluid_ranks",
               help("on several ranks: each solves for the whole fluid, and particles have the same bits on any "
                    "number of ranks; shared: each solves for a block of it, to the solver's tolerance; auto: "
@@ -123,9 +128,11 @@ Table dem_table() {
               help("expected of any particle: sets the time step")),
           key(&Dem::start_speed, "start_speed", dimension::velocity, range(0, 1e5),
               help("root mean square of each component of random velocities at the start")),
-          key(&Dem::shear_rate, "shear_rate", dimension::rate, range(-1e6, 1e6),
-              help("dv_x/dy of a sheared box (Lees and Edwards): needs column.sides and column.ends periodic "
-                   "and no gravity")),
+          shared<Dem>(
+              &Scene::column,
+              key(&Column::shear_rate, "shear_rate", dimension::rate, range(-1e6, 1e6),
+                  help("dv_x/dy of a sheared box (Lees and Edwards): needs column.sides and column.ends periodic "
+                       "and no gravity"))),
           key(&Dem::opening, "opening", dimension::length, above(0, 100),
               help("width of an opening in the middle of the bottom, through which particles fall out and are "
                    "counted: a slot as deep as the column, or with three numbers in column.size a round hole; "
@@ -134,17 +141,19 @@ Table dem_table() {
           key(&Dem::cohesion_energy, "cohesion_energy", dimension::surface_energy, range(0, 1e6),
               help("W of cohesion of the kinds DMT and JKR, J/m2"),
               equation("pull-off: DMT 2 pi W R*, JKR 1.5 pi W R*")),
-          key(&Dem::hamaker_constant, "hamaker_constant", dimension::energy, range(0, 1e-6),
-              help("A of the van der Waals force"), equation("F = A R*/(6 z^2)")),
+          shared<Dem>(&Scene::material,
+                      key(&Material::hamaker_constant, "hamaker_constant", dimension::energy, range(0, 1e-6),
+                          help("A of the van der Waals force"), equation("F = A R*/(6 z^2)"))),
           key(&Dem::cohesion_gap, "cohesion_gap", dimension::length, above(0, 1),
               help("z_0, cut-off of the van der Waals force: nearer than this it grows no more"),
               equation("F = A R*/(6 max(z, z_0)^2)")),
           key(&Dem::asperity_radius, "asperity_radius", dimension::length, above(0, 1),
               help("R* of the van der Waals force of rough surfaces; default: that of the spheres"),
               equation("F = A R*/(6 max(z, z_0)^2)")),
-          key(&Dem::roughness, "roughness", dimension::length, above(0, 1),
-              help("of surfaces: the film between them is not thinner (effects.lubrication = film)"),
-              equation("F = -6 pi mu R*^2 v_n/max(h, roughness)")),
+          shared<Dem>(&Scene::material,
+                      key(&Material::roughness, "roughness", dimension::length, above(0, 1),
+                          help("of surfaces: the film between them is not thinner (effects.lubrication = film)"),
+                          equation("F = -6 pi mu R*^2 v_n/max(h, roughness)"))),
       });
 }
 

@@ -8,7 +8,7 @@ namespace polybed::dem {
 
 AffineDrag::AffineDrag(const core::Scene& scene, const Materials& materials, const SolidsVolume& solids,
                        const Vector& box, FixedPoint force, FixedPoint energy)
-    : shear_rate_(scene.dem.shear_rate), force_(force), energy_(energy) {
+    : shear_rate_(scene.column.shear_rate), force_(force), energy_(energy) {
   const double voidage = 1 - solids.all / (box[0] * box[1] * box[2]);
   std::vector<double> share = solids.of;
   for (double& x : share) x /= solids.all;

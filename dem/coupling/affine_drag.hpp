@@ -68,7 +68,7 @@ class AffineDrag final : public StepPart {
 
 /// Whether the drag of a scene is that of a sheared box.
 [[nodiscard]] inline bool has_affine_drag(const core::Scene& scene) {
-  return scene.fluid.present() && scene.dem.shear_rate != 0 && core::law_of(scene, "drag") != "none";
+  return scene.fluid.present() && scene.column.shear_rate != 0 && core::law_of(scene, "drag") != "none";
 }
 
 }  // namespace polybed::dem

@@ -64,7 +64,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       gather_(core::whole_column(flow_.grid()), diameters(materials)),
       motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy, scene.dem.ledger),
       every_(scene.dem.fluid_every),
-      held_(scene.dem.held),
+      held_(scene.bed.held),
       dt_(dt) {
   if (scene.dem.own_share == core::OwnShare::removed)
     own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials));

@@ -10,6 +10,7 @@
 #include "core/vectors.hpp"
 #include "dem/effects.hpp"
 #include "dem/effects/maker.hpp"
+#include "relevance/effect_rules.hpp"
 #include "relevance/effects/cohesion.hpp"
 
 namespace polybed::dem {
@@ -204,21 +205,32 @@ double VanDerWaalsCohesion::pull_off() const {
 
 namespace makers {
 
+namespace {
+
+core::Rule cohesion_needs_energy(const std::string& law) {
+  return relevance::rule_of_law("cohesion", law, {"dem.cohesion_energy"},
+                                "dem.cohesion_energy: effects.cohesion = \"" + law + "\" needs it, as in \"50 mJ/m2\"",
+                                [](const core::Scene& scene) { return !(scene.dem.cohesion_energy > 0); });
+}
+
+}  // namespace
+
 extern const Maker cohesion;
 const Maker cohesion{&relevance::effects::cohesion,
                      "Pair",
                      MakePair([](const PairMaking& m) {
                        const core::Dem& dem = m.scene.dem;
                        if (m.law == "van_der_waals")
-                         m.laws.cohesion = std::make_unique<VanDerWaalsCohesion>(m.materials, dem.hamaker_constant,
-                                                                                 dem.cohesion_gap, dem.asperity_radius);
+                         m.laws.cohesion = std::make_unique<VanDerWaalsCohesion>(
+                             m.materials, m.scene.material.hamaker_constant, dem.cohesion_gap, dem.asperity_radius);
                        else if (m.law == "dmt")
                          m.laws.cohesion = std::make_unique<DmtCohesion>(m.materials, dem.cohesion_energy);
                        else
                          m.laws.cohesion =
                              std::make_unique<JkrCohesion>(m.materials, dem.cohesion_energy, m.laws.contact_memory());
                      }),
-                     {"van_der_waals"}};
+                     {"van_der_waals"},
+                     {cohesion_needs_energy("dmt"), cohesion_needs_energy("jkr")}};
 
 }  // namespace makers
 

@@ -1,10 +1,15 @@
-#include "relevance/effects/contact.hpp"
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "dem/effects.hpp"
 #include "dem/effects/contact_hertz.hpp"
 #include "dem/effects/contact_linear.hpp"
 #include "dem/effects/friction.hpp"
 #include "dem/effects/friction_partial_slip.hpp"
 #include "dem/effects/maker.hpp"
+#include "relevance/effect_rules.hpp"
+#include "relevance/effects/contact.hpp"
 
 namespace polybed::dem::makers {
 
@@ -30,9 +35,34 @@ void make_contact(const PairMaking& m) {
   m.laws.tangential = make_tangential(m, m.laws.normal->memory_size());
 }
 
+core::Rule linear_has_no_radius(core::Tangential tangential) {
+  return {{"dem.tangential", "effects.contact"},
+          "dem.tangential = \"" + std::string(core::name_of(tangential)) +
+              "\" needs the radius of a contact, which effects.contact = \"linear\" has not: use hertz_mindlin, or "
+              "dem.tangential = \"linear\"",
+          [tangential](const core::Scene& scene) {
+            return core::broken_if(core::law_of(scene, "contact") == "linear" && scene.dem.tangential == tangential);
+          }};
+}
+
+std::vector<core::Rule> contact_rules() {
+  return {relevance::rule_of_law("contact", "linear", {"dem.normal_stiffness"},
+                                 "dem.normal_stiffness: effects.contact = \"linear\" needs it, as in \"1000 N/m\"",
+                                 [](const core::Scene& scene) { return !scene.dem.normal_stiffness; }),
+          linear_has_no_radius(core::Tangential::mindlin),
+          linear_has_no_radius(core::Tangential::mindlin_deresiewicz),
+          {{"dem.tangential", "effects.contact"},
+           "dem.tangential = \"linear\" is a share of dem.normal_stiffness: it goes with effects.contact = "
+           "\"linear\"",
+           [](const core::Scene& scene) {
+             return core::broken_if(core::law_of(scene, "contact") == "hertz_mindlin" &&
+                                    scene.dem.tangential == core::Tangential::linear);
+           }}};
+}
+
 }  // namespace
 
 extern const Maker contact;
-const Maker contact{&relevance::effects::contact, "Pair", MakePair(make_contact)};
+const Maker contact{&relevance::effects::contact, "Pair", MakePair(make_contact), {}, contact_rules()};
 
 }  // namespace polybed::dem::makers

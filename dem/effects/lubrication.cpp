@@ -12,7 +12,7 @@ namespace {
 void make_lubrication(const PairMaking& m) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(m.scene.fluid);
   if (m.law == "film") {
-    m.laws.film = std::make_unique<Film>(m.materials, fluid.viscosity, m.scene.dem.roughness);
+    m.laws.film = std::make_unique<Film>(m.materials, fluid.viscosity, m.scene.material.roughness);
     return;
   }
   // Its memory is the first in a contact's. The law within has a damping ratio of 1, and its tail kept.

@@ -1,5 +1,7 @@
 #include "dem/effects/maker.hpp"
 
+#include "relevance/effect_rules.hpp"
+
 namespace polybed::dem {
 
 namespace {
@@ -14,6 +16,14 @@ relevance::Menu menu_of(const std::vector<const Maker*>& list) {
 
 std::vector<core::Role> roles() { return relevance::roles_of(menu_of(effects())); }
 
-std::vector<core::Rule> rules(const std::vector<const Maker*>& list) { return relevance::rules_of(menu_of(list)); }
+std::vector<core::Rule> rules_of_keys(const std::vector<const Maker*>& list) {
+  std::vector<core::Rule> all;
+  for (const Maker* one : list) all.insert(all.end(), one->rules.begin(), one->rules.end());
+  return all;
+}
+
+std::vector<core::Rule> rules(const std::vector<const Maker*>& list) {
+  return relevance::joined({relevance::rules_of(menu_of(list)), rules_of_keys(list)});
+}
 
 }  // namespace polybed::dem

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "closures/drag.hpp"
+#include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
 #include "dem/contacts/materials.hpp"
 #include "relevance/effect.hpp"
@@ -57,6 +58,7 @@ struct Maker {
   std::string slot;
   std::variant<std::monostate, MakePair, MakeForce, MakeLoad> make = {};
   std::vector<std::string> benched = {};  ///< laws that `effects bench` times; "none": what it saves to leave it out
+  std::vector<core::Rule> rules = {};     ///< what it needs of [dem], beside the rules of the effect
 };
 
 /// All of them, in the order in which they are made and listed.
@@ -64,6 +66,8 @@ struct Maker {
 
 /// What [effects] may name, and what the effects of a list require.
 [[nodiscard]] std::vector<core::Role> roles();
+/// Of the latter those that are about keys of [dem].
+[[nodiscard]] std::vector<core::Rule> rules_of_keys(const std::vector<const Maker*>& list = effects());
 [[nodiscard]] std::vector<core::Rule> rules(const std::vector<const Maker*>& list = effects());
 
 /// Calls body(its function, law) for those of a list that a scene calls for and that fill the slot of this type.

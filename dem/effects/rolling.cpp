@@ -8,6 +8,7 @@
 #include "dem/effects.hpp"
 #include "dem/effects/maker.hpp"
 #include "dem/effects/rows.hpp"
+#include "relevance/effect_rules.hpp"
 #include "relevance/effects/rolling.hpp"
 
 namespace polybed::dem {
@@ -127,6 +128,21 @@ void SpringRolling::add_energy(const ContactBatch& batch, Row& stored) const {
 
 namespace makers {
 
+namespace {
+
+std::vector<core::Rule> rolling_rules() {
+  return {relevance::rule_of("rolling", {"dem.rolling_friction"},
+                             "dem.rolling_friction: effects.rolling = \"{}\" needs it, above 0",
+                             [](const core::Scene& scene) { return !(scene.dem.rolling_friction > 0); }),
+          {{"dem.rolling_damping", "effects.rolling"},
+           "dem.rolling_damping: effects.rolling = \"cdt\" has no spring to damp; use epsd",
+           [](const core::Scene& scene) {
+             return core::broken_if(core::law_of(scene, "rolling") == "cdt" && scene.dem.rolling_damping > 0);
+           }}};
+}
+
+}  // namespace
+
 extern const Maker rolling;
 const Maker rolling{&relevance::effects::rolling,
                     "Pair",
@@ -138,7 +154,8 @@ const Maker rolling{&relevance::effects::rolling,
                         m.laws.rolling = std::make_unique<SpringRolling>(m.materials, dem.rolling_friction,
                                                                          dem.rolling_damping, m.laws.contact_memory());
                     }),
-                    {"cdt", "epsd"}};
+                    {"cdt", "epsd"},
+                    rolling_rules()};
 
 }  // namespace makers
 

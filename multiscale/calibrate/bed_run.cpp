@@ -176,9 +176,9 @@ core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
     if (const std::string law = core::law_of(scene, role); law != "none") box.effects[role] = law;
   box.effects["contact"] = "hertz_mindlin";
   box.dem = scene.dem;
-  box.dem.shear_rate = 0;
-  box.dem.friction = point.friction;
-  box.dem.restitution = point.restitution;
+  box.material = scene.material;
+  core::set_friction(box, point.friction);
+  core::set_restitution(box, point.restitution);
   box.dem.skin = std::nullopt;
   box.dem.kernel = core::Kernel::bilinear;
   box.dem.kernel_width = std::nullopt;

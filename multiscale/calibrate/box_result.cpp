@@ -45,7 +45,7 @@ bool error_grows(const std::vector<double>& blocks) {
 void write_box(const std::filesystem::path& path, const BoxResult& r) {
   const auto estimate = [](const Estimate& value) { return core::Json::array({value.mean, value.error}); };
   const core::Json json = {{"hash", r.hash},
-                           {"regime", r.point.regime},
+                           {"regime", core::name_of(r.point.regime)},
                            {"seed", r.point.seed},
                            {"binary", r.point.binary},
                            {"pushed", r.point.pushed},

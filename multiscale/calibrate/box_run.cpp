@@ -78,7 +78,7 @@ class BoxRun {
 
  private:
   void run_for(double strain) {
-    for (std::int64_t n = std::llround(strain / box_.dem.shear_rate / model_.limits().dt); n > 0; --n) {
+    for (std::int64_t n = std::llround(strain / box_.column.shear_rate / model_.limits().dt); n > 0; --n) {
       if (n % steps_per_look == 0) push();
       model_.step(1e300);
     }
@@ -88,7 +88,7 @@ class BoxRun {
     std::vector<double> sum(rows_.size(), 0.0);
     double slip = 0;
     const dem::Totals before = dem::totals_of(model_);
-    const double duration = strain / box_.dem.shear_rate;
+    const double duration = strain / box_.column.shear_rate;
     const auto looks =
         std::max<std::int64_t>(std::llround(duration / (double(steps_per_look) * model_.limits().dt)), 1);
     for (std::int64_t n = 0; n < looks; ++n) {
@@ -169,7 +169,7 @@ class BoxRun {
 
   void finish(double strain) {
     BoxResult& r = result_;
-    const double rate = box_.dem.shear_rate;
+    const double rate = box_.column.shear_rate;
     std::vector<double> share;
     double solids = 0;
     for (const double phi : phi_) solids += phi;
@@ -224,7 +224,7 @@ class BoxRun {
   void find_ratios() {
     BoxResult& r = result_;
     ReferenceStress form{};
-    if (r.point.regime == "dry") {
+    if (r.point.regime == core::BoxRegime::dry) {
       std::vector<BoxSpecies> species;
       for (std::size_t j = 0; j < phi_.size(); ++j)
         species.push_back(
@@ -232,7 +232,7 @@ class BoxRun {
       form = kinetic_reference(species, closures::effective_restitution(r.point.restitution, r.point.friction));
     } else {
       form = viscous_reference(r.point.phi, r.point.friction, relevance::fluid_constants(box_.fluid).viscosity,
-                               box_.dem.shear_rate);
+                               box_.column.shear_rate);
     }
     const auto over = [](const Estimate& e, double unit) { return Estimate{e.mean / unit, e.error / unit}; };
     r.pressure_ratio = over(r.pressure, form.pressure);
@@ -246,7 +246,7 @@ class BoxRun {
     for (std::size_t i = 0; i < model_.particles().owned; ++i) {
       const dem::Motion& m = model_.particles().motion[i];
       dem::Vector v = m.v;
-      v[0] -= box_.dem.shear_rate * model_.particles().place[i].x[1];
+      v[0] -= box_.column.shear_rate * model_.particles().place[i].x[1];
       for (std::size_t k = 0; k < 3; ++k) sum[k] += v[k] / m.inverse_mass;
       all += std::hypot(v[0], v[1], v[2]) / m.inverse_mass;
     }
@@ -278,7 +278,7 @@ class BoxRun {
 }  // namespace
 
 BoxResult run_box(const core::Scene& scene, const BoxPoint& point, std::shared_ptr<const core::Ranks> ranks) {
-  if (point.regime == "bed") return run_bed_box(scene, point, std::move(ranks));
+  if (point.regime == core::BoxRegime::bed) return run_bed_box(scene, point, std::move(ranks));
   return BoxRun(scene, point).run();
 }
 

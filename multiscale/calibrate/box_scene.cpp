@@ -38,7 +38,8 @@ std::vector<core::Species> species_of(const core::Scene& scene, const BoxPoint& 
     species[0].diameter = mean.diameter;
     species[0].density = mean.density;
   }
-  for (core::Species& s : species) s.restitution = s.friction = s.youngs_modulus = s.poisson_ratio = std::nullopt;
+  for (core::Species& s : species)
+    s.given_restitution = s.given_friction = s.youngs_modulus = s.poisson_ratio = std::nullopt;
   return species;
 }
 
@@ -75,7 +76,7 @@ void make_dry(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
   const double speed = std::sqrt(theta) * dry_shear_rate * scales.mean.diameter;
   const double between = std::sqrt(pi) * scales.mean.diameter / (24 * phi * g0 * speed);
   const double duration = scene.calibrate.softness * between;
-  box.dem.shear_rate = dry_shear_rate;
+  box.column.shear_rate = dry_shear_rate;
   box.dem.start_speed = speed;
   box.dem.normal_stiffness = stiffness_of(scales.least_mass, point.restitution, duration);
   box.dem.fixed_step = duration / steps_per_contact;
@@ -97,11 +98,11 @@ void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
   box.effects["drag"] = core::law_of(scene, "drag");
   if (const std::string film = core::law_of(scene, "lubrication"); film != "none") {
     box.effects["lubrication"] = film;
-    box.dem.roughness = std::max(scene.dem.roughness, scene.calibrate.film_gap * d);
+    box.material.roughness = std::max(scene.material.roughness, scene.calibrate.film_gap * d);
     // A film acts as if it were thicker by 36 pi mu R*^2 dt/m* (dem/effects/film.hpp), R* = d/4.
-    step = std::min(step, box.dem.roughness * scales.least_mass / (36 * pi * mu * d * d / 16));
+    step = std::min(step, box.material.roughness * scales.least_mass / (36 * pi * mu * d * d / 16));
   }
-  box.dem.shear_rate = rate;
+  box.column.shear_rate = rate;
   box.dem.start_speed = 0.3 * rate * d;
   box.dem.fixed_step = step;
   box.dem.greatest_speed = rate * (box.column.size[1] + 10 * d);
@@ -110,7 +111,7 @@ void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
 }  // namespace
 
 core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point) {
-  if (point.regime == "bed") return scene_of_bed(scene, point);
+  if (point.regime == core::BoxRegime::bed) return scene_of_bed(scene, point);
   core::Scene box;
   box.title = "a box of polybed calibrate";
   box.fluid.name = "none";
@@ -131,22 +132,22 @@ core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point) {
   box.bed.seed = std::uint64_t(point.seed);
   box.effects = {{"contact", "linear"}};
   box.dem.tangential = point.friction > 0 ? core::Tangential::linear : core::Tangential::hdd;
-  box.dem.friction = point.friction;
-  box.dem.restitution = point.restitution;
+  core::set_friction(box, point.friction);
+  core::set_restitution(box, point.restitution);
   box.dem.tail = core::Tail::keep;
   box.dem.max_overlap = 0.2;
   Scales scales{{0, 0}, reduced_mass(box.species)};
   std::vector<double> share{1};
   if (point.binary) share = {1 - point.share, point.share};
   scales.mean = mean_sphere(box.species, share);
-  if (point.regime == "dry")
+  if (point.regime == core::BoxRegime::dry)
     make_dry(box, scene, point, scales);
   else
     make_wet(box, scene, point, scales);
   double least = 1e300;
   for (const core::Species& s : box.species) least = std::min(least, s.diameter);
   box.dem.skin = (point.phi < 0.35 ? 0.25 : 0.1) * least;
-  box.run.until = (scene.calibrate.discard_strain + scene.calibrate.strain) / box.dem.shear_rate;
+  box.run.until = (scene.calibrate.discard_strain + scene.calibrate.strain) / box.column.shear_rate;
   return box;
 }
 

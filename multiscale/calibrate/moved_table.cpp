@@ -25,7 +25,7 @@ void write_moved_bed(const std::filesystem::path& path, double sigma, const std:
   if (bed.error.empty()) throw core::CaseError(path.string() + ": no p_bed_se: nothing tells how uncertain p_bed is");
   const std::vector<double> pressure = moved_by(bed.pressure, bed.error, sigma);
   core::OutputFile file = fluid::new_table();
-  file.set_attribute("/", "regime", std::string("bed"));
+  file.set_attribute("/", "regime", std::string(core::name_of(core::BoxRegime::bed)));
   file.write("phi", {bed.phi.size()}, bed.phi);
   file.write("p_bed", {pressure.size()}, pressure);
   fluid::save_table(file, moved);
@@ -34,7 +34,7 @@ void write_moved_bed(const std::filesystem::path& path, double sigma, const std:
 }  // namespace
 
 void write_moved_table(const std::filesystem::path& path, double sigma, const std::filesystem::path& moved) {
-  if (fluid::regime_of_table(path) == "bed") return write_moved_bed(path, sigma, moved);
+  if (fluid::regime_of_table(path) == core::BoxRegime::bed) return write_moved_bed(path, sigma, moved);
   fluid::SolidsTable table = fluid::read_solids_table(path);
   for (fluid::TableQuantity* q : {&table.pressure, &table.viscosity}) q->value = moved_by(q->value, q->error, sigma);
   table.bed.pressure = moved_by(table.bed.pressure, table.bed.error, sigma);

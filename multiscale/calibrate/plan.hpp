@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
 #include "fluid/shear_regime.hpp"
 
@@ -12,7 +13,7 @@ namespace polybed::multiscale {
 
 /// One box: where it stands in the table, and with which random numbers it begins.
 struct BoxPoint {
-  std::string regime;  ///< dry | wet | bed
+  core::BoxRegime regime = core::BoxRegime::dry;  ///< dry | wet | bed
   double phi = 0, stokes = 0, restitution = 0, friction = 0, share = 0;
   bool binary = false;  ///< two species, `share` the volume of the second; else one of the bed's mean size
   bool pushed = false;  ///< both species also pushed apart, for what they exchange; its stress is not taken
@@ -30,7 +31,10 @@ struct Plan {
   bool binary = false;  ///< boxes of two species
 };
 
-/// Throws core::CaseError for axes that do not rise or cannot be run.
+/// What the keys of [calibrate] require, whatever boxes follow from them.
+[[nodiscard]] std::vector<core::Rule> calibrate_rules();
+
+/// Throws core::CaseError for a scene that breaks these rules, and for boxes that cannot be run.
 [[nodiscard]] Plan plan_of(const core::Scene& scene);
 
 /// The scene of a box: a cube for `dry` and `wet`, a column for `bed`.

@@ -31,7 +31,7 @@ std::vector<double> line_of(const fluid::SolidsTable& t, const std::vector<doubl
 /// Shape of the pressure along phi: at fixed temperature, or at fixed shear rate.
 double pressure_shape(const fluid::SolidsTable& t, const closures::MonotoneCurve& ratio, double e, double mu,
                       double phi) {
-  if (t.regime == "wet")
+  if (t.regime == core::BoxRegime::wet)
     return closures::viscous_stress_form(phi, closures::jamming_fraction(mu)).value * ratio(phi).pressure;
   return closures::kinetic_pressure(phi, closures::radial_carnahan_starling(phi).value,
                                     t.reference_restitution(e, mu)) *
@@ -70,7 +70,7 @@ std::vector<std::string> falls_of(const fluid::SolidsTable& t) {
 }
 
 double falls_in_shear_up_to(const fluid::SolidsTable& t) {
-  if (t.regime != "dry") return 0;
+  if (t.regime != core::BoxRegime::dry) return 0;
   double up_to = 0;
   constexpr auto gd = closures::KineticModel::garzo_dufty;
   each_line(t, [&](std::size_t s, std::size_t e, std::size_t m, std::size_t x) {
@@ -92,7 +92,7 @@ double falls_in_shear_up_to(const fluid::SolidsTable& t) {
 
 std::vector<double> structure_coefficients(const fluid::SolidsTable& t) {
   std::vector<double> a;
-  if (t.regime != "dry") return a;
+  if (t.regime != core::BoxRegime::dry) return a;
   for (std::size_t p = 0; p < t.phi.size(); ++p)
     for (std::size_t e = 0; e < t.restitution.size(); ++e)
       for (std::size_t m = 0; m < t.friction.size(); ++m)

@@ -203,20 +203,22 @@ BinaryBed binary_bed(const core::Scene& scene) {
 
 const std::vector<InversionMethod>& inversion_methods() {
   static const std::vector<InversionMethod> methods{
-      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)", true},
-      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true},
-      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false},
-      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false}};
+      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)", true,
+       by_force_balance},
+      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true, by_bulk_density},
+      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false,
+       [](const BinaryBed& bed, const DragLaw&) { return by_expansion(bed); }},
+      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false,
+       [](const BinaryBed& bed, const DragLaw&) { return by_density_maximum(bed); }}};
   return methods;
 }
 
 std::vector<InversionPoint> inversion_points(const BinaryBed& bed, const DragLaw& law, const std::string& method) {
-  if (method == "force_balance") return by_force_balance(bed, law);
-  if (method == "bulk_density") return by_bulk_density(bed, law);
-  if (method == "expansion") return by_expansion(bed);
-  if (method == "density_maximum") return by_density_maximum(bed);
   std::string names;
-  for (const InversionMethod& m : inversion_methods()) names += "\n  " + m.name + ": " + m.help;
+  for (const InversionMethod& m : inversion_methods()) {
+    if (m.name == method) return m.points(bed, law);
+    names += "\n  " + m.name + ": " + m.help;
+  }
   throw core::CaseError("unknown method '" + method + "'; allowed are" + names);
 }
 

@@ -33,6 +33,7 @@ struct InversionPoint {
 struct InversionMethod {
   std::string name, help;
   bool takes_law;  ///< whether the drag law decides
+  std::vector<InversionPoint> (*points)(const BinaryBed& bed, const closures::DragLaw& law);
 };
 [[nodiscard]] const std::vector<InversionMethod>& inversion_methods();
 

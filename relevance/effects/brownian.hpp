@@ -13,7 +13,7 @@ inline std::optional<EffectRow> weigh_brownian(const Weighing& by, EffectRow row
   constexpr double room_temperature = 293.15;  // K, where the case names none
   row = as_force(row, by.scene);
   if (!by.scene.fluid.temperature) row.not_built = "needs fluid.temperature; weighed at 20 degC";
-  if (by.scene.dem.held) row.not_built = "dem.held holds the particles";
+  if (by.scene.bed.held) row.not_built = "dem.held holds the particles";
   Supremum greatest;
   for (const Situation& s : by.survey.situations) {
     const double terminal =
@@ -39,7 +39,7 @@ inline const Effect brownian{
                   "brownian", {"effects.drag", "dem.held"},
                   "effects.brownian = \"{}\" moves particles against their drag: name a law of effects.drag, and "
                   "leave out dem.held",
-                  [](const core::Scene& scene) { return scene.dem.held || core::law_of(scene, "drag") == "none"; })},
+                  [](const core::Scene& scene) { return scene.bed.held || core::law_of(scene, "drag") == "none"; })},
     .number = "1/Pe",
     .weigh = weigh_brownian};
 

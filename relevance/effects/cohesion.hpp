@@ -22,15 +22,9 @@ inline std::optional<EffectRow> weigh_cohesion(const Weighing& by, EffectRow row
 }
 
 inline void set_cohesion_keys(core::Scene& scene, const Surfaces& surfaces) {
-  scene.dem.hamaker_constant = surfaces.hamaker;
+  scene.material.hamaker_constant = surfaces.hamaker;
   scene.dem.cohesion_gap = closures::relevance_contact_gap;
   scene.dem.asperity_radius = 0.5 * surfaces.roughness;
-}
-
-inline core::Rule cohesion_needs_energy(const std::string& law) {
-  return rule_of_law("cohesion", law, {"dem.cohesion_energy"},
-                     "dem.cohesion_energy: effects.cohesion = \"" + law + "\" needs it, as in \"50 mJ/m2\"",
-                     [](const core::Scene& scene) { return !(scene.dem.cohesion_energy > 0); });
 }
 
 inline const Effect cohesion{
@@ -40,10 +34,9 @@ inline const Effect cohesion{
     .laws = {{"dmt", "constant pull 2 pi W R* in contact, hard small spheres, dem.cohesion_energy"},
              {"jkr", "Johnson, Kendall and Roberts in place of Hertz, soft large spheres, dem.cohesion_energy"},
              {"van_der_waals", "A R*/(6 z^2) across a gap, dem.hamaker_constant, dem.cohesion_gap"}},
-    .rules = joined({{cohesion_needs_energy("dmt"), cohesion_needs_energy("jkr"),
-                      rule_of_law("cohesion", "van_der_waals", {"dem.hamaker_constant"},
+    .rules = joined({{rule_of_law("cohesion", "van_der_waals", {"dem.hamaker_constant"},
                                   "dem.hamaker_constant: effects.cohesion = \"van_der_waals\" needs it, as in 1e-19",
-                                  [](const core::Scene& scene) { return !(scene.dem.hamaker_constant > 0); })},
+                                  [](const core::Scene& scene) { return !(scene.material.hamaker_constant > 0); })},
                      excludes("cohesion", "jkr", "contact", "linear",
                               "it stands in place of Hertz' force, which linear springs have not")}),
     .number = "pull of rough surfaces over weight",

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "relevance/effect.hpp"
-#include "relevance/effect_rules.hpp"
 
 namespace polybed::relevance::effects {
 
@@ -16,8 +15,8 @@ inline std::optional<EffectRow> weigh_contact(const Weighing& by, EffectRow row)
   row.value = std::max(by.survey.mean_fraction, by.survey.solids_fraction);
   row.threshold = 1e-3;
   row.state = EffectRow::State::on;  // the particle model has no other way to keep particles apart
-  double friction = scene.dem.friction;
-  for (const core::Species& s : scene.species) friction = std::max(friction, s.friction.value_or(0));
+  double friction = scene.material.friction;
+  for (const core::Species& s : scene.species) friction = std::max(friction, s.friction);
   for (const core::ContactPair& p : scene.contact_pairs) friction = std::max(friction, p.friction.value_or(0));
   const bool rubs = friction > 0 && (*row.value > 0.3 || scene.column.sides == core::Boundary::wall);
   if (!rubs) row.model = "hertz";
@@ -26,36 +25,13 @@ inline std::optional<EffectRow> weigh_contact(const Weighing& by, EffectRow row)
   return row;
 }
 
-inline core::Rule linear_has_no_radius(core::Tangential tangential) {
-  return {{"dem.tangential", "effects.contact"},
-          "dem.tangential = \"" + std::string(core::name_of(tangential)) +
-              "\" needs the radius of a contact, which effects.contact = \"linear\" has not: use hertz_mindlin, or "
-              "dem.tangential = \"linear\"",
-          [tangential](const core::Scene& scene) {
-            return core::broken_if(core::law_of(scene, "contact") == "linear" && scene.dem.tangential == tangential);
-          }};
-}
-
-inline const Effect contact{
-    .role = "contact",
-    .help = "forces of touching particles",
-    .absent = "DEM only; reaches the TFM through the solids stress",
-    .laws = {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential"},
-             {"hertz", "Hertz's normal force alone: no friction, no rotation"},
-             {"linear", "linear springs, dem.normal_stiffness"}},
-    .rules = {rule_of_law("contact", "linear", {"dem.normal_stiffness"},
-                          "dem.normal_stiffness: effects.contact = \"linear\" needs it, as in \"1000 N/m\"",
-                          [](const core::Scene& scene) { return !scene.dem.normal_stiffness; }),
-              linear_has_no_radius(core::Tangential::mindlin),
-              linear_has_no_radius(core::Tangential::mindlin_deresiewicz),
-              {{"dem.tangential", "effects.contact"},
-               "dem.tangential = \"linear\" is a share of dem.normal_stiffness: it goes with effects.contact = "
-               "\"linear\"",
-               [](const core::Scene& scene) {
-                 return core::broken_if(core::law_of(scene, "contact") == "hertz_mindlin" &&
-                                        scene.dem.tangential == core::Tangential::linear);
-               }}},
-    .number = "solids fraction",
-    .weigh = weigh_contact};
+inline const Effect contact{.role = "contact",
+                            .help = "forces of touching particles",
+                            .absent = "DEM only; reaches the TFM through the solids stress",
+                            .laws = {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential"},
+                                     {"hertz", "Hertz's normal force alone: no friction, no rotation"},
+                                     {"linear", "linear springs, dem.normal_stiffness"}},
+                            .number = "solids fraction",
+                            .weigh = weigh_contact};
 
 }  // namespace polybed::relevance::effects

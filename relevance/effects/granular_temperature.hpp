@@ -21,7 +21,7 @@ inline std::optional<EffectRow> weigh_granular_temperature(const Weighing& by, E
   double longest = 0;
   for (const core::Species& s : by.scene.species)
     longest = std::max(longest, closures::conduction_length(s.diameter, std::min(by.survey.solids_fraction, 0.6),
-                                                            std::min(by.scene.dem.restitution, 0.999)));
+                                                            std::min(s.restitution, 0.999)));
   row.value = longest / by.survey.height;
   if (*row.value > *row.threshold) row.model = "transported";
   row.reason = row.model == "transported" ? "conducted further than collisions let it stay" : "local balance is enough";

@@ -34,11 +34,11 @@ inline const Effect history{
               rule_of("history", {"dem.held"},
                       "effects.history = \"{}\" is a force on particles that accelerate, and dem.held holds them: "
                       "leave one out",
-                      [](const core::Scene& scene) { return scene.dem.held; })},
+                      [](const core::Scene& scene) { return scene.bed.held; })},
     .number = "Basset force over weight",
     .weigh = weigh_history,
     .idle = [](const Weighing& by) -> std::string {
-      return by.scene.dem.held ? "dem.held: particles do not accelerate" : "";
+      return by.scene.bed.held ? "dem.held: particles do not accelerate" : "";
     },
     .of_acceleration = true};
 

@@ -22,16 +22,7 @@ inline const Effect rolling{
     .laws = {{"cdt", "constant moment mu_r R* F_n against the rolling, for contacts that move (Ai et al. 2011, A)"},
              {"epsd", "spring of rotation capped at it, dem.rolling_damping, for heaps at rest (Ai et al. 2011, C)"}},
     .rules =
-        joined({{rule_of("rolling", {"dem.rolling_friction"},
-                         "dem.rolling_friction: effects.rolling = \"{}\" needs it, above 0",
-                         [](const core::Scene& scene) { return !(scene.dem.rolling_friction > 0); }),
-                 {{"dem.rolling_damping", "effects.rolling"},
-                  "dem.rolling_damping: effects.rolling = \"cdt\" has no spring to damp; use epsd",
-                  [](const core::Scene& scene) {
-                    return core::broken_if(core::law_of(scene, "rolling") == "cdt" && scene.dem.rolling_damping > 0);
-                  }}},
-                excludes("rolling", "*", "contact", "hertz",
-                         "a resistance to rotation, and nothing rotates without friction")}),
+        excludes("rolling", "*", "contact", "hertz", "a resistance to rotation, and nothing rotates without friction"),
     .number = "chooser.static_heap",
     .weigh = weigh_rolling};
 

@@ -50,8 +50,7 @@ inline core::Broken elastic_species(const core::Scene& scene) {
     return {};
   std::string names;
   for (const core::Species& species : scene.species)
-    if (species.restitution.value_or(scene.dem.restitution) >= 1)
-      names += (names.empty() ? "\"" : ", \"") + species.name + "\"";
+    if (species.restitution >= 1) names += (names.empty() ? "\"" : ", \"") + species.name + "\"";
   return names.empty() ? core::Broken() : core::Broken({names});
 }
 

@@ -1,6 +1,7 @@
 // Momentum that solid species exchange by contact.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "closures/relevance.hpp"
@@ -25,11 +26,17 @@ inline std::optional<EffectRow> weigh_species_exchange(const Weighing& by, Effec
   for (std::size_t j = 0; j < n; ++j) surface += survey.share[j] * phi / scene.species[j].diameter;
   for (const Situation& s : survey.situations) {
     if (s.zone != "bulk" || std::abs(s.voidage - eps) > 1e-9) continue;
+    const auto own = std::find_if(scene.species.begin(), scene.species.end(),
+                                  [&](const core::Species& species) { return species.name == s.species; });
     for (std::size_t k = 0; k < n; ++k) {
       const core::Species& other = scene.species[k];
       if (other.name == s.species) continue;
-      const closures::SpeciesPair pair{s.diameter,    other.diameter,        s.density,
-                                       other.density, scene.dem.restitution, scene.dem.friction};
+      const closures::SpeciesPair pair{s.diameter,
+                                       other.diameter,
+                                       s.density,
+                                       other.density,
+                                       0.5 * (own->restitution + other.restitution),
+                                       0.5 * (own->friction + other.friction)};
       const double speed = survey.greatest_slip_difference;
       const double exchange =
           closures::species_exchange(pair, closures::radial_distribution(pair, eps, surface), speed, 0);

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Every #include goes down the layers, each library is seen where it is wrapped alone, and a source includes what it uses of
 the standard library and of fmt, itself or through a header of the program: sources are compiled several at a time,
-where another's include would do."""
+where another's include would do. A folder reads its own table of the case and what both models share, not the table of the
+other model."""
 import functools
 import re
 import sys
@@ -32,6 +33,8 @@ LIBRARIES = {
     r"mpi\.h": r"(core/numerics/mpi\.hpp|app/mpi_session\.hpp)",
     r"core/numerics/mpi\.hpp": r"core/(output/blocks|numerics/(ranks|mpi_start|blocks|halo|messages|linear_solver|hypre_rows|integrator_vector))\.cpp",
 }
+# folder -> the table of the case that it may not read; setting a key of it is no reading
+OTHERS_TABLE = {"tfm": "dem", "relevance": "(dem|tfm)", "fluid": "(dem|tfm)", "measures": "(dem|tfm)", "dem": "tfm"}
 CLOSURES_SEE = re.compile(r"^(closures/|core/vectors\.hpp$|Eigen/|[a-z_]+$)")  # ours, widths of vectors, Eigen, the standard library
 
 # header -> what tells that a source uses it
@@ -82,8 +85,19 @@ def not_included(name, text, headers):
             if header not in seen and re.search(use, code)]
 
 
+def foreign_keys(name, text):
+    """Reads of a table of the case that belongs to another model."""
+    layer = name.split("/")[0]
+    if layer not in OTHERS_TABLE:
+        return []
+    read = re.compile(rf"\.{OTHERS_TABLE[layer]}\b(?!\.\w+ = )")
+    literal_or_comment = re.compile(r'"(?:[^"\\]|\\.)*"|//.*')
+    return [f"{name}:{number}: reads a table of the case that belongs to another model" for number, line in
+            enumerate(text.split("\n"), 1) if not line.lstrip().startswith("#") and read.search(literal_or_comment.sub("", line))]
+
+
 def problems_of(name, text):
-    found = []
+    found = foreign_keys(name, text)
     layer = name.split("/")[0]
     for number, line in enumerate(text.split("\n"), 1):
         match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
@@ -111,6 +125,9 @@ def self_test():
     assert problems_of("tfm/a.cpp", "#include <hdf5.h>")
     assert problems_of("dem/a.cpp", '#include "tfm/model.hpp"') and problems_of("tfm/a.cpp", '#include "dem/model.hpp"')
     assert problems_of("core/numerics/run.cpp", "#include <ida/ida.h>")
+    assert problems_of("tfm/a.cpp", "a = scene.dem.friction;") and problems_of("dem/a.cpp", "const auto& t = scene.tfm;")
+    assert problems_of("relevance/a.cpp", "scene.dem.gap = scene.dem.skin;")
+    assert not problems_of("relevance/a.cpp", 'scene.dem.gap = 1;  // scene.tfm.rtol\na = "case.dem.x";')
     assert not problems_of("tfm/a.cpp", '#include "fluid/pressure.hpp"\n#include <vector>')
     assert not_included("core/a.cpp", "std::vector<int> a;", {"map"})
     assert not not_included("core/a.cpp", "std::vector<int> a;  // no std::map", {"core/case/scene.hpp"})

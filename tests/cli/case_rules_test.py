@@ -40,8 +40,134 @@ def on(role, law=None):
     return f"effects.{role}={law or LAWS[role]}"
 
 
+AIR = ["fluid.name=air", "fluid.equation_of_state=ideal_gas"]
+TILTED = "column.gravity_direction=[1,-1]"
+JOINED = "column.ends=periodic"
+SHEARED = "dem.shear_rate=1"
+COUNTED = ["bed.volume_share=!", "bed.static_height=!"]
+SIZES = 'species=[{name="fine", density=1395, distribution="lognormal", median=1e-8, deviation=1}]'
+
+
+def jets(*parts):
+    return "jet=[" + ", ".join(f"{{from={a}, to={b}, superficial_velocity=0.1}}" for a, b in parts) + "]"
+
+
+def feeds(*parts, species="fine", velocity=1):
+    return "feed=[" + ", ".join(f'{{species="{species}", velocity={velocity}, superficial_velocity=0.1{part}}}' for part in parts) + "]"
+
+
+def pairs(*between):
+    return "contact_pair=[" + ", ".join(f"{{between={list(names)}}}".replace("'", '"') for names in between) + "]"
+
+
+def species(*names):
+    return ["species=[" + ", ".join(f'{{name="{name}", diameter=0.8e-3, density=1395}}' for name in names) + "]",
+            f"bed.volume_share={[1 / len(names)] * len(names)}"]
+
+
+# What the keys require of each other, in words of --set as the rest below.
+KEYS = {
+    "column.size has {} numbers: two (width, height) or three (width, depth, height)": ["column.size=[0.06]"],
+    "column.cells has {} numbers, column.size {}": ["column.cells=[6]"],
+    "column.gravity_direction has {} numbers, column.size {}": ["column.gravity_direction=[0, 0, -1]"],
+    "column.gravity_direction has no direction: all its numbers are 0": ["column.gravity_direction=[0, 0]"],
+    "column.depth is the depth of a two-dimensional column; column.size has three numbers": [
+        "column.size=[0.06,0.06,0.2]", "column.cells=[6,6,20]", "column.depth=0.01"],
+    "column.cells: {} cells; at most {} can be numbered, however large the memory": ["column.cells=[1000000, 1000000]"],
+    "species.diameter: {} m is more than the {} of the column, {} m": ["column.size=[0.0007, 0.2]"],
+    "column.gravity_direction other than down and a compressible fluid contradict each other: its density at rest falls with height; use "
+    'fluid.equation_of_state = "incompressible"': [*AIR, TILTED],
+    "column.gravity_direction other than down needs a fluid that does not flow in, since the pressure at the outlet is that of a level "
+    "surface: use column.closed = true, without inlet.superficial_velocity and [[jet]]": [TILTED],
+    **{f'column.ends = "periodic" and {what} contradict each other': [JOINED, setting] for what, setting in (
+        ("column.closed = true", "column.closed=true"), ('column.outlet = "open"', "column.outlet=open"), ("[[feed]]", feeds("")))},
+    'column.ends = "periodic" is for particles without a fluid, or for a sheared box whose fluid moves with its flow: set '
+    'fluid.name = "none", or dem.shear_rate': [JOINED],
+    'dem.shear_rate = {} 1/s needs column.sides = "periodic"': [SHEARED],
+    'dem.shear_rate = {} 1/s needs column.ends = "periodic"': [SHEARED],
+    "dem.shear_rate = {} 1/s needs column.gravity = 0, it is {} m/s2": [SHEARED],
+    "jet.from and jet.to have {} and {} numbers: {} here": [jets(([0.01, 0], [0.02]))],
+    "a jet from {} to {} m does not lie on the bottom, 0 to {} m": [jets(([0.01], [0.07]))],
+    "two jets overlap: [[jet]] number {} and {}": [jets(([0.01], [0.03]), ([0.02], [0.04]))],
+    "feed.from and feed.to have {} and {} numbers: {} here": [feeds(", from=[0.02]")],
+    "a feed from {} to {} m does not lie on the bottom, 0 to {} m": [feeds(", from=[0.02], to=[0.01]")],
+    'feed.species = "{}": no such species': [feeds("", species="fin")],
+    "a feed of {} of {} m/s at a velocity of {} m/s would be denser than the settled bed: raise feed.velocity above {} m/s": [
+        feeds("", velocity=0.1)],
+    "two feeds of {} overlap: [[feed]] number {} and {}": [feeds("", ", from=[0.02], to=[0.03]")],
+    'dem.opening = {} m: particles cannot leave a column with a fluid; set fluid.name = "none"': ["dem.opening=0.01"],
+    'dem.opening = {} m: column.ends = "periodic" leaves no bottom to open': ["dem.opening=0.01", JOINED],
+    "dem.opening = {} m: it must be narrower than the bottom, which is {} m {}": ["dem.opening=0.06"],
+    "dem.opening = {} m: the largest particle, of {} m, must fit through": ["dem.opening=0.0007"],
+    "{} would have a diameter of {} m: fewer species.classes, or a smaller species.deviation": [SIZES],
+    "[[species]]: {} species, at most 15": species(*(f"s{n}" for n in range(16))),
+    'species.name = "{}" stands twice, or is "wall" or "fluid"': species("fine", "fine"),
+    'species.name = "{}" names columns and datasets: not empty, without , / < > & " \\ and line ends': species("a/b"),
+    "contact_pair.between takes two names": [pairs(["fine"])],
+    "contact_pair.between: no species '{}'": [pairs(["fine", "fluid"])],
+    "contact_pair.between: a wall touches no wall; name a species": [pairs(["wall", "wall"])],
+    "two [[contact_pair]] of {} and {}: write one": [pairs(["fine", "wall"], ["wall", "fine"])],
+    "bed.particles counts spheres of one size: with a species.distribution give bed.volume_share and bed.static_height": [
+        SIZES.replace("1e-8", "1e-3"), *COUNTED, "bed.particles=[10]"],
+    "bed.particles has {} numbers, there are {} species": [*COUNTED, "bed.particles=[10, 10]"],
+    "bed.particles: no particles at all": [*COUNTED, "bed.particles=[0]"],
+    "bed.volume_share has {} numbers, there are {} species": ["bed.volume_share=[0.5, 0.5]"],
+    "bed.volume_share sums to {}, not to 1": ["bed.volume_share=[0.9]"],
+    "bed.start_solids_fraction = {} is denser than the settled bed, {}": ["bed.start_solids_fraction=0.7"],
+    "the bed at its start is {} m high, the column {} m: enlarge column.size": ["bed.static_height=0.3"],
+    'bed.start = "{}": no such file in the working directory or beside the case file': [*COUNTED, "bed.start=list:none.csv"],
+    **{f'{what} cannot act: fluid.name = "none"': [DRY, setting] for what, setting in (
+        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))),
+        ("fluid.temperature", "fluid.temperature=300"), ("fluid.density", "fluid.density=1"), ("fluid.viscosity", "fluid.viscosity=1"),
+        ("fluid.equation_of_state", "fluid.equation_of_state=tait"))},
+    **{f"{what} cannot act: column.closed = true": ["column.closed=true", setting] for what, setting in (
+        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), ("[[feed]]", feeds("")),
+        ('column.outlet = "open"', "column.outlet=open"))},
+    **{f"{what} cannot act in a sheared box: its fluid moves with its flow": [SHEARED, setting] for what, setting in (
+        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))),
+        ("dem.held = true", "dem.held=true"), ("fluid.equation_of_state", "fluid.equation_of_state=tait"))},
+    **{f'bed.{key} cannot act: bed.start = "{{}}"': ["bed.start=list:none.csv", f"bed.{key}={value}"] for key, value in (
+        ("start_solids_fraction", 0.2), ("volume_share", [1.0]), ("static_height", 0.06), ("particles", [10]))},
+    "inlet.superficial_velocity is missing (or set column.closed = true)": ["inlet.superficial_velocity=!"],
+    'fluid.equation_of_state = "ideal_gas": water is a liquid; "tait" is the law of a compressible liquid': [
+        "fluid.equation_of_state=ideal_gas"],
+    'fluid.equation_of_state = "tait": air is a gas; "ideal_gas" is its law': ["fluid.name=air", "fluid.equation_of_state=tait"],
+    'dem.held = true is a fixed bed for a fluid to flow through: fluid.name is "none"': [DRY, "dem.held=true"],
+    **{f"chooser.{key}: two values, the least and the greatest": [f"chooser.{key}=[{least}, {least / 2}]"] for key, least in (
+        ("velocity_range", 0.1), ("temperature_range", 300))},
+    'dem.kernel_width cannot act: dem.kernel = "bilinear" has the width of the cells; use "diffusion" or "auto"': [
+        "dem.kernel=bilinear", "dem.kernel_width=0.01"],
+    "tfm.fixed_step works with the explicit integrator only": ["tfm.integrator=implicit", "tfm.fixed_step=1e-4"],
+    "tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past packing": [
+        "tfm.integrator=implicit", "tfm.rtol=0.01"],
+    **{f"calibrate.{key} must rise": [f"calibrate.{key}=[0.3, 0.2]"] for key in ("solids_fraction", "stokes", "restitution", "friction", "share")},
+    "calibrate.solids_fraction: a table needs two of them or more": ["calibrate.solids_fraction=[0.3]"],
+    "calibrate.share is of two species, the case has {}": ["calibrate.share=[0.3]"],
+    "calibrate.share: both species have to be there, above 0 and below 1": ["calibrate.share=[0, 0.5]"],
+    'calibrate.share cannot act: the fluidised boxes of calibrate.regime = "bed" have one size': [
+        "calibrate.share=[0.3]", "calibrate.regime=bed"],
+    'calibrate.regime = "{}" needs a fluid: fluid.name is "none"': [DRY, "calibrate.regime=wet"],
+}
+
+# What one model asks and the other does not, which check notes of a case that the other runs.
+NO_FLUID = [DRY, "fluid.temperature=!", "inlet.superficial_velocity=!", "effects.drag=none"]
+TFM_CANNOT = " is for the DEM only, the two-fluid model cannot run it"
+ONE_MODEL = {
+    'fluid.name = "none"' + TFM_CANNOT: NO_FLUID,
+    'column.ends = "periodic"' + TFM_CANNOT: [*NO_FLUID, JOINED],
+    "dem.shear_rate other than 0" + TFM_CANNOT: [*NO_FLUID, JOINED, "column.sides=periodic", "column.gravity=0", SHEARED],
+    'bed.start = "{}"' + TFM_CANNOT: ["bed.start=random"],
+    "column.gravity_direction other than down without column.closed = true" + TFM_CANNOT: [*NO_FLUID, TILTED],
+    'column.gravity_direction other than down with column.sides = "periodic"' + TFM_CANNOT: [*NO_FLUID, TILTED, "column.sides=periodic"],
+    'column.gravity_direction other than down with bed.start = "settled"' + TFM_CANNOT: [*NO_FLUID, TILTED, "bed.start=settled"],
+    'column.outlet = "open" is for the TFM only: particles leave through dem.opening, where there is no fluid; use "screen", which holds '
+    "them": ["column.outlet=open"],
+    "[[feed]] is for the TFM only: particles cannot enter the column yet; give them all in [bed]": [feeds("")],
+}
+
 # For each rule that the program lists what breaks it, in words of --set. {} stands for a word of the scene.
 BROKEN = {
+    **KEYS,
     **{f'effects.{role} = "{{}}" cannot act: fluid.name = "none"': [DRY, on(role)] for role in LAWS},
     **{f"effects.{role} cannot act in a sheared box: its fluid moves with its flow": ["dem.shear_rate=1", on(role)]
        for role in ("fluid_stress", "added_mass", "lift", "magnus", "history")},
@@ -120,15 +246,22 @@ class Rules(Scratch):
         words = [word for setting in settings for word in ("--set", setting)]
         return strict_json(self.ends(DONE, "check", self.write("case.toml", BED), "--json", *words).stdout)["notes"]
 
-    def broken_case(self, settings):
-        """The bed with these settings, "!" taking a key away, and each line of what is wrong with it."""
+    def with_settings(self, settings):
+        """The bed and these settings, "!" taking a key away."""
         text = BED
         for key in (setting.split("=")[0].split(".")[1] for setting in settings if setting.endswith("=!")):
             text = re.sub(rf"(?m)^{key} = .*\n", "", text)
-        return self.refused(text, *(setting for setting in settings if not setting.endswith("=!")))
+        return text, [setting for setting in settings if not setting.endswith("=!")]
+
+    def broken_case(self, settings):
+        """Each line of what is wrong with the bed and these settings."""
+        text, settings = self.with_settings(settings)
+        return self.refused(text, *settings)
 
     def test_every_rule_is_broken_by_a_case_of_its_own(self):
-        rules = strict_json(self.ends(DONE, "list", "--json").stdout)["rules"]
+        listed = strict_json(self.ends(DONE, "list", "--json").stdout)["rules"]
+        rules = [rule for rule in listed if rule["models"] == "tfm, dem"]
+        self.assertEqual({rule["message"] for rule in listed if rule["models"] != "tfm, dem"}, set(ONE_MODEL))
         self.assertEqual({rule["message"] for rule in rules}, set(BROKEN))
         for rule in rules:
             message, keys = rule["message"], rule["keys"]
@@ -138,6 +271,19 @@ class Rules(Scratch):
             self.assertTrue(keys, message)
         sound = self.ends(DONE, "check", self.write("case.toml", BED)).stderr
         self.assertEqual(sound, "")
+
+    def test_each_entry_that_breaks_a_rule_is_reported(self):
+        lines = self.refused(BED, jets(([0.01], [0.07]), ([0.02], [0.08])))
+        for ends in ("0.01 to 0.07", "0.02 to 0.08"):
+            self.assertTrue(any(f"a jet from {ends} m does not lie on the bottom" in line for line in lines), lines)
+
+    def test_what_one_model_asks_is_noted_of_a_case_for_the_other(self):
+        for message, settings in ONE_MODEL.items():
+            text, settings = self.with_settings([*settings, "effects.contact=hertz_mindlin"])
+            words = [word for setting in settings for word in ("--set", setting)]
+            told = self.ends(DONE, "check", self.write("case.toml", text), "--json", *words).stdout
+            expected = re.escape(message).replace(re.escape("{}"), ".+")
+            self.assertTrue(any(re.search(expected + "$", note) for note in strict_json(told)["notes"]), (message, told))
 
     def test_all_that_effects_lack_without_a_fluid_is_reported_at_once(self):
         lines = self.refused(BED, DRY, *(on(role) for role in LAWS))

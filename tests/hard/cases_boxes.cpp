@@ -140,8 +140,8 @@ void one_place(Trial& trial) {
 void ends_of_coefficients(Trial& trial) {
   const auto after = [](double friction, double restitution) {
     core::Scene scene = dry_box(radius, glass, {0.02, 0.02, 0.02});
-    scene.dem.friction = friction;
-    scene.dem.restitution = restitution;
+    core::set_friction(scene, friction);
+    core::set_restitution(scene, restitution);
     Beads run(scene, {{"a", {0.01, 1.1 * radius, 0.01}, {0.5, -0.5, 0}}});
     run.run_while([&] { return run.place(0).x[1] > radius; });
     run.run_while([&] { return run.place(0).x[1] < radius; });

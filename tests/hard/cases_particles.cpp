@@ -33,7 +33,7 @@ void at_the_limit(Trial& trial) {
       scene.dem.normal_stiffness = 1000;
       scene.dem.tail = core::Tail::keep;
       scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
-      scene.dem.restitution = std::exp(-scenes::pi * damping / std::sqrt(1 - damping * damping));
+      core::set_restitution(scene, std::exp(-scenes::pi * damping / std::sqrt(1 - damping * damping)));
       scene.column.gravity = gravity;
       const double sag = scenes::mass_of(radius, 2600) * gravity / 1000;
       const std::vector<Bead> start{{"a", {0.005, radius - sag * (1 + 1e-6), 0.005}}};
@@ -102,7 +102,7 @@ void small_on_large(Trial& trial) {
     core::Scene scene = dry_box(ratio * 0.1e-3, glass, {0.02, 0.02, 0.02});
     scene.species.push_back(scenes::sphere("b", 0.1e-3, glass));
     scene.column.gravity = gravity;
-    scene.dem.restitution = 0.3;
+    core::set_restitution(scene, 0.3);
     scene.effects["rolling"] = "epsd";
     scene.dem.rolling_friction = 0.01;
     scene.dem.greatest_speed = 0.05;
@@ -118,8 +118,8 @@ void small_on_large(Trial& trial) {
 /// D5: elastic grazing impacts of a pair: what leaves has not more energy than what came.
 void grazing_impacts(Trial& trial) {
   core::Scene scene = dry_box(radius, glass, {0.02, 0.02, 0.02});
-  scene.dem.restitution = 1;
-  scene.dem.friction = 5;  // nothing slides: what the springs hold comes back
+  core::set_restitution(scene, 1);
+  core::set_friction(scene, 5);  // nothing slides: what the springs hold comes back
   scene.dem.steps_per_contact = 100;
   for (double angle = 0; angle < 1.5; angle += 0.1) {
     const double apart = 2 * radius * 1.0001;
@@ -158,8 +158,8 @@ void dense_shear(Trial& trial) {
   scene.column.sides = scene.column.ends = core::Boundary::periodic;
   scene.bed.start = {core::StartKind::random};
   scene.bed.particles = {247};  // a solids fraction of 0.60
-  scene.dem.shear_rate = 20;
-  scene.dem.friction = 0.5;
+  scene.column.shear_rate = 20;
+  core::set_friction(scene, 0.5);
   core::Timers timers;
   dem::Model model(scene, timers);
   Grains grains(trial, model);

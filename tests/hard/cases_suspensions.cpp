@@ -138,7 +138,7 @@ void held_bed(Trial& trial) {
     scene.column.sides = core::Boundary::periodic;
     scene.inlet.superficial_velocity = {{0.0, velocity}};
     scene.effects["drag"] = law;
-    scene.dem.held = true;
+    scene.bed.held = true;
     scene.dem.fluid_every = 4;
     scene.dem.fixed_step = 0.1 * spacing / velocity / 4;
     Beads bed(scene, scenes::cubic_lattice("a", spacing, size));
@@ -162,7 +162,7 @@ void impact_in_liquid(Trial& trial) {
     scene.effects.erase("drag");
     scene.effects["contact"] = "hertz_mindlin";
     if (!trial.naive()) scene.effects["lubrication"] = "wet_restitution";
-    scene.dem.restitution = 0.9;
+    core::set_restitution(scene, 0.9);
     scene.dem.tail = core::Tail::keep;  // a clipped one leaves 0.05 at least, where less than 0.001 is asked for
     scene.dem.steps_per_contact = 400;  // a strongly damped impact to 1 %
     scene.dem.max_overlap = 0.2;

@@ -85,6 +85,7 @@ std::unique_ptr<Run> Trial::begin(core::Scene scene, const std::function<void(tf
     scene.tfm.flux = core::choice_of<core::FractionFlux>(treatment_.flux);
   }
   if (scene.tfm.integrator == core::TfmIntegrator::implicit_steps) scene.tfm.fixed_step.reset();
+  if (naive()) scene.tfm.follow_bed = false;  // what takes the model's place asks the whole column
   rtol_ = scene.tfm.rtol;
   std::unique_ptr<Run> run;
   if (naive()) run = textbook::run(treatment_.naive, scene, timers_, start);

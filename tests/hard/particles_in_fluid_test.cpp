@@ -36,7 +36,7 @@ TEST(Naive, ParticlesWithoutATreatmentDoAsTheProduct) {
 // contact), and momentum and spin as a sphere's impulse at its lowest point gives them: 5/2 v_t/R - w is kept.
 TEST(Naive, SpheresWithoutATreatmentReboundAsTheyShould) {
   core::Scene scene = scenes::dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.02, 0.02, 0.02});
-  scene.dem.restitution = 1;
+  core::set_restitution(scene, 1);
   scene.dem.steps_per_contact = 200;
   const std::vector<Bead> start{{"a", {0.01, 0.5001e-3, 0.01}, {0.2, -0.5, 0}}};
   scene.dem.fixed_step = scenes::Beads(scene, start).dt();

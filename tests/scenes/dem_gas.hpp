@@ -45,11 +45,11 @@ inline core::Scene scene_of(const Gas& gas) {
   scene.bed.seed = gas.seed;
   scene.effects = {{"contact", "linear"}};
   scene.dem.normal_stiffness = stiffness_of(gas);
-  scene.dem.restitution = gas.restitution;
-  scene.dem.friction = 0;
+  core::set_restitution(scene, gas.restitution);
+  core::set_friction(scene, 0);
   scene.dem.tail = core::Tail::keep;
   scene.dem.max_overlap = 0.2;
-  scene.dem.shear_rate = gas.shear_rate;
+  scene.column.shear_rate = gas.shear_rate;
   scene.dem.start_speed = std::sqrt(gas.temperature);
   // Maxwell's tail reaches 5 deviations of each component among 1e4 particles; the flow comes on top.
   scene.dem.greatest_speed = 10 * std::sqrt(gas.temperature) + std::abs(gas.shear_rate) * length;

@@ -43,8 +43,8 @@ class Driven : public BoxEquations {
         solution_(layout().size()),
         source_(constants()) {
     const closures::FrictionalLaw stress{scene.tfm.frictional_pressure, scene.tfm.frictional_onset, 0.64};
-    const closures::SpeciesPair pair{constants().diameter[0], constants().diameter[1], constants().density[0],
-                                     constants().density[1],  scene.dem.restitution,   scene.dem.friction};
+    const closures::SpeciesPair pair{constants().diameter[0], constants().diameter[1],    constants().density[0],
+                                     constants().density[1],  scene.material.restitution, scene.material.friction};
     const Laws laws{closures::drag_law(scene.effects.at("drag"), closures::Guard::off), stress, pair};
     tfm::Fields value(constants());
     for_each_place(-1, [&](std::size_t c, const Exact& e) {

@@ -16,8 +16,8 @@ core::Scene hopper() {
   scene.column.gravity = gravity;
   scene.dem.youngs_modulus = 2e6;
   scene.dem.poisson_ratio = 0.25;
-  scene.dem.friction = 0.5;
-  scene.dem.restitution = 0.8;
+  core::set_friction(scene, 0.5);
+  core::set_restitution(scene, 0.8);
   scene.dem.greatest_speed = 0.8;
   scene.dem.ledger = false;
   scene.bed.start = {core::StartKind::settled};

@@ -22,8 +22,8 @@ core::Scene silo(std::uint64_t seed) {
   scene.column.gravity = gravity;
   scene.dem.youngs_modulus = 3e6;
   scene.dem.poisson_ratio = 0.25;
-  scene.dem.friction = 0.5;
-  scene.dem.restitution = 0.5;
+  core::set_friction(scene, 0.5);
+  core::set_restitution(scene, 0.5);
   scene.contact_pairs = {{{"a", "wall"}, {}, {}, wall_friction, {}}};
   scene.bed.start = {core::StartKind::mixed};
   scene.bed.start_solids_fraction = 0.4;

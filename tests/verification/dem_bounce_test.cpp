@@ -12,7 +12,7 @@ core::Scene falling(double restitution) {
   scene.dem.normal_stiffness = 1e4;
   scene.dem.tail = core::Tail::keep;
   scene.dem.max_overlap = 0.9;
-  scene.dem.restitution = restitution;
+  core::set_restitution(scene, restitution);
   return scene;
 }
 
@@ -123,7 +123,7 @@ TEST(DemBounce, OfTwoSpheresBetweenPlates) {
     scene.dem.normal_stiffness = 1000;
     scene.dem.tail = core::Tail::keep;
     scene.dem.max_overlap = 0.5;
-    scene.dem.restitution = r.restitution;
+    core::set_restitution(scene, r.restitution);
     scene.dem.fixed_step = r.time / 5000;
     Beads beads(scene, {{"a", {0.005, 0.45e-3, 0.005}}, {"b", {0.005, 1.35e-3, 0.005}}});
     beads.until(r.time);
@@ -139,7 +139,7 @@ TEST(DemRest, OfAStackAfterHertz) {
   const double radius = 0.5e-3, g = 9.81, modulus = 5e6 / (1 - 0.25 * 0.25);
   core::Scene scene = dry_box(radius, {5e6, 0.25, 2500}, {0.01, 0.01, 0.01});
   scene.column.gravity = g;
-  scene.dem.restitution = 0.3;
+  core::set_restitution(scene, 0.3);
   Beads beads(scene, {{"a", {0.005, radius, 0.005}}, {"a", {0.005, 3 * radius, 0.005}}});
   beads.until(0.2);
   const double weight = mass_of(radius, 2500) * g;
@@ -156,8 +156,8 @@ core::Scene lying(double friction, double down, double along) {
   scene.column.sides = core::Boundary::periodic;
   scene.column.gravity = std::hypot(down, along);
   scene.column.down = {along / scene.column.gravity, -down / scene.column.gravity, 0};
-  scene.dem.friction = friction;
-  scene.dem.restitution = 0.5;
+  core::set_friction(scene, friction);
+  core::set_restitution(scene, 0.5);
   return scene;
 }
 

@@ -14,8 +14,8 @@ core::Scene gas(const std::string& tail, const std::string& integrator, double d
   scene.bed.particles = {400};
   scene.dem.youngs_modulus = 5e6;
   scene.dem.start_speed = 0.05;
-  scene.dem.friction = 0.5;
-  scene.dem.restitution = 0.9;
+  core::set_friction(scene, 0.5);
+  core::set_restitution(scene, 0.9);
   scene.dem.tail = core::choice_of<core::Tail>(tail);
   scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
   scene.dem.fixed_step = dt;
@@ -92,8 +92,8 @@ TEST(DemConservation, TheEnergyLedgerClosesWhereRollingFlickers) {
 // Without friction and loss nothing is dissipated, to the bit, and the energy stays.
 TEST(DemConservation, OfEnergyWithoutLoss) {
   core::Scene scene = gas("clip", "thesis", 4e-6);
-  scene.dem.restitution = 1;
-  scene.dem.friction = 0;
+  core::set_restitution(scene, 1);
+  core::set_friction(scene, 0);
   const Balance b = run(scene, 0.01);
   EXPECT_EQ(b.lost, 0);
   compare("energy without loss", b.error, 0, 1e-4, 1);
@@ -120,8 +120,8 @@ TEST(DemConservation, OfAngularMomentum) {
   for (const std::string integrator : {"thesis", "synchronised"}) {
     core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.02, 0.02, 0.02});
     scene.species.push_back(sphere("b", 1e-3, {5e6, 0.25, 1500}));
-    scene.dem.friction = 0.4;
-    scene.dem.restitution = 0.6;
+    core::set_friction(scene, 0.4);
+    core::set_restitution(scene, 0.6);
     scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
     Beads beads(scene, {{"a", {0.01, 0.01, 0.01}, {0.3, 0.1, 0}, {0, 0, 200}},
                         {"b", {0.0114, 0.0106, 0.01}, {-0.2, 0, 0}, {0, 0, -50}}});
@@ -193,7 +193,7 @@ class FrozenPair {
   static core::Scene scene(const std::string& law) {
     core::Scene s = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.01, 0.01, 0.01});
     s.dem.tangential = core::choice_of<core::Tangential>(law);
-    s.dem.friction = 10;
+    core::set_friction(s, 10);
     return s;
   }
 

@@ -117,7 +117,7 @@ double weight_carried(const std::string& momentum) {
   scene.bed.particles = {900, 44};
   scene.bed.solids_fraction = 0.22;
   scene.inlet.superficial_velocity = {{0.0, 20e-3}};
-  scene.tfm.momentum = core::choice_of<core::Momentum>(momentum);
+  scene.scheme.momentum = core::choice_of<core::Momentum>(momentum);
   scene.dem.fluid_every = 16;
   scene.dem.youngs_modulus = 1e5;
   scene.dem.max_overlap = 0.1;

@@ -14,7 +14,7 @@ core::Scene held_bed(const std::string& law, double velocity, const Liquid& flui
   scene.column.sides = core::Boundary::periodic;
   scene.inlet.superficial_velocity = {{0.0, velocity}};
   scene.effects["drag"] = law;
-  scene.dem.held = true;
+  scene.bed.held = true;
   scene.dem.fluid_every = 4;
   scene.dem.fixed_step = 0.1 * spacing / velocity / 4;
   return scene;

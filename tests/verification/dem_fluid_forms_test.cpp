@@ -28,7 +28,7 @@ double drag_over_slip(const std::string& law, double slip, const Liquid& fluid) 
 /// Drag and pressure gradient together on every particle of a held bed.
 void compare_with_model_b(const std::string& law, double velocity, const Liquid& fluid) {
   core::Scene scene = open_box(law, velocity, fluid);
-  scene.dem.held = true;
+  scene.bed.held = true;
   scene.dem.fluid_every = 4;
   scene.dem.fixed_step = 0.1 * spacing / velocity / 4;
   Beads bed(scene, cubic_lattice("a", spacing, size));

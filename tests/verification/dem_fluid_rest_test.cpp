@@ -43,8 +43,8 @@ TEST(DemRest, ANeutrallyBuoyantSuspensionStays) {
 TEST(DemRest, ASphereWeighsLessByWhatItDisplaces) {
   core::Scene scene = wet_box(2e-3, 2500, water, {30e-3, 30e-3, 30e-3}, {5, 5, 5});
   scene.column.gravity = g;
-  scene.dem.restitution = 0.2;
-  scene.dem.friction = 0;
+  core::set_restitution(scene, 0.2);
+  core::set_friction(scene, 0);
   scene.dem.fluid_every = 16;
   Beads beads(scene, {{"a", {15e-3, 0.999e-3, 15e-3}}});
   beads.until(0.5);

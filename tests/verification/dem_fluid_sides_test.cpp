@@ -167,7 +167,7 @@ struct Flight {
 
 core::Scene flight_scene(const std::vector<std::pair<std::string, std::string>>& effects) {
   core::Scene scene = sphere_in_water(1e-3, 2500, {0.016, 0.016, 0.016}, {4, 4, 4});
-  scene.dem.friction = 0.3;
+  core::set_friction(scene, 0.3);
   scene.dem.fixed_step = 2e-5;
   for (const auto& [role, law] : effects) scene.effects[role] = law;
   return scene;
@@ -274,7 +274,7 @@ TEST(SideForces, RefuseWhatContradictsThem) {
   core::Scene smooth = flight_scene({{"magnus", "rubinow_keller"}, {"contact", "hertz"}});
   EXPECT_THROW(Beads(smooth, {{"a", {5e-3, 5e-3, 5e-3}}}), core::CaseError);
   core::Scene held = flight_scene({{"history", "basset"}});
-  held.dem.held = true;
+  held.bed.held = true;
   EXPECT_THROW(Beads(held, {{"a", {5e-3, 5e-3, 5e-3}}}), core::CaseError);
 }
 

@@ -72,7 +72,7 @@ TEST(DemImpact, OnARigidPlane) {
                         Case{"3 iron", 2.5e-3, 3.9, {100e9, 0.25, 7000}, {1.718871e-5, 5.067602e2, 1.297208e-5}},
                         Case{"5 steel", 1e-5, 5, {208e9, 0.3, 7850}, {6.473498e-8, 1.587337e-2, 3.810657e-8}}}) {
     core::Scene scene = dry_box(c.radius, c.material, {20 * c.radius, 20 * c.radius, 20 * c.radius});
-    scene.dem.restitution = 1;
+    core::set_restitution(scene, 1);
     compare_impact(c.name, on_the_floor(scene, c.radius, c.speed, c.expected.duration / 100), c.expected);
   }
 }
@@ -82,7 +82,7 @@ TEST(DemImpact, OfTwoSpheres) {
   for (const Case& c : {Case{"1 glass", 0.01, 10, {48e9, 0.20, 2800}, {2.741127e-4, 1.069689e4, 4.033946e-5}},
                         Case{"1 limestone", 0.01, 10, {20e9, 0.25, 2500}, {3.683040e-4, 7.108241e3, 5.420100e-5}}}) {
     core::Scene scene = dry_box(c.radius, c.material, {0.2, 0.2, 0.2});
-    scene.dem.restitution = 1;
+    core::set_restitution(scene, 1);
     scene.dem.fixed_step = c.expected.duration / 100;
     Beads beads(scene, {{"a", {0.1, 0.09, 0.1}, {0, 10, 0}}, {"a", {0.1, 0.11, 0.1}, {0, -10, 0}}});
     const Seen seen = watch(
@@ -104,7 +104,7 @@ double error_of_restitution(double restitution, int steps) {
 double worst_error(double restitution, const std::string& tail, int steps) {
   const double radius = 2.5e-3, speed = 3.9;
   core::Scene scene = dry_box(radius, {380e9, 0.23, 4000}, {0.05, 0.05, 0.05});
-  scene.dem.restitution = restitution;
+  core::set_restitution(scene, restitution);
   scene.dem.tail = core::choice_of<core::Tail>(tail);
   scene.dem.integrator = core::DemIntegrator::thesis;
   double worst = 0;
@@ -143,7 +143,7 @@ TEST(DemImpact, AtAnyStiffness) {
   double last = 0;
   for (const double modulus : {1e5, 1e7, 1e9, 2e11}) {
     core::Scene scene = dry_box(radius, {modulus, 0.25, 2500}, {0.01, 0.01, 0.01});
-    scene.dem.restitution = 0.8;
+    core::set_restitution(scene, 0.8);
     scene.dem.greatest_speed = speed;
     const double reduced = modulus / (1 - 0.25 * 0.25);
     const HertzImpact hertz = hertz_impact(reduced, radius, mass_of(radius, 2500), speed);

@@ -33,7 +33,7 @@ Rest resting(double damping, const std::string& integrator) {
   scene.dem.tail = core::Tail::keep;
   scene.dem.integrator = core::choice_of<core::DemIntegrator>(integrator);
   // beta of the restitution, turned round: zeta of the linear law.
-  scene.dem.restitution = std::exp(-pi * damping / std::sqrt(1 - damping * damping));
+  core::set_restitution(scene, std::exp(-pi * damping / std::sqrt(1 - damping * damping)));
   scene.column.gravity = 9.81;
   return {scene, mass_of(0.5e-3, 2600) * 9.81 / 1000};
 }
@@ -136,7 +136,7 @@ TEST(DemLimits, TheStiffnessAdvisedIsEnoughAndNotMuchMore) {
   core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.02, 0.02, 0.02});
   scene.dem.youngs_modulus = 5e6;
   scene.species[0].youngs_modulus.reset();
-  scene.dem.restitution = 0.9;
+  core::set_restitution(scene, 0.9);
   scene.dem.greatest_speed = 0.5;  // at which no contact is too soft: the advice is that of this one alone
   const std::vector<Bead> start{{"a", {0.01, 0.7e-3, 0.01}, {0, -2, 0}}};
   const std::string text = message(scene, start, 1000), key = "dem.youngs_modulus = \"";
@@ -170,8 +170,8 @@ TEST(DemLimits, StopsWhereTwoCentresCoincide) {
 /// Oblique impact on the floor at 1 m/s and 45 degrees: what leaves.
 dem::Motion after_impact(double friction, double restitution) {
   core::Scene scene = dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.05, 0.05, 0.05});
-  scene.dem.friction = friction;
-  scene.dem.restitution = restitution;
+  core::set_friction(scene, friction);
+  core::set_restitution(scene, restitution);
   scene.dem.steps_per_contact = 100;
   Beads beads(scene, {{"a", {0.02, 0.55e-3, 0.02}, {0.5, -0.5, 0}}});
   beads.run_while([&] { return beads.place(0).x[1] > 0.5e-3; });

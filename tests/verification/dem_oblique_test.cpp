@@ -27,8 +27,8 @@ constexpr double degree = pi / 180;
 
 core::Scene alumina(const std::string& tangential) {
   core::Scene scene = dry_box(2.5e-3, {380e9, 0.23, 4000}, {0.05, 0.05, 0.05});
-  scene.dem.restitution = 0.98;
-  scene.dem.friction = 0.092;
+  core::set_restitution(scene, 0.98);
+  core::set_friction(scene, 0.092);
   scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
   return scene;
 }
@@ -74,8 +74,8 @@ TEST(DemOblique, SticksAsTheLawSays) {
 double test_5(double modulus, const std::string& tangential, double ratio) {
   const double radius = 1e-5, nu = 0.3, mu = 0.3;
   core::Scene scene = dry_box(radius, {modulus, nu, 7850}, {2e-4, 2e-4, 2e-4});
-  scene.dem.restitution = 1;
-  scene.dem.friction = mu;
+  core::set_restitution(scene, 1);
+  core::set_friction(scene, mu);
   scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
   const Rebound out = impact(scene, radius, 5 * ratio, 5, 0, 200);
   return 2 * (1 - nu) * (out.along + radius * out.spin) / (mu * (2 - nu) * 5);
@@ -100,8 +100,8 @@ TEST(DemOblique, LeavesWithTheContactVelocityOfMaw) {
 
 core::Scene aluminium(const std::string& tangential) {
   core::Scene scene = dry_box(0.1, {70e9, 0.33, 2700}, {2, 2, 2});
-  scene.dem.restitution = 0.5;
-  scene.dem.friction = 0.4;
+  core::set_restitution(scene, 0.5);
+  core::set_friction(scene, 0.4);
   scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
   return scene;
 }

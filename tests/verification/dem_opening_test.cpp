@@ -59,8 +59,8 @@ TEST(DemOpening, TakesOutTheEnergyThatCameIn) {
   for (const bool round : {false, true}) {
     core::Scene scene = opened(round);
     scene.column.gravity = 9.81;
-    scene.dem.restitution = 1;
-    scene.dem.friction = 0;
+    core::set_restitution(scene, 1);
+    core::set_friction(scene, 0);
     scene.dem.steps_per_contact = 100;
     Beads beads(scene, {{"a", {0.0118, 3e-3, 0.0104}, {0, -0.1, 0}}});
     const double mass = mass_of(r, density), energy = mass * (9.81 * 3e-3 + 0.5 * 0.01);

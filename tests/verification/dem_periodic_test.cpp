@@ -12,8 +12,8 @@ core::Scene periodic_box(dem::Vector size) {
   core::Scene scene = dry_box(0.5 * diameter, {5e6, 0.25, 2500}, size);
   scene.column.sides = scene.column.ends = core::Boundary::periodic;
   scene.dem.skin = skin;
-  scene.dem.friction = 0.5;
-  scene.dem.restitution = 0.9;
+  core::set_friction(scene, 0.5);
+  core::set_restitution(scene, 0.9);
   scene.dem.fixed_step = 5e-6;
   scene.dem.youngs_modulus = 5e6;
   return scene;

@@ -18,7 +18,7 @@ TEST(DemShear, FreeFlightStaysAffine) {
   constexpr double length = 0.02, rate = 10;
   core::Scene scene = dry_box(0.2e-3, {1e6, 0.25, 2500}, {length, length, length});
   scene.column.sides = scene.column.ends = core::Boundary::periodic;
-  scene.dem.shear_rate = rate;
+  scene.column.shear_rate = rate;
   scene.dem.fixed_step = 4e-5;
   std::vector<Bead> start;
   for (int n = 0; n < 40; ++n) {

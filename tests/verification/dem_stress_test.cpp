@@ -10,8 +10,8 @@ core::Scene cube() {
   scene.column.sides = scene.column.ends = core::Boundary::periodic;
   scene.effects["contact"] = "linear";
   scene.dem.normal_stiffness = 1000;
-  scene.dem.restitution = 1;
-  scene.dem.friction = 0;
+  core::set_restitution(scene, 1);
+  core::set_friction(scene, 0);
   scene.dem.tail = core::Tail::keep;
   return scene;
 }
@@ -41,8 +41,8 @@ TEST(DemStress, TwoSpheresByHand) {
 // e = 0.9: beta = 0.0335184, c = 2 beta sqrt(k m*), F = 0.01 - c v_n.
 TEST(DemStress, ShearedBox) {
   core::Scene scene = cube();
-  scene.dem.restitution = 0.9;
-  scene.dem.shear_rate = 10;
+  core::set_restitution(scene, 0.9);
+  scene.column.shear_rate = 10;
   const double low = 0.4e-3, high = 0.01 + low - 0.792e-3;
   Beads beads(scene, {{"a", {5.594e-3, low, 5e-3}, {10 * low, 0, 0}}, {"a", {5e-3, high, 5e-3}, {10 * high, 0, 0}}});
   const dem::Stress s = dem::stress_of(beads.model);
@@ -62,8 +62,8 @@ TEST(DemStress, ShearedBox) {
 // work of a shear. 3 %: in the step the normal force falls by 1 to 2 %.
 TEST(DemStress, OfATorqueOnlyTheForceAlongTheFlowWorks) {
   core::Scene scene = cube();
-  scene.dem.friction = 0.005;
-  scene.dem.shear_rate = 10;
+  core::set_friction(scene, 0.005);
+  scene.column.shear_rate = 10;
   Beads beads(scene, {{"a", {5e-3, 4e-3, 5e-3}, {}, {0, 0, 100}}, {"a", {5e-3, 4.99e-3, 5e-3}, {}, {0, 0, 100}}});
   beads.model.step(1e300);
   const dem::Stress s = dem::stress_of(beads.model);
@@ -83,7 +83,7 @@ TEST(DemStress, ASphereBeginsWithTheSpinOfTheFlow) {
 // Looking at the stress changes nothing.
 TEST(DemStress, NothingMovesOn) {
   core::Scene scene = scene_of({.number = 100, .fraction = 0.4, .restitution = 0.9, .shear_rate = 50});
-  scene.dem.friction = 0.5;
+  core::set_friction(scene, 0.5);
   GasRun looked({.shear_rate = 50}, scene), left({.shear_rate = 50}, scene);
   for (int n = 0; n < 300; ++n) {
     looked.model.step(1e300);

@@ -27,7 +27,7 @@ class Invariance : public testing::TestWithParam<std::string> {};
 
 TEST_P(Invariance, AnEmptySpeciesChangesNothing) {
   core::Scene without = short_bed();
-  without.tfm.momentum = core::choice_of<core::Momentum>(GetParam());
+  without.scheme.momentum = core::choice_of<core::Momentum>(GetParam());
   core::Scene with = without;
   core::Species none = without.species[0];
   none.name = "none";
@@ -45,7 +45,7 @@ TEST_P(Invariance, AnEmptySpeciesChangesNothing) {
 
 TEST_P(Invariance, ASpeciesCutInTwoMovesAsOne) {
   core::Scene whole = short_bed();
-  whole.tfm.momentum = core::choice_of<core::Momentum>(GetParam());
+  whole.scheme.momentum = core::choice_of<core::Momentum>(GetParam());
   whole.effects.erase("species_exchange");
   core::Scene cut = whole;
   cut.species.push_back(cut.species[1]);
@@ -62,7 +62,7 @@ TEST_P(Invariance, ASpeciesCutInTwoMovesAsOne) {
 
 TEST_P(Invariance, OrderOfSpeciesDoesNotMatter) {
   core::Scene one = short_bed();
-  one.tfm.momentum = core::choice_of<core::Momentum>(GetParam());
+  one.scheme.momentum = core::choice_of<core::Momentum>(GetParam());
   core::Scene other = one;
   std::swap(other.species[0], other.species[1]);
   std::swap(other.bed.volume_share[0], other.bed.volume_share[1]);
@@ -74,7 +74,7 @@ TEST_P(Invariance, OrderOfSpeciesDoesNotMatter) {
 
 TEST_P(Invariance, LeftAndRightAreMirrorImages) {
   core::Scene scene = binary_bed(8, 40, 0.024, 0.12);
-  scene.tfm.momentum = core::choice_of<core::Momentum>(GetParam());
+  scene.scheme.momentum = core::choice_of<core::Momentum>(GetParam());
   scene.tfm.fixed_step = 1e-3;
   scene.tfm.pressure_tolerance = 1e-13;
   const auto asymmetry = [&](double until) {

@@ -206,7 +206,7 @@ void expect_nothing_in(const std::string& integrator, const std::string& momentu
   scene.tfm.max_packing = 0.64;
   scene.column.outlet = core::Outlet::open;
   scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
-  scene.tfm.momentum = core::choice_of<core::Momentum>(momentum);
+  scene.scheme.momentum = core::choice_of<core::Momentum>(momentum);
   scene.tfm.rtol = 1e-3;
   scene.inlet.superficial_velocity = {{0.0, -0.01}};
   core::Timers timers;

@@ -12,13 +12,13 @@ namespace {
 constexpr double viscosity = 1e-3, diameter = 1e-3;
 
 /// A table whose ratios are the same everywhere.
-fluid::SolidsTable table_of(const std::string& regime, double p, double mu, double gamma) {
+fluid::SolidsTable table_of(core::BoxRegime regime, double p, double mu, double gamma) {
   fluid::SolidsTable t;
   t.regime = regime;
-  t.reference = regime == "wet" ? "viscous" : "GD-CS";
+  t.reference = regime == core::BoxRegime::wet ? "viscous" : "GD-CS";
   t.phi = {0.1, 0.5};
   t.stokes = {0};
-  if (regime == "wet") t.stokes = {0.001, 1000};
+  if (regime == core::BoxRegime::wet) t.stokes = {0.001, 1000};
   t.restitution = {0.9};
   t.friction = {0.3};
   t.share = {0};
@@ -41,7 +41,7 @@ core::Scene sheared(const std::string& stress) {
   scene.column.size = {0.1, 0.1, 0.0125};
   scene.column.closed = true;
   scene.effects["solids_stress"] = stress;
-  scene.dem.friction = 0.3;
+  core::set_friction(scene, 0.3);
   scene.tfm.max_packing = 0.62;
   return scene;
 }
@@ -72,7 +72,7 @@ Seen seen(const core::Scene& scene, double rate) {
 TEST(ShearTable, WetStressOfOneCell) {
   const test::Scratch scratch;
   const std::string file = (scratch.path() / "wet.h5").string();
-  fluid::write_solids_table(file, table_of("wet", 2, 3, 1));
+  fluid::write_solids_table(file, table_of(core::BoxRegime::wet, 2, 3, 1));
   const Seen s = seen(sheared("table:" + file), 20);
   EXPECT_NEAR(s.pressure, 0.166597, 6e-4 * 0.166597);
   EXPECT_NEAR(s.viscosity, 0.0312370, 1e-6);
@@ -86,7 +86,7 @@ TEST(ShearTable, DryStressOverKineticTheory) {
   const test::Scratch scratch;
   const auto written = [&](const std::string& name, double p, double mu, double gamma) {
     const std::string file = (scratch.path() / name).string();
-    fluid::write_solids_table(file, table_of("dry", p, mu, gamma));
+    fluid::write_solids_table(file, table_of(core::BoxRegime::dry, p, mu, gamma));
     core::Scene scene = sheared("table:" + file);
     scene.calibrate.regime = core::BoxRegime::dry;
     scene.effects.erase("drag");
@@ -108,8 +108,8 @@ TEST(ShearTable, DryStressOverKineticTheory) {
 TEST(ShearTable, TheWrongRegimeIsRefusedWithTheNumbers) {
   const test::Scratch scratch;
   const std::string dry = (scratch.path() / "dry.h5").string(), wet = (scratch.path() / "wet.h5").string();
-  fluid::write_solids_table(dry, table_of("dry", 1, 1, 1));
-  fluid::write_solids_table(wet, table_of("wet", 1, 1, 1));
+  fluid::write_solids_table(dry, table_of(core::BoxRegime::dry, 1, 1, 1));
+  fluid::write_solids_table(wet, table_of(core::BoxRegime::wet, 1, 1, 1));
   core::Scene liquid = sheared("table:" + dry);
   liquid.column.closed = false;
   liquid.inlet.superficial_velocity = {{0, 0.02}};
@@ -135,7 +135,7 @@ TEST(ShearTable, TheWrongRegimeIsRefusedWithTheNumbers) {
 TEST(ShearTable, CountsWhatLiesOutside) {
   const test::Scratch scratch;
   const std::string file = (scratch.path() / "wet.h5").string();
-  fluid::SolidsTable t = table_of("wet", 1, 1, 1);
+  fluid::SolidsTable t = table_of(core::BoxRegime::wet, 1, 1, 1);
   t.phi = {0.1, 0.3};
   fluid::write_solids_table(file, t);
   core::Timers timers;

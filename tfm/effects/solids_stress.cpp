@@ -19,9 +19,9 @@ namespace {
 /// The stress of a table: friction, a fluidised bed's pressure if the file has it, and that of sheared particles.
 void make_table_stress(const Making& m, const std::string& file) {
   const auto& [scene, constants, boundaries, law, fields, effects] = m;
-  const std::string regime = fluid::regime_of_table(file);
+  const core::BoxRegime regime = fluid::regime_of_table(file);
   if (const std::string line = fluid::missing_checksum(file); !line.empty()) effects.warnings.push_back(line);
-  if (regime == "bed") {
+  if (regime == core::BoxRegime::bed) {
     effects.solids_stress =
         std::make_unique<TableStress>(scene, constants, boundaries, read_bed_pressure(file), file, fields);
     return;
@@ -37,7 +37,7 @@ void make_table_stress(const Making& m, const std::string& file) {
   for (const std::string& line : fluid::beyond(table, place))
     effects.warnings.push_back("solids stress " + file + ": " + line);
   closures::StressRatios ratios = fluid::ratios_at(table, place);
-  if (regime == "wet") {
+  if (regime == core::BoxRegime::wet) {
     effects.collisions =
         std::make_unique<WetStress>(constants, boundaries, std::move(ratios),
                                     closures::jamming_fraction(place.friction), table.inertia, file, fields);
@@ -48,11 +48,10 @@ void make_table_stress(const Making& m, const std::string& file) {
                                                  effects.solids_stress->max_packing(), fields);
   std::vector<double> restitution;
   for (const core::Species& s : scene.species) {
-    const double e = s.restitution.value_or(scene.dem.restitution), friction = s.friction.value_or(scene.dem.friction);
-    restitution.push_back(table.reference_restitution(e, friction));
+    restitution.push_back(table.reference_restitution(s.restitution, s.friction));
     if (!(restitution.back() > 0))
-      throw core::StartError(file + ": a restitution of " + std::to_string(e) + " with a friction of " +
-                             std::to_string(friction) + " is beyond e - 1.5 mu exp(-3 mu), which the table is over");
+      throw core::StartError(file + ": a restitution of " + std::to_string(s.restitution) + " with a friction of " +
+                             std::to_string(s.friction) + " is beyond e - 1.5 mu exp(-3 mu), which the table is over");
   }
   kinetic->multiply(std::move(ratios), restitution, file);
   effects.collisions = std::move(kinetic);

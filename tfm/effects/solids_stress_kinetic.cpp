@@ -35,8 +35,7 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
       max_packing_(max_packing),
       least_shear_rate_(scene.tfm.least_shear_rate) {
   for (std::size_t j = 0; j < constants.species(); ++j)
-    grains_.push_back(
-        {constants.density[j], constants.diameter[j], scene.species[j].restitution.value_or(scene.dem.restitution)});
+    grains_.push_back({constants.density[j], constants.diameter[j], scene.species[j].restitution});
   const std::vector<core::Field> per_species(constants.species(), core::make_field(constants.grid));
   fields.stress.make_viscous(constants);
   fields.solids.temperature = per_species;

@@ -12,8 +12,9 @@ namespace polybed::tfm {
 using core::Index;
 
 closures::MonotoneCurve read_bed_pressure(const std::string& file) {
-  if (const std::string regime = fluid::regime_of_table(file); regime != "bed")
-    throw core::StartError(file + ": a table of regime \"" + regime + "\", not of a fluidised bed");
+  if (const core::BoxRegime regime = fluid::regime_of_table(file); regime != core::BoxRegime::bed)
+    throw core::StartError(file + ": a table of regime \"" + std::string(core::name_of(regime)) +
+                           "\", not of a fluidised bed");
   return bed_curve(fluid::read_bed_table(file), file);
 }
 

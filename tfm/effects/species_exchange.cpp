@@ -14,10 +14,11 @@ namespace {
 /// A table of what two species exchange, which has to be of dry boxes and for a scene that is dry.
 fluid::SolidsTable exchange_table(const core::Scene& scene, const std::string& file,
                                   std::vector<std::string>& warnings) {
-  if (const std::string regime = fluid::regime_of_table(file); regime != "dry")
-    throw core::StartError("effects.species_exchange = \"table:" + file + "\" is a " + regime +
+  if (const core::BoxRegime regime = fluid::regime_of_table(file); regime != core::BoxRegime::dry)
+    throw core::StartError("effects.species_exchange = \"table:" + file + "\" is a " +
+                           std::string(core::name_of(regime)) +
                            " table: what species exchange is measured in dry boxes alone");
-  require_regime(scene, "species_exchange", file, "dry");
+  require_regime(scene, "species_exchange", file, core::BoxRegime::dry);
   fluid::SolidsTable table = fluid::read_solids_table(file);
   for (const std::string& line : fluid::beyond(table, fluid::place_of(scene)))
     warnings.push_back("species exchange " + file + ": " + line);

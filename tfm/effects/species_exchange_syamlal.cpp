@@ -18,12 +18,11 @@ SyamlalExchange::SyamlalExchange(const core::Scene& scene, const Constants& cons
       contact_of_cell_(core::make_field(constants.grid)) {
   for (std::size_t j = 0; j < constants.species(); ++j)
     for (std::size_t k = j + 1; k < constants.species(); ++k) {
-      const auto mean = [&](auto member, double otherwise) {
-        return 0.5 * ((scene.species[j].*member).value_or(otherwise) + (scene.species[k].*member).value_or(otherwise));
+      const auto mean = [&](double core::Species::*member) {
+        return 0.5 * (scene.species[j].*member + scene.species[k].*member);
       };
       pairs_.push_back({constants.diameter[j], constants.diameter[k], constants.density[j], constants.density[k],
-                        mean(&core::Species::restitution, scene.dem.restitution),
-                        mean(&core::Species::friction, scene.dem.friction)});
+                        mean(&core::Species::restitution), mean(&core::Species::friction)});
       fields.species_exchange.push_back(core::make_field(constants.grid));
     }
 }

@@ -1,17 +1,19 @@
 #include "tfm/effects/table_file.hpp"
 
+#include <fmt/format.h>
+
 #include "core/start_error.hpp"
 #include "fluid/shear_regime.hpp"
 
 namespace polybed::tfm {
 
 void require_regime(const core::Scene& scene, const std::string& role, const std::string& file,
-                    const std::string& regime) {
+                    core::BoxRegime regime) {
   const fluid::Regime here = fluid::shear_regime(scene);
-  if (here.name.empty() || here.name == regime) return;
-  throw core::StartError("effects." + role + " = \"table:" + file + "\" is a " + regime +
-                         " table, and the solids here are " + here.name + ": " + here.reason +
-                         " (calibrate.regime says otherwise)");
+  if (here.kind == core::BoxRegime::automatic || here.kind == regime) return;
+  throw core::StartError(fmt::format(
+      "effects.{} = \"table:{}\" is a {} table, and the solids here are {}: {} (calibrate.regime says otherwise)", role,
+      file, core::name_of(regime), core::name_of(here.kind), here.reason));
 }
 
 }  // namespace polybed::tfm

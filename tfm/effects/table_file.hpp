@@ -17,7 +17,6 @@ namespace polybed::tfm {
 
 /// Throws core::CaseError unless a table of sheared particles is of the scene's regime: the other misses the stress by
 /// factors.
-void require_regime(const core::Scene& scene, const std::string& role, const std::string& file,
-                    const std::string& regime);
+void require_regime(const core::Scene& scene, const std::string& role, const std::string& file, core::BoxRegime regime);
 
 }  // namespace polybed::tfm

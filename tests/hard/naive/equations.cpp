@@ -16,7 +16,7 @@ namespace {
 
 tfm::Discretisation discretisation_of(const core::Tfm& options, const tfm::Model& model) {
   const auto scheme = [](bool limited) { return limited ? tfm::Scheme::limited : tfm::Scheme::upwind; };
-  return {scheme(options.flux == core::FractionFlux::limited), scheme(options.momentum == core::Momentum::limited),
+  return {scheme(options.flux == core::FractionFlux::limited), scheme(model.momentum().form == core::Momentum::limited),
           fluid::WallSlip::free_slip, model.momentum().form == core::Momentum::conservative};
 }
 

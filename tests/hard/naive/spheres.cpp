@@ -131,7 +131,7 @@ void Spheres::act(const Touch& touch, int key) {
   const Vector spin_i = cross(motion_[i].w, touch.normal), spin_j = cross(motion_[j].w, touch.normal);
   slip = sum(slip, spin_i, ri);
   if (!wall) slip = sum(sum(slip, motion_[j].v, -1), spin_j, rj);
-  const double approach = dot(slip, touch.normal), e = scene_.dem.restitution;
+  const double approach = dot(slip, touch.normal), e = scene_.material.restitution;
   const double beta = -std::log(e) / std::hypot(std::log(e), std::numbers::pi);
   const double stiffness = 2 * modulus * root;
   const double push = std::max(0.0, 4.0 / 3 * modulus * root * touch.overlap +
@@ -146,7 +146,7 @@ void Spheres::act(const Touch& touch, int key) {
   for (double& f : m.force) f *= kept;
   m.force = sum(m.force, slip, -shear * dt_);
   m.stiffness = shear;
-  const double most = scene_.dem.friction * push, size = std::sqrt(dot(m.force, m.force));
+  const double most = scene_.material.friction * push, size = std::sqrt(dot(m.force, m.force));
   if (size > most)
     for (double& f : m.force) f *= most / size;
   const Vector force = sum(m.force, touch.normal, -push), torque = cross(touch.normal, m.force);

@@ -193,7 +193,7 @@ std::unique_ptr<hard::Run> make_run(const std::string& name, core::Scene scene, 
   if (name == "central_flux") return explicit_run({}, central_flux);
   if (name == "unbalanced_gravity") return explicit_run({}, unbalanced_gravity);
   if (name == "advective_momentum") {
-    scene.tfm.momentum = core::Momentum::upwind;
+    scene.scheme.momentum = core::Momentum::upwind;
     return explicit_run({}, {});
   }
   if (name == "hidden_unit") return explicit_run({}, hidden_unit);

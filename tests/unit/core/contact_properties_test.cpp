@@ -12,9 +12,9 @@ Scene two_species() {
   Scene scene;
   scene.dem.youngs_modulus = 5e6;
   scene.dem.poisson_ratio = 0.25;
-  scene.dem.friction = 0.3;
-  scene.dem.restitution = 0.9;
   scene.species.resize(2);
+  set_friction(scene, 0.3);
+  set_restitution(scene, 0.9);
   scene.species[0].name = "glass";
   scene.species[0].youngs_modulus = 7e6;
   scene.species[0].friction = 0.2;

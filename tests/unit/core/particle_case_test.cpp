@@ -72,10 +72,10 @@ TEST(ParticleCase, KeysOfDemReachTheScene) {
   EXPECT_EQ(dem.fixed_step, 1e-6);
   EXPECT_EQ(dem.greatest_speed, 2);
   EXPECT_EQ(dem.start_speed, 0.01);
-  EXPECT_EQ(dem.shear_rate, 3);
+  EXPECT_EQ(scene.column.shear_rate, 3);
   EXPECT_FALSE(dem.ledger);
   EXPECT_EQ(dem.cohesion_energy, 0.05);
-  EXPECT_EQ(dem.hamaker_constant, 1e-19);
+  EXPECT_EQ(scene.material.hamaker_constant, 1e-19);
   EXPECT_EQ(dem.cohesion_gap, 1e-9);
   const std::string resolved = resolved_case(scene);
   EXPECT_EQ(resolved_case(parse_case(resolved, "again.toml", {}, {})), resolved);
@@ -262,12 +262,6 @@ TEST(ParticleCaseInAFluid, IsHeldOnlyInAFluid) {
   EXPECT_EQ(message_in_fluid(closed, "held = true", ""), "");
   EXPECT_THAT(message_of(dry_case({{}, {}, {}, {}, "held = true", {}})),
               HasSubstr("dem.held = true is a fixed bed for a fluid"));
-}
-
-TEST(ParticleCaseInAFluid, HasAWidthOnlyWithAKernelThatTakesOne) {
-  EXPECT_EQ(message_in_fluid(closed, "kernel_width = \"5 mm\"", ""), "");
-  EXPECT_THAT(message_in_fluid(closed, "kernel = \"bilinear\"\nkernel_width = \"5 mm\"", ""),
-              HasSubstr("dem.kernel_width cannot act: dem.kernel = \"bilinear\""));
 }
 
 TEST(ParticleCaseInAFluid, IsTiltedOnlyWhereNothingFlowsInAndDensityIsConstant) {

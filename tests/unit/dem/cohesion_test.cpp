@@ -28,7 +28,7 @@ double hertz(const Bench& bench, double overlap) {
 core::Scene cohesive(const char* law) {
   core::Scene scene = scene_of({{"cohesion", law}});
   scene.dem.cohesion_energy = work;
-  scene.dem.hamaker_constant = 1e-12;
+  scene.material.hamaker_constant = 1e-12;
   scene.dem.cohesion_gap = 1e-7;
   return scene;
 }
@@ -83,7 +83,7 @@ TEST(Cohesion, FrictionForgetsWhatWasBeforeTheGap) {
   for (const char* tangential : {"hdd", "mindlin", "mindlin_deresiewicz"}) {
     core::Scene scene = cohesive("van_der_waals");
     scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
-    scene.dem.friction = 10;
+    core::set_friction(scene, 10);
     Bench kept(scene, 1e-6), fresh(scene, 1e-6);
     placed(kept);
     placed(fresh);
@@ -103,7 +103,7 @@ struct Rebound {
 Rebound rebound(const char* law, double speed, double dt) {
   core::Scene scene = cohesive(law);
   scene.effects["contact"] = "hertz";
-  scene.dem.restitution = 1;
+  core::set_restitution(scene, 1);
   Bench bench(scene, dt);
   bench.add(-1.2 * bench.laws.reach() - 0.3 * speed * dt, {0, -speed, 0});
   for (int n = 0; n < 4000000; ++n) {

@@ -55,7 +55,7 @@ TEST(Film, SlowsASphereDownOverAFloorLikewise) {
 
 TEST(Film, IsNotThinnerThanTheRoughness) {
   core::Scene scene = film_scene(0.01);
-  scene.dem.roughness = 2e-5;
+  scene.material.roughness = 2e-5;
   PairBench bench(scene, 2e-7, 1.9e-5, 0.04);
   const double per_length = loss(0.01, bench.kind()) / 2e-5;
   const double begin = bench.gap(), v0 = bench.speed();

@@ -25,8 +25,8 @@ constexpr Named laws[] = {{"hertz", "hdd", Law::none},
 core::Scene scene_of(const Named& named, double restitution) {
   core::Scene scene = test::scene_of({{"contact", named.contact}});
   scene.dem.tangential = core::choice_of<core::Tangential>(named.tangential);
-  scene.dem.restitution = restitution;
-  scene.dem.friction = 0.3;
+  core::set_restitution(scene, restitution);
+  core::set_friction(scene, 0.3);
   return scene;
 }
 

@@ -16,7 +16,7 @@ constexpr double overlap = 2e-5;
 core::Scene partial_slip() {
   core::Scene scene = scene_of({});
   scene.dem.tangential = core::Tangential::mindlin_deresiewicz;
-  scene.dem.friction = 0.3;
+  core::set_friction(scene, 0.3);
   return scene;
 }
 

@@ -29,7 +29,7 @@ TEST(Slots, EachLawHasItsOwnMemory) {
   core::Scene scene = scene_of({});
   scene.dem.rolling_friction = 0.1;
   scene.dem.cohesion_energy = 0.05;
-  scene.dem.hamaker_constant = 1e-19;
+  scene.material.hamaker_constant = 1e-19;
   EXPECT_EQ(laws_of(scene).memory_size(), 3);
   EXPECT_EQ(Ledger::memory_size(laws_of(scene)), 6);
   scene.dem.tangential = core::Tangential::mindlin;
@@ -61,7 +61,7 @@ TEST(Slots, EachLawHasItsOwnMemory) {
 TEST(Slots, OnlyWhatPullsAcrossAGapReaches) {
   core::Scene scene = scene_of({{"cohesion", "dmt"}});
   scene.dem.cohesion_energy = 0.05;
-  scene.dem.hamaker_constant = 1e-19;
+  scene.material.hamaker_constant = 1e-19;
   scene.dem.cohesion_gap = 1e-9;
   EXPECT_EQ(laws_of(scene).reach(), 0);
   scene.effects["cohesion"] = "van_der_waals";
@@ -128,7 +128,7 @@ TEST(Slots, BatchesOfAnySizeHaveTheSameBits) {
         scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
         scene.dem.rolling_friction = 0.1;
         scene.dem.cohesion_energy = 5;
-        scene.dem.hamaker_constant = 1e-14;
+        scene.material.hamaker_constant = 1e-14;
         scene.dem.cohesion_gap = 1e-9;
         scene.dem.max_overlap = 1;  // such an attraction presses deep: what stops a run is not the matter here
         const std::vector<Motion> all = after_impacts(scene, 0, 70);

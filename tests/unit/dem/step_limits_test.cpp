@@ -14,7 +14,7 @@ namespace {
 /// Two species without friction, the second `ratio` times as large.
 core::Scene two_sizes(double ratio) {
   core::Scene scene = scene_of({});
-  scene.dem.friction = 0;
+  core::set_friction(scene, 0);
   scene.species.push_back(scene.species[0]);
   scene.species[1].name = "b";
   scene.species[1].diameter *= ratio;
@@ -72,7 +72,7 @@ TEST(FixedStep, IsWarnedOfBeyondHalfTheLimitOfStability) {
   core::Scene scene = scene_of({});
   scene.effects["contact"] = "linear";
   scene.dem.normal_stiffness = 1000;
-  scene.dem.restitution = 1;
+  core::set_restitution(scene, 1);
   const core::Species& s = scene.species[0];
   const double mass = s.density * 3.14159265358979 / 6 * s.diameter * s.diameter * s.diameter;
   const double limit = 2 / std::sqrt(2 * 1000 / mass);

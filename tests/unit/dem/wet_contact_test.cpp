@@ -19,7 +19,7 @@ core::Scene wet_scene(const std::string& contact, const std::string& tail) {
   scene.fluid.name = "test liquid";
   scene.fluid.density = fluid_density;
   scene.fluid.viscosity = viscosity;
-  scene.dem.restitution = 0.9;
+  core::set_restitution(scene, 0.9);
   scene.dem.tail = core::choice_of<core::Tail>(tail);
   scene.dem.normal_stiffness = 1e4;
   return scene;

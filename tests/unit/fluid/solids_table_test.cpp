@@ -15,7 +15,7 @@ namespace {
 /// 3 x 2 x 2 x 1 x 1, p_ratio linear in e and growing with phi and stokes.
 SolidsTable sample() {
   SolidsTable t;
-  t.regime = "wet";
+  t.regime = core::BoxRegime::wet;
   t.reference = "viscous";
   t.phi = {0.1, 0.3, 0.5};
   t.stokes = {1, 10};
@@ -48,7 +48,7 @@ TEST(SolidsTable, RoundTripKeepsEveryBit) {
   t.exchange_drift = 0.4;
   const auto path = scratch.path() / "table.h5";
   write_solids_table(path, t);
-  EXPECT_EQ(regime_of_table(path), "wet");
+  EXPECT_EQ(regime_of_table(path), core::BoxRegime::wet);
   const SolidsTable r = read_solids_table(path);
   EXPECT_EQ(r.phi, t.phi);
   EXPECT_EQ(r.stokes, t.stokes);
@@ -88,7 +88,7 @@ TEST(SolidsTable, TellsWhereASceneLiesBeyondIt) {
   EXPECT_TRUE(beyond(t, {0.8, 0.6 * 0.3 + 0.4 * 0.3, 0, 0}).empty()) << "the rounding of a mean is nothing";
   EXPECT_EQ(beyond(t, {0.8, 0.5, 0, 0}),
             std::vector<std::string>{"friction 0.5 lies outside the table's 0.3 to 0.3: its edge is held"});
-  t.regime = "dry";
+  t.regime = core::BoxRegime::dry;
   EXPECT_EQ(beyond(t, {0.2, 0.3, 0, 0}).size(), 1U);
   t.share = {0.25, 0.75};
   t.size_ratio = 2;
@@ -102,9 +102,9 @@ TEST(SolidsTable, TellsWhereASceneLiesBeyondIt) {
 // By hand: 3/4 of the bed's volume with friction 0.2 and the case's restitution 0.9, 1/4 with 0.6 and 0.5.
 TEST(SolidsTable, PlaceOfASceneIsTheMeanByVolume) {
   core::Scene scene;
-  scene.dem.restitution = 0.9;
-  scene.dem.friction = 0.6;
   scene.species.resize(2);
+  core::set_restitution(scene, 0.9);
+  core::set_friction(scene, 0.6);
   scene.species[0].diameter = 1e-3;
   scene.species[0].friction = 0.2;
   scene.species[1].diameter = 3e-3;

@@ -19,7 +19,7 @@ core::Scene dry_scene() {
   scene.species[0].diameter = 1e-3;
   scene.species[0].density = 2500;
   scene.bed.volume_share = {1};
-  scene.dem.friction = 0;
+  core::set_friction(scene, 0);
   scene.calibrate.solids_fraction = {0.1, 0.2, 0.3, 0.4, 0.45};
   scene.calibrate.restitution = {0.8, 0.9};
   return scene;
@@ -43,14 +43,14 @@ TEST(CalibratePlan, WrongAxesAreRefused) {
   scene.calibrate.share = {0, 0.5};
   EXPECT_THROW((void)plan_of(scene), core::CaseError) << "one species alone exchanges nothing";
   scene = dry_scene();
-  scene.dem.friction = 0.3;
+  core::set_friction(scene, 0.3);
   scene.calibrate.restitution = {0.15};
   EXPECT_THROW((void)plan_of(scene), core::CaseError) << "0.15 - 0.183 is no restitution";
 }
 
 TEST(CalibratePlan, AxesAsTheCaseSays) {
   const Plan plan = plan_of(dry_scene());
-  EXPECT_EQ(plan.regime.name, "dry");
+  EXPECT_EQ(plan.regime.kind, core::BoxRegime::dry);
   EXPECT_EQ(plan.axes.phi, (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.45}));
   EXPECT_EQ(plan.axes.restitution, (std::vector<double>{0.8, 0.9}));
   EXPECT_EQ(plan.axes.stokes, std::vector<double>{0});
@@ -59,7 +59,7 @@ TEST(CalibratePlan, AxesAsTheCaseSays) {
 
 TEST(CalibratePlan, AnythingThatABoxDependsOnChangesItsName) {
   const core::Scene scene = dry_scene();
-  const BoxPoint point{"dry", 0.1, 0, 0.8, 0, 0};
+  const BoxPoint point{core::BoxRegime::dry, 0.1, 0, 0.8, 0, 0};
   core::Scene longer = scene;
   longer.calibrate.strain *= 2;
   BoxPoint other = point;
@@ -103,7 +103,7 @@ TEST(CalibrateReference, PressureByHandAndCutInTwo) {
 /// A table of smooth spheres whose pressure is that of chi_eff = chi_CS (1 + a S), S = 0.5 everywhere.
 fluid::SolidsTable dry_table(double a, double friction = 0) {
   fluid::SolidsTable t;
-  t.regime = "dry";
+  t.regime = core::BoxRegime::dry;
   t.reference = fluid::effective_reference;
   t.phi = {0.1, 0.2, 0.3, 0.4, 0.45};
   t.stokes = t.share = {0};

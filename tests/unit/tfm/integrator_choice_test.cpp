@@ -83,7 +83,7 @@ TEST(MomentumForm, KeepsMomentumUnlessTheCaseSaysOtherwise) {
   EXPECT_EQ(momentum_form(scene).form, core::Momentum::conservative);
   for (const core::Momentum asked :
        {core::Momentum::upwind, core::Momentum::limited, core::Momentum::conservative_limited}) {
-    scene.tfm.momentum = asked;
+    scene.scheme.momentum = asked;
     EXPECT_EQ(momentum_form(scene).form, asked);
   }
 }
@@ -95,7 +95,7 @@ TEST(MomentumForm, OfTheModelIsThatOfTheScene) {
   scene.fluid.density = 1.2;
   scene.fluid.viscosity = 1.8e-5;
   const auto velocities = [&](core::Momentum form) {
-    scene.tfm.momentum = form;
+    scene.scheme.momentum = form;
     Model model(scene, timers);
     scenes::advance(model, 0.02);
     return model.fields().solids.velocity[0][1];

@@ -33,7 +33,7 @@ TEST(ParticleScene, IsRefusedByTheTwoFluidModel) {
               HasSubstr("column.ends = \"periodic\""));
   EXPECT_THAT(refusal([](core::Scene& s) { s.column.down = {0.6, -0.8, 0}; }), HasSubstr("column.gravity_direction"));
   EXPECT_THAT(refusal([](core::Scene& s) { s.column.down = {0, 1, 0}; }), HasSubstr("column.gravity_direction"));
-  EXPECT_THAT(refusal([](core::Scene& s) { s.dem.shear_rate = -1; }), HasSubstr("dem.shear_rate"));
+  EXPECT_THAT(refusal([](core::Scene& s) { s.column.shear_rate = -1; }), HasSubstr("dem.shear_rate"));
   EXPECT_THAT(refusal([](core::Scene& s) { s.bed.start = {core::StartKind::random}; }),
               HasSubstr("bed.start = \"random\""));
   EXPECT_THAT(refusal([](core::Scene& s) {
@@ -55,8 +55,6 @@ TEST(ParticleScene, MayLeanWhereItIsClosed) {
               HasSubstr("column.sides"));
   EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.bed.start = {core::StartKind::settled}; }),
               HasSubstr("bed.start"));
-  EXPECT_THAT(refusal([&](core::Scene& s) { leans(s), s.fluid.equation_of_state = core::Compressibility::tait; }),
-              HasSubstr("compressible"));
 }
 
 TEST(ParticleScene, IsToldWithAllItsKeysAtOnce) {

@@ -1,0 +1,148 @@
+// What a column requires: its axes, gravity, joined ends, and the flow of a sheared box.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/case/case_rules.hpp"
+#include "core/case/resolve.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+bool has_axes(const Column& column) { return column.given_size.size() == 2 || column.given_size.size() == 3; }
+
+Broken axes_missing(const Scene& scene) {
+  if (has_axes(scene.column)) return {};
+  return Broken({std::to_string(scene.column.given_size.size())});
+}
+
+Broken cells_beside_size(const Scene& scene) {
+  const Column& column = scene.column;
+  if (column.given_cells.size() == column.given_size.size()) return {};
+  return Broken({std::to_string(column.given_cells.size()), std::to_string(column.given_size.size())});
+}
+
+Broken too_many_cells(const Scene& scene) {
+  constexpr double most = 2147483647;  // hypre numbers them with 32 bits
+  const auto& cells = scene.column.cells;
+  const double all = double(cells[0]) * cells[1] * cells[2];
+  return all > most ? Broken({fmt::format("{:.3g}", all), fmt::format("{:.0f}", most)}) : Broken();
+}
+
+/// A column that the largest particle does not fit into has no solids fraction that means anything.
+Broken no_room(const Scene& scene) {
+  constexpr std::array<const char*, 3> sides{"width", "height", "depth"};
+  Broken broken;
+  const double largest = largest_diameter(scene);
+  for (std::size_t axis = 0; axis < sides.size(); ++axis)
+    if (largest > scene.column.size[axis])
+      broken.add({fmt::format("{:.4g}", largest), sides[axis], fmt::format("{:.4g}", scene.column.size[axis])});
+  return broken;
+}
+
+Broken gravity_beside_size(const Scene& scene) {
+  const std::size_t given = scene.column.gravity_direction.size(), axes = scene.column.given_size.size();
+  return given == 0 || given == axes ? Broken() : Broken({std::to_string(given), std::to_string(axes)});
+}
+
+bool is_tilted(const Column& column) { return column.down[0] != 0 || column.down[2] != 0 || !(column.down[1] < 0); }
+
+std::vector<Rule> axis_rules() {
+  return {
+      {{"column.size"},
+       "column.size has {} numbers: two (width, height) or three (width, depth, height)",
+       axes_missing,
+       true},
+      {{"column.cells", "column.size"}, "column.cells has {} numbers, column.size {}", cells_beside_size, true},
+      {{"column.gravity_direction", "column.size"},
+       "column.gravity_direction has {} numbers, column.size {}",
+       gravity_beside_size,
+       true},
+      {{"column.gravity_direction"},
+       "column.gravity_direction has no direction: all its numbers are 0",
+       [](const Scene& scene) {
+         const std::vector<double>& given = scene.column.gravity_direction;
+         return broken_if(!given.empty() && std::all_of(given.begin(), given.end(), [](double g) { return g == 0; }));
+       },
+       true},
+      {{"column.depth", "column.size"},
+       "column.depth is the depth of a two-dimensional column; column.size has three numbers",
+       [](const Scene& scene) { return broken_if(scene.column.dimensions == 3 && scene.column.depth); }},
+      {{"column.cells", "column.size"},
+       "column.cells: {} cells; at most {} can be numbered, however large the memory",
+       too_many_cells},
+      {{"species.diameter", "column.size", "column.depth", "dem.skin"},
+       "species.diameter: {} m is more than the {} of the column, {} m",
+       no_room}};
+}
+
+std::vector<Rule> gravity_rules() {
+  return {
+      {{"column.gravity_direction", "column.size", "fluid.name", "fluid.equation_of_state"},
+       "column.gravity_direction other than down and a compressible fluid contradict each other: its density at "
+       "rest falls with height; use fluid.equation_of_state = \"incompressible\"",
+       [](const Scene& scene) {
+         return broken_if(scene.fluid.present() && is_tilted(scene.column) && scene.fluid.compressible());
+       }},
+      {{"column.gravity_direction", "column.size", "fluid.name", "column.closed", "inlet.superficial_velocity"},
+       "column.gravity_direction other than down needs a fluid that does not flow in, since the pressure at the "
+       "outlet is that of a level surface: use column.closed = true, without inlet.superficial_velocity and [[jet]]",
+       [](const Scene& scene) {
+         const bool inflow = !scene.inlet.superficial_velocity.empty() || !scene.jets.empty();
+         return broken_if(scene.fluid.present() && is_tilted(scene.column) && inflow && !scene.column.closed);
+       }}};
+}
+
+Rule joined_ends_exclude(const std::string& key, const std::string& what, bool (*set)(const Scene&)) {
+  return {{"column.ends", key},
+          "column.ends = \"periodic\" and " + what + " contradict each other",
+          [set](const Scene& scene) { return broken_if(scene.column.ends == Boundary::periodic && set(scene)); }};
+}
+
+std::vector<Rule> end_rules() {
+  return {joined_ends_exclude("column.closed", "column.closed = true", [](const Scene& s) { return s.column.closed; }),
+          joined_ends_exclude("column.outlet", "column.outlet = \"open\"",
+                              [](const Scene& s) { return s.column.outlet == Outlet::open; }),
+          joined_ends_exclude("feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }),
+          {{"column.ends", "fluid.name", "dem.shear_rate"},
+           "column.ends = \"periodic\" is for particles without a fluid, or for a sheared box whose fluid moves with "
+           "its flow: set fluid.name = \"none\", or dem.shear_rate",
+           [](const Scene& scene) {
+             const Column& column = scene.column;
+             return broken_if(column.ends == Boundary::periodic && scene.fluid.present() && column.shear_rate == 0);
+           }}};
+}
+
+Rule shear_needs(const std::string& key, const std::string& what, bool (*met)(const Column&)) {
+  return {{"dem.shear_rate", key}, "dem.shear_rate = {} 1/s needs " + what, [met](const Scene& scene) {
+            const Column& column = scene.column;
+            return column.shear_rate == 0 || met(column) ? Broken() : Broken({fmt::format("{:g}", column.shear_rate)});
+          }};
+}
+
+std::vector<Rule> shear_rules() {
+  return {shear_needs("column.sides", "column.sides = \"periodic\"",
+                      [](const Column& column) { return column.sides == Boundary::periodic; }),
+          shear_needs("column.ends", "column.ends = \"periodic\"",
+                      [](const Column& column) { return column.ends == Boundary::periodic; }),
+          {{"dem.shear_rate", "column.gravity"},
+           "dem.shear_rate = {} 1/s needs column.gravity = 0, it is {} m/s2",
+           [](const Scene& scene) {
+             const double rate = scene.column.shear_rate, gravity = scene.column.gravity;
+             if (rate == 0 || gravity == 0) return Broken();
+             return Broken({fmt::format("{:g}", rate), fmt::format("{:g}", gravity)});
+           }}};
+}
+
+}  // namespace
+
+std::vector<Rule> column_rules() {
+  std::vector<Rule> rules;
+  for (const auto& part : {axis_rules(), gravity_rules(), end_rules(), shear_rules()})
+    rules.insert(rules.end(), part.begin(), part.end());
+  return rules;
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,126 @@
+// Keys that cannot act beside others.
+#include <fmt/format.h>
+
+#include "core/case/case_rules.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+using Test = bool (*)(const Scene&);
+
+/// What can say nothing in some scenes.
+struct Idle {
+  std::string key, what;  ///< where it is reported, and how it is named there
+  Test set;
+};
+
+bool has_inlet(const Scene& scene) { return !scene.inlet.superficial_velocity.empty(); }
+bool has_jets(const Scene& scene) { return !scene.jets.empty(); }
+bool is_compressible(const Scene& scene) { return scene.fluid.compressible(); }
+
+/// One rule for each of them. \param rests_on  keys beside their own
+std::vector<Rule> cannot_act(const std::vector<Idle>& idle, Test where, const std::string& why,
+                             const std::vector<std::string>& rests_on) {
+  std::vector<Rule> rules;
+  for (const Idle& one : idle) {
+    std::vector<std::string> keys{one.key};
+    keys.insert(keys.end(), rests_on.begin(), rests_on.end());
+    rules.push_back({std::move(keys), one.what + " cannot act" + why,
+                     [set = one.set, where](const Scene& scene) { return broken_if(where(scene) && set(scene)); }});
+  }
+  return rules;
+}
+
+std::vector<Rule> without_a_fluid() {
+  return cannot_act(
+      {{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
+       {"jet.superficial_velocity", "[[jet]]", has_jets},
+       {"fluid.temperature", "fluid.temperature", [](const Scene& s) { return bool(s.fluid.temperature); }},
+       {"fluid.density", "fluid.density", [](const Scene& s) { return bool(s.fluid.density); }},
+       {"fluid.viscosity", "fluid.viscosity", [](const Scene& s) { return bool(s.fluid.viscosity); }},
+       {"fluid.equation_of_state", "fluid.equation_of_state", is_compressible}},
+      [](const Scene& scene) { return !scene.fluid.present(); }, ": fluid.name = \"none\"", {"fluid.name"});
+}
+
+std::vector<Rule> in_a_closed_column() {
+  return cannot_act(
+      {{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
+       {"jet.superficial_velocity", "[[jet]]", has_jets},
+       {"feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }},
+       {"column.outlet", "column.outlet = \"open\"", [](const Scene& s) { return s.column.outlet == Outlet::open; }}},
+      [](const Scene& scene) { return scene.column.closed; }, ": column.closed = true", {"column.closed"});
+}
+
+std::vector<Rule> in_a_sheared_box() {
+  return cannot_act({{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
+                     {"jet.superficial_velocity", "[[jet]]", has_jets},
+                     {"dem.held", "dem.held = true", [](const Scene& s) { return s.bed.held; }},
+                     {"fluid.equation_of_state", "fluid.equation_of_state", is_compressible}},
+                    [](const Scene& scene) { return scene.column.shear_rate != 0 && scene.fluid.present(); },
+                    " in a sheared box: its fluid moves with its flow", {"dem.shear_rate", "fluid.name"});
+}
+
+/// Of keys that say how much there is or how densely it starts. \param random  nor in a bed placed at random
+Rule idle_at_start(const std::string& key, bool random, Test set) {
+  return {
+      {"bed." + key, "bed.start"}, "bed." + key + " cannot act: bed.start = \"{}\"", [set, random](const Scene& scene) {
+        const StartKind kind = scene.bed.start.kind;
+        const bool idle = kind == StartKind::list || (random && kind == StartKind::random);
+        return idle && set(scene) ? Broken({text_of(scene.bed.start)}) : Broken();
+      }};
+}
+
+std::vector<Rule> beside_the_start() {
+  return {idle_at_start("start_solids_fraction", true, [](const Scene& s) { return bool(s.bed.start_fraction); }),
+          idle_at_start("volume_share", false, [](const Scene& s) { return !s.bed.volume_share.empty(); }),
+          idle_at_start("static_height", false, [](const Scene& s) { return s.bed.static_height > 0; }),
+          idle_at_start("particles", false, [](const Scene& s) { return !s.bed.particles.empty(); })};
+}
+
+/// Two of them, from the least to the greatest.
+Rule is_a_range(const std::string& key, std::vector<double> Chooser::*range) {
+  return {
+      {"chooser." + key}, "chooser." + key + ": two values, the least and the greatest", [range](const Scene& scene) {
+        const std::vector<double>& values = scene.chooser.*range;
+        return broken_if(!values.empty() && (values.size() != 2 || values[0] > values[1]));
+      }};
+}
+
+std::vector<Rule> of_the_fluid() {
+  return {{{"inlet.superficial_velocity", "fluid.name", "column.closed", "dem.shear_rate"},
+           "inlet.superficial_velocity is missing (or set column.closed = true)",
+           [](const Scene& scene) {
+             const bool flows = scene.fluid.present() && scene.column.shear_rate == 0;
+             return broken_if(flows && !scene.column.closed && !has_inlet(scene));
+           }},
+          {{"fluid.equation_of_state", "fluid.name"},
+           "fluid.equation_of_state = \"ideal_gas\": water is a liquid; \"tait\" is the law of a compressible liquid",
+           [](const Scene& scene) {
+             return broken_if(scene.fluid.equation_of_state == Compressibility::ideal_gas &&
+                              scene.fluid.substance() == Substance::water);
+           }},
+          {{"fluid.equation_of_state", "fluid.name"},
+           "fluid.equation_of_state = \"tait\": air is a gas; \"ideal_gas\" is its law",
+           [](const Scene& scene) {
+             return broken_if(scene.fluid.equation_of_state == Compressibility::tait &&
+                              scene.fluid.substance() == Substance::air);
+           }},
+          {{"dem.held", "fluid.name"},
+           "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"",
+           [](const Scene& scene) { return broken_if(scene.bed.held && !scene.fluid.present()); }},
+          is_a_range("velocity_range", &Chooser::velocity_range),
+          is_a_range("temperature_range", &Chooser::temperature_range)};
+}
+
+}  // namespace
+
+std::vector<Rule> idle_rules() {
+  std::vector<Rule> rules;
+  for (const auto& part :
+       {without_a_fluid(), in_a_closed_column(), in_a_sheared_box(), beside_the_start(), of_the_fluid()})
+    rules.insert(rules.end(), part.begin(), part.end());
+  return rules;
+}
+
+}  // namespace polybed::core
