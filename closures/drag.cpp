@@ -20,8 +20,8 @@ void for_each_law(Body&& body) {
   for_each_law(body, std::make_index_sequence<std::variant_size_v<DragLaw>>{});
 }
 
-/// Law over rows. A law without costly guard is called as it is; cello runs branch-free over all rows and a
-/// second pass redoes those outside its data.
+/// Law over rows. A law without costly guard is called as it is; cello and brinkman_oseen run branch-free over all rows
+/// and a second pass redoes those outside their data.
 template <class Law>
 POLYBED_ALL_VECTOR_WIDTHS void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds,
                                         double* f, double* re_dfdre, GuardCount& count) {
@@ -37,6 +37,19 @@ POLYBED_ALL_VECTOR_WIDTHS void evaluate(const Law& law, std::size_t rows, const 
     for (std::size_t n = 0; n < rows && inside < rows; ++n) {
       if (DragCello::surely_inside(voidage[n], reynolds[n]) || !law.outside(voidage[n], reynolds[n])) continue;
       ++outside;
+      const DragValue value = law(voidage[n], reynolds[n]);
+      f[n] = value.f;
+      re_dfdre[n] = value.re_dfdre;
+    }
+  } else if constexpr (requires { Law::bare_of_size(1.0, 1.0); }) {
+    for (std::size_t n = 0; n < rows; ++n) {
+      const DragValue value = Law::bare_of_size(voidage[n], reynolds[n]);
+      f[n] = value.f;
+      re_dfdre[n] = value.re_dfdre;
+    }
+    for (std::size_t n = 0; n < rows; ++n) outside += law.outside(voidage[n], reynolds[n]) ? 1 : 0;
+    for (std::size_t n = 0; n < rows && outside > 0; ++n) {
+      if (!law.outside(voidage[n], reynolds[n])) continue;
       const DragValue value = law(voidage[n], reynolds[n]);
       f[n] = value.f;
       re_dfdre[n] = value.re_dfdre;
@@ -104,7 +117,7 @@ POLYBED_ALL_VECTOR_WIDTHS void evaluate_species(const Law& law, Block& b, const 
 
 /// What each particle of a block reads.
 struct ParticleRows {
-  const double *voidage, *per_mean, *average, *share, *diameter, *slip;
+  const double *voidage, *per_mean, *average, *per_square, *share, *diameter, *slip;
 };
 
 /// f of the particles of a block, each the one species wanted of its own mixture.
@@ -125,6 +138,91 @@ POLYBED_ALL_VECTOR_WIDTHS void evaluate_particles(const Law& law, Block& b, cons
   }
   evaluate(law.base, b.cells, b.voidage.data(), b.reynolds.data(), b.f.data(), b.re_dfdre.data(), count);
   for (std::size_t p = 0; p < b.cells; ++p) f[p] = b.offset[p] + b.factor[p] * b.f[p];
+}
+
+/// A law that is not a base law times a factor: a medium for each cell, an array of numbers, then f_j of each species.
+template <class Law>
+concept HasMedium = requires {
+  typename Law::Medium;
+};
+
+template <class Law>
+struct BlockOf {
+  using Type = Block;
+};
+template <HasMedium Law>
+struct BlockOf<Law> {
+  struct Type {
+    std::size_t cells;
+    Block::Row voidage, per_mean, y, reynolds;
+    std::array<Block::Row, std::tuple_size_v<typename Law::Medium>> medium;
+
+    [[nodiscard]] typename Law::Medium medium_of(std::size_t cell) const {
+      typename Law::Medium m;
+      for (std::size_t n = 0; n < m.size(); ++n) m[n] = medium[n][cell];
+      return m;
+    }
+    void set_medium(const Law& law, std::size_t cell, double per_square) {
+      const auto m = law.medium(voidage[cell], {per_mean[cell], 0, 0, per_square});
+      for (std::size_t n = 0; n < m.size(); ++n) medium[n][cell] = m[n];
+    }
+  };
+};
+template <class Law>
+using BlockFor = typename BlockOf<Law>::Type;
+
+template <HasMedium Law>
+POLYBED_ALL_VECTOR_WIDTHS void compose(const Law& law, BlockFor<Law>& block, std::size_t begin,
+                                       std::span<const double> voidage, std::span<const double* const> share,
+                                       std::span<const double> diameter) {
+  Block::Row per_square;
+  std::copy_n(&voidage[begin], block.cells, block.voidage.begin());
+  std::fill_n(per_square.begin(), block.cells, 0);
+  std::fill_n(block.per_mean.begin(), block.cells, 0);
+  for (std::size_t j = 0; j < diameter.size(); ++j) {
+    const double per_size = 1 / diameter[j], *x = share[j] + begin;
+    for (std::size_t c = 0; c < block.cells; ++c) {
+      block.per_mean[c] += x[c] * per_size;
+      per_square[c] += x[c] * per_size * per_size;
+    }
+  }
+  for (std::size_t c = 0; c < block.cells; ++c) block.set_medium(law, c, per_square[c]);
+}
+
+/// f of y and Re of a block in its media: branch-free over all, then those anew that the guard answers.
+template <HasMedium Law>
+POLYBED_ALL_VECTOR_WIDTHS void evaluate_in_media(const Law& law, const BlockFor<Law>& b, double* f, GuardCount& count) {
+  for (std::size_t c = 0; c < b.cells; ++c) f[c] = law.base.bare(b.medium_of(c), b.y[c], b.reynolds[c]).f;
+  std::size_t outside = 0;
+  for (std::size_t c = 0; c < b.cells; ++c) outside += law.base.outside(b.voidage[c], b.reynolds[c]) ? 1 : 0;
+  for (std::size_t c = 0; c < b.cells && outside > 0; ++c)
+    if (law.base.outside(b.voidage[c], b.reynolds[c]))
+      f[c] = law.base.of_species(b.medium_of(c), b.y[c], b.reynolds[c]).f;
+  count.evaluations += b.cells;
+  count.guarded += outside;
+}
+
+template <HasMedium Law>
+void evaluate_species(const Law& law, BlockFor<Law>& b, const double*, const double* slip, double diameter,
+                      double per_viscosity, double* f, GuardCount& count) {
+  for (std::size_t c = 0; c < b.cells; ++c) {
+    b.y[c] = diameter * b.per_mean[c];
+    b.reynolds[c] = per_viscosity * slip[c] * diameter;
+  }
+  evaluate_in_media(law, b, f, count);
+}
+
+template <HasMedium Law>
+POLYBED_ALL_VECTOR_WIDTHS void evaluate_particles(const Law& law, BlockFor<Law>& b, const ParticleRows& in, double,
+                                                  double per_viscosity, double* f, GuardCount& count) {
+  std::copy_n(in.voidage, b.cells, b.voidage.begin());
+  std::copy_n(in.per_mean, b.cells, b.per_mean.begin());
+  for (std::size_t p = 0; p < b.cells; ++p) b.set_medium(law, p, in.per_square[p]);
+  for (std::size_t p = 0; p < b.cells; ++p) {
+    b.y[p] = in.diameter[p] * in.per_mean[p];
+    b.reynolds[p] = per_viscosity * in.slip[p] * in.diameter[p];
+  }
+  evaluate_in_media(law, b, f, count);
 }
 
 }  // namespace
@@ -180,12 +278,23 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
                      double viscosity, std::span<double> f, std::span<double> re_dfdre) {
   std::visit(
       [&](const auto& l) {
-        const MixtureCell cell = mixture_cell(l, voidage, composition_of(share, diameter));
-        for (std::size_t j = 0; j < diameter.size(); ++j) {
-          const MixtureTerms term = l.term(cell, diameter[j], share[j]);
-          const DragValue base = l.base(term.voidage, fluid_density * slip[j] * term.length / viscosity);
-          f[j] = term.offset + term.factor * base.f;
-          re_dfdre[j] = term.factor * base.re_dfdre;
+        const Composition composition = composition_of(share, diameter);
+        if constexpr (HasMedium<std::remove_cvref_t<decltype(l)>>) {
+          const auto medium = l.medium(voidage, composition);
+          for (std::size_t j = 0; j < diameter.size(); ++j) {
+            const DragValue value = l.base.of_species(medium, diameter[j] * composition.per_mean,
+                                                      fluid_density * slip[j] * diameter[j] / viscosity);
+            f[j] = value.f;
+            re_dfdre[j] = value.re_dfdre;
+          }
+        } else {
+          const MixtureCell cell = mixture_cell(l, voidage, composition);
+          for (std::size_t j = 0; j < diameter.size(); ++j) {
+            const MixtureTerms term = l.term(cell, diameter[j], share[j]);
+            const DragValue base = l.base(term.voidage, fluid_density * slip[j] * term.length / viscosity);
+            f[j] = term.offset + term.factor * base.f;
+            re_dfdre[j] = term.factor * base.re_dfdre;
+          }
         }
       },
       law);
@@ -213,7 +322,7 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
                    double viscosity, std::span<double* const> f, GuardCount& count) {
   std::visit(
       [&](const auto& l) {
-        Block block;
+        BlockFor<std::remove_cvref_t<decltype(l)>> block;
         for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
           block.cells = std::min(voidage.size() - begin, Block::most);
           compose(l, block, begin, voidage, share, diameter);
@@ -225,16 +334,21 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
       law);
 }
 
+bool needs_per_square(const DragLaw& law) {
+  return std::visit([](const auto& l) { return HasMedium<std::remove_cvref_t<decltype(l)>>; }, law);
+}
+
 void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std::span<const double> per_mean,
-                       std::span<const double> average, double largest, std::span<const double> share,
-                       std::span<const double> diameter, std::span<const double> slip, double fluid_density,
-                       double viscosity, std::span<double> f, GuardCount& count) {
+                       std::span<const double> average, std::span<const double> per_square, double largest,
+                       std::span<const double> share, std::span<const double> diameter, std::span<const double> slip,
+                       double fluid_density, double viscosity, std::span<double> f, GuardCount& count) {
   std::visit(
       [&](const auto& l) {
-        Block block;
+        BlockFor<std::remove_cvref_t<decltype(l)>> block;
         for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
           block.cells = std::min(voidage.size() - begin, Block::most);
-          const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin],
+          const double* square = per_square.empty() ? nullptr : &per_square[begin];
+          const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin], square,
                                 &share[begin],   &diameter[begin], &slip[begin]};
           evaluate_particles(l, block, in, largest, fluid_density / viscosity, &f[begin], count);
         }

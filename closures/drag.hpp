@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "closures/drag_batchelor.hpp"
+#include "closures/drag_brinkman_oseen.hpp"
 #include "closures/drag_carman_kozeny.hpp"
 #include "closures/drag_di_felice.hpp"
 #include "closures/drag_fand.hpp"
@@ -24,8 +25,8 @@ using DragLaw =
                  EachSpecies<DragDallavalle>, EachSpecies<DragCarmanKozeny>, EachSpecies<DragErgun>,
                  EachSpecies<DragFand>, EachSpecies<DragWenYu>, EachSpecies<DragDiFelice>, EachSpecies<DragBatchelor>,
                  EachSpecies<DragRichardsonZaki>, EachSpecies<DragGidaspow>, EachSpecies<DragHkl>, EachSpecies<DragVbk>,
-                 MixtureVbkTheory, MixtureVbkCorrected, MixtureCello, MixtureYinSundaresan, MixturePatwardhanTien,
-                 MixtureSyamlal>;
+                 MixtureVbkTheory, MixtureVbkCorrected, MixtureCello, MixtureBrinkmanOseen, MixtureYinSundaresan,
+                 MixturePatwardhanTien, MixtureSyamlal>;
 
 /// The law of a name, with or without its guard; throws std::invalid_argument for an unknown name.
 [[nodiscard]] DragLaw drag_law(std::string_view name, Guard guard);
@@ -62,15 +63,19 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
                    double viscosity, std::span<double* const> f, GuardCount& count);
 
+/// Whether the law asks for more of a mixture than its two mean diameters.
+[[nodiscard]] bool needs_per_square(const DragLaw& law);
+
 /// Many particles, each in a mixture of its own: f[particle] of the particle's own species, no allocation. All spans of
 /// one length.
 /// \param per_mean  sum x_j / D_j around the particle, 1/m  \param average  sum x_j D_j around it, m
+/// \param per_square  sum x_j / D_j^2 around it, 1/m2; may be empty unless needs_per_square(law)
 /// \param largest  the greatest diameter of the scene, that of an absent species too, m
 /// \param share  x of the particle's own species around it  \param diameter  of the particle, m
 /// \param slip  superficial slip speed eps |U_f - U_p|, m/s
 void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std::span<const double> per_mean,
-                       std::span<const double> average, double largest, std::span<const double> share,
-                       std::span<const double> diameter, std::span<const double> slip, double fluid_density,
-                       double viscosity, std::span<double> f, GuardCount& count);
+                       std::span<const double> average, std::span<const double> per_square, double largest,
+                       std::span<const double> share, std::span<const double> diameter, std::span<const double> slip,
+                       double fluid_density, double viscosity, std::span<double> f, GuardCount& count);
 
 }  // namespace polybed::closures
