@@ -3,12 +3,14 @@
 #include "multiscale/inversion/models.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/options.hpp"
 #include "core/case/file.hpp"
 #include "core/output/json.hpp"
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
+#include "relevance/drag_law.hpp"
 
 namespace polybed::multiscale {
 
@@ -51,10 +53,11 @@ std::vector<Band> bands(const core::Scene& scene, const closures::DragLaw& law, 
   return result;
 }
 
-void print_json(const std::string& law, const std::string& method, const std::vector<InversionPoint>& points,
+void print_json(const core::Scene& scene, const std::string& method, const std::vector<InversionPoint>& points,
                 const std::vector<Band>& band) {
   core::Json json;
-  json.begin_object().member("law", law);
+  json.begin_object().member("law", core::law_of(scene, "drag")).key("partition");
+  scene.effects.contains("partition") ? json.value(core::law_of(scene, "partition")) : json.null();
   points.empty() ? json.key("velocity_m_s").null() : json.member("velocity_m_s", points.back().velocity);
   points.empty() ? json.key("voidage").null() : json.member("voidage", points.back().voidage);
   json.key("roots").begin_array();
@@ -69,11 +72,22 @@ void print_json(const std::string& law, const std::string& method, const std::ve
 
 /// A row of the table of all methods.
 struct MethodRow {
-  std::string method, law;
+  std::string method, law, partition;
   std::vector<InversionPoint> points;
 };
 
-/// Every method, with every drag law where it takes one.
+/// Every law of one size with every partition, but for the pairs that a law of mixtures is made of.
+void add_pairs(const BinaryBed& bed, const std::string& method, std::vector<MethodRow>& rows) {
+  for (const closures::DragLawInfo& mean : closures::drag_laws()) {
+    if (!mean.is_mean) continue;
+    for (const closures::DragLawInfo& partition : closures::partitions()) {
+      const closures::DragLaw pair = closures::drag_law(mean.name, partition.name, closures::Guard::on);
+      if (pair.partition) rows.push_back({method, mean.name, partition.name, inversion_points(bed, pair, method)});
+    }
+  }
+}
+
+/// Every method, with every drag law where it takes one; the force balance also with every mean law and partition.
 std::vector<MethodRow> all_methods(const BinaryBed& bed) {
   const std::vector<core::Role> roles = all_roles();
   const auto drag = std::find_if(roles.begin(), roles.end(), [](const core::Role& r) { return r.name == "drag"; });
@@ -81,12 +95,13 @@ std::vector<MethodRow> all_methods(const BinaryBed& bed) {
   for (const InversionMethod& method : inversion_methods()) {
     if (!method.takes_law) {
       rows.push_back(
-          {method.name, "", inversion_points(bed, closures::drag_law("cello", closures::Guard::on), method.name)});
+          {method.name, "", "", inversion_points(bed, closures::drag_law("cello", closures::Guard::on), method.name)});
       continue;
     }
     for (const core::Law& law : drag->laws)
-      rows.push_back({method.name, law.name,
+      rows.push_back({method.name, law.name, "",
                       inversion_points(bed, closures::drag_law(law.name, closures::Guard::on), method.name)});
+    if (method.takes_partition) add_pairs(bed, method.name, rows);
   }
   return rows;
 }
@@ -94,21 +109,37 @@ std::vector<MethodRow> all_methods(const BinaryBed& bed) {
 void print_methods(const std::vector<MethodRow>& rows, bool as_json) {
   core::Json json;
   json.begin_object().key("methods").begin_array();
-  if (!as_json) core::print("{:16} {:20} {:>8} {:>8}\n", "method", "law", "mm/s", "voidage");
+  if (!as_json) core::print("{:16} {:20} {:16} {:>8} {:>8}\n", "method", "law", "partition", "mm/s", "voidage");
   for (const MethodRow& row : rows) {
     json.begin_object().member("method", row.method).key("law");
     row.law.empty() ? json.null() : json.value(row.law);
+    json.key("partition");
+    row.partition.empty() ? json.null() : json.value(row.partition);
     json.key("roots").begin_array();
     for (const InversionPoint& p : row.points)
       json.begin_object().member("velocity_m_s", p.velocity).member("voidage", p.voidage).end_object();
     json.end_array().end_object();
     if (as_json) continue;
-    if (row.points.empty()) core::print("{:16} {:20} {:>8} {:>8}\n", row.method, row.law, "-", "-");
+    if (row.points.empty())
+      core::print("{:16} {:20} {:16} {:>8} {:>8}\n", row.method, row.law, row.partition, "-", "-");
     for (const InversionPoint& p : row.points)
-      core::print("{:16} {:20} {:8.2f} {:8.4f}\n", row.method, row.law, 1e3 * p.velocity, p.voidage);
+      core::print("{:16} {:20} {:16} {:8.2f} {:8.4f}\n", row.method, row.law, row.partition, 1e3 * p.velocity,
+                  p.voidage);
   }
   json.end_array().end_object();
   if (as_json) core::print("{}\n", json.text());
+}
+
+/// By how much the drag of all species together departs from the mean law at a root.
+void print_deviation(const BinaryBed& bed, const closures::DragLaw& law, const InversionPoint& at) {
+  std::array<double, 2> f{}, slope{};
+  closures::drag_of_mixture(law, at.voidage, bed.share, bed.diameter, std::array{at.velocity, at.velocity},
+                            bed.fluid.density, bed.fluid.viscosity, f, slope);
+  const double reynolds =
+      bed.fluid.density * at.velocity * closures::sauter_diameter(bed.share, bed.diameter) / bed.fluid.viscosity;
+  const double deviation = closures::deviation_from_base(law, at.voidage, reynolds, bed.share, bed.diameter, f);
+  if (std::abs(deviation) > 1e-9)
+    core::print("  drag of all species together: {:+.2f} % of the mean law\n", 100 * deviation);
 }
 
 void run_without_a_run(const InversionOptions& options) {
@@ -116,16 +147,17 @@ void run_without_a_run(const InversionOptions& options) {
   if (options.method == "all") return print_methods(all_methods(binary_bed(scene)), options.json);
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
-  const closures::DragLaw law = closures::drag_law(named->second, closures::Guard::on);
+  const closures::DragLaw law = relevance::drag_law_of(scene);
+  const std::string name = relevance::drag_name_of(scene);
   const auto points = inversion_points(binary_bed(scene), law, options.method);
   const std::vector<Band> band =
       points.empty() ? std::vector<Band>{} : bands(scene, law, options.method, points.back().voidage);
-  if (options.json) return print_json(named->second, options.method, points, band);
-  if (points.empty())
-    core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, named->second);
+  if (options.json) return print_json(scene, options.method, points, band);
+  if (points.empty()) core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, name);
   for (const InversionPoint& p : points)
     core::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
-                named->second);
+                name);
+  if (law.partition && !points.empty()) print_deviation(binary_bed(scene), law, points.back());
   for (const Band& b : band) core::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
 }
 
@@ -135,6 +167,7 @@ void run_inversion(const InversionOptions& options) {
   InversionOptions chosen = options;
   if (!options.temperature.empty()) chosen.overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
   if (!options.law.empty()) chosen.overrides.push_back("effects.drag=\"" + options.law + "\"");
+  if (!options.partition.empty()) chosen.overrides.push_back("effects.partition=\"" + options.partition + "\"");
   options.scan.empty() ? run_without_a_run(chosen) : run_inversion_scan(chosen);
 }
 

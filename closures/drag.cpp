@@ -2,23 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
 namespace polybed::closures {
 
 namespace {
-
-template <class Body, std::size_t... Places>
-void for_each_law(Body&& body, std::index_sequence<Places...>) {
-  (body(std::type_identity<std::variant_alternative_t<Places, DragLaw>>{}), ...);
-}
-
-template <class Body>
-void for_each_law(Body&& body) {
-  for_each_law(body, std::make_index_sequence<std::variant_size_v<DragLaw>>{});
-}
 
 /// Law over rows. A law without costly guard is called as it is; cello and brinkman_oseen run branch-free over all rows
 /// and a second pass redoes those outside their data.
@@ -140,12 +129,6 @@ POLYBED_ALL_VECTOR_WIDTHS void evaluate_particles(const Law& law, Block& b, cons
   for (std::size_t p = 0; p < b.cells; ++p) f[p] = b.offset[p] + b.factor[p] * b.f[p];
 }
 
-/// A law that is not a base law times a factor: a medium for each cell, an array of numbers, then f_j of each species.
-template <class Law>
-concept HasMedium = requires {
-  typename Law::Medium;
-};
-
 template <class Law>
 struct BlockOf {
   using Type = Block;
@@ -225,37 +208,25 @@ POLYBED_ALL_VECTOR_WIDTHS void evaluate_particles(const Law& law, BlockFor<Law>&
   evaluate_in_media(law, b, f, count);
 }
 
+/// The law, or the partition that shares its base law.
+template <class Body>
+void visit_sharing(const DragLaw& law, Body&& body) {
+  law.partition ? std::visit(body, *law.partition) : std::visit(body, law.law);
+}
+
+/// Makes f of a partition that of the mean law: times f_mean/f_one at each cell's mean Reynolds number.
+template <class Own>
+void take_mean(const DragLaw& law, const Own& own, std::span<const double> voidage, const Block::Row& reynolds,
+               double* f, GuardCount& count) {
+  const std::size_t cells = voidage.size();
+  Block::Row mean, one, slope;
+  GuardCount not_told;  // the range that counts is that of the mean law
+  drag_of_points(law, voidage, {reynolds.data(), cells}, {mean.data(), cells}, {slope.data(), cells}, count);
+  evaluate(own, cells, voidage.data(), reynolds.data(), one.data(), slope.data(), not_told);
+  for (std::size_t c = 0; c < cells; ++c) f[c] *= mean[c] / one[c];
+}
+
 }  // namespace
-
-DragLaw drag_law(std::string_view name, Guard guard) {
-  DragLaw law;
-  bool found = false;
-  for_each_law([&](auto type) {
-    using Law = typename decltype(type)::type;
-    if (Law::name != name) return;
-    Law chosen;
-    chosen.base.guard = guard;
-    law = chosen;
-    found = true;
-  });
-  if (!found) throw std::invalid_argument("unknown drag law '" + std::string(name) + "'");
-  return law;
-}
-
-std::vector<DragLawInfo> drag_laws() {
-  std::vector<DragLawInfo> list;
-  for_each_law([&](auto type) {
-    using Law = typename decltype(type)::type;
-    list.push_back({std::string(Law::name), std::string(Law::help), Law::obeys_sum_rule});
-  });
-  return list;
-}
-
-std::vector<std::string> drag_law_names() {
-  std::vector<std::string> names;
-  for (const DragLawInfo& law : drag_laws()) names.push_back(law.name);
-  return names;
-}
 
 void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::span<const double> reynolds,
                     std::span<double> f, std::span<double> re_dfdre, GuardCount& count) {
@@ -263,97 +234,58 @@ void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::sp
       [&](const auto& l) {
         evaluate(l.base, voidage.size(), voidage.data(), reynolds.data(), f.data(), re_dfdre.data(), count);
       },
-      law);
-}
-
-double pure_drag_at(const DragLaw& law, double voidage, double reynolds) {
-  double f = 0, slope = 0;
-  GuardCount count;
-  drag_of_points(law, {&voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
-  return f;
-}
-
-void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double> share,
-                     std::span<const double> diameter, std::span<const double> slip, double fluid_density,
-                     double viscosity, std::span<double> f, std::span<double> re_dfdre) {
-  std::visit(
-      [&](const auto& l) {
-        const Composition composition = composition_of(share, diameter);
-        if constexpr (HasMedium<std::remove_cvref_t<decltype(l)>>) {
-          const auto medium = l.medium(voidage, composition);
-          for (std::size_t j = 0; j < diameter.size(); ++j) {
-            const DragValue value = l.base.of_species(medium, diameter[j] * composition.per_mean,
-                                                      fluid_density * slip[j] * diameter[j] / viscosity);
-            f[j] = value.f;
-            re_dfdre[j] = value.re_dfdre;
-          }
-        } else {
-          const MixtureCell cell = mixture_cell(l, voidage, composition);
-          for (std::size_t j = 0; j < diameter.size(); ++j) {
-            const MixtureTerms term = l.term(cell, diameter[j], share[j]);
-            const DragValue base = l.base(term.voidage, fluid_density * slip[j] * term.length / viscosity);
-            f[j] = term.offset + term.factor * base.f;
-            re_dfdre[j] = term.factor * base.re_dfdre;
-          }
-        }
-      },
-      law);
-}
-
-double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
-                    std::span<const double> diameter, std::span<const double> f) {
-  return std::visit(
-      [&](const auto& l) {
-        if constexpr (std::remove_cvref_t<decltype(l)>::mean_is_base) {
-          return l.base(voidage, reynolds).f;
-        } else {
-          const double mean = sauter_diameter(share, diameter);
-          double sum = 0;
-          for (std::size_t j = 0; j < f.size(); ++j)
-            sum += share[j] * f[j] * (mean / diameter[j]) * (mean / diameter[j]);
-          return sum;
-        }
-      },
-      law);
+      law.law);
 }
 
 void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
                    double viscosity, std::span<double* const> f, GuardCount& count) {
-  std::visit(
-      [&](const auto& l) {
-        BlockFor<std::remove_cvref_t<decltype(l)>> block;
-        for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
-          block.cells = std::min(voidage.size() - begin, Block::most);
-          compose(l, block, begin, voidage, share, diameter);
-          for (std::size_t j = 0; j < diameter.size(); ++j)
-            evaluate_species(l, block, share[j] + begin, slip[j] + begin, diameter[j], fluid_density / viscosity,
-                             f[j] + begin, count);
-        }
-      },
-      law);
+  const double per_viscosity = fluid_density / viscosity;
+  visit_sharing(law, [&](const auto& l) {
+    BlockFor<std::remove_cvref_t<decltype(l)>> block;
+    Block::Row reynolds;
+    GuardCount of_partition;
+    for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
+      block.cells = std::min(voidage.size() - begin, Block::most);
+      compose(l, block, begin, voidage, share, diameter);
+      for (std::size_t j = 0; j < diameter.size(); ++j) {
+        evaluate_species(l, block, share[j] + begin, slip[j] + begin, diameter[j], per_viscosity, f[j] + begin,
+                         law.partition ? of_partition : count);
+        if (!law.partition) continue;
+        for (std::size_t c = 0; c < block.cells; ++c)
+          reynolds[c] = per_viscosity * slip[j][begin + c] / block.per_mean[c];
+        take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, f[j] + begin, count);
+      }
+    }
+  });
 }
 
 bool needs_per_square(const DragLaw& law) {
-  return std::visit([](const auto& l) { return HasMedium<std::remove_cvref_t<decltype(l)>>; }, law);
+  bool needs = false;
+  visit_sharing(law, [&](const auto& l) { needs = HasMedium<std::remove_cvref_t<decltype(l)>>; });
+  return needs;
 }
 
 void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std::span<const double> per_mean,
                        std::span<const double> average, std::span<const double> per_square, double largest,
                        std::span<const double> share, std::span<const double> diameter, std::span<const double> slip,
                        double fluid_density, double viscosity, std::span<double> f, GuardCount& count) {
-  std::visit(
-      [&](const auto& l) {
-        BlockFor<std::remove_cvref_t<decltype(l)>> block;
-        for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
-          block.cells = std::min(voidage.size() - begin, Block::most);
-          const double* square = per_square.empty() ? nullptr : &per_square[begin];
-          const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin], square,
-                                &share[begin],   &diameter[begin], &slip[begin]};
-          evaluate_particles(l, block, in, largest, fluid_density / viscosity, &f[begin], count);
-        }
-      },
-      law);
+  const double per_viscosity = fluid_density / viscosity;
+  visit_sharing(law, [&](const auto& l) {
+    BlockFor<std::remove_cvref_t<decltype(l)>> block;
+    Block::Row reynolds;
+    GuardCount of_partition;
+    for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
+      block.cells = std::min(voidage.size() - begin, Block::most);
+      const double* square = per_square.empty() ? nullptr : &per_square[begin];
+      const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin], square,
+                            &share[begin],   &diameter[begin], &slip[begin]};
+      evaluate_particles(l, block, in, largest, per_viscosity, &f[begin], law.partition ? of_partition : count);
+      if (!law.partition) continue;
+      for (std::size_t c = 0; c < block.cells; ++c) reynolds[c] = per_viscosity * in.slip[c] / in.per_mean[c];
+      take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, &f[begin], count);
+    }
+  });
 }
 
 }  // namespace polybed::closures

@@ -106,6 +106,7 @@ struct DragBrinkmanOseen {
 /// The law of a mixture. It is not a base law times a factor: a medium for each cell, then f_j of each species in it.
 struct MixtureBrinkmanOseen {
   static constexpr std::string_view name = DragBrinkmanOseen::name, help = DragBrinkmanOseen::help;
+  static constexpr std::string_view shares = "each size in a Brinkman medium; the mean rises with sum x_j/y_j^2";
   static constexpr bool obeys_sum_rule = true;  ///< its mean is sum x_k f_k/y_k^2, which rises with m2
   static constexpr bool mean_is_base = false;
   using Base = DragBrinkmanOseen;

@@ -10,6 +10,7 @@
 #include "closures/drag_schiller_naumann.hpp"
 #include "closures/mixture.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "relevance/drag_law.hpp"
 #include "tfm/bulk_viscosity.hpp"
 
 namespace polybed::tfm {
@@ -19,8 +20,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// 1/s: the slip of the fastest species relaxes while all of them drag the fluid along.
-double drag_rate(const Constants& constants, const std::string& name, const UniformBed& bed) {
-  const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
+double drag_rate(const Constants& constants, const closures::DragLaw& law, const UniformBed& bed) {
   const double eps = 1 - bed.solids_fraction;
   const std::size_t n = constants.species();
   std::vector<double> slip(n, bed.velocity), f(n), slope(n);
@@ -81,8 +81,8 @@ std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Consta
   const auto scale = [](double rate) { return rate > 0 ? 1 / rate : infinite; };
   const double speed = std::max(bed.velocity / (1 - bed.solids_fraction), greatest_terminal_velocity(constants));
   std::vector<TimeScale> scales{{"convection", scale(speed / h), 0}};
-  if (const auto named = scene.effects.find("drag"); effects.drag && named != scene.effects.end())
-    scales.push_back({"drag", scale(drag_rate(constants, named->second, bed)), 0});
+  if (effects.drag && scene.effects.contains("drag"))
+    scales.push_back({"drag", scale(drag_rate(constants, relevance::drag_law_of(scene), bed)), 0});
   if (effects.solids_stress) {
     const double wave = std::sqrt(stress_slope(*effects.solids_stress, bed.solids_fraction) / mean_density(constants));
     scales.push_back({"acoustics", scale(wave / h), 0});

@@ -23,7 +23,7 @@ ParticleForces::ParticleForces(const core::Scene& scene, const Materials& materi
   for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
   for (const double divisor : relevance::slip_divisors(scene, diameter_))
     creeping_.push_back(3 * std::numbers::pi * viscosity * diameter_[creeping_.size()] / divisor);
-  for_each_called<MakeLoad>(effects(), scene, [&](MakeLoad make, const std::string& law) { make(law, laws_); });
+  for_each_called<MakeLoad>(effects(), scene, [&](MakeLoad make, const std::string& law) { make(scene, law, laws_); });
   needs_squares_ = laws_.drag && closures::needs_per_square(*laws_.drag);
 }
 

@@ -91,7 +91,7 @@ std::optional<double> pure_voidage(const BinaryBed& bed, const DragLaw& law, dou
   const double weight = (bed.density[j] - bed.fluid.density) * bed.gravity, d = bed.diameter[j];
   const double re = bed.fluid.density * u * d / bed.fluid.viscosity;
   const auto excess = [&](double eps) {
-    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law);
+    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law.law);
     return 18 * bed.fluid.viscosity * u * f / (eps * d * d) - weight;
   };
   double low = least_voidage, high = 1;
@@ -203,10 +203,11 @@ BinaryBed binary_bed(const core::Scene& scene) {
 
 const std::vector<InversionMethod>& inversion_methods() {
   static const std::vector<InversionMethod> methods{
-      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)", true},
-      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true},
-      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false},
-      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false}};
+      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)", true,
+       true},
+      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true, false},
+      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false, false},
+      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false, false}};
   return methods;
 }
 
