@@ -19,15 +19,16 @@ using closures::DragLaw;
 using Residual = std::function<std::optional<double>(double)>;
 
 constexpr double least_voidage = 0.2;
-constexpr int scan = 4000;  ///< intervals of the scan for roots
+constexpr int scan = 4000;          ///< intervals of the scan for roots
+constexpr int scan_of_pairs = 400;  ///< the same of a mean law with a partition: there are 75 of them to list
 
 /// Roots of a residual that may be undefined in places, in (low, high): sign changes of a scan, refined by bisection.
-std::vector<double> roots(const Residual& residual, double low, double high) {
+std::vector<double> roots(const Residual& residual, double low, double high, int intervals = scan) {
   std::vector<double> found;
   std::optional<double> last;
   double last_at = low;
-  for (int n = 1; n < scan; ++n) {
-    const double at = low + (high - low) * n / scan;
+  for (int n = 1; n < intervals; ++n) {
+    const double at = low + (high - low) * n / intervals;
     const std::optional<double> here = residual(at);
     if (last && here && *last * *here <= 0 && *last != 0) {
       double a = last_at, b = at;
@@ -81,7 +82,7 @@ std::vector<InversionPoint> by_force_balance(const BinaryBed& bed, const DragLaw
     return u1 && u2 ? std::optional(std::log(*u1 / *u2)) : std::nullopt;
   };
   std::vector<InversionPoint> points;
-  for (double voidage : roots(residual, least_voidage, 1))
+  for (double voidage : roots(residual, least_voidage, 1, law.partition ? scan_of_pairs : scan))
     points.push_back({*resting_velocity(bed, law, voidage, 1), voidage});
   return points;
 }
