@@ -75,6 +75,7 @@ void add_drag(CLI::App& app, Commands& commands) {
   const auto guard = std::make_shared<std::string>("on");
   CLI::App& command = *app.add_subcommand("drag", "evaluate a drag closure at a point, or for every row of a CSV file");
   command.add_option("--law", options->law, "see polybed list");
+  command.add_option("--partition", options->partition, "that shares the law among species; see polybed list");
   command.add_option("--voidage", options->voidage, "eps");
   command.add_option("--re", options->reynolds, "Reynolds number of the diameter and the superficial slip velocity");
   command.add_option("--csv", options->csv, "file with columns eps,Re or eps,Re,x1,D1,x2,D2,...");

@@ -20,6 +20,7 @@
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "relevance/drag_law.hpp"
 #include "tfm/model.hpp"
 #include "tfm/particle_scene.hpp"
 #include "tfm/step_estimate.hpp"
@@ -38,12 +39,34 @@ struct Derived {
   std::vector<std::string> notes;
 };
 
+/// By how much a partition makes the drag of the settled bed differ from the mean law, at the inlet's velocity.
+void note_partition(const core::Scene& scene, Derived& derived) {
+  double velocity = 0;
+  for (const auto& [time, speed] : scene.inlet.superficial_velocity) velocity = std::max(velocity, std::abs(speed));
+  std::vector<double> diameter;
+  for (const core::Species& species : scene.species) diameter.push_back(species.diameter);
+  const std::vector<double>& share = scene.bed.volume_share;
+  if (share.size() != diameter.size() || !(scene.bed.solids_fraction > 0)) return;
+  const closures::DragLaw law = relevance::drag_law_of(scene);
+  const double voidage = 1 - scene.bed.solids_fraction, mean = closures::sauter_diameter(share, diameter);
+  std::vector<double> f(share.size()), slope(share.size()), slip(share.size(), velocity);
+  closures::drag_of_mixture(law, voidage, share, diameter, slip, derived.fluid.density, derived.fluid.viscosity, f,
+                            slope);
+  const double reynolds = derived.fluid.density * velocity * mean / derived.fluid.viscosity;
+  const double deviation = closures::deviation_from_base(law, voidage, reynolds, share, diameter, f);
+  if (law.partition && std::abs(deviation) > 1e-9)
+    derived.notes.push_back(
+        fmt::format("drag of all species together: {:+.2f} % of the mean law {} in the settled bed, by {}",
+                    100 * deviation, core::law_of(scene, "drag"), core::law_of(scene, "partition")));
+}
+
 void note_drag(const core::Scene& scene, Derived& derived) {
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) {
     derived.notes.push_back("drag is off: nothing couples the solids to the fluid");
     return;
   }
+  if (scene.effects.contains("partition")) return note_partition(scene, derived);
   for (const closures::DragLawInfo& law : closures::drag_laws())
     if (law.name == named->second && !law.obeys_sum_rule && scene.species.size() > 1)
       derived.notes.push_back("drag = \"" + law.name +

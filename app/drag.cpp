@@ -29,7 +29,12 @@ DragLaw law_of(const DragOptions& options) {
     throw core::CaseError("unknown drag law '" + options.law + "'" +
                           (near.empty() ? "; see polybed list" : "; did you mean '" + near + "'?"));
   }
-  return closures::drag_law(options.law, options.guard ? closures::Guard::on : closures::Guard::off);
+  try {
+    return closures::drag_law(options.law, options.partition,
+                              options.guard ? closures::Guard::on : closures::Guard::off);
+  } catch (const std::invalid_argument& error) {
+    throw core::CaseError(std::string(error.what()) + "; see polybed list");
+  }
 }
 
 void check_point(double voidage, double reynolds, const std::string& where) {
@@ -96,15 +101,17 @@ struct Row {
 };
 
 /// The names of the answers to a row.
-std::vector<std::string> answer_names(std::size_t species) {
+std::vector<std::string> answer_names(std::size_t species, bool shared) {
   if (species == 0) return {"f", "n"};
   std::vector<std::string> names{"f_mean", "n_mean"};
   for (std::size_t j = 1; j <= species; ++j)
     for (const char* name : {"f", "n", "alpha", "Omega"}) names.push_back(fmt::format("{}_{}", name, j));
+  if (shared) names.emplace_back("deviation");
   return names;
 }
 
-/// f and n; of a mixture their means and, per species, f_j, n_j, alpha_j, Omega_j.
+/// f and n; of a mixture their means and, per species, f_j, n_j, alpha_j, Omega_j; with a partition by how much the
+/// drag of all species together departs from the mean law.
 std::vector<double> answer(const DragLaw& law, const Row& row) {
   const double eps = row.values[0], re = row.values[1];
   const std::size_t n = row.share.size();
@@ -128,6 +135,7 @@ std::vector<double> answer(const DragLaw& law, const Row& row) {
     const double alpha = closures::alpha_of_omega(eps, omega, y);
     for (const double value : {f[j], net, alpha, omega}) values.push_back(finite(value, eps, re, row.where));
   }
+  if (law.partition) values.push_back(closures::deviation_from_base(law, eps, re, row.share, row.diameter, f));
   return values;
 }
 
@@ -196,7 +204,8 @@ void print_csv(const DragOptions& options, const DragLaw& law) {
     if (row)
       core::print("{},{}\n", row->text, fmt::join(answer(law, *row), ","));
     else
-      core::print("{},{}\n", fmt::join(header, ","), fmt::join(answer_names((header.size() - 2) / 2), ","));
+      core::print("{},{}\n", fmt::join(header, ","),
+                  fmt::join(answer_names((header.size() - 2) / 2, law.partition.has_value()), ","));
   });
 }
 
@@ -206,11 +215,14 @@ void print_json(const DragOptions& options, const DragLaw& law) {
     if (!row) return;
     core::Json& one = rows.emplace_back();
     for (std::size_t c = 0; c < header.size(); ++c) one[header[c]] = row->values[c];
-    const std::vector<std::string> names = answer_names(row->share.size());
+    const std::vector<std::string> names = answer_names(row->share.size(), law.partition.has_value());
     const std::vector<double> answers = answer(law, *row);
     for (std::size_t c = 0; c < names.size(); ++c) one[names[c]] = answers[c];
   });
-  core::print("{}\n", core::json_text({{"law", options.law}, {"rows", rows}}));
+  core::Json json = {{"law", options.law}};
+  if (law.partition) json["partition"] = options.partition;
+  json["rows"] = std::move(rows);
+  core::print("{}\n", core::json_text(json));
 }
 
 }  // namespace

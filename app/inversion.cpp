@@ -3,6 +3,7 @@
 #include "multiscale/inversion/models.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/options.hpp"
@@ -10,6 +11,7 @@
 #include "core/output/json.hpp"
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
+#include "relevance/drag_law.hpp"
 
 namespace polybed::multiscale {
 
@@ -52,15 +54,21 @@ std::vector<Band> bands(const core::Scene& scene, const closures::DragLaw& law, 
   return result;
 }
 
+core::Json name_or_null(const std::string& name) { return name.empty() ? core::Json() : core::Json(name); }
+
 core::Json json_of(const std::vector<InversionPoint>& points) {
   core::Json json = core::Json::array();
   for (const InversionPoint& p : points) json.push_back({{"velocity_m_s", p.velocity}, {"voidage", p.voidage}});
   return json;
 }
 
-void print_json(const std::string& law, const std::string& method, const std::vector<InversionPoint>& points,
+void print_json(const core::Scene& scene, const std::string& method, const std::vector<InversionPoint>& points,
                 const std::vector<Band>& band) {
-  core::Json json = {{"law", law}, {"velocity_m_s", nullptr}, {"voidage", nullptr}};
+  core::Json json = {
+      {"law", core::law_of(scene, "drag")},
+      {"partition", name_or_null(scene.effects.contains("partition") ? core::law_of(scene, "partition") : "")},
+      {"velocity_m_s", nullptr},
+      {"voidage", nullptr}};
   if (!points.empty()) json.update(json_of(points).back());
   json["roots"] = json_of(points);
   json["method"] = method;
@@ -71,11 +79,22 @@ void print_json(const std::string& law, const std::string& method, const std::ve
 
 /// A row of the table of all methods.
 struct MethodRow {
-  std::string method, law;
+  std::string method, law, partition;
   std::vector<InversionPoint> points;
 };
 
-/// Every method, with every drag law where it takes one.
+/// Every law of one size with every partition, but for the pairs that a law of mixtures is made of.
+void add_pairs(const BinaryBed& bed, const std::string& method, std::vector<MethodRow>& rows) {
+  for (const closures::DragLawInfo& mean : closures::drag_laws()) {
+    if (!mean.is_mean) continue;
+    for (const closures::DragLawInfo& partition : closures::partitions()) {
+      const closures::DragLaw pair = closures::drag_law(mean.name, partition.name, closures::Guard::on);
+      if (pair.partition) rows.push_back({method, mean.name, partition.name, inversion_points(bed, pair, method)});
+    }
+  }
+}
+
+/// Every method, with every drag law where it takes one; the force balance also with every mean law and partition.
 std::vector<MethodRow> all_methods(const BinaryBed& bed) {
   const std::vector<core::Role> roles = all_roles();
   const auto drag = std::find_if(roles.begin(), roles.end(), [](const core::Role& r) { return r.name == "drag"; });
@@ -83,12 +102,13 @@ std::vector<MethodRow> all_methods(const BinaryBed& bed) {
   for (const InversionMethod& method : inversion_methods()) {
     if (!method.takes_law) {
       rows.push_back(
-          {method.name, "", inversion_points(bed, closures::drag_law("cello", closures::Guard::on), method.name)});
+          {method.name, "", "", inversion_points(bed, closures::drag_law("cello", closures::Guard::on), method.name)});
       continue;
     }
     for (const core::Law& law : drag->laws)
-      rows.push_back({method.name, law.name,
+      rows.push_back({method.name, law.name, "",
                       inversion_points(bed, closures::drag_law(law.name, closures::Guard::on), method.name)});
+    if (method.takes_partition) add_pairs(bed, method.name, rows);
   }
   return rows;
 }
@@ -97,18 +117,33 @@ void print_methods_json(const std::vector<MethodRow>& rows) {
   core::Json methods = core::Json::array();
   for (const MethodRow& row : rows)
     methods.push_back({{"method", row.method},
-                       {"law", row.law.empty() ? core::Json() : core::Json(row.law)},
+                       {"law", name_or_null(row.law)},
+                       {"partition", name_or_null(row.partition)},
                        {"roots", json_of(row.points)}});
   core::print("{}\n", core::json_text({{"methods", methods}}));
 }
 
 void print_methods(const std::vector<MethodRow>& rows) {
-  core::print("{:16} {:20} {:>8} {:>8}\n", "method", "law", "mm/s", "voidage");
+  core::print("{:16} {:20} {:16} {:>8} {:>8}\n", "method", "law", "partition", "mm/s", "voidage");
   for (const MethodRow& row : rows) {
-    if (row.points.empty()) core::print("{:16} {:20} {:>8} {:>8}\n", row.method, row.law, "-", "-");
+    if (row.points.empty())
+      core::print("{:16} {:20} {:16} {:>8} {:>8}\n", row.method, row.law, row.partition, "-", "-");
     for (const InversionPoint& p : row.points)
-      core::print("{:16} {:20} {:8.2f} {:8.4f}\n", row.method, row.law, 1e3 * p.velocity, p.voidage);
+      core::print("{:16} {:20} {:16} {:8.2f} {:8.4f}\n", row.method, row.law, row.partition, 1e3 * p.velocity,
+                  p.voidage);
   }
+}
+
+/// By how much the drag of all species together departs from the mean law at a root.
+void print_deviation(const BinaryBed& bed, const closures::DragLaw& law, const InversionPoint& at) {
+  std::array<double, 2> f{}, slope{};
+  closures::drag_of_mixture(law, at.voidage, bed.share, bed.diameter, std::array{at.velocity, at.velocity},
+                            bed.fluid.density, bed.fluid.viscosity, f, slope);
+  const double reynolds =
+      bed.fluid.density * at.velocity * closures::sauter_diameter(bed.share, bed.diameter) / bed.fluid.viscosity;
+  const double deviation = closures::deviation_from_base(law, at.voidage, reynolds, bed.share, bed.diameter, f);
+  if (std::abs(deviation) > 1e-9)
+    core::print("  drag of all species together: {:+.2f} % of the mean law\n", 100 * deviation);
 }
 
 void run_without_a_run(const InversionOptions& options) {
@@ -119,16 +154,17 @@ void run_without_a_run(const InversionOptions& options) {
   }
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
-  const closures::DragLaw law = closures::drag_law(named->second, closures::Guard::on);
+  const closures::DragLaw law = relevance::drag_law_of(scene);
+  const std::string name = relevance::drag_name_of(scene);
   const auto points = inversion_points(binary_bed(scene), law, options.method);
   const std::vector<Band> band =
       points.empty() ? std::vector<Band>{} : bands(scene, law, options.method, points.back().voidage);
-  if (options.json) return print_json(named->second, options.method, points, band);
-  if (points.empty())
-    core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, named->second);
+  if (options.json) return print_json(scene, options.method, points, band);
+  if (points.empty()) core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, name);
   for (const InversionPoint& p : points)
     core::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
-                named->second);
+                name);
+  if (law.partition && !points.empty()) print_deviation(binary_bed(scene), law, points.back());
   for (const Band& b : band) core::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
 }
 
@@ -138,6 +174,7 @@ void run_inversion(const InversionOptions& options) {
   InversionOptions chosen = options;
   if (!options.temperature.empty()) chosen.overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
   if (!options.law.empty()) chosen.overrides.push_back("effects.drag=\"" + options.law + "\"");
+  if (!options.partition.empty()) chosen.overrides.push_back("effects.partition=\"" + options.partition + "\"");
   options.scan.empty() ? run_without_a_run(chosen) : run_inversion_scan(chosen);
 }
 

@@ -11,6 +11,7 @@
 #include "dem/continuum_scene.hpp"
 #include "multiscale/inversion/models.hpp"
 #include "multiscale/python_module.hpp"
+#include "relevance/drag_law.hpp"
 #include "tfm/particle_scene.hpp"
 
 namespace polybed::multiscale {
@@ -24,9 +25,8 @@ struct ScanRange {
 /// By force balance with the case's law; empty without a law or a root.
 std::optional<InversionPoint> force_balance(const core::Scene& scene) {
   const BinaryBed bed = binary_bed(scene);  // refuses what is not of two species
-  const auto law = scene.effects.find("drag");
-  if (law == scene.effects.end()) return std::nullopt;
-  const auto points = inversion_points(bed, closures::drag_law(law->second, closures::Guard::on), "force_balance");
+  if (!scene.effects.contains("drag")) return std::nullopt;
+  const auto points = inversion_points(bed, relevance::drag_law_of(scene), "force_balance");
   return points.empty() ? std::nullopt : std::optional(points.back());
 }
 

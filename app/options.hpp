@@ -56,14 +56,14 @@ struct MeasureOptions {
 };
 
 struct DragOptions {
-  std::string law = "cello", csv;
+  std::string law = "cello", partition = "none", csv;
   std::optional<double> voidage, reynolds;
   bool guard = true, json = false;
 };
 
 /// Options of the inversion point; those of a run are for the runs of a scan.
 struct InversionOptions : RunOptions {
-  std::string law, temperature, method = "force_balance";
+  std::string law, partition, temperature, method = "force_balance";
   std::string scan;      ///< tfm | dem | both; empty: without a run
   std::string from, to;  ///< velocities to begin the scan at; empty: about the force balance
 };

@@ -19,6 +19,8 @@ void add_inversion(CLI::App& app, Commands& commands) {
       *app.add_subcommand("inversion", "the inversion point of two species: by force balance, or by a scan of runs");
   take_case(command, *options);
   command.add_option("--law", options->law, "drag law in place of the case's");
+  command.add_option("--partition", options->partition,
+                     "what shares it among the species in place of the case's; none");
   command.add_option("--temperature", options->temperature, "in place of the case's, e.g. \"20 degC\"");
   command.add_option("--method", options->method, "force_balance | bulk_density | expansion | density_maximum | all");
   command.add_option("--scan", options->scan, "by runs instead: tfm | dem | both")

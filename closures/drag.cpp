@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -12,18 +11,8 @@ namespace polybed::closures {
 
 namespace {
 
-template <class Body, std::size_t... Places>
-void for_each_law(Body&& body, std::index_sequence<Places...>) {
-  (body(std::type_identity<std::variant_alternative_t<Places, DragLaw>>{}), ...);
-}
-
-template <class Body>
-void for_each_law(Body&& body) {
-  for_each_law(body, std::make_index_sequence<std::variant_size_v<DragLaw>>{});
-}
-
-/// Law over rows. A law without costly guard is called as it is; cello runs branch-free over all rows and a
-/// second pass redoes those outside its data.
+/// Law over rows. A law without costly guard is called as it is; cello and brinkman_oseen run branch-free over all rows
+/// and a second pass redoes those outside their data.
 template <class Law>
 void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds, double* f,
               double* re_dfdre, GuardCount& count) {
@@ -39,6 +28,19 @@ void evaluate(const Law& law, std::size_t rows, const double* voidage, const dou
     for (std::size_t n = 0; n < rows && inside < rows; ++n) {
       if (DragCello::surely_inside(voidage[n], reynolds[n]) || !law.outside(voidage[n], reynolds[n])) continue;
       ++outside;
+      const DragValue value = law(voidage[n], reynolds[n]);
+      f[n] = value.f;
+      re_dfdre[n] = value.re_dfdre;
+    }
+  } else if constexpr (requires { Law::bare_of_size(1.0, 1.0); }) {
+    for (std::size_t n = 0; n < rows; ++n) {
+      const DragValue value = Law::bare_of_size(voidage[n], reynolds[n]);
+      f[n] = value.f;
+      re_dfdre[n] = value.re_dfdre;
+    }
+    for (std::size_t n = 0; n < rows; ++n) outside += law.outside(voidage[n], reynolds[n]) ? 1 : 0;
+    for (std::size_t n = 0; n < rows && outside > 0; ++n) {
+      if (!law.outside(voidage[n], reynolds[n])) continue;
       const DragValue value = law(voidage[n], reynolds[n]);
       f[n] = value.f;
       re_dfdre[n] = value.re_dfdre;
@@ -106,7 +108,7 @@ void evaluate_species(const Law& law, Block& b, const double* share, const doubl
 
 /// What each particle of a block reads.
 struct ParticleRows {
-  const double *voidage, *per_mean, *average, *share, *diameter, *slip;
+  const double *voidage, *per_mean, *average, *per_square, *share, *diameter, *slip;
 };
 
 /// f of the particles of a block, each the one species wanted of its own mixture.
@@ -129,37 +131,117 @@ void evaluate_particles(const Law& law, Block& b, const ParticleRows& in, double
   for (std::size_t p = 0; p < b.cells; ++p) f[p] = b.offset[p] + b.factor[p] * b.f[p];
 }
 
+template <class Law>
+struct BlockOf {
+  using Type = Block;
+};
+template <HasMedium Law>
+struct BlockOf<Law> {
+  struct Type {
+    std::size_t cells;
+    Block::Row voidage, per_mean, y, reynolds;
+    std::array<Block::Row, std::tuple_size_v<typename Law::Medium>> medium;
+
+    [[nodiscard]] typename Law::Medium medium_of(std::size_t cell) const {
+      typename Law::Medium m;
+      for (std::size_t n = 0; n < m.size(); ++n) m[n] = medium[n][cell];
+      return m;
+    }
+    void set_medium(const Law& law, std::size_t cell, double per_square) {
+      const auto m = law.medium(voidage[cell], {per_mean[cell], 0, 0, per_square});
+      for (std::size_t n = 0; n < m.size(); ++n) medium[n][cell] = m[n];
+    }
+  };
+};
+template <class Law>
+using BlockFor = typename BlockOf<Law>::Type;
+
+template <HasMedium Law>
+void compose_medium(const Law& law, BlockFor<Law>& block, std::size_t begin, std::span<const double> voidage,
+                    std::span<const double* const> share, std::span<const double> diameter) {
+  Block::Row per_square;
+  std::copy_n(&voidage[begin], block.cells, block.voidage.begin());
+  std::fill_n(per_square.begin(), block.cells, 0);
+  std::fill_n(block.per_mean.begin(), block.cells, 0);
+  for (std::size_t j = 0; j < diameter.size(); ++j) {
+    const double per_size = 1 / diameter[j], *x = share[j] + begin;
+    for (std::size_t c = 0; c < block.cells; ++c) {
+      block.per_mean[c] += x[c] * per_size;
+      per_square[c] += x[c] * per_size * per_size;
+    }
+  }
+  for (std::size_t c = 0; c < block.cells; ++c) block.set_medium(law, c, per_square[c]);
+}
+
+/// f of y and Re of a block in its media: branch-free over all, then those anew that the guard answers.
+template <HasMedium Law>
+void evaluate_in_media(const Law& law, const BlockFor<Law>& b, double* f, GuardCount& count) {
+  for (std::size_t c = 0; c < b.cells; ++c) f[c] = law.base.bare(b.medium_of(c), b.y[c], b.reynolds[c]).f;
+  std::size_t outside = 0;
+  for (std::size_t c = 0; c < b.cells; ++c) outside += law.base.outside(b.voidage[c], b.reynolds[c]) ? 1 : 0;
+  for (std::size_t c = 0; c < b.cells && outside > 0; ++c)
+    if (law.base.outside(b.voidage[c], b.reynolds[c]))
+      f[c] = law.base.of_species(b.medium_of(c), b.y[c], b.reynolds[c]).f;
+  count.evaluations += b.cells;
+  count.guarded += outside;
+}
+
+template <HasMedium Law>
+void evaluate_species_in_media(const Law& law, BlockFor<Law>& b, const double*, const double* slip, double diameter,
+                               double per_viscosity, double* f, GuardCount& count) {
+  for (std::size_t c = 0; c < b.cells; ++c) {
+    b.y[c] = diameter * b.per_mean[c];
+    b.reynolds[c] = per_viscosity * slip[c] * diameter;
+  }
+  evaluate_in_media(law, b, f, count);
+}
+
+template <HasMedium Law>
+void evaluate_particles_in_media(const Law& law, BlockFor<Law>& b, const ParticleRows& in, double, double per_viscosity,
+                                 double* f, GuardCount& count) {
+  std::copy_n(in.voidage, b.cells, b.voidage.begin());
+  std::copy_n(in.per_mean, b.cells, b.per_mean.begin());
+  for (std::size_t p = 0; p < b.cells; ++p) b.set_medium(law, p, in.per_square[p]);
+  for (std::size_t p = 0; p < b.cells; ++p) {
+    b.y[p] = in.diameter[p] * in.per_mean[p];
+    b.reynolds[p] = per_viscosity * in.slip[p] * in.diameter[p];
+  }
+  evaluate_in_media(law, b, f, count);
+}
+
+/// The kernels of a law, by whether it has a medium.
+template <class Law>
+struct Kernels {
+  static constexpr auto compose = closures::compose<Law>;
+  static constexpr auto species = evaluate_species<Law>;
+  static constexpr auto particles = evaluate_particles<Law>;
+};
+template <HasMedium Law>
+struct Kernels<Law> {
+  static constexpr auto compose = compose_medium<Law>;
+  static constexpr auto species = evaluate_species_in_media<Law>;
+  static constexpr auto particles = evaluate_particles_in_media<Law>;
+};
+
+/// The law, or the partition that shares its base law.
+template <class Body>
+void visit_sharing(const DragLaw& law, Body&& body) {
+  law.partition ? std::visit(body, *law.partition) : std::visit(body, law.law);
+}
+
+/// Makes f of a partition that of the mean law: times f_mean/f_one at each cell's mean Reynolds number.
+template <class Own>
+void take_mean(const DragLaw& law, const Own& own, std::span<const double> voidage, const Block::Row& reynolds,
+               double* f, GuardCount& count) {
+  const std::size_t cells = voidage.size();
+  Block::Row mean, one, slope;
+  GuardCount not_told;  // the range that counts is that of the mean law
+  drag_of_points(law, voidage, {reynolds.data(), cells}, {mean.data(), cells}, {slope.data(), cells}, count);
+  core::in_vectors<evaluate<Own>>(own, cells, voidage.data(), reynolds.data(), one.data(), slope.data(), not_told);
+  for (std::size_t c = 0; c < cells; ++c) f[c] *= mean[c] / one[c];
+}
+
 }  // namespace
-
-DragLaw drag_law(std::string_view name, Guard guard) {
-  DragLaw law;
-  bool found = false;
-  for_each_law([&](auto type) {
-    using Law = typename decltype(type)::type;
-    if (Law::name != name) return;
-    Law chosen;
-    chosen.base.guard = guard;
-    law = chosen;
-    found = true;
-  });
-  if (!found) throw std::invalid_argument("unknown drag law '" + std::string(name) + "'");
-  return law;
-}
-
-std::vector<DragLawInfo> drag_laws() {
-  std::vector<DragLawInfo> list;
-  for_each_law([&](auto type) {
-    using Law = typename decltype(type)::type;
-    list.push_back({std::string(Law::name), std::string(Law::help), Law::obeys_sum_rule});
-  });
-  return list;
-}
-
-std::vector<std::string> drag_law_names() {
-  std::vector<std::string> names;
-  for (const DragLawInfo& law : drag_laws()) names.push_back(law.name);
-  return names;
-}
 
 void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::span<const double> reynolds,
                     std::span<double> f, std::span<double> re_dfdre, GuardCount& count) {
@@ -168,83 +250,61 @@ void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::sp
         core::in_vectors<evaluate<decltype(l.base)>>(l.base, voidage.size(), voidage.data(), reynolds.data(), f.data(),
                                                      re_dfdre.data(), count);
       },
-      law);
-}
-
-double pure_drag_at(const DragLaw& law, double voidage, double reynolds) {
-  double f = 0, slope = 0;
-  GuardCount count;
-  drag_of_points(law, {&voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
-  return f;
-}
-
-void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double> share,
-                     std::span<const double> diameter, std::span<const double> slip, double fluid_density,
-                     double viscosity, std::span<double> f, std::span<double> re_dfdre) {
-  std::visit(
-      [&](const auto& l) {
-        const MixtureCell cell = mixture_cell(l, voidage, composition_of(share, diameter));
-        for (std::size_t j = 0; j < diameter.size(); ++j) {
-          const MixtureTerms term = l.term(cell, diameter[j], share[j]);
-          const DragValue base = l.base(term.voidage, fluid_density * slip[j] * term.length / viscosity);
-          f[j] = term.offset + term.factor * base.f;
-          re_dfdre[j] = term.factor * base.re_dfdre;
-        }
-      },
-      law);
-}
-
-double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
-                    std::span<const double> diameter, std::span<const double> f) {
-  return std::visit(
-      [&](const auto& l) {
-        if constexpr (std::remove_cvref_t<decltype(l)>::mean_is_base) {
-          return l.base(voidage, reynolds).f;
-        } else {
-          const double mean = sauter_diameter(share, diameter);
-          double sum = 0;
-          for (std::size_t j = 0; j < f.size(); ++j)
-            sum += share[j] * f[j] * (mean / diameter[j]) * (mean / diameter[j]);
-          return sum;
-        }
-      },
-      law);
+      law.law);
 }
 
 void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
                    double viscosity, std::span<double* const> f, GuardCount& count) {
-  std::visit(
-      [&](const auto& l) {
-        using Law = std::remove_cvref_t<decltype(l)>;
-        Block block;
-        for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
-          block.cells = std::min(voidage.size() - begin, Block::most);
-          core::in_vectors<compose<Law>>(l, block, begin, voidage, share, diameter);
-          for (std::size_t j = 0; j < diameter.size(); ++j)
-            core::in_vectors<evaluate_species<Law>>(l, block, share[j] + begin, slip[j] + begin, diameter[j],
-                                                    fluid_density / viscosity, f[j] + begin, count);
-        }
-      },
-      law);
+  const double per_viscosity = fluid_density / viscosity;
+  visit_sharing(law, [&](const auto& l) {
+    using Law = std::remove_cvref_t<decltype(l)>;
+    BlockFor<Law> block;
+    Block::Row reynolds;
+    GuardCount of_partition;
+    for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
+      block.cells = std::min(voidage.size() - begin, Block::most);
+      core::in_vectors<Kernels<Law>::compose>(l, block, begin, voidage, share, diameter);
+      for (std::size_t j = 0; j < diameter.size(); ++j) {
+        core::in_vectors<Kernels<Law>::species>(l, block, share[j] + begin, slip[j] + begin, diameter[j], per_viscosity,
+                                                f[j] + begin, law.partition ? of_partition : count);
+        if (!law.partition) continue;
+        for (std::size_t c = 0; c < block.cells; ++c)
+          reynolds[c] = per_viscosity * slip[j][begin + c] / block.per_mean[c];
+        take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, f[j] + begin, count);
+      }
+    }
+  });
+}
+
+bool needs_per_square(const DragLaw& law) {
+  bool needs = false;
+  visit_sharing(law, [&](const auto& l) { needs = HasMedium<std::remove_cvref_t<decltype(l)>>; });
+  return needs;
 }
 
 void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std::span<const double> per_mean,
-                       std::span<const double> average, double largest, std::span<const double> share,
-                       std::span<const double> diameter, std::span<const double> slip, double fluid_density,
-                       double viscosity, std::span<double> f, GuardCount& count) {
-  std::visit(
-      [&](const auto& l) {
-        using Law = std::remove_cvref_t<decltype(l)>;
-        Block block;
-        for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
-          block.cells = std::min(voidage.size() - begin, Block::most);
-          const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin],
-                                &share[begin],   &diameter[begin], &slip[begin]};
-          core::in_vectors<evaluate_particles<Law>>(l, block, in, largest, fluid_density / viscosity, &f[begin], count);
-        }
-      },
-      law);
+                       std::span<const double> average, std::span<const double> per_square, double largest,
+                       std::span<const double> share, std::span<const double> diameter, std::span<const double> slip,
+                       double fluid_density, double viscosity, std::span<double> f, GuardCount& count) {
+  const double per_viscosity = fluid_density / viscosity;
+  visit_sharing(law, [&](const auto& l) {
+    using Law = std::remove_cvref_t<decltype(l)>;
+    BlockFor<Law> block;
+    Block::Row reynolds;
+    GuardCount of_partition;
+    for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
+      block.cells = std::min(voidage.size() - begin, Block::most);
+      const double* square = per_square.empty() ? nullptr : &per_square[begin];
+      const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin], square,
+                            &share[begin],   &diameter[begin], &slip[begin]};
+      core::in_vectors<Kernels<Law>::particles>(l, block, in, largest, per_viscosity, &f[begin],
+                                                law.partition ? of_partition : count);
+      if (!law.partition) continue;
+      for (std::size_t c = 0; c < block.cells; ++c) reynolds[c] = per_viscosity * in.slip[c] / in.per_mean[c];
+      take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, &f[begin], count);
+    }
+  });
 }
 
 }  // namespace polybed::closures

@@ -1,6 +1,7 @@
-// The menu of drag laws: one variant, visited once per batch, so that the chosen law is inlined in the loop.
+// The menu of drag laws: variants, visited once per batch, so that the chosen law is inlined in the loop.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "closures/drag_batchelor.hpp"
+#include "closures/drag_brinkman_oseen.hpp"
 #include "closures/drag_carman_kozeny.hpp"
 #include "closures/drag_di_felice.hpp"
 #include "closures/drag_fand.hpp"
@@ -18,24 +20,44 @@
 
 namespace polybed::closures {
 
-/// Every law by name; the order is that of the lists shown.
-using DragLaw =
+/// Every law of mixtures by name; the order is that of the lists shown.
+using MixtureLaw =
     std::variant<EachSpecies<DragStokes>, EachSpecies<DragTurtonLevenspiel>, EachSpecies<DragSchillerNaumann>,
                  EachSpecies<DragDallavalle>, EachSpecies<DragCarmanKozeny>, EachSpecies<DragErgun>,
                  EachSpecies<DragFand>, EachSpecies<DragWenYu>, EachSpecies<DragDiFelice>, EachSpecies<DragBatchelor>,
                  EachSpecies<DragRichardsonZaki>, EachSpecies<DragGidaspow>, EachSpecies<DragHkl>, EachSpecies<DragVbk>,
-                 MixtureVbkTheory, MixtureVbkCorrected, MixtureCello, MixtureYinSundaresan, MixturePatwardhanTien,
-                 MixtureSyamlal>;
+                 MixtureVbkTheory, MixtureVbkCorrected, MixtureCello, MixtureBrinkmanOseen, MixtureYinSundaresan,
+                 MixturePatwardhanTien, MixtureSyamlal>;
+
+/// How a mean drag is shared among species: f_j = f_mean(eps, Re_m) f_j^part/f_one^part(eps, Re_m), f_one^part the
+/// partition's own law of one size and Re_m = rho_f u_j D_mean/mu of the particle's own slip. Partitions that are a
+/// factor Omega_j whatever the mean stand on a law that is 1.
+using Partition = std::variant<CelloShares<DragStokes>, VbkTheoryShares<DragStokes>, VbkCorrectedShares<DragStokes>,
+                               MixtureYinSundaresan, MixtureBrinkmanOseen>;
+
+/// A law of mixtures, or its base law as the mean of a partition.
+struct DragLaw {
+  MixtureLaw law;
+  std::optional<Partition> partition = {};
+};
 
 /// The law of a name, with or without its guard; throws std::invalid_argument for an unknown name.
 [[nodiscard]] DragLaw drag_law(std::string_view name, Guard guard);
 
+/// A law of one size as the mean of a partition; "none" is the law alone. The pair that a law of mixtures is made of is
+/// that law. Throws std::invalid_argument for an unknown name and for a law that is no mean.
+[[nodiscard]] DragLaw drag_law(std::string_view name, std::string_view partition, Guard guard);
+
 struct DragLawInfo {
   std::string name, help;
   bool obeys_sum_rule;
+  bool is_mean;  ///< a law of one size, which a partition can share
 };
 [[nodiscard]] std::vector<DragLawInfo> drag_laws();
 [[nodiscard]] std::vector<std::string> drag_law_names();
+
+/// Help is how it shares; obeys_sum_rule: over any mean law.
+[[nodiscard]] std::vector<DragLawInfo> partitions();
 
 /// The base law at points: f and Re df/dRe of one size. All spans of one length; counted into `count`.
 void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::span<const double> reynolds,
@@ -50,11 +72,17 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
                      std::span<const double> diameter, std::span<const double> slip, double fluid_density,
                      double viscosity, std::span<double> f, std::span<double> re_dfdre);
 
-/// f_mean of a mixture whose species have the drag f at a common slip: the base law at the Sauter diameter
-/// where the law is built on it, else sum x_j f_j / y_j^2, T(3.45).
+/// f_mean of a mixture whose species have the drag f at a common slip: the base law, or mean law, at the Sauter
+/// diameter where the law or partition is built on it, else sum x_j f_j / y_j^2, T(3.45).
 /// \param reynolds  of the Sauter diameter and the superficial slip velocity
 [[nodiscard]] double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
                                   std::span<const double> diameter, std::span<const double> f);
+
+/// sum x_j f_j / y_j^2 over the base law at the Sauter diameter, less 1: by how much the drag of the mixture, and with
+/// it the pressure drop, departs from the law of one size. Arguments as above.
+[[nodiscard]] double deviation_from_base(const DragLaw& law, double voidage, double reynolds,
+                                         std::span<const double> share, std::span<const double> diameter,
+                                         std::span<const double> f);
 
 /// Many cells: f_j[cell] for every species, no allocation.
 /// \param voidage  [cell]  \param share, slip, f  [species], pointers to [cell]  \param diameter  [species], m
@@ -62,15 +90,19 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
                    double viscosity, std::span<double* const> f, GuardCount& count);
 
+/// Whether the law asks for more of a mixture than its two mean diameters.
+[[nodiscard]] bool needs_per_square(const DragLaw& law);
+
 /// Many particles, each in a mixture of its own: f[particle] of the particle's own species, no allocation. All spans of
 /// one length.
 /// \param per_mean  sum x_j / D_j around the particle, 1/m  \param average  sum x_j D_j around it, m
+/// \param per_square  sum x_j / D_j^2 around it, 1/m2; may be empty unless needs_per_square(law)
 /// \param largest  the greatest diameter of the scene, that of an absent species too, m
 /// \param share  x of the particle's own species around it  \param diameter  of the particle, m
 /// \param slip  superficial slip speed eps |U_f - U_p|, m/s
 void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std::span<const double> per_mean,
-                       std::span<const double> average, double largest, std::span<const double> share,
-                       std::span<const double> diameter, std::span<const double> slip, double fluid_density,
-                       double viscosity, std::span<double> f, GuardCount& count);
+                       std::span<const double> average, std::span<const double> per_square, double largest,
+                       std::span<const double> share, std::span<const double> diameter, std::span<const double> slip,
+                       double fluid_density, double viscosity, std::span<double> f, GuardCount& count);
 
 }  // namespace polybed::closures

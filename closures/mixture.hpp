@@ -28,9 +28,10 @@ namespace polybed::closures {
 
 /// What all species of a cell have in common.
 struct Composition {
-  double per_mean;  ///< sum x_j / D_j, the inverse of the Sauter diameter, 1/m
-  double average;   ///< sum x_j D_j, m
-  double largest;   ///< the greatest D_j, that of an absent species too, m
+  double per_mean;        ///< sum x_j / D_j, the inverse of the Sauter diameter, 1/m
+  double average;         ///< sum x_j D_j, m
+  double largest;         ///< the greatest D_j, that of an absent species too, m
+  double per_square = 0;  ///< sum x_j / D_j^2, 1/m2; only for laws that need it
 };
 [[nodiscard]] inline Composition composition_of(std::span<const double> share, std::span<const double> diameter) {
   Composition sum{0, 0, 0};
@@ -38,6 +39,7 @@ struct Composition {
     sum.per_mean += share[j] / diameter[j];
     sum.average += share[j] * diameter[j];
     sum.largest = std::max(sum.largest, diameter[j]);
+    sum.per_square += share[j] / (diameter[j] * diameter[j]);
   }
   return sum;
 }

@@ -3,7 +3,7 @@
 // Each struct has the base law, coefficient(eps, composition), what the law needs once per cell, and term(cell,
 // diameter, share) of one species; both are pure, and better without branches, so that loops over cells run at vector
 // speed. The sum rule sum x_j f_j / y_j^2 = f_mean, T(3.45), is what gives the right pressure drop; obeys_sum_rule says
-// who keeps it.
+// who keeps it. A law with `shares` may also share the drag of another mean law among the species: see Partition.
 #pragma once
 
 #include <algorithm>
@@ -17,18 +17,27 @@
 
 namespace polybed::closures {
 
+/// A law that is not of this form: a medium for each cell, an array of numbers, then f_j of each species in it.
+template <class Law>
+concept HasMedium = requires {
+  typename Law::Medium;
+};
+
 /// The cell as the law sees it: its composition, and the law's coefficient.
 template <class Law>
 [[nodiscard]] MixtureCell mixture_cell(const Law& law, double eps, const Composition& composition) {
   return {eps, 1 / composition.per_mean, composition.per_mean, law.coefficient(eps, composition)};
 }
 
-/// Omega_j = y_j [1 + h(eps)(y_j - 1)/y_m], T(4.18)-(4.21), (4.28).
-struct MixtureCello {
+/// Omega_j = y_j [1 + h(eps)(y_j - 1)/y_m], T(4.18)-(4.21), (4.28), of a mean law.
+template <class Mean>
+struct CelloShares {
   static constexpr std::string_view name = "cello", help = DragCello::help;
+  static constexpr std::string_view shares =
+      "Omega_j = y_j [1 + h (y_j - 1)/y_m], h by voidage; T(4.18)-(4.21), (4.28)";
   static constexpr bool obeys_sum_rule = true;
   static constexpr bool mean_is_base = true;
-  using Base = DragCello;
+  using Base = Mean;
   Base base;
   /// h/y_m.
   [[nodiscard]] double coefficient(double eps, const Composition& c) const {
@@ -41,12 +50,16 @@ struct MixtureCello {
   }
 };
 
+using MixtureCello = CelloShares<DragCello>;
+
 /// Omega_j = y_j, T(3.53).
-struct MixtureVbkTheory {
+template <class Mean>
+struct VbkTheoryShares {
   static constexpr std::string_view name = "vbk_theory", help = "vbk with Omega_j = y_j; T(3.53)";
+  static constexpr std::string_view shares = "Omega_j = y_j; T(3.53)";
   static constexpr bool obeys_sum_rule = true;
   static constexpr bool mean_is_base = true;
-  using Base = DragVbk;
+  using Base = Mean;
   Base base;
   [[nodiscard]] double coefficient(double, const Composition&) const { return 0; }
   [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
@@ -54,12 +67,16 @@ struct MixtureVbkTheory {
   }
 };
 
+using MixtureVbkTheory = VbkTheoryShares<DragVbk>;
+
 /// Omega_j = y_j + 0.064 y_j^3, T(3.54); voidage 0.35-0.90, y 0.44-2.52.
-struct MixtureVbkCorrected {
+template <class Mean>
+struct VbkCorrectedShares {
   static constexpr std::string_view name = "vbk_corrected", help = "vbk with Omega_j = y_j + 0.064 y_j^3; T(3.54)";
+  static constexpr std::string_view shares = "Omega_j = y_j + 0.064 y_j^3; T(3.54), voidage 0.35-0.90, y 0.44-2.52";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
-  using Base = DragVbk;
+  using Base = Mean;
   Base base;
   [[nodiscard]] double coefficient(double, const Composition&) const { return 0; }
   [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
@@ -68,11 +85,15 @@ struct MixtureVbkCorrected {
   }
 };
 
+using MixtureVbkCorrected = VbkCorrectedShares<DragVbk>;
+
 /// f_j = 1/eps + (f_mean - 1/eps)[a y_j + (1-a) y_j^2], T(3.55)-(3.56), Yin and Sundaresan 2009; a at phi <= 0.4.
 struct MixtureYinSundaresan {
   static constexpr std::string_view name = "yin_sundaresan",
                                     help =
                                         "Yin and Sundaresan 2009 on cello; T(3.55)-(3.56), Re -> 0, voidage 0.60-0.90";
+  static constexpr std::string_view shares =
+      "1/eps + (f_cello - 1/eps)[a y_j + (1-a) y_j^2] over f_cello; T(3.55)-(3.56), Re -> 0, voidage 0.60-0.90";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
   using Base = DragCello;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "relevance/drag_law.hpp"
+
 namespace polybed::multiscale {
 
 FluidReport fluid_report(const core::Scene& scene, const dem::Coupling& coupling, const dem::FluidTotals& totals,
@@ -12,7 +14,7 @@ FluidReport fluid_report(const core::Scene& scene, const dem::Coupling& coupling
   const auto drag = scene.effects.find("drag");
   return {totals,
           coupling.kernel_width() > 0 ? "diffusion" : "bilinear",
-          drag == scene.effects.end() ? "none" : drag->second,
+          drag == scene.effects.end() ? "none" : relevance::drag_name_of(scene),
           coupling.flow().grid().ranks != nullptr,
           coupling.kernel_width(),
           coupling.every(),

@@ -257,7 +257,10 @@ Survey survey(const core::Scene& scene) {
              scene.fluid.equation_of_state == core::Compressibility::ideal_gas || fluid.density < lightest_liquid;
   const std::string named = core::law_of(scene, "drag");
   s.drag_law = named == "none" || named == core::automatic ? "cello" : named;
-  const closures::DragLaw law = closures::drag_law(s.drag_law, closures::Guard::on);
+  const std::string partition = core::law_of(scene, "partition");
+  const closures::DragLaw law = partition == core::automatic
+                                    ? closures::drag_law(s.drag_law, closures::Guard::on)
+                                    : closures::drag_law(s.drag_law, partition, closures::Guard::on);
   for (const core::Fluid& state : fluids_of(scene)) {
     BedInFluid bed(scene, state, law, s);
     const bool one = s.least_velocity == s.greatest_velocity;

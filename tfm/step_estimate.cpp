@@ -10,6 +10,7 @@
 #include "closures/drag_schiller_naumann.hpp"
 #include "closures/mixture.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "relevance/drag_law.hpp"
 #include "tfm/bulk_viscosity.hpp"
 #include "tfm/fast_drag.hpp"
 
@@ -25,8 +26,7 @@ struct DragRates {
   double whole = 0, slow = 0;
 };
 
-DragRates drag_rates(const Constants& constants, const std::string& name, const UniformBed& bed) {
-  const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
+DragRates drag_rates(const Constants& constants, const closures::DragLaw& law, const UniformBed& bed) {
   const double eps = 1 - bed.solids_fraction;
   const std::size_t n = constants.species();
   std::vector<double> slip(n, bed.velocity), f(n), slope(n);
@@ -89,8 +89,8 @@ std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Consta
   const auto scale = [](double rate) { return rate > 0 ? 1 / rate : infinite; };
   const double speed = std::max(bed.velocity / (1 - bed.solids_fraction), greatest_terminal_velocity(constants));
   std::vector<TimeScale> scales{{"convection", scale(speed / h), 0}};
-  if (const auto named = scene.effects.find("drag"); effects.drag && named != scene.effects.end()) {
-    const DragRates drag = drag_rates(constants, named->second, bed);
+  if (effects.drag && scene.effects.contains("drag")) {
+    const DragRates drag = drag_rates(constants, relevance::drag_law_of(scene), bed);
     scales.push_back({"drag", scale(split ? drag.slow : drag.whole), 0});
   }
   if (effects.solids_stress) {

@@ -2,6 +2,7 @@
 
 #include "closures/drag.hpp"
 #include "closures/relevance.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
@@ -13,7 +14,7 @@ AffineDrag::AffineDrag(const core::Scene& scene, const Materials& materials, con
   std::vector<double> share = solids.of;
   for (double& x : share) x /= solids.all;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
-  const closures::DragLaw law = closures::drag_law(core::law_of(scene, "drag"), closures::Guard::on);
+  const closures::DragLaw law = relevance::drag_law_of(scene);
   std::vector<double> diameter;
   for (const Species& s : materials.species()) diameter.push_back(2 * s.radius);
   const std::vector<double> slip(diameter.size(), 0.0);

@@ -67,7 +67,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       held_(scene.bed.held),
       dt_(dt) {
   if (scene.dem.own_share == core::OwnShare::removed)
-    own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials));
+    own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials), forces_.needs_squares());
   for (Field& component : vorticity_)
     if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
   if (!flow_.grid().ranks) return;

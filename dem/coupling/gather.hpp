@@ -45,6 +45,15 @@ class Gather {
     });
     return s;
   }
+  /// sum phi_j/D_j^2, 1/m2, for drag laws that ask for it.
+  [[nodiscard]] double per_square(const Lines& lines) const {
+    double sum = 0;
+    for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
+      const double* fraction = cells_.data() + at * width_ + 3;
+      for (std::size_t j = 0; j < diameter_.size(); ++j) sum += w * fraction[j] / (diameter_[j] * diameter_[j]);
+    });
+    return sum;
+  }
   [[nodiscard]] Stream stream(const Lines& lines) const {
     Stream s;
     for (int axis = 0; axis < weights_.dimensions(); ++axis) {

@@ -7,13 +7,15 @@
 
 namespace polybed::dem {
 
-OwnShare::OwnShare(const core::Grid& grid, const fluid::Smoothing& smoothing, std::vector<double> diameter)
+OwnShare::OwnShare(const core::Grid& grid, const fluid::Smoothing& smoothing, std::vector<double> diameter,
+                   bool squares)
     : dimensions_(grid.dimensions), per_volume_(1 / grid.cell_volume()), diameter_(std::move(diameter)) {
   for (int axis = 0; axis < dimensions_; ++axis) {
     stride_[std::size_t(axis)] = grid.stride(axis);
     near_[std::size_t(axis)] = smoothing.nearest(axis, grid.cells[std::size_t(axis)]);
   }
   counts_.resize(grid.padded_size() * diameter_.size());
+  if (squares) squares_.resize(counts_.size());
 }
 
 void OwnShare::take(const std::vector<core::Field>& fraction) {
@@ -24,14 +26,17 @@ void OwnShare::take(const std::vector<core::Field>& fraction) {
     const closures::SphereNeighbours neighbours(phi, diameter_);
     for (std::size_t i = 0; i < species; ++i) {
       Surroundings& count = counts_[c * species + i] = {};
+      double per_square = 0;
       for (std::size_t j = 0; j < species; ++j) {
         const double d = diameter_[j];
         const double volume = closures::sphere_volume(0.5 * d) * neighbours.excess(diameter_[i], d, phi[j], i == j);
         count.fraction += volume;
         count.per_mean += volume / d;
         count.average += volume * d;
+        per_square += volume / (d * d);
         if (i == j) count.own = volume;
       }
+      if (!squares_.empty()) squares_[c * species + i] = per_square;
     }
   }
 }
@@ -47,6 +52,13 @@ double OwnShare::weight(const Lines& lines) const {
                2 * line.w[0] * line.w[1] * between;
   }
   return product;
+}
+
+double OwnShare::per_square_without(double seen, const Lines& lines, std::int32_t species) const {
+  double count = 0;
+  for_each_cell(dimensions_, lines,
+                [&](std::size_t at, double w) { count += w * squares_[at * diameter_.size() + std::size_t(species)]; });
+  return std::max(0.0, seen - weight(lines) * count);
 }
 
 Surroundings OwnShare::without(Surroundings seen, const Lines& lines, std::int32_t species) const {

@@ -16,7 +16,9 @@ namespace polybed::dem {
 class OwnShare {
  public:
   /// \param smoothing  of what particles give to the fluid \param diameter  of each species, m
-  OwnShare(const core::Grid& grid, const fluid::Smoothing& smoothing, std::vector<double> diameter);
+  /// \param squares  whether per_square_without will be asked
+  OwnShare(const core::Grid& grid, const fluid::Smoothing& smoothing, std::vector<double> diameter,
+           bool squares = false);
 
   /// What each species counts for in every cell, from closures::SphereNeighbours. \param fraction  [species][cell]
   void take(const std::vector<core::Field>& fraction);
@@ -24,6 +26,9 @@ class OwnShare {
   /// The surroundings as a mean of the mixture, from those that the particle sees with itself among them.
   /// The kernel is taken to be wide against the correlation of neighbours, two or three diameters.
   [[nodiscard]] Surroundings without(Surroundings seen, const Lines& lines, std::int32_t species) const;
+
+  /// The same of sum phi_j/D_j^2, 1/m2.
+  [[nodiscard]] double per_square_without(double seen, const Lines& lines, std::int32_t species) const;
 
   /// The kernel at its own place: what a volume of 1 at x adds to the average at x, 1/m3.
   [[nodiscard]] double weight(const Lines& lines) const;
@@ -35,6 +40,7 @@ class OwnShare {
   std::array<std::vector<std::array<double, 2>>, 3> near_;  ///< [axis][cell]: the kernel in the cell, in the next one
   std::vector<double> diameter_;
   std::vector<Surroundings> counts_;  ///< [cell][species]: times 1 m3
+  std::vector<double> squares_;       ///< the same of sum phi_j/D_j^2; empty unless asked for
 };
 
 }  // namespace polybed::dem

@@ -23,35 +23,37 @@ ParticleForces::ParticleForces(const core::Scene& scene, const Materials& materi
   for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
   for (const double divisor : relevance::slip_divisors(scene, diameter_))
     creeping_.push_back(3 * std::numbers::pi * viscosity * diameter_[creeping_.size()] / divisor);
-  for_each_called<MakeLoad>(effects(), scene, [&](MakeLoad make, const std::string& law) { make(law, laws_); });
+  for_each_called<MakeLoad>(effects(), scene, [&](MakeLoad make, const std::string& law) { make(scene, law, laws_); });
+  needs_squares_ = laws_.drag && closures::needs_per_square(*laws_.drag);
 }
 
 void ParticleForces::find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
                           const OwnShare* own) {
   if (own == nullptr) {
     find_by(
-        particles, gather, [&](const Lines& l, std::int32_t j) { return gather.solids(l, j); }, loads);
+        particles, gather, [&](const Lines& l, std::int32_t j) { return gather.solids(l, j); },
+        [&](const Lines& l, std::int32_t) { return gather.per_square(l); }, loads);
   } else {
     find_by(
         particles, gather, [&](const Lines& l, std::int32_t j) { return own->without(gather.solids(l, j), l, j); },
-        loads);
+        [&](const Lines& l, std::int32_t j) { return own->per_square_without(gather.per_square(l), l, j); }, loads);
   }
 }
 
-template <class Solids>
-void ParticleForces::find_by(const Particles& particles, const Gather& gather, Solids&& solids,
+template <class Solids, class Squares>
+void ParticleForces::find_by(const Particles& particles, const Gather& gather, Solids&& solids, Squares&& squares,
                              std::vector<FluidLoad>& loads) {
   for (std::size_t begin = 0; begin < particles.owned; begin += most) {
     const std::size_t count = std::min(most, particles.owned - begin);
-    see(particles, gather, solids, begin, count, loads);
+    see(particles, gather, solids, squares, begin, count, loads);
     if (laws_.drag) drag(begin, count, loads);
   }
 }
 
 /// The fields where the particles are.
-template <class Solids>
-void ParticleForces::see(const Particles& particles, const Gather& gather, Solids&& solids_at, std::size_t begin,
-                         std::size_t count, std::vector<FluidLoad>& loads) {
+template <class Solids, class Squares>
+void ParticleForces::see(const Particles& particles, const Gather& gather, Solids&& solids_at, Squares&& squares_at,
+                         std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads) {
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = begin + n;
     const auto j = std::size_t(particles.species[i]);
@@ -74,6 +76,7 @@ void ParticleForces::see(const Particles& particles, const Gather& gather, Solid
     voidage_[n] = eps;
     per_mean_[n] = alone ? 1 / d : solids.per_mean * per_fraction;
     average_[n] = alone ? d : solids.average * per_fraction;
+    if (needs_squares_) per_square_[n] = alone ? 1 / (d * d) : squares_at(lines, particles.species[i]) * per_fraction;
     share_[n] = alone ? 1 : solids.own * per_fraction;
     size_[n] = d;
     stokes_[n] = creeping_[j];
@@ -86,8 +89,9 @@ void ParticleForces::see(const Particles& particles, const Gather& gather, Solid
 /// k = 3 pi mu D eps f: pure drag over U_f - U_p.
 void ParticleForces::drag(std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads) {
   const auto first = [count](auto& row) { return std::span(row).first(count); };
-  closures::drag_of_particles(*laws_.drag, first(voidage_), first(per_mean_), first(average_), largest_, first(share_),
-                              first(size_), first(slip_), fluid_density_, viscosity_, first(f_), count_);
+  closures::drag_of_particles(*laws_.drag, first(voidage_), first(per_mean_), first(average_), first(per_square_),
+                              largest_, first(share_), first(size_), first(slip_), fluid_density_, viscosity_,
+                              first(f_), count_);
   for (std::size_t n = 0; n < count; ++n) loads[begin + n].drag = stokes_[n] * voidage_[n] * f_[n];
 }
 

@@ -28,6 +28,8 @@ class ParticleForces {
   void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
             const OwnShare* own = nullptr);
 
+  /// Whether drag asks for sum phi_j/D_j^2 around a particle.
+  [[nodiscard]] bool needs_squares() const { return needs_squares_; }
   [[nodiscard]] bool has_added_mass() const { return laws_.added_mass != nullptr; }
   [[nodiscard]] LawUse use() const;
 
@@ -35,20 +37,22 @@ class ParticleForces {
   static constexpr std::size_t most = 256;  ///< particles of a batch
   using Row = std::array<double, most>;
 
-  template <class Solids>
-  void find_by(const Particles& particles, const Gather& gather, Solids&& solids, std::vector<FluidLoad>& loads);
-  template <class Solids>
-  void see(const Particles& particles, const Gather& gather, Solids&& solids_at, std::size_t begin, std::size_t count,
-           std::vector<FluidLoad>& loads);
+  template <class Solids, class Squares>
+  void find_by(const Particles& particles, const Gather& gather, Solids&& solids, Squares&& squares,
+               std::vector<FluidLoad>& loads);
+  template <class Solids, class Squares>
+  void see(const Particles& particles, const Gather& gather, Solids&& solids_at, Squares&& squares_at,
+           std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
   void drag(std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
 
   LoadLaws laws_;
   std::vector<double> diameter_;  ///< of each species, m
   std::vector<double> creeping_;  ///< 3 pi mu D of each species, over the divisor of a gas that slips, kg/s
   double largest_, fluid_density_, viscosity_;
+  bool needs_squares_ = false;
   closures::GuardCount count_;
   std::uint64_t clamped_ = 0;
-  Row voidage_, per_mean_, average_, share_, size_, slip_, stokes_, f_;
+  Row voidage_, per_mean_, average_, per_square_, share_, size_, slip_, stokes_, f_;
 };
 
 }  // namespace polybed::dem

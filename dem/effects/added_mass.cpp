@@ -13,10 +13,11 @@ double zuber(double solids_fraction) { return closures::added_mass_zuber(solids_
 }  // namespace
 
 extern const Maker added_mass;
-const Maker added_mass{
-    &relevance::effects::added_mass,
-    "Inertia",
-    MakeLoad([](const std::string& law, LoadLaws& laws) { laws.added_mass = law == "half" ? half : zuber; }),
-    {"zuber"}};
+const Maker added_mass{&relevance::effects::added_mass,
+                       "Inertia",
+                       MakeLoad([](const core::Scene&, const std::string& law, LoadLaws& laws) {
+                         laws.added_mass = law == "half" ? half : zuber;
+                       }),
+                       {"zuber"}};
 
 }  // namespace polybed::dem::makers

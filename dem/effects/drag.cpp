@@ -1,17 +1,21 @@
-// Drag and what is part of it: the slip of a gas lowers it, dem/coupling/particle_forces.cpp.
+// Drag and what is part of it: a partition shares it, the slip of a gas lowers it, dem/coupling/particle_forces.cpp.
 #include "relevance/effects/drag.hpp"
 
 #include "dem/effects/maker.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/effects/gas_slip.hpp"
+#include "relevance/effects/partition.hpp"
 
 namespace polybed::dem::makers {
 
-extern const Maker drag, gas_slip;
-const Maker drag{
-    &relevance::effects::drag,
-    "Exchange",
-    MakeLoad([](const std::string& law, LoadLaws& laws) { laws.drag = closures::drag_law(law, closures::Guard::on); }),
-    {"none"}};
+extern const Maker drag, partition, gas_slip;
+const Maker drag{&relevance::effects::drag,
+                 "Exchange",
+                 MakeLoad([](const core::Scene& scene, const std::string&, LoadLaws& laws) {
+                   laws.drag = relevance::drag_law_of(scene);
+                 }),
+                 {"none"}};
+const Maker partition{&relevance::effects::partition, "Exchange"};
 const Maker gas_slip{&relevance::effects::gas_slip, "Exchange"};
 
 }  // namespace polybed::dem::makers

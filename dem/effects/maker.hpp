@@ -50,7 +50,7 @@ struct LoadLaws {
   std::optional<closures::DragLaw> drag;
   double (*added_mass)(double solids_fraction) = nullptr;  ///< its coefficient C_m
 };
-using MakeLoad = void (*)(const std::string& law, LoadLaws& laws);
+using MakeLoad = void (*)(const core::Scene& scene, const std::string& law, LoadLaws& laws);
 
 /// An effect of this model. Without a maker it acts within another's.
 struct Maker {

@@ -8,7 +8,7 @@ SideForces::SideForces(const core::Scene& scene, const Materials& materials, dou
                        double dt, double interval, const std::vector<const Maker*>& list)
     : dt_(dt) {
   LoadLaws loads;
-  for_each_called<MakeLoad>(list, scene, [&](MakeLoad make, const std::string& law) { make(law, loads); });
+  for_each_called<MakeLoad>(list, scene, [&](MakeLoad make, const std::string& law) { make(scene, law, loads); });
   // Those with a memory have their places in it one behind the other.
   for_each_called<MakeForce>(list, scene, [&](MakeForce make, const std::string&) {
     effects_.push_back(

@@ -172,7 +172,7 @@ core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
   box.bed.seed = std::uint64_t(point.seed);
   const double velocity = carrying_velocity(scene, mean, 1 - point.phi);
   box.inlet.superficial_velocity = {{0, velocity}};
-  for (const char* role : {"drag", "lubrication", "added_mass"})
+  for (const char* role : {"drag", "partition", "lubrication", "added_mass"})
     if (const std::string law = core::law_of(scene, role); law != "none") box.effects[role] = law;
   box.effects["contact"] = "hertz_mindlin";
   box.dem = scene.dem;

@@ -96,6 +96,8 @@ void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
   double step = duration / steps_per_contact;
   box.fluid = scene.fluid;
   box.effects["drag"] = core::law_of(scene, "drag");
+  if (const auto partition = scene.effects.find("partition"); partition != scene.effects.end())
+    box.effects.insert(*partition);
   if (const std::string film = core::law_of(scene, "lubrication"); film != "none") {
     box.effects["lubrication"] = film;
     box.material.roughness = std::max(scene.material.roughness, scene.calibrate.film_gap * d);

@@ -19,15 +19,16 @@ using closures::DragLaw;
 using Residual = std::function<std::optional<double>(double)>;
 
 constexpr double least_voidage = 0.2;
-constexpr int scan = 4000;  ///< intervals of the scan for roots
+constexpr int scan = 4000;          ///< intervals of the scan for roots
+constexpr int scan_of_pairs = 400;  ///< the same of a mean law with a partition: there are 75 of them to list
 
 /// Roots of a residual that may be undefined in places, in (low, high): sign changes of a scan, refined by bisection.
-std::vector<double> roots(const Residual& residual, double low, double high) {
+std::vector<double> roots(const Residual& residual, double low, double high, int intervals = scan) {
   std::vector<double> found;
   std::optional<double> last;
   double last_at = low;
-  for (int n = 1; n < scan; ++n) {
-    const double at = low + (high - low) * n / scan;
+  for (int n = 1; n < intervals; ++n) {
+    const double at = low + (high - low) * n / intervals;
     const std::optional<double> here = residual(at);
     if (last && here && *last * *here <= 0 && *last != 0) {
       double a = last_at, b = at;
@@ -81,7 +82,7 @@ std::vector<InversionPoint> by_force_balance(const BinaryBed& bed, const DragLaw
     return u1 && u2 ? std::optional(std::log(*u1 / *u2)) : std::nullopt;
   };
   std::vector<InversionPoint> points;
-  for (double voidage : roots(residual, least_voidage, 1))
+  for (double voidage : roots(residual, least_voidage, 1, law.partition ? scan_of_pairs : scan))
     points.push_back({*resting_velocity(bed, law, voidage, 1), voidage});
   return points;
 }
@@ -91,7 +92,7 @@ std::optional<double> pure_voidage(const BinaryBed& bed, const DragLaw& law, dou
   const double weight = (bed.density[j] - bed.fluid.density) * bed.gravity, d = bed.diameter[j];
   const double re = bed.fluid.density * u * d / bed.fluid.viscosity;
   const auto excess = [&](double eps) {
-    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law);
+    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law.law);
     return 18 * bed.fluid.viscosity * u * f / (eps * d * d) - weight;
   };
   double low = least_voidage, high = 1;
@@ -204,11 +205,12 @@ BinaryBed binary_bed(const core::Scene& scene) {
 const std::vector<InversionMethod>& inversion_methods() {
   static const std::vector<InversionMethod> methods{
       {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)", true,
-       by_force_balance},
-      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true, by_bulk_density},
-      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false,
+       true, by_force_balance},
+      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true, false,
+       by_bulk_density},
+      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false, false,
        [](const BinaryBed& bed, const DragLaw&) { return by_expansion(bed); }},
-      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false,
+      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false, false,
        [](const BinaryBed& bed, const DragLaw&) { return by_density_maximum(bed); }}};
   return methods;
 }

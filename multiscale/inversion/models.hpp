@@ -32,7 +32,8 @@ struct InversionPoint {
 /// The methods by name, with what each is, for messages and lists.
 struct InversionMethod {
   std::string name, help;
-  bool takes_law;  ///< whether the drag law decides
+  bool takes_law;        ///< whether the drag law decides
+  bool takes_partition;  ///< and how it is shared between the species
   std::vector<InversionPoint> (*points)(const BinaryBed& bed, const closures::DragLaw& law);
 };
 [[nodiscard]] const std::vector<InversionMethod>& inversion_methods();

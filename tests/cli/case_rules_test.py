@@ -172,6 +172,11 @@ BROKEN = {
     **{f"effects.{role} cannot act in a sheared box: its fluid moves with its flow": ["dem.shear_rate=1", on(role)]
        for role in ("fluid_stress", "added_mass", "lift", "magnus", "history")},
     "effects.gas_slip: a fluid of {} kg/m3 is a liquid, which does not slip: leave it out": [on("gas_slip")],
+    'effects.partition = "{}" cannot act: fluid.name = "none"': [DRY, on("partition", "cello")],
+    'effects.partition = "{}" shares a drag law of one size: give effects.drag, e.g. "wen_yu"': [
+        on("partition", "cello"), "effects.drag=none"],
+    'effects.partition = "{}" cannot share drag = "{}", which is a law of mixtures itself: give a law of one size, e.g. "wen_yu" or "vbk"': [
+        on("partition", "cello"), "effects.drag=syamlal"],
     'effects.granular_temperature = "algebraic" needs a restitution below 1: species {}': [
         "effects.solids_stress=kinetic", "dem.restitution=1"],
     'effects.granular_temperature = "{}" acts only with solids_stress = "kinetic" or a dry table': [

@@ -170,6 +170,18 @@ class Drag(Scratch):
         # T(3.45): the drag of the species adds up to that of the bed; the rest is rounding
         self.assertAlmostEqual(total, values["f_mean"], delta=1e-12 * values["f_mean"])
 
+    def test_a_partition_adds_the_deviation_from_its_mean_law(self):
+        text = "eps,Re,x1,D1,x2,D2\n0.6,30,0.5,1e-3,0.5,2e-3\n"
+        mean = float(self.ends(DONE, "drag", "--law", "wen_yu", "--voidage", "0.6", "--re", "30").stdout)
+        for partition, keeps in (("cello", True), ("vbk_theory", True), ("brinkman_oseen", False)):
+            row, = self.table(text, "--law", "wen_yu", "--partition", partition)
+            values = {name: float(value) for name, value in row.items()}
+            total = sum(0.5 * values[f"f_{j}"] * (4e-3 / 3 / d) ** 2 for j, d in ((1, 1e-3), (2, 2e-3)))
+            self.assertAlmostEqual(values["deviation"], total / mean - 1, delta=1e-12)
+            self.assertEqual(abs(values["deviation"]) < 1e-12, keeps, partition)
+        for words in (["--law", "yin_sundaresan", "--partition", "cello"], ["--law", "wen_yu", "--partition", "syamlal"]):
+            self.assertIn("see polybed list", self.ends(WRONG_CASE, "drag", *words, "--voidage", "0.6", "--re", "30").stderr)
+
     def test_a_table_as_json_has_the_numbers_of_the_csv(self):
         for text in ("eps,Re\n0.5,20\n0.6,3\n", "eps,Re,x1,D1,x2,D2\n0.6,30,0.5,1e-3,0.5,2e-3\n"):
             rows = [{name: float(value) for name, value in row.items()} for row in self.table(text, "--law", "vbk")]

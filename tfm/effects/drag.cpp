@@ -1,19 +1,17 @@
 #include "tfm/effects/drag.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/effects/drag.hpp"
 #include "relevance/effects/gas_slip.hpp"
+#include "relevance/effects/partition.hpp"
 #include "tfm/effects/maker.hpp"
 
 namespace polybed::tfm {
 
 using core::Index;
 
-Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law,
-           std::vector<double> divisors)
-    : constants_(constants),
-      boundaries_(boundaries),
-      name_(law),
-      law_(closures::drag_law(law, closures::Guard::on)),
-      divisors_(std::move(divisors)) {
+Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& name,
+           const closures::DragLaw& law, std::vector<double> divisors)
+    : constants_(constants), boundaries_(boundaries), name_(name), law_(law), divisors_(std::move(divisors)) {
   share_.resize(constants.species());
   slip_.resize(constants.species());
   result_.resize(constants.species());
@@ -43,14 +41,16 @@ ClosureUse Drag::use() const { return {"drag " + name_, count_.evaluations, coun
 
 namespace makers {
 
-extern const Maker drag, gas_slip;
+extern const Maker drag, partition, gas_slip;
 const Maker drag{&relevance::effects::drag,
                  "Exchange",
                  [](const Making& m) {
-                   m.effects.drag = std::make_unique<Drag>(m.constants, m.boundaries, m.law,
+                   m.effects.drag = std::make_unique<Drag>(m.constants, m.boundaries, relevance::drag_name_of(m.scene),
+                                                           relevance::drag_law_of(m.scene),
                                                            relevance::slip_divisors(m.scene, m.constants.diameter));
                  },
                  {"none"}};
+const Maker partition{&relevance::effects::partition, "Exchange"};
 const Maker gas_slip{&relevance::effects::gas_slip, "Exchange"};
 
 }  // namespace makers

@@ -11,8 +11,8 @@ namespace polybed::tfm {
 class Drag : public FluidExchange {
  public:
   /// \param divisors  of the drag on each species by the slip of a gas; 1 without it
-  Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& law,
-       std::vector<double> divisors);
+  Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& name,
+       const closures::DragLaw& law, std::vector<double> divisors);
   void evaluate(Fields& fields) override;
   [[nodiscard]] ClosureUse use() const override;
 

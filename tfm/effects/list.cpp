@@ -5,7 +5,7 @@ namespace polybed::tfm {
 
 namespace makers {
 
-extern const Maker drag, fluid_stress, gas_slip, solids_stress, granular_temperature, solids_viscosity,
+extern const Maker drag, partition, fluid_stress, gas_slip, solids_stress, granular_temperature, solids_viscosity,
     species_exchange;
 
 }  // namespace makers
@@ -13,7 +13,14 @@ extern const Maker drag, fluid_stress, gas_slip, solids_stress, granular_tempera
 const std::vector<const Maker*>& effects() {
   using namespace makers;
   static const std::vector<const Maker*> all{
-      &drag, &fluid_stress, &gas_slip, &solids_stress, &granular_temperature, &solids_viscosity, &species_exchange,
+      &drag,
+      &partition,
+      &fluid_stress,
+      &gas_slip,
+      &solids_stress,
+      &granular_temperature,
+      &solids_viscosity,
+      &species_exchange,
   };
   return all;
 }

@@ -112,7 +112,11 @@ def laws_axis(name, role, given, others):
 
 def drag_axis(scene, _):
     given = scene.law("drag")
-    return laws_axis("drag", "drag", given, () if given == "none" else DRAG_LAWS)
+    axis = laws_axis("drag", "drag", given, () if given == "none" else DRAG_LAWS)
+    if scene.law("partition") != "none":  # these laws share the drag themselves
+        for level in axis.levels[1:]:
+            level.overrides.append("effects.partition=none")
+    return axis
 
 
 def stress_axis(scene, _):

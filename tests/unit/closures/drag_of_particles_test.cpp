@@ -16,7 +16,7 @@ const std::vector<double> sizes{0.4e-3, 1e-3, 2.5e-3};
 
 /// Surroundings of every particle, and which species it is.
 struct Scene {
-  std::vector<double> voidage, per_mean, average, share, diameter, slip;
+  std::vector<double> voidage, per_mean, average, per_square, share, diameter, slip;
   std::vector<std::array<double, species>> shares;
   std::vector<std::size_t> own;
 };
@@ -36,6 +36,7 @@ Scene random_scene() {
     s.voidage.push_back(p == 0 ? 1 : 0.26 + 0.74 * uniform(random));
     s.per_mean.push_back(c.per_mean);
     s.average.push_back(c.average);
+    s.per_square.push_back(c.per_square);
     s.share.push_back(x[p % species]);
     s.diameter.push_back(sizes[p % species]);
     s.slip.push_back(p == 2 ? 0 : std::pow(10.0, 4 * uniform(random) - 4));
@@ -51,8 +52,8 @@ TEST(DragOfParticles, EqualsTheSpeciesOfACell) {
       const DragLaw law = drag_law(name, guard);
       std::vector<double> f(particles, -1);
       GuardCount count;
-      drag_of_particles(law, s.voidage, s.per_mean, s.average, sizes.back(), s.share, s.diameter, s.slip, 1000, 1e-3, f,
-                        count);
+      drag_of_particles(law, s.voidage, s.per_mean, s.average, s.per_square, sizes.back(), s.share, s.diameter, s.slip,
+                        1000, 1e-3, f, count);
       EXPECT_EQ(count.evaluations, particles);
       for (std::size_t p = 0; p < particles; ++p) {
         std::array<double, species> cell, slope, slip;
@@ -69,12 +70,12 @@ TEST(DragOfParticles, ByHandWithoutAMixture) {
   const std::vector<double> eps{0.9}, per_mean{1e3}, average{1e-3}, share{0.25}, diameter{1e-3}, slip{0.1};
   std::vector<double> f(1);
   GuardCount count;
-  drag_of_particles(drag_law("stokes", Guard::on), eps, per_mean, average, 1e-3, share, diameter, slip, 1000, 1e-3, f,
-                    count);
+  drag_of_particles(drag_law("stokes", Guard::on), eps, per_mean, average, {}, 1e-3, share, diameter, slip, 1000, 1e-3,
+                    f, count);
   EXPECT_EQ(f[0], 1);
   EXPECT_EQ(count.guarded, 1u);  // Re 100 is beyond creeping flow
-  drag_of_particles(drag_law("syamlal", Guard::on), eps, per_mean, average, 1e-3, share, diameter, slip, 1000, 1e-3, f,
-                    count);
+  drag_of_particles(drag_law("syamlal", Guard::on), eps, per_mean, average, {}, 1e-3, share, diameter, slip, 1000, 1e-3,
+                    f, count);
   std::vector<double> whole(1), slope(1);
   drag_of_points(drag_law("gidaspow", Guard::on), eps, std::vector<double>{100}, whole, slope, count);
   EXPECT_NEAR(f[0], 0.25 * whole[0], 1e-14 * whole[0]);  // round-off of one product
@@ -82,7 +83,7 @@ TEST(DragOfParticles, ByHandWithoutAMixture) {
 
 TEST(DragOfParticles, NoneIsFine) {
   GuardCount count;
-  drag_of_particles(drag_law("cello", Guard::on), {}, {}, {}, 1e-3, {}, {}, {}, 1000, 1e-3, {}, count);
+  drag_of_particles(drag_law("cello", Guard::on), {}, {}, {}, {}, 1e-3, {}, {}, {}, 1000, 1e-3, {}, count);
   EXPECT_EQ(count.evaluations, 0u);
 }
 

@@ -23,7 +23,7 @@ struct Averaged {
         smoothing(given.grid, width, true),
         fraction(2, core::make_field(given.grid)),
         gather(given.grid, {0.5e-3, 1.1e-3}),
-        own(given.grid, smoothing, {0.5e-3, 1.1e-3}) {
+        own(given.grid, smoothing, {0.5e-3, 1.1e-3}, true) {
     renew();
   }
   void renew() {
@@ -57,6 +57,11 @@ TEST(OwnShare, IsAllThatAParticleAloneSees) {
           const double kernel = around.own.weight(around.gather.lines(x));
           // Sums stand in units of 2^-62 of 64 times the volume; and 16 steps of the kernel.
           EXPECT_NEAR(around.seen(x, 1).fraction / (cloud.volume * kernel), 1, 1e-12) << dimensions << width;
+          const Lines lines = around.gather.lines(x);
+          const double square = around.gather.per_square(lines);
+          EXPECT_NEAR(square * 1.1e-3 * 1.1e-3, around.seen(x, 1).fraction, 1e-12 * around.seen(x, 1).fraction);
+          EXPECT_NEAR(around.own.per_square_without(square, lines, 1) * 1.1e-3 * 1.1e-3, around.without(x, 1).fraction,
+                      1e-12 * around.seen(x, 1).fraction);
         }
 }
 

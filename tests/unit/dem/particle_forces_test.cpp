@@ -74,6 +74,26 @@ TEST(ParticleForces, InAMixtureAreThoseOfTheCellsLaw) {
   }
 }
 
+TEST(ParticleForces, APartitionSharesTheMeanLaw) {
+  const std::array<double, 2> phi{0.25, 0.2}, diameter{0.5e-3, 1.1e-3};
+  const Vector u{0.1, 0.05, -0.02};
+  for (const char* partition : {"cello", "brinkman_oseen"}) {
+    core::Scene scene = with("wen_yu");
+    scene.effects["partition"] = partition;
+    Even even(scene, phi, u, {});
+    const double eps = 0.55;
+    const std::array<double, 2> share{0.25 / 0.45, 0.2 / 0.45}, slip{eps * even.slip(0, u), eps * even.slip(1, u)};
+    std::array<double, 2> f{}, slope{};
+    closures::drag_of_mixture(closures::drag_law("wen_yu", partition, closures::Guard::on), eps, share, diameter, slip,
+                              Even::density, Even::viscosity, f, slope);
+    const std::vector<FluidLoad> loads = even.loads();
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double expected = 3 * std::numbers::pi * Even::viscosity * diameter[j] * eps * f[j];
+      EXPECT_NEAR(loads[j].drag, expected, 1e-12 * expected) << partition;  // round-off of Re
+    }
+  }
+}
+
 // -V grad p; no drag, nothing else.
 TEST(ParticleForces, PressureActsOnTheVolume) {
   const Vector gradient{100, -9810, 30};

@@ -1,0 +1,120 @@
+// A sphere of one size in a Brinkman medium with Oseen's inertia: the drag law of this project, for fixed spheres of
+// any mixture of sizes. Seven constants are fitted to the lattice-Boltzmann rows of tests/data/lbm, the rest is theory.
+//
+//   f0(phi)  = 10 phi/eps^2 + eps^5 [1 + (3/sqrt 2) sqrt phi + (135/64) phi ln phi + 10.456 phi]
+//   c(phi)   = phi/(2 eps + 2.664 phi^3)
+//   I(phi,R) = (3/16) R {(1 + 0.9095 phi) eps^(-9/4) (1 + 0.7664 R)^(-0.4422 + 0.2509 phi) + 0.04289 (1 + 20.4 phi)}
+//   K_j = sqrt(phi + eps m2) y_j [(1-c) f0 - 1/eps] + c f0 y_j^2      viscous, screened (Brinkman); m2 = sum x_k/y_k^2
+//   J_j = I(phi, Re_j) [1 + (3/2) c (y_j - 1)]                        inertial (Oseen, then Forchheimer)
+//   f_j = 1/eps + (K_j^(3/2) + J_j^(3/2))^(2/3)
+//
+// phi = max(1 - eps, 0), eps = 1 - phi; Re_j = rho_f u_j D_j/mu of the particle's own slip and own diameter.
+// Data: eps 0.35-1, Re 0-1050, y 0.30-3.25, sizes to 1:4, m2 to 1.55. Limits: 1 at phi, Re -> 0; Kozeny-Carman when
+// dense; 1/eps of a tiny sphere among large ones; a dilute mixture at Re 0: 1 + (3/sqrt 2) sqrt(phi m2) y_j. f_j >=
+// 1/eps, and f never falls with Re or phi. Not exact: small Re at finite phi, where f - f0 goes as Re^1.5 and theory as
+// Re^2. The guard continues I beyond Re_c = 1050, with ' = d/dR and T the law of Turton and Levenspiel:
+//   I = I_c (T - 1)/(T_c - 1) + [I'_c - I_c T'_c/(T_c - 1)] (R - Re_c)(Re_c/R)^3
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "closures/drag_turton_levenspiel.hpp"
+#include "closures/elementary.hpp"
+#include "closures/mixture.hpp"
+
+namespace polybed::closures {
+
+/// What the law needs of a voidage and a composition, the same for all species: 1/eps; the factors of y_j and of y_j^2
+/// in K_j; (3/2) c; and I = R [oseen (1 + 0.7664 R)^power + forchheimer]. An array, so that batches hold each number in
+/// a row.
+using BrinkmanMedium = std::array<double, 7>;
+
+struct DragBrinkmanOseen {
+  static constexpr std::string_view name = "brinkman_oseen";
+  static constexpr std::string_view help =
+      "spheres in a Brinkman medium with Oseen's inertia, fitted to lattice-Boltzmann data; voidage 0.35-1, Re <= 1050";
+  static constexpr double most_reynolds = 1050;
+  Guard guard = Guard::on;
+
+  /// One size: y = m2 = 1.
+  DragValue operator()(double eps, double re) const { return of_species(medium(eps, 1), 1, re); }
+
+  [[nodiscard]] bool outside(double eps, double re) const { return (eps < 0.35) | (eps > 1) | (re > most_reynolds); }
+
+  /// The same without the guard, and without a branch.
+  [[nodiscard]] static DragValue bare_of_size(double eps, double re) { return bare(medium(eps, 1), 1, re); }
+
+  /// \param m2  sum x_k/y_k^2, 1 of one size
+  [[nodiscard]] static BrinkmanMedium medium(double voidage, double m2) {
+    const double phi = std::max(1 - voidage, 0.0), eps = 1 - phi, per_eps = 1 / eps, eps2 = eps * eps;
+    const double logarithmic = phi * plain_log(std::max(phi, 1e-300));
+    const double dilute = 1 + 1.5 * std::numbers::sqrt2 * std::sqrt(phi) + 135.0 / 64 * logarithmic + 10.456 * phi;
+    const double f0 = 10 * phi * per_eps * per_eps + eps2 * eps2 * eps * dilute;
+    const double c = phi / (2 * eps + 2.664 * phi * phi * phi);
+    const double oseen = 3.0 / 16 * (1 + 0.9095 * phi) * per_eps * per_eps / std::sqrt(std::sqrt(eps));
+    return {per_eps,
+            std::sqrt(phi + eps * m2) * ((1 - c) * f0 - per_eps),
+            c * f0,
+            1.5 * c,
+            oseen,
+            3.0 / 16 * 0.04289 * (1 + 20.4 * phi),
+            -0.4422 + 0.2509 * phi};
+  }
+
+  /// f_j of a species of y_j = D_j over the Sauter diameter. \param re  of its own diameter and slip
+  [[nodiscard]] DragValue of_species(const BrinkmanMedium& m, double y, double re) const {
+    return joined(m, y, guard == Guard::on && re > most_reynolds ? beyond_data(m, re) : inertia(m, re));
+  }
+
+  /// The same without the guard, and without a branch.
+  [[nodiscard]] static DragValue bare(const BrinkmanMedium& m, double y, double re) {
+    return joined(m, y, inertia(m, re));
+  }
+
+ private:
+  /// f_j with an inertial part I and R dI/dR.
+  [[nodiscard]] static DragValue joined(const BrinkmanMedium& m, double y, const DragValue& part) {
+    const auto& [per_eps, linear, square, shade, oseen, forchheimer, power] = m;
+    const double viscous = std::max(y * (linear + square * y), 0.0), shaded = 1 + shade * (y - 1);
+    const double inertial = part.f * shaded, root = std::sqrt(inertial);
+    const double sum = std::max(viscous * std::sqrt(viscous) + inertial * root, 1e-300);
+    const double third = plain_exp(plain_log(sum) * (1.0 / 3));
+    return {per_eps + third * third, root * part.re_dfdre * shaded / third};
+  }
+
+  /// I and R dI/dR.
+  [[nodiscard]] static DragValue inertia(const BrinkmanMedium& m, double re) {
+    const auto& [per_eps, linear, square, shade, oseen, forchheimer, power] = m;
+    const double stretched = 1 + 0.7664 * re;
+    const double falling = oseen * plain_exp(power * plain_log(stretched));
+    return {re * (falling + forchheimer), re * (falling * (1 + power * (stretched - 1) / stretched) + forchheimer)};
+  }
+
+  [[nodiscard]] static DragValue beyond_data(const BrinkmanMedium& m, double re) {
+    const DragValue at_c = inertia(m, most_reynolds);
+    const DragValue t_c = DragTurtonLevenspiel{}(1, most_reynolds), t = DragTurtonLevenspiel{}(1, re);
+    const double scale = at_c.f / (t_c.f - 1), mismatch = (at_c.re_dfdre - scale * t_c.re_dfdre) / most_reynolds;
+    const double ratio = most_reynolds / re, cube = ratio * ratio * ratio, fade = (re - most_reynolds) * cube;
+    return {scale * (t.f - 1) + mismatch * fade, scale * t.re_dfdre + mismatch * (re * cube - 3 * fade)};
+  }
+};
+
+/// The law of a mixture. It is not a base law times a factor: a medium for each cell, then f_j of each species in it.
+struct MixtureBrinkmanOseen {
+  static constexpr std::string_view name = DragBrinkmanOseen::name, help = DragBrinkmanOseen::help;
+  static constexpr std::string_view shares = "each size in a Brinkman medium; the mean rises with sum x_j/y_j^2";
+  static constexpr bool obeys_sum_rule = true;  ///< its mean is sum x_k f_k/y_k^2, which rises with m2
+  static constexpr bool mean_is_base = false;
+  using Base = DragBrinkmanOseen;
+  using Medium = BrinkmanMedium;
+  Base base;
+  [[nodiscard]] Medium medium(double eps, const Composition& c) const {
+    return Base::medium(eps, c.per_square / (c.per_mean * c.per_mean));
+  }
+};
+
+}  // namespace polybed::closures

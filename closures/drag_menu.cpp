@@ -1,0 +1,95 @@
+// The menu of drag laws and of partitions, by name.
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "closures/drag.hpp"
+
+namespace polybed::closures {
+
+namespace {
+
+constexpr std::string_view no_partition = "none";
+
+template <class Variant, class Body, std::size_t... Places>
+void for_each_of(Body&& body, std::index_sequence<Places...>) {
+  (body(std::type_identity<std::variant_alternative_t<Places, Variant>>{}), ...);
+}
+
+template <class Variant, class Body>
+void for_each_of(Body&& body) {
+  for_each_of<Variant>(body, std::make_index_sequence<std::variant_size_v<Variant>>{});
+}
+
+/// The alternative of a name, with its guard; nothing if there is none.
+template <class Variant>
+std::optional<Variant> named(std::string_view name, Guard guard) {
+  std::optional<Variant> found;
+  for_each_of<Variant>([&](auto type) {
+    using Law = typename decltype(type)::type;
+    if (Law::name != name) return;
+    Law chosen;
+    chosen.base.guard = guard;
+    found = chosen;
+  });
+  return found;
+}
+
+template <class Law>
+constexpr bool is_mean = Law::name == Law::Base::name;
+
+template <class Law>
+DragLawInfo info_of(std::string_view help) {
+  return {std::string(Law::name), std::string(help), Law::obeys_sum_rule, is_mean<Law>};
+}
+
+/// Name of the law of one size that a law of mixtures stands on.
+std::string_view base_name(const MixtureLaw& law) {
+  return std::visit([](const auto& l) { return std::remove_cvref_t<decltype(l.base)>::name; }, law);
+}
+
+}  // namespace
+
+DragLaw drag_law(std::string_view name, Guard guard) {
+  const auto law = named<MixtureLaw>(name, guard);
+  if (!law) throw std::invalid_argument("unknown drag law '" + std::string(name) + "'");
+  return {*law};
+}
+
+DragLaw drag_law(std::string_view name, std::string_view partition, Guard guard) {
+  const DragLaw law = drag_law(name, guard);
+  if (partition == no_partition) return law;
+  const auto sharing = named<Partition>(partition, guard);
+  if (!sharing) throw std::invalid_argument("unknown partition '" + std::string(partition) + "'");
+  if (base_name(law.law) != name)
+    throw std::invalid_argument("drag law '" + std::string(name) +
+                                "' is no law of one size: a partition cannot share it");
+  const DragLaw of_partition = drag_law(partition, guard);
+  return base_name(of_partition.law) == name ? of_partition : DragLaw{law.law, sharing};
+}
+
+std::vector<DragLawInfo> drag_laws() {
+  std::vector<DragLawInfo> list;
+  for_each_of<MixtureLaw>([&](auto type) {
+    using Law = typename decltype(type)::type;
+    list.push_back(info_of<Law>(Law::help));
+  });
+  return list;
+}
+
+std::vector<std::string> drag_law_names() {
+  std::vector<std::string> names;
+  for (const DragLawInfo& law : drag_laws()) names.push_back(law.name);
+  return names;
+}
+
+std::vector<DragLawInfo> partitions() {
+  std::vector<DragLawInfo> list;
+  for_each_of<Partition>([&](auto type) {
+    using Law = typename decltype(type)::type;
+    list.push_back(info_of<Law>(Law::shares));
+  });
+  return list;
+}
+
+}  // namespace polybed::closures
