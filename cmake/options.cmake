@@ -23,14 +23,6 @@ target_compile_options(polybed_options INTERFACE -Wno-restrict -Wno-stringop-ove
 target_compile_options(polybed_options INTERFACE -Wall -Wextra -Wconversion -ffp-contract=off -fno-math-errno
                                                  $<$<BOOL:${POLYBED_WARNINGS_AS_ERRORS}>:-Werror>
                                                  $<$<BOOL:${POLYBED_NATIVE}>:-march=native>)
-# POLYBED_ALL_VECTOR_WIDTHS before a function with loops: one machine code for each width of vectors, the widest that the processor has is
-# chosen at the first call. The bits are the same: nothing but + - * / and sqrt, none fused. The sanitizers cannot follow the choice.
-# [[gnu::flatten]] beside it makes what the function calls part of it, such as the body of a loop over rows.
-set(widths "")
-if(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64 AND CMAKE_SYSTEM_NAME STREQUAL Linux AND NOT POLYBED_SANITIZE)
-  set(widths "__attribute__((target_clones(\"default\",\"avx2\",\"avx512f\")))")
-endif()
-target_compile_definitions(polybed_options INTERFACE "POLYBED_ALL_VECTOR_WIDTHS=${widths}")
 if(POLYBED_SANITIZE)
   target_compile_options(polybed_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
   target_link_options(polybed_options INTERFACE -fsanitize=address,undefined)

@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "core/numerics/operators.hpp"
+#include "core/vectors.hpp"
 
 namespace polybed::fluid {
 
 namespace {
 
 template <class Difference>
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void convect(const core::Grid& grid, const Boundaries& boundaries,
-                                                        bool of_fluid, const core::FaceField& velocity,
-                                                        core::FaceField& acceleration) {
+void convect(const core::Grid& grid, const Boundaries& boundaries, bool of_fluid, const core::FaceField& velocity,
+             core::FaceField& acceleration) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     core::Field& rate = acceleration[std::size_t(axis)];
     std::fill(rate.begin(), rate.end(), 0.0);
@@ -29,9 +29,9 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void convect(const core::Grid& grid, 
 void convection(const core::Grid& grid, const Boundaries& boundaries, bool limited, bool of_fluid,
                 const core::FaceField& velocity, core::FaceField& acceleration) {
   if (limited)
-    convect<core::LimitedDifference>(grid, boundaries, of_fluid, velocity, acceleration);
+    core::in_vectors<convect<core::LimitedDifference>>(grid, boundaries, of_fluid, velocity, acceleration);
   else
-    convect<core::UpwindDifference>(grid, boundaries, of_fluid, velocity, acceleration);
+    core::in_vectors<convect<core::UpwindDifference>>(grid, boundaries, of_fluid, velocity, acceleration);
 }
 
 }  // namespace polybed::fluid

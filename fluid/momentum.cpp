@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/numerics/operators.hpp"
+#include "core/vectors.hpp"
 #include "fluid/density.hpp"
 
 namespace polybed::fluid {
@@ -17,8 +18,9 @@ void voidage(const Interphase& solids, Field& out) {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] -= phi[c];
 }
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void fluid_velocity(const core::Grid& grid, const Interphase& solids,
-                                                               FluidState& fluid) {
+namespace {
+
+void fluid_velocity_loops(const core::Grid& grid, const Interphase& solids, FluidState& fluid) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
@@ -39,14 +41,9 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void fluid_velocity(const core::Grid&
   }
 }
 
-namespace {
-
 template <class Density>
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void subtract_exchange_with(const Density& density, const core::Grid& grid,
-                                                                       const Boundaries& boundaries,
-                                                                       const Interphase& solids,
-                                                                       const FluidState& fluid,
-                                                                       core::FaceField& acceleration) {
+void subtract_exchange_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries,
+                            const Interphase& solids, const FluidState& fluid, core::FaceField& acceleration) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
@@ -67,10 +64,9 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void subtract_exchange_with(const Den
 }
 
 template <class Density>
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void flux_rate_with(const Density& density, const core::Grid& grid,
-                                                               const Boundaries& boundaries, const Interphase& solids,
-                                                               const FluidState& fluid,
-                                                               const core::FaceField& acceleration, FluxRate& out) {
+void flux_rate_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries,
+                    const Interphase& solids, const FluidState& fluid, const core::FaceField& acceleration,
+                    FluxRate& out) {
   const double* eps = fluid.voidage.data();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
@@ -107,17 +103,22 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void flux_rate_with(const Density& de
 
 }  // namespace
 
+void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState& fluid) {
+  core::in_vectors<fluid_velocity_loops>(grid, solids, fluid);
+}
+
 void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
                        const FluidState& fluid, double density, core::FaceField& acceleration) {
-  with_density(fluid, density, [&](const auto& local) {
-    subtract_exchange_with(local, grid, boundaries, solids, fluid, acceleration);
+  with_density(fluid, density, [&]<class Density>(const Density& local) {
+    core::in_vectors<subtract_exchange_with<Density>>(local, grid, boundaries, solids, fluid, acceleration);
   });
 }
 
 void flux_rate(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids, const FluidState& fluid,
                double density, const core::FaceField& acceleration, FluxRate& out) {
-  with_density(fluid, density,
-               [&](const auto& local) { flux_rate_with(local, grid, boundaries, solids, fluid, acceleration, out); });
+  with_density(fluid, density, [&]<class Density>(const Density& local) {
+    core::in_vectors<flux_rate_with<Density>>(local, grid, boundaries, solids, fluid, acceleration, out);
+  });
   boundaries.join(out.free, out.mobility);
 }
 

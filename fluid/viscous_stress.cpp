@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/numerics/operators.hpp"
+#include "core/vectors.hpp"
 #include "fluid/density.hpp"
 #include "fluid/face_stress.hpp"
 
@@ -14,11 +15,10 @@ using core::Index;
 namespace {
 
 template <std::size_t dimensions, class Density>
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_with(const Density& density, const core::Grid& grid,
-                                                         const Boundaries& boundaries, const FluidState& fluid,
-                                                         double viscosity, core::FaceField& acceleration) {
+void add_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
+              double viscosity, core::FaceField& acceleration) {
   const double* eps = fluid.voidage.data();
-  core::for_each_axis<dimensions>([&](auto axis) {
+  core::for_each_axis<dimensions>([&](auto axis) __attribute__((always_inline)) {
     const FaceStress<dimensions, axis> stress(grid, fluid.voidage, fluid.velocity);
     const Index s = grid.stride(int(axis));
     double* rate = acceleration[axis].data();
@@ -35,11 +35,11 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_with(const Density& density,
 
 void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
                         const relevance::FluidConstants& constants, core::FaceField& acceleration) {
-  with_density(fluid, constants.density, [&](const auto& local) {
+  with_density(fluid, constants.density, [&]<class Density>(const Density& local) {
     if (grid.dimensions == 2)
-      add_with<2>(local, grid, boundaries, fluid, constants.viscosity, acceleration);
+      core::in_vectors<add_with<2, Density>>(local, grid, boundaries, fluid, constants.viscosity, acceleration);
     else
-      add_with<3>(local, grid, boundaries, fluid, constants.viscosity, acceleration);
+      core::in_vectors<add_with<3, Density>>(local, grid, boundaries, fluid, constants.viscosity, acceleration);
   });
 }
 

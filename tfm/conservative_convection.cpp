@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "core/vectors.hpp"
 #include "fluid/convection.hpp"
 
 namespace polybed::tfm {
@@ -27,24 +28,22 @@ void ConservativeConvection::carry_species(std::size_t j, core::FaceField& flux,
   boundaries_.fill(std::span(ghosts).first(dimensions));
   for (std::size_t a = 0; a < dimensions; ++a)
     for (std::size_t f = 0; f < flux[a].size(); ++f) fluid_flux_[a][f] -= flux[a][f];
-  carry(flux, fields.solids.velocity[j], fields.solids.fraction[j], momentum_floor(constants_.bed_share[j]), false,
-        fields.solids.acceleration[j]);
+  core::in_vectors<carry>(*this, flux, fields.solids.velocity[j], fields.solids.fraction[j],
+                          momentum_floor(constants_.bed_share[j]), false, fields.solids.acceleration[j]);
 }
 
 void ConservativeConvection::carry_fluid(Fields& fields) {
-  carry(fluid_flux_, fields.fluid.velocity, fields.fluid.voidage, fluid::voidage_floor, true,
-        fields.fluid_acceleration);
+  core::in_vectors<carry>(*this, fluid_flux_, fields.fluid.velocity, fields.fluid.voidage, fluid::voidage_floor, true,
+                          fields.fluid_acceleration);
 }
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void ConservativeConvection::carry(const core::FaceField& flux,
-                                                                              const core::FaceField& velocity,
-                                                                              const Field& fraction, double floor,
-                                                                              bool of_fluid,
-                                                                              core::FaceField& acceleration) const {
+void ConservativeConvection::carry(const ConservativeConvection& by, const core::FaceField& flux,
+                                   const core::FaceField& velocity, const Field& fraction, double floor, bool of_fluid,
+                                   core::FaceField& acceleration) {
   const auto on_face = [phi = fraction.data(), floor](std::size_t, Index c, Index s) {
     return std::max(core::face_mean(phi, c, s), floor);
   };
-  fluid::conservative_convection(constants_.grid, boundaries_, limited_, of_fluid, flux, velocity, on_face,
+  fluid::conservative_convection(by.constants_.grid, by.boundaries_, by.limited_, of_fluid, flux, velocity, on_face,
                                  acceleration);
 }
 

@@ -27,8 +27,8 @@ class ConservativeConvection {
   void carry_fluid(Fields&);
 
  private:
-  void carry(const core::FaceField& flux, const core::FaceField& velocity, const core::Field& fraction, double floor,
-             bool of_fluid, core::FaceField& acceleration) const;
+  static void carry(const ConservativeConvection& by, const core::FaceField& flux, const core::FaceField& velocity,
+                    const core::Field& fraction, double floor, bool of_fluid, core::FaceField& acceleration);
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.hpp"
+
 namespace polybed::tfm {
 
 using core::Field;
@@ -21,7 +23,9 @@ Fields::Fields(const Constants& constants)
   solids.passed_rate = solids.passed;
 }
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void composition(const Constants& constants, Fields& fields) {
+namespace {
+
+void composition_loops(const Constants& constants, Fields& fields) {
   const std::size_t cells = constants.grid.padded_size();
   Field& phi = fields.solids_fraction;
   Field& eps = fields.fluid.voidage;
@@ -43,8 +47,7 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void composition(const Constants& con
   for (std::size_t c = 0; c < cells; ++c) eps[c] = 1 - phi[c];
 }
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void superficial_slip(const Constants& constants,
-                                                                 const fluid::Boundaries& boundaries, Fields& fields) {
+void superficial_slip_loops(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
   const core::Grid& grid = constants.grid;
   const double* eps = fields.fluid.voidage.data();
   for (std::size_t j = 0; j < constants.species(); ++j) {
@@ -64,6 +67,14 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void superficial_slip(const Constants
       for (Index c = begin; c < end; ++c) slip[c] = std::max(eps[c], 0.0) * std::sqrt(slip[c]);
     });
   }
+}
+
+}  // namespace
+
+void composition(const Constants& constants, Fields& fields) { core::in_vectors<composition_loops>(constants, fields); }
+
+void superficial_slip(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  core::in_vectors<superficial_slip_loops>(constants, boundaries, fields);
 }
 
 void weigh_slip_by_density(const Constants& constants, Fields& fields) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/numerics/operators.hpp"
+#include "core/vectors.hpp"
 #include "fluid/convection.hpp"
 #include "tfm/fraction_face.hpp"
 
@@ -24,9 +25,8 @@ void for_each_solids_row(const Constants& constants, const fluid::Boundaries& bo
 }
 
 template <class Face>
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries,
-                                                            const Field& fraction, const core::FaceField& velocity,
-                                                            core::FaceField& flux) {
+void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, const Field& fraction,
+                 const core::FaceField& velocity, core::FaceField& flux) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const Index s = grid.stride(axis);
     const double *phi = fraction.data(), *u = velocity[std::size_t(axis)].data();
@@ -55,6 +55,51 @@ void subtract(const core::FaceField& flux, core::FaceField& from) {
     for (std::size_t f = 0; f < flux[a].size(); ++f) from[a][f] -= flux[a][f];
 }
 
+void add_exchange_loops(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
+    const auto d = std::size_t(axis);
+    const Index s = constants.grid.stride(axis);
+    const double *b = fields.solids.exchange[j].data(), *u = fields.fluid.velocity[d].data(),
+                 *v = fields.solids.velocity[j][d].data();
+    double* a = fields.solids.acceleration[j][d].data();
+    const double per_density = 1 / constants.density[j];
+#pragma GCC ivdep
+    for (Index c = begin; c < end; ++c)
+      a[c] += fluid::exchange_on_face(b, c, s, u[c] - v[c]) * per_density * (u[c] - v[c]);
+  });
+}
+
+void subtract_stress_loops(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  const double *p = fields.stress.pressure.data(), *phi = fields.solids_fraction.data();
+  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
+    const Index s = constants.grid.stride(axis);
+    double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
+    const double scale = 1 / (constants.grid.spacing[std::size_t(axis)] * constants.density[j]);
+#pragma GCC ivdep
+    for (Index c = begin; c < end; ++c)
+      a[c] -= scale * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);
+  });
+}
+
+void add_species_exchange_loops(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  const std::size_t n = constants.species();
+  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
+    const auto d = std::size_t(axis);
+    const Index s = constants.grid.stride(axis);
+    const double* v = fields.solids.velocity[j][d].data();
+    double* a = fields.solids.acceleration[j][d].data();
+    const double per_density = 1 / constants.density[j];
+    for (std::size_t k = 0; k < n; ++k) {
+      if (k == j) continue;
+      const double *coefficient = fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)].data(),
+                   *phi = fields.solids.fraction[k].data(), *w = fields.solids.velocity[k][d].data();
+#pragma GCC ivdep
+      for (Index c = begin; c < end; ++c)
+        a[c] += face_mean(coefficient, c, s) * face_mean(phi, c, s) * per_density * (w[c] - v[c]);
+    }
+  });
+}
+
 }  // namespace
 
 void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, double t,
@@ -67,9 +112,9 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
     const Field& phi = fields.solids.fraction[j];
     const core::FaceField& velocity = fields.solids.velocity[j];
     if (scheme == Scheme::limited)
-      solids_flux<LimitedFractionFace>(grid, boundaries, phi, velocity, flux);
+      core::in_vectors<solids_flux<LimitedFractionFace>>(grid, boundaries, phi, velocity, flux);
     else
-      solids_flux<core::UpwindFace>(grid, boundaries, phi, velocity, flux);
+      core::in_vectors<solids_flux<core::UpwindFace>>(grid, boundaries, phi, velocity, flux);
     if (first_order != nullptr) redo_upwind(grid, *first_order, phi, velocity, flux);
     if (constants.openings.present()) constants.openings.cross(t, j, fields.solids, flux[1]);
     if (compressible) subtract(flux, fields.fluid.compression.flux);
@@ -122,53 +167,16 @@ void add_gravity(const Constants& constants, const fluid::Boundaries& boundaries
   }
 }
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_exchange(const Constants& constants,
-                                                             const fluid::Boundaries& boundaries, Fields& fields) {
-  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
-    const auto d = std::size_t(axis);
-    const Index s = constants.grid.stride(axis);
-    const double *b = fields.solids.exchange[j].data(), *u = fields.fluid.velocity[d].data(),
-                 *v = fields.solids.velocity[j][d].data();
-    double* a = fields.solids.acceleration[j][d].data();
-    const double per_density = 1 / constants.density[j];
-#pragma GCC ivdep
-    for (Index c = begin; c < end; ++c)
-      a[c] += fluid::exchange_on_face(b, c, s, u[c] - v[c]) * per_density * (u[c] - v[c]);
-  });
+void add_exchange(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  core::in_vectors<add_exchange_loops>(constants, boundaries, fields);
 }
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void subtract_stress(const Constants& constants,
-                                                                const fluid::Boundaries& boundaries, Fields& fields) {
-  const double *p = fields.stress.pressure.data(), *phi = fields.solids_fraction.data();
-  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
-    const Index s = constants.grid.stride(axis);
-    double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
-    const double scale = 1 / (constants.grid.spacing[std::size_t(axis)] * constants.density[j]);
-#pragma GCC ivdep
-    for (Index c = begin; c < end; ++c)
-      a[c] -= scale * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);
-  });
+void subtract_stress(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  core::in_vectors<subtract_stress_loops>(constants, boundaries, fields);
 }
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_species_exchange(const Constants& constants,
-                                                                     const fluid::Boundaries& boundaries,
-                                                                     Fields& fields) {
-  const std::size_t n = constants.species();
-  for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
-    const auto d = std::size_t(axis);
-    const Index s = constants.grid.stride(axis);
-    const double* v = fields.solids.velocity[j][d].data();
-    double* a = fields.solids.acceleration[j][d].data();
-    const double per_density = 1 / constants.density[j];
-    for (std::size_t k = 0; k < n; ++k) {
-      if (k == j) continue;
-      const double *coefficient = fields.species_exchange[pair_index(std::min(j, k), std::max(j, k), n)].data(),
-                   *phi = fields.solids.fraction[k].data(), *w = fields.solids.velocity[k][d].data();
-#pragma GCC ivdep
-      for (Index c = begin; c < end; ++c)
-        a[c] += face_mean(coefficient, c, s) * face_mean(phi, c, s) * per_density * (w[c] - v[c]);
-    }
-  });
+void add_species_exchange(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+  core::in_vectors<add_species_exchange_loops>(constants, boundaries, fields);
 }
 
 }  // namespace polybed::tfm

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/numerics/operators.hpp"
+#include "core/vectors.hpp"
 #include "fluid/face_stress.hpp"
 
 namespace polybed::tfm {
@@ -54,8 +55,7 @@ class Strain {
 };
 
 template <std::size_t dimensions>
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void strain_rates_in(const Constants& constants,
-                                                                const fluid::Boundaries& boundaries, Fields& fields) {
+void strain_rates_in(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const Strain<dimensions> strain(constants.grid, fields.solids.velocity[j], fields.solids.fraction[j]);
     double* out = fields.stress.strain[j].data();
@@ -67,9 +67,8 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void strain_rates_in(const Constants&
 }
 
 template <std::size_t dimensions>
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_viscosity_in(const Constants& constants,
-                                                                 const fluid::Boundaries& boundaries, Fields& fields,
-                                                                 core::Field& weight) {
+void add_viscosity_in(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields,
+                      core::Field& weight) {
   const core::Grid& grid = constants.grid;
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const core::Field& fraction = fields.solids.fraction[j];
@@ -78,7 +77,7 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_viscosity_in(const Constants
     const std::size_t cells = weight.size();
 #pragma GCC ivdep
     for (std::size_t c = 0; c < cells; ++c) to[c] = std::max(phi[c], 0.0) * viscosity[c];
-    core::for_each_axis<dimensions>([&](auto axis) {
+    core::for_each_axis<dimensions>([&](auto axis) __attribute__((always_inline)) {
       const fluid::FaceStress<dimensions, axis, fluid::SolidEdge> stress(grid, weight, fields.solids.velocity[j],
                                                                          fluid::SolidEdge(fraction));
       const Index s = grid.stride(int(axis));
@@ -97,14 +96,14 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void add_viscosity_in(const Constants
 }  // namespace
 
 void strain_rates(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
-  constants.grid.dimensions == 2 ? strain_rates_in<2>(constants, boundaries, fields)
-                                 : strain_rates_in<3>(constants, boundaries, fields);
+  constants.grid.dimensions == 2 ? core::in_vectors<strain_rates_in<2>>(constants, boundaries, fields)
+                                 : core::in_vectors<strain_rates_in<3>>(constants, boundaries, fields);
 }
 
 void add_solids_viscosity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields,
                           core::Field& weight) {
-  constants.grid.dimensions == 2 ? add_viscosity_in<2>(constants, boundaries, fields, weight)
-                                 : add_viscosity_in<3>(constants, boundaries, fields, weight);
+  constants.grid.dimensions == 2 ? core::in_vectors<add_viscosity_in<2>>(constants, boundaries, fields, weight)
+                                 : core::in_vectors<add_viscosity_in<3>>(constants, boundaries, fields, weight);
 }
 
 }  // namespace polybed::tfm

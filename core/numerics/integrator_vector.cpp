@@ -8,33 +8,33 @@
 
 #include "core/error.hpp"
 #include "core/numerics/mpi.hpp"
+#include "core/vectors.hpp"
 
 namespace polybed::core {
 
 namespace {
 
-POLYBED_ALL_VECTOR_WIDTHS void linear_sum_of(double a, const double* x, double b, const double* y, double* z,
-                                             std::size_t n) {
+void linear_sum_of(double a, const double* x, double b, const double* y, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = a * x[i] + b * y[i];
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void scale_of(double c, const double* x, double* z, std::size_t n) {
+void scale_of(double c, const double* x, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = c * x[i];
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void product_of(const double* x, const double* y, double* z, std::size_t n) {
+void product_of(const double* x, const double* y, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = x[i] * y[i];
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void ratio_of(const double* x, const double* y, double* z, std::size_t n) {
+void ratio_of(const double* x, const double* y, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = x[i] / y[i];
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void inverse_of(const double* x, double* z, std::size_t n) {
+void inverse_of(const double* x, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = 1 / x[i];
 }
 
-POLYBED_ALL_VECTOR_WIDTHS void magnitude_of(const double* x, double* z, std::size_t n) {
+void magnitude_of(const double* x, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = std::abs(x[i]);
 }
 
@@ -51,26 +51,27 @@ template <class Term>
   return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-POLYBED_ALL_VECTOR_WIDTHS double dot_of(const double* x, const double* y, std::size_t n) {
+double dot_of(const double* x, const double* y, std::size_t n) {
   return sum_of(n, [=](std::size_t i) { return x[i] * y[i]; });
 }
 
-POLYBED_ALL_VECTOR_WIDTHS double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
+double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
   return sum_of(n, [=](std::size_t i) { return (x[i] * w[i]) * (x[i] * w[i]); });
 }
 
 /// The same of the entries with a mask of 1, where the others have 0: a factor, as a choice would be a branch.
-POLYBED_ALL_VECTOR_WIDTHS double masked_square_sum_of(const double* x, const double* w, const double* mask,
-                                                      std::size_t n) {
+double masked_square_sum_of(const double* x, const double* w, const double* mask, std::size_t n) {
   return sum_of(n, [=](std::size_t i) { return mask[i] * ((x[i] * w[i]) * (x[i] * w[i])); });
 }
 
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
   const std::span<double> to = entries(z);
-  linear_sum_of(a, entries(x).data(), b, entries(y).data(), to.data(), to.size());
+  in_vectors<linear_sum_of>(a, entries(x).data(), b, entries(y).data(), to.data(), to.size());
 }
 
-void scale(double c, N_Vector x, N_Vector z) { scale_of(c, entries(x).data(), entries(z).data(), entries(z).size()); }
+void scale(double c, N_Vector x, N_Vector z) {
+  in_vectors<scale_of>(c, entries(x).data(), entries(z).data(), entries(z).size());
+}
 
 /// z = sum c_k x_k, where z may be x_0: two terms a pass, in blocks that stay in the cache.
 int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
@@ -81,26 +82,30 @@ int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
     double* out = to.data() + begin;
     const auto term = [&](int k) { return entries(x[k]).data() + begin; };
     if (count == 1) {
-      scale_of(c[0], term(0), out, n);
+      in_vectors<scale_of>(c[0], term(0), out, n);
       continue;
     }
-    linear_sum_of(c[0], term(0), c[1], term(1), out, n);
-    for (int k = 2; k < count; ++k) linear_sum_of(1.0, out, c[k], term(k), out, n);
+    in_vectors<linear_sum_of>(c[0], term(0), c[1], term(1), out, n);
+    for (int k = 2; k < count; ++k) in_vectors<linear_sum_of>(1.0, out, c[k], term(k), out, n);
   }
   return 0;
 }
 
 void product(N_Vector x, N_Vector y, N_Vector z) {
-  product_of(entries(x).data(), entries(y).data(), entries(z).data(), entries(z).size());
+  in_vectors<product_of>(entries(x).data(), entries(y).data(), entries(z).data(), entries(z).size());
 }
 
 void ratio(N_Vector x, N_Vector y, N_Vector z) {
-  ratio_of(entries(x).data(), entries(y).data(), entries(z).data(), entries(z).size());
+  in_vectors<ratio_of>(entries(x).data(), entries(y).data(), entries(z).data(), entries(z).size());
 }
 
-void inverse(N_Vector x, N_Vector z) { inverse_of(entries(x).data(), entries(z).data(), entries(z).size()); }
+void inverse(N_Vector x, N_Vector z) {
+  in_vectors<inverse_of>(entries(x).data(), entries(z).data(), entries(z).size());
+}
 
-void magnitude(N_Vector x, N_Vector z) { magnitude_of(entries(x).data(), entries(z).data(), entries(z).size()); }
+void magnitude(N_Vector x, N_Vector z) {
+  in_vectors<magnitude_of>(entries(x).data(), entries(z).data(), entries(z).size());
+}
 
 /// A sum over the entries of this rank as one over all ranks, where the vector is cut into parts.
 double over_ranks(N_Vector x, double part) {
@@ -111,17 +116,17 @@ double over_ranks(N_Vector x, double part) {
 }
 
 double dot_product(N_Vector x, N_Vector y) {
-  return over_ranks(x, dot_of(entries(x).data(), entries(y).data(), entries(x).size()));
+  return over_ranks(x, in_vectors<dot_of>(entries(x).data(), entries(y).data(), entries(x).size()));
 }
 
 double wrms_norm(N_Vector x, N_Vector w) {
-  const double part = weighted_square_sum_of(entries(x).data(), entries(w).data(), entries(x).size());
+  const double part = in_vectors<weighted_square_sum_of>(entries(x).data(), entries(w).data(), entries(x).size());
   return std::sqrt(over_ranks(x, part) / double(N_VGetLength(x)));
 }
 
 double wrms_norm_mask(N_Vector x, N_Vector w, N_Vector mask) {
   const double part =
-      masked_square_sum_of(entries(x).data(), entries(w).data(), entries(mask).data(), entries(x).size());
+      in_vectors<masked_square_sum_of>(entries(x).data(), entries(w).data(), entries(mask).data(), entries(x).size());
   return std::sqrt(over_ranks(x, part) / double(N_VGetLength(x)));
 }
 

@@ -1,8 +1,12 @@
 #include "core/numerics/operators.hpp"
 
+#include "core/vectors.hpp"
+
 namespace polybed::core {
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void divergence(const Grid& grid, const FaceField& faces, Field& out) {
+namespace {
+
+void divergence_loops(const Grid& grid, const FaceField& faces, Field& out) {
   for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a) {
     const Index s = grid.stride(int(a));
     const double per_length = 1 / grid.spacing[a];
@@ -18,6 +22,12 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void divergence(const Grid& grid, con
       }
     });
   }
+}
+
+}  // namespace
+
+void divergence(const Grid& grid, const FaceField& faces, Field& out) {
+  in_vectors<divergence_loops>(grid, faces, out);
 }
 
 }  // namespace polybed::core

@@ -8,7 +8,8 @@
 namespace polybed::core {
 
 /// Calls body(axis) for the axes of a grid, each a constant of the compiler: within a loop over cells nothing is left
-/// of the loop over axes, so that the other is vectorised.
+/// of the loop over axes, so that the other is vectorised. A body with loops in a kernel of core::in_vectors has to be
+/// always_inline: g++ leaves it outside otherwise, at the least width.
 template <std::size_t dimensions, class Body>
 [[gnu::always_inline]] inline void for_each_axis(Body&& body) {
   body(std::integral_constant<std::size_t, 0>{});
@@ -62,8 +63,7 @@ void divergence(const Grid& grid, const FaceField& faces, Field& out);
 
 /// Adds -(U.grad)U of a velocity to its acceleration on the faces of one axis within a box.
 /// Difference: UpwindDifference or LimitedDifference. Ghosts of the velocity must be filled.
-/// What calls this for speed is compiled for all widths of vectors, with this as a part of it: see
-/// POLYBED_ALL_VECTOR_WIDTHS.
+/// What calls this for speed is a kernel of core::in_vectors, with this as a part of it.
 template <class Difference>
 void subtract_convection(const Grid& grid, const FaceField& velocity, int axis, const Box& box, Field& rate) {
   const double* u = velocity[std::size_t(axis)].data();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/vectors.hpp"
+
 namespace polybed::core {
 
 namespace {
@@ -20,7 +22,7 @@ constexpr int most_iterations = 20;
 
 /// Sum of products in four interleaved partial sums along each row: the order of additions is fixed, whatever the width
 /// of vectors.
-POLYBED_ALL_VECTOR_WIDTHS void add_products(const double* a, const double* b, Index n, double* part) {
+void add_products(const double* a, const double* b, Index n, double* part) {
   Index i = 0;
   for (; i + 4 <= n; i += 4)
     for (Index k = 0; k < 4; ++k) part[k] += a[i + k] * b[i + k];
@@ -30,7 +32,7 @@ POLYBED_ALL_VECTOR_WIDTHS void add_products(const double* a, const double* b, In
 double dot(const Grid& grid, const Field& a, const Field& b) {
   std::array<double, 4> part{};
   for_each_row(grid, [&](Index begin, Index end) {
-    add_products(a.data() + begin, b.data() + begin, end - begin, part.data());
+    in_vectors<add_products>(a.data() + begin, b.data() + begin, end - begin, part.data());
   });
   return (part[0] + part[1]) + (part[2] + part[3]);
 }
@@ -48,8 +50,7 @@ void scale_and_add(const Grid& grid, const Field& x, double factor, Field& y) {
 }
 
 /// Along one axis: adds w [low (p - p_below) + high (p - p_above)].
-POLYBED_ALL_VECTOR_WIDTHS void add_differences(const double* b, const double* p, double w, Index s, Index n,
-                                               double* out) {
+void add_differences(const double* b, const double* p, double w, Index s, Index n, double* out) {
   for (Index c = 0; c < n; ++c) out[c] += w * (b[c] * (p[c] - p[c - s]) + b[c + s] * (p[c] - p[c + s]));
 }
 
@@ -199,8 +200,8 @@ void RowMeanSolver::apply(const FaceSpans& coefficient, std::span<const double> 
     const auto c = std::size_t(begin);
     for (auto i = c; i < std::size_t(end); ++i) out[i] = shift.empty() ? 0.0 : shift[i] * p[i];
     for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a)
-      add_differences(coefficient[a].data() + c, p.data() + c, 1 / (grid_.spacing[a] * grid_.spacing[a]),
-                      grid_.stride(int(a)), end - begin, out.data() + c);
+      in_vectors<add_differences>(coefficient[a].data() + c, p.data() + c, 1 / (grid_.spacing[a] * grid_.spacing[a]),
+                                  grid_.stride(int(a)), end - begin, out.data() + c);
   });
 }
 

@@ -83,6 +83,14 @@ class Vectors(Scratch):
     def test_continuum(self):
         self.same(self.runs("tfm", program.small_bed("0.1 s")))
 
+    def test_collisions_of_the_continuum(self):
+        case = program.small_bed("0.05 s")
+        for old, new in (('"frictional"', '"kinetic"\ngranular_temperature = "transported"\nspecies_exchange = "syamlal"\n'
+                          'fluid_stress = "newtonian"'), ("[run]", '[tfm]\nmomentum = "limited"\n[run]')):
+            self.assertIn(old, case)
+            case = case.replace(old, new)
+        self.same(self.runs("tfm", case))
+
     def test_unknown_width(self):
         done = forced("mmx", "list")
         self.assertEqual(done.returncode, WRONG_CASE)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numerics/operators.hpp"
+#include "core/vectors.hpp"
 #include "tfm/granular_temperature.hpp"
 #include "tfm/solids.hpp"
 #include "tfm/solids_viscosity.hpp"
@@ -71,11 +72,11 @@ void KineticStress::add(Fields& fields) {
 
 /// Temperatures of some cells, and what they add to pressure, viscosity and the friction of walls.
 void KineticStress::add_row(Fields& fields, Index begin) {
-  begin_rows(rows_, &fields.solids_fraction[std::size_t(begin)], dense_);
+  core::in_vectors<begin_rows>(rows_, &fields.solids_fraction[std::size_t(begin)], dense_);
   set_motion(fields, begin);
   if (ratios_) set_ratios();
   for (std::size_t j = 0; j < constants_.species(); ++j)
-    add_surface(rows_, &fields.share[j][std::size_t(begin)], grains_[j].diameter);
+    core::in_vectors<add_surface>(rows_, &fields.share[j][std::size_t(begin)], grains_[j].diameter);
   if (!fields.stress.wall.empty()) std::fill_n(fields.stress.wall.begin() + begin, rows_.cells, 0.0);
   for (std::size_t j = 0; j < constants_.species(); ++j) add_species(fields, j, begin);
 }
@@ -89,15 +90,16 @@ void KineticStress::set_motion(const Fields& fields, Index begin) {
   for (std::size_t axis = 0; axis < std::size_t(grid.dimensions); ++axis) {
     if (axis == 0) {  // a cell's high face is its neighbour's low one
       flow_on_faces(fields, axis, begin, rows_.cells + 1, low.data());
-      add_divergence(rows_, low.data(), low.data() + 1, grid.spacing[axis]);
+      core::in_vectors<add_divergence>(rows_, low.data(), low.data() + 1, grid.spacing[axis]);
       continue;
     }
     flow_on_faces(fields, axis, begin, rows_.cells, low.data());
     flow_on_faces(fields, axis, begin + grid.stride(int(axis)), rows_.cells, high.data());
-    add_divergence(rows_, low.data(), high.data(), grid.spacing[axis]);
+    core::in_vectors<add_divergence>(rows_, low.data(), high.data(), grid.spacing[axis]);
   }
   for (std::size_t j = 0; j < constants_.species(); ++j)
-    add_strain(rows_, &fields.share[j][std::size_t(begin)], &fields.stress.strain[j][std::size_t(begin)]);
+    core::in_vectors<add_strain>(rows_, &fields.share[j][std::size_t(begin)],
+                                 &fields.stress.strain[j][std::size_t(begin)]);
 }
 
 /// U of all solids, by volume, on the faces from `begin` on.
@@ -106,8 +108,9 @@ void KineticStress::flow_on_faces(const Fields& fields, std::size_t axis, Index 
   const Index s = constants_.grid.stride(int(axis));
   std::fill_n(flow, faces, 0.0);
   for (std::size_t j = 0; j < constants_.species(); ++j)
-    add_flow(fields.solids.fraction[j].data() + begin, fields.solids.velocity[j][axis].data() + begin, s, faces, flow);
-  end_flow(fields.solids_fraction.data() + begin, s, faces, flow);
+    core::in_vectors<add_flow>(fields.solids.fraction[j].data() + begin, fields.solids.velocity[j][axis].data() + begin,
+                               s, faces, flow);
+  core::in_vectors<end_flow>(fields.solids_fraction.data() + begin, s, faces, flow);
 }
 
 /// Of a stress that was measured.
@@ -128,7 +131,7 @@ void KineticStress::collide(const Fields& fields, std::size_t species, Index beg
   std::fill_n(rows_.g0.begin(), rows_.cells, 0.0);
   std::fill_n(rows_.collisions.begin(), rows_.cells, 0.0);
   for (std::size_t k = 0; k < grains_.size(); ++k)
-    add_neighbours(rows_, &fields.share[k][std::size_t(begin)], grains_[species], grains_[k]);
+    core::in_vectors<add_neighbours>(rows_, &fields.share[k][std::size_t(begin)], grains_[species], grains_[k]);
 }
 
 void KineticStress::add_species(Fields& fields, std::size_t species, Index begin) {
@@ -137,20 +140,21 @@ void KineticStress::add_species(Fields& fields, std::size_t species, Index begin
   const double* share = &fields.share[species][row];
   double* temperature = &fields.solids.temperature[species][row];
   collide(fields, species, begin);
-  set_balance(rows_, model_, grain,
-              {&fields.slip_superficial[species][row], &fields.fluid.voidage[row],
-               &fields.solids.exchange[species][row], constants_.fluid.viscosity});
+  core::in_vectors<set_balance>(rows_, model_, grain,
+                                {&fields.slip_superficial[species][row], &fields.fluid.voidage[row],
+                                 &fields.solids.exchange[species][row], constants_.fluid.viscosity});
   if (transported_) {
-    take_speed(rows_, temperature);
-    set_temperature_rate(rows_, grain,
-                         {temperature, &fields.solids.temperature_rate[species][row],
-                          &fields.granular.conductivity[species][row], &fields.granular.decay[species][row],
-                          least_agitation * least_shear_rate_ * grain.diameter, conduction_diagonal_});
+    core::in_vectors<take_speed>(rows_, temperature);
+    core::in_vectors<set_temperature_rate>(
+        rows_, grain,
+        {temperature, &fields.solids.temperature_rate[species][row], &fields.granular.conductivity[species][row],
+         &fields.granular.decay[species][row], least_agitation * least_shear_rate_ * grain.diameter,
+         conduction_diagonal_});
   } else {
-    balance_speed(rows_, temperature);
+    core::in_vectors<balance_speed>(rows_, temperature);
   }
-  add_stress(rows_, share, grain.density, &fields.stress.pressure[row], &fields.stress.slope[row],
-             &fields.stress.viscosity[row]);
+  core::in_vectors<add_stress>(rows_, share, grain.density, &fields.stress.pressure[row], &fields.stress.slope[row],
+                               &fields.stress.viscosity[row]);
   for (std::size_t c = 0; c < rows_.cells && !fields.stress.wall.empty(); ++c)
     fields.stress.wall[row + c] += share[c] * closures::wall_collisions(rows_.speed[c] * rows_.speed[c], specularity_,
                                                                         grain.density, 1, rows_.g0[c], max_packing_);
@@ -169,9 +173,9 @@ void KineticStress::add_wall_energy(Fields& fields) {
         for (Index c = begin; c < end; ++c) {
           const auto at = std::size_t(c);
           rows_.cells = 1;
-          begin_rows(rows_, &fields.solids_fraction[at], dense_);
+          core::in_vectors<begin_rows>(rows_, &fields.solids_fraction[at], dense_);
           for (std::size_t j = 0; j < grains_.size(); ++j)
-            add_surface(rows_, &fields.share[j][at], grains_[j].diameter);
+            core::in_vectors<add_surface>(rows_, &fields.share[j][at], grains_[j].diameter);
           for (std::size_t j = 0; j < grains_.size(); ++j) {
             collide(fields, j, c);
             fields.solids.temperature_rate[j][at] +=

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.hpp"
 #include "tfm/solids.hpp"
 
 namespace polybed::tfm {
@@ -29,26 +30,26 @@ SyamlalExchange::SyamlalExchange(const core::Scene& scene, const Constants& cons
 
 void SyamlalExchange::evaluate(Fields& fields) {
   core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
-    set_cells(fields, begin, end);
+    core::in_vectors<set_cells>(*this, fields, begin, end);
     std::size_t pair = 0;
     for (std::size_t j = 0; j < constants_.species(); ++j)
-      for (std::size_t k = j + 1; k < constants_.species(); ++k, ++pair) set_pair(fields, j, k, pair, begin, end);
+      for (std::size_t k = j + 1; k < constants_.species(); ++k, ++pair)
+        core::in_vectors<set_pair>(*this, fields, j, k, pair, begin, end);
   });
   boundaries_.fill_cells(fields.species_exchange);
 }
 
 /// What all pairs of a cell have in common.
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void SyamlalExchange::set_cells(const Fields& fields, Index begin,
-                                                                           Index end) {
-  double *surface = surface_.data(), *contact = contact_of_cell_.data();
+void SyamlalExchange::set_cells(SyamlalExchange& of, const Fields& fields, Index begin, Index end) {
+  double *surface = of.surface_.data(), *contact = of.contact_of_cell_.data();
   std::fill(surface + begin, surface + end, 0.0);
-  for (std::size_t m = 0; m < constants_.species(); ++m) {
-    const double *phi = fields.solids.fraction[m].data(), per_diameter = 1 / constants_.diameter[m];
+  for (std::size_t m = 0; m < of.constants_.species(); ++m) {
+    const double *phi = fields.solids.fraction[m].data(), per_diameter = 1 / of.constants_.diameter[m];
 #pragma GCC ivdep
     for (Index c = begin; c < end; ++c) surface[c] += std::max(phi[c], 0.0) * per_diameter;
   }
   if (!fields.stress.present()) return;
-  const double *p = fields.stress.pressure.data(), *solids = fields.solids_fraction.data(), scale = contact_;
+  const double *p = fields.stress.pressure.data(), *solids = fields.solids_fraction.data(), scale = of.contact_;
 #pragma GCC ivdep
   for (Index c = begin; c < end; ++c) {
     const double phi = std::max(solids[c], stress_fraction_floor);
@@ -56,23 +57,23 @@ POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void SyamlalExchange::set_cells(const
   }
 }
 
-POLYBED_ALL_VECTOR_WIDTHS [[gnu::flatten]] void SyamlalExchange::set_pair(Fields& fields, std::size_t j, std::size_t k,
-                                                                          std::size_t pair, Index begin,
-                                                                          Index end) const {
+void SyamlalExchange::set_pair(const SyamlalExchange& of, Fields& fields, std::size_t j, std::size_t k,
+                               std::size_t pair, Index begin, Index end) {
   double* out = fields.species_exchange[pair].data();
   std::fill(out + begin, out + end, 0.0);
-  for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
+  for (int axis = 0; axis < of.constants_.grid.dimensions; ++axis) {
     const double *u = fields.solids.velocity[j][std::size_t(axis)].data(),
                  *v = fields.solids.velocity[k][std::size_t(axis)].data();
-    const Index s = constants_.grid.stride(axis);
+    const Index s = of.constants_.grid.stride(axis);
 #pragma GCC ivdep
     for (Index c = begin; c < end; ++c) {
       const double w = 0.5 * ((u[c] - v[c]) + (u[c + s] - v[c + s]));
       out[c] += w * w;
     }
   }
-  const closures::SpeciesPair between = pairs_[pair];
-  const double *voidage = fields.fluid.voidage.data(), *surface = surface_.data(), *contact = contact_of_cell_.data();
+  const closures::SpeciesPair between = of.pairs_[pair];
+  const double *voidage = fields.fluid.voidage.data(), *surface = of.surface_.data(),
+               *contact = of.contact_of_cell_.data();
 #pragma GCC ivdep
   for (Index c = begin; c < end; ++c) {
     const double eps = std::max(voidage[c], fluid::voidage_floor);

@@ -13,9 +13,9 @@ class SyamlalExchange : public SolidsExchange {
   void evaluate(Fields& fields) override;
 
  private:
-  void set_cells(const Fields& fields, core::Index begin, core::Index end);
-  void set_pair(Fields& fields, std::size_t j, std::size_t k, std::size_t pair, core::Index begin,
-                core::Index end) const;
+  static void set_cells(SyamlalExchange& of, const Fields& fields, core::Index begin, core::Index end);
+  static void set_pair(const SyamlalExchange& of, Fields& fields, std::size_t j, std::size_t k, std::size_t pair,
+                       core::Index begin, core::Index end);
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
