@@ -1,5 +1,7 @@
 #include "tfm/explicit_problem.hpp"
 
+#include "tfm/step_limits.hpp"
+
 namespace polybed::tfm {
 
 ExplicitProblem::ExplicitProblem(RightHandSide& equations, const StateLayout& layout, double pressure_tolerance,
@@ -14,6 +16,7 @@ ExplicitProblem::ExplicitProblem(RightHandSide& equations, const StateLayout& la
 void ExplicitProblem::hold() {
   const auto scope = timers_.scope("drag");
   fast_->hold(equations_.fields());
+  longest_step_ = longest_split_step(equations_.constants(), equations_.fields());
 }
 
 core::Rate ExplicitProblem::rates(double t, std::span<const double> y, std::span<double> dydt) {

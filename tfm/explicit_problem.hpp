@@ -20,6 +20,7 @@ class ExplicitProblem : public core::SplitProblem {
   core::Rate rates(double t, std::span<const double> y, std::span<double> dydt) override;
 
   void hold() override;
+  [[nodiscard]] double longest_step() const override { return longest_step_; }
   void add_fast(double factor, std::span<const double> y, std::span<double> rates) override {
     fast_->add(factor, y, rates);
   }
@@ -39,7 +40,7 @@ class ExplicitProblem : public core::SplitProblem {
   core::Timers& timers_;
   fluid::Pressure pressure_;
   std::optional<FastDrag> fast_;  ///< empty without a split
-  double correction_rate_ = 0;
+  double correction_rate_ = 0, longest_step_ = 0;
   std::uint64_t solves_ = 0, iterations_ = 0;
 };
 

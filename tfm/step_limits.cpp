@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/ranks.hpp"
 #include "tfm/fast_drag.hpp"
 
 namespace polybed::tfm {
@@ -78,6 +79,20 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
   if (kinematic_viscosity > 0)
     scales.push_back({"viscosity", h * h / (4 * grid.dimensions * kinematic_viscosity), grid.index(0, 0)});
   return scales;
+}
+
+double longest_split_step(const Constants& constants, const Fields& fields) {
+  constexpr double share = 1.0;
+  double fastest = 0;
+  core::for_each_row(constants.grid, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) {
+      fastest = std::max(fastest, courant_rate(constants.grid, fields.fluid.velocity, c));
+      for (const core::FaceField& velocity : fields.solids.velocity)
+        fastest = std::max(fastest, courant_rate(constants.grid, velocity, c));
+    }
+  });
+  fastest = core::greatest_of_ranks(constants.grid, fastest);
+  return fastest > 0 ? share / fastest : std::numeric_limits<double>::max();
 }
 
 TimeScale nearest_of(const std::vector<TimeScale>& scales) {

@@ -26,6 +26,11 @@ struct TimeScale {
 std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity,
                                    bool split = false);
 
+/// The longest step, s, of the pair of methods that takes the drag implicitly: the time in which a phase crosses
+/// a cell, beyond which fractions fall below 0 where a bubble opens (docs/record/cost.md); the error test sees the
+/// rest.
+[[nodiscard]] double longest_split_step(const Constants& constants, const Fields& fields);
+
 /// Share of its time scale beyond which a process, not the error test, is taken to limit an explicit step:
 /// third order Runge-Kutta is stable up to 1.7 on the imaginary axis and 2.5 on the real one, and steps settle below.
 constexpr double limiting_share = 0.5;

@@ -29,6 +29,8 @@ class SplitProblem : public OdeProblem {
   virtual void hold() = 0;
   /// Adds `factor` times A y to `rates`.
   virtual void add_fast(double factor, std::span<const double> y, std::span<double> rates) = 0;
+  /// The longest step, s, that the rest of f allows where the coefficients were taken, or longer than any.
+  [[nodiscard]] virtual double longest_step() const = 0;
   /// Solves x - gamma A x = r.
   virtual void solve_fast(double gamma, std::span<const double> r, std::span<double> x) = 0;
 };

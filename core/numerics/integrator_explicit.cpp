@@ -72,7 +72,7 @@ class ExplicitIntegrator : public Integrator {
   [[nodiscard]] std::size_t workspace() const override {
     long reals = 0, integers = 0;
     if (memory_ != nullptr) require_success(ARKStepGetWorkSpace(memory_, &reals, &integers), "ARKStepGetWorkSpace");
-    return (std::size_t(reals) + own_vectors * atol_.span().size() + 2 * kept_state_.size()) * sizeof(double);
+    return (std::size_t(reals) + own_vectors * atol_.span().size() + kept_rates_.size()) * sizeof(double);
   }
 
  private:
@@ -86,28 +86,23 @@ class ExplicitIntegrator : public Integrator {
     });
   }
 
-  /// The rates without the split; those last asked for are kept, as a step begins where its coefficients were taken.
+  /// The rates without the split. A step begins where its coefficients were taken: there they are known.
   Rate whole_rates(double t, std::span<const double> y, std::span<double> dydt) {
-    if (t == kept_time_ && std::equal(y.begin(), y.end(), kept_state_.begin(), kept_state_.end())) {
-      std::copy(kept_rates_.begin(), kept_rates_.end(), dydt.begin());
-      return Rate::ok;
-    }
-    kept_state_.clear();
-    const Rate rate = problem_.rates(t, y, dydt);
-    if (rate != Rate::ok) return rate;
-    kept_time_ = t;
-    kept_state_.assign(y.begin(), y.end());
-    kept_rates_.assign(dydt.begin(), dydt.end());
-    return rate;
+    const std::span<const double> begin = y_.span();
+    if (t != time_ || kept_rates_.empty() || !std::equal(y.begin(), y.end(), begin.begin()))
+      return problem_.rates(t, y, dydt);
+    std::copy(kept_rates_.begin(), kept_rates_.end(), dydt.begin());
+    return Rate::ok;
   }
 
   /// The coefficients of the fast part, for a step that begins at the present state.
   void hold() {
     if (split_ == nullptr) return;
-    kept_state_.clear();
-    if (whole_rates(time_, y_.span(), error_.span()) != Rate::ok)
+    kept_rates_.resize(y_.span().size());
+    if (problem_.rates(time_, y_.span(), kept_rates_) != Rate::ok)
       throw NumericsError(fmt::format("t = {:.9g} s: the state has no rates", time_));
     split_->hold();
+    longest_step_ = split_->longest_step();
   }
 
   static int fast_callback(double, N_Vector y, N_Vector dydt, void* self) {
@@ -117,6 +112,13 @@ class ExplicitIntegrator : public Integrator {
       me.split_->add_fast(1, entries(y), entries(dydt));
       return Rate::ok;
     });
+  }
+
+  /// The library takes half of what is stated.
+  static int longest_step(N_Vector, double, double* stated, void* self) {
+    constexpr double share_taken = 0.5;
+    *stated = static_cast<ExplicitIntegrator*>(self)->longest_step_ / share_taken;
+    return 0;
   }
 
   static int solve_fast(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector r, double) {
@@ -140,7 +142,7 @@ class ExplicitIntegrator : public Integrator {
   void open(double t, double h0) {
     close();
     time_ = t;
-    kept_state_.clear();
+    kept_rates_.clear();
     memory_ = ARKStepCreate(callback, split_ != nullptr ? fast_callback : nullptr, t, y_, context_);
     if (memory_ == nullptr) throw NumericsError("ARKStepCreate failed");
     require_success(ARKStepSetErrHandlerFn(memory_, keep_silent, nullptr), "ARKStepSetErrHandlerFn");
@@ -182,6 +184,7 @@ class ExplicitIntegrator : public Integrator {
     // A step of another length costs nothing here: no range of lengths in which the present one is kept.
     require_success(ARKStepSetFixedStepBounds(memory_, 1.0, 1.0), "ARKStepSetFixedStepBounds");
     require_success(ARKStepSetDeduceImplicitRhs(memory_, 1), "ARKStepSetDeduceImplicitRhs");
+    require_success(ARKStepSetStabilityFn(memory_, longest_step, this), "ARKStepSetStabilityFn");
   }
 
   void close() {
@@ -224,9 +227,9 @@ class ExplicitIntegrator : public Integrator {
   Vector y_, atol_, error_, weight_;
   static constexpr std::size_t own_vectors = 5;  // these and the tolerances of the options
   void* memory_ = nullptr;
-  SUNLinearSolver solver_ = nullptr;             ///< of the split; it owns nothing
-  std::vector<double> kept_state_, kept_rates_;  ///< of the split: where the whole was last asked for, and its rates
-  double kept_time_ = 0;
+  SUNLinearSolver solver_ = nullptr;  ///< of the split; it owns nothing
+  std::vector<double> kept_rates_;    ///< of the split: the rates of the whole where the step begins
+  double longest_step_ = 0;
   double time_ = 0, last_step_ = 0;
   IntegratorStatistics closed_;  ///< of memories closed by restarts, and all steps
   std::exception_ptr kept_;

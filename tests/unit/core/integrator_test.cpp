@@ -252,6 +252,7 @@ class Carried : public SplitProblem {
     return Rate::ok;
   }
   void hold() override { ++holds; }
+  [[nodiscard]] double longest_step() const override { return longest; }
   void add_fast(double factor, std::span<const double> y, std::span<double> rates) override {
     rates[0] -= factor * k * (y[0] - y[1]);
   }
@@ -271,7 +272,7 @@ class Carried : public SplitProblem {
     done = integrator->statistics();
     return std::abs(integrator->state()[0] - exact(1));
   }
-  double k = 1e4;
+  double k = 1e4, longest = 1e9;
   int evaluations = 0, holds = 0;
   IntegratorStatistics done;
 };
@@ -284,6 +285,14 @@ TEST(Integrator, TheSplitOneStepsOverAFastPart) {
   EXPECT_LT(problem.done.steps, 200u);
   EXPECT_EQ(problem.holds, int(problem.done.steps));
   EXPECT_LE(problem.evaluations, 4 * int(problem.done.steps + problem.done.error_failures) + 4);
+}
+
+TEST(Integrator, TheSplitOneKeepsWithinTheLongestStep) {
+  Carried problem;
+  problem.longest = 2e-3;
+  EXPECT_LT(problem.error(0), 1e-5);
+  EXPECT_GE(problem.done.steps, 500u);
+  EXPECT_LT(problem.done.steps, 520u);
 }
 
 // Halving the step divides the error by 8 where the fast part is resolved.
