@@ -15,6 +15,7 @@
 #include "tfm/packing_limit.hpp"
 #include "tfm/particle_scene.hpp"
 #include "tfm/resting_tolerances.hpp"
+#include "tfm/rules.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::tfm {
@@ -120,11 +121,9 @@ void Model::choose_integrator(const core::Scene& scene) {
   if (integrator_kind_ == core::TfmIntegrator::split_steps && (compressible() || !effects().drag))
     throw core::StartError(fmt::format("tfm.integrator = \"imex\" takes the drag implicitly: it needs {}",
                                        compressible() ? "an incompressible fluid" : "a drag law"));
-  constexpr double coarsest_implicit = 2e-3;
-  if (integrator_kind_ == core::TfmIntegrator::implicit_steps && options_.rtol > coarsest_implicit)
-    throw core::StartError(
-        fmt::format("tfm.rtol = {} with the implicit integrator: at most {} (its predictor jumps beyond packing)",
-                    options_.rtol, coarsest_implicit));
+  const std::string wrong = wrong_with_implicit_tolerance(options_.rtol);
+  if (integrator_kind_ == core::TfmIntegrator::implicit_steps && !wrong.empty())
+    throw core::StartError(fmt::format("tfm.rtol = {} with the implicit integrator: {}", options_.rtol, wrong));
 }
 
 std::vector<double> Model::absolute_tolerances() const {

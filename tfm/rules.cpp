@@ -64,31 +64,37 @@ Broken start_above_packing(const Scene& scene) {
 }  // namespace
 
 std::vector<core::Rule> key_rules() {
-  return {{{"tfm.solids_wall", "effects.solids_viscosity", "effects.solids_stress"},
-           "tfm.solids_wall = \"johnson_jackson\" acts through a viscosity of the solids: effects.solids_viscosity, or "
-           "effects.solids_stress = \"kinetic\"",
-           wall_without_viscosity},
-          {{"tfm.max_packing", "species.diameter"},
-           "tfm.max_packing = \"fedors_landel\" is for two species; yu_standish is for any number",
-           [](const Scene& scene) {
-             return core::broken_if(has_stress(scene) && packing_follows(scene, core::PackingRule::fedors_landel) &&
-                                    scene.species.size() != 2);
-           }},
-          {{"tfm.max_packing", "tfm.frictional_onset"},
-           "tfm.max_packing = {} must lie above tfm.frictional_onset = {}",
-           packing_below_onset},
-          {{"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"},
-           "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
-           bed_below_onset},
-          {{"tfm.fixed_step", "tfm.integrator"},
-           "tfm.fixed_step works with the explicit integrator only",
-           [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }},
-          {{"tfm.rtol", "tfm.integrator"},
-           "tfm.rtol = {} with the implicit integrator: at most 0.002, beyond which its predictor jumps past packing",
-           [](const Scene& scene) {
-             const double rtol = scene.tfm.rtol;
-             return is_implicit(scene) && rtol > 2e-3 ? Broken({fmt::format("{}", rtol)}) : Broken();
-           }}};
+  return {
+      {{"tfm.solids_wall", "effects.solids_viscosity", "effects.solids_stress"},
+       "tfm.solids_wall = \"johnson_jackson\" acts through a viscosity of the solids: effects.solids_viscosity, or "
+       "effects.solids_stress = \"kinetic\"",
+       wall_without_viscosity},
+      {{"tfm.max_packing", "species.diameter"},
+       "tfm.max_packing = \"fedors_landel\" is for two species; yu_standish is for any number",
+       [](const Scene& scene) {
+         return core::broken_if(has_stress(scene) && packing_follows(scene, core::PackingRule::fedors_landel) &&
+                                scene.species.size() != 2);
+       }},
+      {{"tfm.max_packing", "tfm.frictional_onset"},
+       "tfm.max_packing = {} must lie above tfm.frictional_onset = {}",
+       packing_below_onset},
+      {{"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"},
+       "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
+       bed_below_onset},
+      {{"tfm.fixed_step", "tfm.integrator"},
+       "tfm.fixed_step works with explicit and imex steps only",
+       [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }},
+      {{"tfm.rtol", "tfm.integrator"}, "tfm.rtol = {} with the implicit integrator: {}", [](const Scene& scene) {
+         const std::string wrong = wrong_with_implicit_tolerance(scene.tfm.rtol);
+         return is_implicit(scene) && !wrong.empty() ? Broken({fmt::format("{}", scene.tfm.rtol), wrong}) : Broken();
+       }}};
+}
+
+std::string wrong_with_implicit_tolerance(double rtol) {
+  constexpr double least = 1e-10, most = 2e-3;
+  return rtol > most    ? fmt::format("at most {}, beyond which its predictor jumps past packing", most)
+         : rtol < least ? fmt::format("at least {}, below which round-off stops its Newton iteration", least)
+                        : "";
 }
 
 std::vector<core::Rule> start_rules() {
