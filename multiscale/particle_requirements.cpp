@@ -22,7 +22,7 @@ namespace {
 
 constexpr double band = 4;
 /// Memory that the peak of a run grows by with each particle of a dense bed, and what output takes at any size; bytes.
-constexpr double bytes_per_particle = 2400, output = 12e6;
+constexpr double bytes_per_particle = 1600, output = 12e6;
 
 /// Memory that the peak of a run grows by with each cell of the fluid.
 constexpr double bytes_per_cell = 1100;

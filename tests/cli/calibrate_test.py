@@ -18,7 +18,7 @@ import numpy as np
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import open_mpi  # noqa: E402
 import program  # noqa: E402
-from program import DONE, TWO_IN_WATER, WRONG_CASE, Scratch, history
+from program import DONE, NUMBERS, TWO_IN_WATER, WRONG_CASE, Scratch, history
 
 # Boxes of 100 spheres that are sheared by 2: what they measure is rough, and each takes a part of a second.
 SHORT = """[calibrate]
@@ -236,7 +236,7 @@ class Calibration(Scratch):
         fractions = ",".join(str(phi) for phi in (0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4))
         (self.folder / "case.toml").write_text(DRY.replace("solids_fraction = [0.3, 0.45]", f"solids_fraction = [{fractions}]"))
         done = self.on_two_ranks(loud=True)
-        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertIn(done.returncode, (DONE, NUMBERS), done.stderr)  # boxes so small need not lie on one curve
         told = [int(n) for n in re.findall(r"(\d+) of 7 boxes; about", done.stderr)]
         self.assertEqual(told, sorted(told))
         self.assertLess(len(told), 7, "the first rank runs some of them, one line each and one at the end")

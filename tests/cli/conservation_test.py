@@ -119,8 +119,9 @@ class Broken(Scratch):
 
     def test_mass_of_a_species_in_the_continuum(self):
         self.every = 0.01
-        directory, words = self.folder / "run", [*SMALL, "--until", "0.2 s"]
-        self.ends(DONE, "tfm", CASE, *SMALL, "--until", "0.1 s", "-o", directory)
+        small = [*SMALL, "--set", "tfm.integrator=explicit"]  # its steps are shorter than a row of the history
+        directory, words = self.folder / "run", [*small, "--until", "0.2 s"]
+        self.ends(DONE, "tfm", CASE, *small, "--until", "0.1 s", "-o", directory)
 
         def leak(file):
             file["arrays/initial_mass"][1] *= 1 + 1e-9
@@ -140,7 +141,7 @@ class Broken(Scratch):
     def test_energy_of_particles_in_steps_that_are_too_long(self):
         """Steps of most of a contact: energy comes from nowhere."""
         case, directory = self.write("case.toml", FALL), self.folder / "run"
-        words = ["--quiet", "--no-picture", "--set", "dem.fixed_step=8e-5", "--set", "dem.max_overlap=0.5", "-o", directory]
+        words = ["--quiet", "--no-picture", "--set", "dem.fixed_step=7e-5", "--set", "dem.max_overlap=0.5", "-o", directory]
         told = self.ends(NUMBERS, "dem", case, *words).stderr
         self.assertIn("energy is off by", told)
         self.assertIn("dem.steps_per_contact", told)

@@ -98,10 +98,14 @@ TEST(DemOblique, LeavesWithTheContactVelocityOfMaw) {
     }
 }
 
-core::Scene aluminium(const std::string& tangential) {
-  core::Scene scene = dry_box(0.1, {70e9, 0.33, 2700}, {2, 2, 2});
+void make_inelastic_with_friction(core::Scene& scene) {
   core::set_restitution(scene, 0.5);
   core::set_friction(scene, 0.4);
+}
+
+core::Scene aluminium(const std::string& tangential) {
+  core::Scene scene = dry_box(0.1, {70e9, 0.33, 2700}, {2, 2, 2});
+  make_inelastic_with_friction(scene);
   scene.dem.tangential = core::choice_of<core::Tangential>(tangential);
   return scene;
 }
@@ -165,6 +169,7 @@ TEST(DemOblique, OnAHeavySphere) {
   core::Scene scene = aluminium("hdd");
   scene.column.size = {3, 3, 3};
   scene.species.push_back(sphere("b", 0.5, {70e12, 0.33, 2700e3}));
+  make_inelastic_with_friction(scene);
   const Pair out = of_two(scene, 0.5, 0.2, -20, 0, 0, 1000);
   compare("8 along", out.first.along, 0.12, 5e-3);
   compare("8 spin", out.first.spin, -17, 5e-3, 3);

@@ -147,7 +147,7 @@ TEST(DemShear, OnePointOfSimpleShear) {
                 .shear_rate = rate};
   GasRun run(gas);
   run.run_for(3 / rate);
-  const Blocks<3> mean = averages(run, 10 / rate, 10);
+  const Blocks<3> mean = averages(run, 30 / rate, 30);
   const double stress_unit = Gas::density * d * d * rate * rate;
   const std::array<double, 3> unit{d * d * rate * rate, stress_unit, stress_unit}, expected{0.925, 6.851, 2.034};
   const std::array<const char*, 3> name{"theta", "p", "mu"};
