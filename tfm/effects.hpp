@@ -63,6 +63,11 @@ class StressEffect {
   [[nodiscard]] virtual double packing_above(const Fields& fields) const = 0;
   /// Pressure, Pa, of solids at rest at a solids fraction, for the whole bed's composition.
   [[nodiscard]] virtual double pressure_at(double solids_fraction) const = 0;
+  /// Pressure, Pa, of the topmost cell of a settled bed: that of its solids fraction, unless packed solids below hold
+  /// more of its upper half, which weighs `half_weight` less buoyancy, Pa.
+  [[nodiscard]] virtual double pressure_on_top(double solids_fraction, [[maybe_unused]] double half_weight) const {
+    return pressure_at(solids_fraction);
+  }
   /// Solids fraction at which the stress carries a pressure, Pa, for the whole bed's composition.
   [[nodiscard]] virtual double solids_fraction_at(double pressure) const = 0;
   /// Of a stress with a range; empty of one that holds everywhere.

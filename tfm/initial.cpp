@@ -40,7 +40,7 @@ double settled_fraction(const StressEffect& stress, double above, double weight_
 /// Column of `cells` cells under a topmost one of fraction `top`, in equilibrium face by face, from the bottom up.
 std::vector<double> equilibrium_below(const StressEffect& stress, double top, int cells, double weight) {
   std::vector<double> column{top};
-  double pressure = stress.pressure_at(top);
+  double pressure = stress.pressure_on_top(top, 0.5 * top * weight);
   for (int k = 0; k < cells; ++k) {
     const double phi = settled_fraction(stress, column.back(), weight, pressure);
     pressure += 0.5 * (phi + column.back()) * weight;

@@ -36,7 +36,7 @@ void RestingTolerances::find_solids(std::span<const double> y) {
 }
 
 template <class Body>
-void RestingTolerances::for_each_velocity(std::span<const double> values, Body&& body) const {
+void RestingTolerances::for_each_velocity(std::span<const double> values, bool surface, Body&& body) const {
   constexpr double some_solids = 0.01;
   for (const StateLayout::Entry& entry : layout_.entries()) {
     if (entry.kind != Kind::velocity && entry.kind != Kind::flux) continue;
@@ -44,9 +44,10 @@ void RestingTolerances::for_each_velocity(std::span<const double> values, Body&&
     const Index s = grid_.stride(entry.axis);
     std::size_t n = entry.begin;
     core::for_each_row(grid_, entry.box, [&](Index begin, Index end) {
-      for (Index f = begin; f < end; ++f, ++n)
-        if (std::min(solids_fraction_[std::size_t(f - s)], solids_fraction_[std::size_t(f)]) > least)
-          body(n, values[n]);
+      for (Index f = begin; f < end; ++f, ++n) {
+        const auto [less, more] = std::minmax(solids_fraction_[std::size_t(f - s)], solids_fraction_[std::size_t(f)]);
+        if ((surface ? more : less) > least) body(n, values[n]);
+      }
     });
   }
 }
@@ -54,14 +55,14 @@ void RestingTolerances::for_each_velocity(std::span<const double> values, Body&&
 void RestingTolerances::operator()(std::span<const double> y, std::span<const double> dydt, std::span<double> atol) {
   find_solids(y);
   double speed = 0, acceleration = 0;
-  for_each_velocity(y, [&](std::size_t, double u) { speed = std::max(speed, std::abs(u)); });
+  for_each_velocity(y, false, [&](std::size_t, double u) { speed = std::max(speed, std::abs(u)); });
   if (!dydt.empty())
-    for_each_velocity(dydt, [&](std::size_t, double a) { acceleration = std::max(acceleration, std::abs(a)); });
+    for_each_velocity(dydt, false, [&](std::size_t, double a) { acceleration = std::max(acceleration, std::abs(a)); });
   constexpr double least_share = 1e-7;
   const double fastest = core::greatest_of_ranks(grid_, std::max(speed, acceleration * falling_time_));
   const double share = std::clamp(fastest / scale_, least_share, 1.0);
   std::copy(moving_.begin(), moving_.end(), atol.begin());
-  for_each_velocity(y, [&](std::size_t n, double) { atol[n] *= share; });
+  for_each_velocity(y, true, [&](std::size_t n, double) { atol[n] *= share; });
 }
 
 }  // namespace polybed::tfm

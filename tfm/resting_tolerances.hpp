@@ -17,16 +17,17 @@ class RestingTolerances {
   /// \param gravity  m/s2  \param boundaries  outlive this
   RestingTolerances(const core::Grid& grid, const fluid::Boundaries& boundaries, const StateLayout& layout,
                     std::vector<double> moving, double scale, double gravity);
-  /// Tolerances of the fluxes, and of velocities of solids between cells that both hold some, times the greatest of
-  /// these speeds over the scale, from 1e-7 to 1. Where rates are known, what they add in the time in which the weight
-  /// gives a body that scale counts as speed: a bed that is let go is not at rest. What falls through an empty column
-  /// falls on when the bed has long come to rest, and keeps its tolerances.
+  /// Tolerances of the fluxes, and of velocities of solids on faces beside some, times the greatest speed between cells
+  /// that both hold some over the scale, from 1e-7 to 1. Where rates are known, what they add in the time in which the
+  /// weight gives a body that scale counts as speed: a bed that is let go is not at rest. What falls through an empty
+  /// column falls on when the bed has long come to rest, and keeps its tolerances.
   void operator()(std::span<const double> y, std::span<const double> dydt, std::span<double> atol);
 
  private:
-  /// Calls body(n, value) with the place in the state of each velocity that is meant and what `values` has there.
+  /// Calls body(n, value) with the place in the state of each velocity that is meant and what `values` has there; with
+  /// those of the bed's surface, or without.
   template <class Body>
-  void for_each_velocity(std::span<const double> values, Body&& body) const;
+  void for_each_velocity(std::span<const double> values, bool surface, Body&& body) const;
   void find_solids(std::span<const double> y);
 
   core::Grid grid_;

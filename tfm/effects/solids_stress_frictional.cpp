@@ -35,7 +35,7 @@ double packing_of_bed(const core::Scene& scene, const Constants& constants) {
 }  // namespace
 
 FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& constants,
-                                   const fluid::Boundaries& boundaries, Fields& fields)
+                                   const fluid::Boundaries& boundaries, Fields& fields, bool alone)
     : constants_(constants),
       boundaries_(boundaries),
       bulk_viscosity_(bulk_viscosity_of(scene, constants.grid)),
@@ -45,6 +45,12 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
   choose_packing(scene);
   if (law_.max_packing <= law_.onset + closures::FrictionalLaw::margin)
     throw core::StartError("tfm.max_packing must lie above tfm.frictional_onset");
+  double excess = 0;
+  for (std::size_t j = 0; j < constants.species(); ++j)
+    excess += constants.bed_share[j] * (constants.density[j] - constants.fluid.density);
+  const double heavy = alone ? excess * constants.gravity : 0;
+  for (std::size_t a = 0; a < 3 && heavy != 0; ++a)
+    lies_towards_[a] = std::copysign(constants.down[a], heavy * constants.down[a]);
   fields.stress.pressure = core::make_field(constants.grid);
   fields.stress.slope = core::make_field(constants.grid);
   fields.stress.damping = core::make_field(constants.grid);
@@ -103,6 +109,11 @@ double FrictionalStress::packing_above(const Fields& fields) const {
 
 double FrictionalStress::pressure_at(double solids_fraction) const { return law_(solids_fraction).pressure; }
 
+/// What the law alone does not carry is held.
+double FrictionalStress::pressure_on_top(double solids_fraction, double half_weight) const {
+  return std::max(pressure_at(solids_fraction), half_weight);
+}
+
 double FrictionalStress::solids_fraction_at(double pressure) const { return law_.solids_fraction_at(pressure); }
 
 void FrictionalStress::evaluate(Fields& fields) {
@@ -113,12 +124,36 @@ void FrictionalStress::evaluate(Fields& fields) {
     pressure[c] = value.pressure;
     slope[c] = value.slope;
   });
+  hold_surface(fields);
   if (!fields.stress.contact.empty()) {
     std::copy(fields.stress.pressure.begin(), fields.stress.pressure.end(), fields.stress.contact.begin());
     boundaries_.fill_cells(fields.stress.contact);
   }
   if (bulk_viscosity_ > 0) add_bulk_viscosity(fields);
   boundaries_.fill_cells(fields.stress.pressure);
+}
+
+void FrictionalStress::hold_surface(Fields& fields) const {
+  const core::Grid& grid = constants_.grid;
+  const double* phi = fields.solids_fraction.data();
+  double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
+  std::array<double, most_species> share{};
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const double along = lies_towards_[std::size_t(axis)];
+    if (along == 0) continue;
+    const Index below = along > 0 ? grid.stride(axis) : -grid.stride(axis);
+    core::for_each_row(grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) {
+        const double under = phi[c + below];
+        if (!(under > law_.onset && phi[c] < under)) continue;
+        for (std::size_t j = 0; j < constants_.species(); ++j) share[j] = fields.share[j][std::size_t(c + below)];
+        const double whole = under + 2 * phi[c];
+        const double load = along * along * law_.at(under, packing_of({share.data(), constants_.species()})).pressure;
+        pressure[c] = std::max(pressure[c], load * phi[c] / whole);
+        slope[c] = std::max(slope[c], load * under / (whole * whole));
+      }
+    });
+  }
 }
 
 void FrictionalStress::add_bulk_viscosity(Fields& fields) const {

@@ -1,6 +1,8 @@
 // Slot Stress: the frictional pressure of packed solids with a bulk viscosity that damps its elastic waves.
 #pragma once
 
+#include <array>
+
 #include "closures/max_packing.hpp"
 #include "closures/stress_frictional.hpp"
 #include "core/numerics/operators.hpp"
@@ -10,19 +12,26 @@ namespace polybed::tfm {
 
 /// p_s = p_f(phi) - lambda sum_j phi_j div U_j, lambda = alpha rho_s c_s h, c_s = sqrt(p_f'/rho_s), rho_s the
 /// mean density of the cell's solids, h the smallest cell width. alpha = 0 leaves the second term out.
+///
+/// A cell S filled in part that lies on packed solids K: its p_s is at least p_f(phi_K) phi_S/(phi_K + 2 phi_S), the
+/// pressure at which both of its faces rest: K carries (phi_K/2 + phi_S) and S phi_S/2 of the weight of a full cell.
+/// p_f(phi_S) alone is 0 below the onset, and the upper half of S would fall for ever.
 class FrictionalStress : public StressEffect {
  public:
+  /// \param alone  no other pressure of the solids is added, which would press at the surface too
   FrictionalStress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
-                   Fields& fields);
+                   Fields& fields, bool alone = true);
   void evaluate(Fields& fields) override;
   [[nodiscard]] double max_packing() const override { return law_.max_packing; }
   [[nodiscard]] double packing_of(std::span<const double> share) const override;
   [[nodiscard]] double packing_above(const Fields& fields) const override;
   [[nodiscard]] double pressure_at(double solids_fraction) const override;
+  [[nodiscard]] double pressure_on_top(double solids_fraction, double half_weight) const override;
   [[nodiscard]] double solids_fraction_at(double pressure) const override;
 
  private:
   void choose_packing(const core::Scene& scene);
+  void hold_surface(Fields& fields) const;
   void add_bulk_viscosity(Fields& fields) const;
   template <class Body>
   void for_each_cell_with_packing(const Fields& fields, Body&& body) const;
@@ -33,6 +42,7 @@ class FrictionalStress : public StressEffect {
   closures::MixturePacking mixture_packing_ = nullptr;  ///< of a cell's composition; null: one for all cells
   std::vector<double> species_packing_;
   double bulk_viscosity_, cell_width_;
+  std::array<double, 3> lies_towards_{};  ///< unit vector of the weight less buoyancy; 0 where no surface is held
 };
 
 }  // namespace polybed::tfm

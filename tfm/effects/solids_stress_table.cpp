@@ -37,7 +37,7 @@ TableStress::TableStress(const core::Scene& scene, const Constants& constants, c
                          closures::MonotoneCurve pressure, const std::string& file, Fields& fields)
     : constants_(constants),
       boundaries_(boundaries),
-      frictional_(scene, constants, boundaries, fields),
+      frictional_(scene, constants, boundaries, fields, false),
       bed_pressure_(std::move(pressure)),
       use_{"solids stress " + file} {
   for (std::size_t j = 0; j < constants.species(); ++j) {
