@@ -9,6 +9,7 @@
 #include "core/print.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/run_record.hpp"
+#include "tfm/evenness.hpp"
 #include "tfm/observers.hpp"
 
 namespace polybed::multiscale {
@@ -111,8 +112,11 @@ class TfmRun final : public CaseRun {
   std::string record_text(const std::string& state) override {
     totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
     const std::optional<Neglected> promise = promise_of(monitor_.get());
+    evenness_ = tfm::warning_of_an_even_bed(model_.constants().grid, model_.fields());
+    std::vector<std::string> warnings = evenness_;
+    if (monitor_) warnings.insert(warnings.end(), monitor_->warnings().begin(), monitor_->warnings().end());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
-                            promise ? &*promise : nullptr, monitor_ ? monitor_->warnings() : std::vector<std::string>{},
+                            promise ? &*promise : nullptr, std::move(warnings),
                             [&](core::Json& json) { write_prediction_of(json, state, totals_.cpu_seconds); }});
   }
 
@@ -150,10 +154,12 @@ class TfmRun final : public CaseRun {
           "1 in {:.3g} % of the bed's cells at the end\n",
           least.cell.critical_slope, least.cell.least, place, least.time, 100 * least.share_below_now);
     for (const std::string& text : drift_lines(observers_->drifts())) core::print(stderr, "{}\n", text);
+    for (const std::string& text : evenness_) core::print(stderr, "{}\n", text);
     print_promise();
   }
 
   tfm::Model model_;
+  std::vector<std::string> evenness_;                              ///< warning of the last record
   std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: nothing is watched
   std::vector<double> initial_mass_;
   std::optional<tfm::Observers> observers_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/numerics/random.hpp"
 #include "core/start_error.hpp"
 
 namespace polybed::tfm {
@@ -68,6 +69,28 @@ std::vector<double> settled_column(double solids, const StressEffect& stress, do
   return column;
 }
 
+/// Changes a layer of the block's cells by a share, at random from cell to cell, of the mean 0 over the layer of the
+/// column; the same on any number of ranks.
+void perturb_layer(const core::Grid& grid, int y, double share, std::uint64_t seed, fluid::Interphase& solids) {
+  if (y < grid.before[1] || y >= grid.before[1] + grid.cells[1]) return;
+  constexpr std::uint64_t fractions_at_start = 101;  // a sequence of its own
+  const int nx = grid.column_cells(0), nz = grid.column_cells(2);
+  const auto random = [&](int x, int z) {
+    return 2 * core::uniform(
+                   seed, fractions_at_start,
+                   (std::uint64_t(y) * std::uint64_t(nz) + std::uint64_t(z)) * std::uint64_t(nx) + std::uint64_t(x)) -
+           1;
+  };
+  double mean = 0;
+  for (int z = 0; z < nz; ++z)
+    for (int x = 0; x < nx; ++x) mean += random(x, z) / (double(nx) * nz);
+  for (int z = 0; z < grid.cells[2]; ++z)
+    for (int x = 0; x < grid.cells[0]; ++x) {
+      const double factor = 1 + share * (random(grid.before[0] + x, grid.before[2] + z) - mean);
+      for (core::Field& phi : solids.fraction) phi[std::size_t(grid.index(x, y - grid.before[1], z))] *= factor;
+    }
+}
+
 /// One layer of the block's cells; nothing if the block has none of it.
 void fill_layer(const core::Grid& grid, int y, double value, core::Field& field) {
   if (y < 0 || y >= grid.cells[1]) return;
@@ -96,6 +119,8 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
   } else {
     column = even_column(total, bed.start_solids_fraction, grid);
   }
+  const bool uneven = bed.start.kind == core::StartKind::mixed && bed.perturbation > 0 &&
+                      grid.column_cells(0) * grid.column_cells(2) > 1;
   double below = 0;  // solids volume per area under the cell, m
   for (int y = 0; y < grid.column_cells(1); ++y) {
     const double here = column[std::size_t(y)] * grid.spacing[1];
@@ -108,6 +133,7 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
                                                                     : bed.volume_share[j] * column[std::size_t(y)];
       fill_layer(grid, y - grid.before[1], phi, solids.fraction[j]);
     }
+    if (uneven) perturb_layer(grid, y, bed.perturbation, bed.seed, solids);
     below += here;
   }
 }

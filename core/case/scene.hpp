@@ -94,6 +94,7 @@ struct Bed {
   std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
   Start start;
   std::uint64_t seed = 1;
+  double perturbation = 1e-3;  ///< share by which cells of a mixed start differ at random
   bool held = false;  ///< particles do not move: a fixed bed; key of [dem]
 };
 

@@ -119,6 +119,9 @@ Table bed_table() {
                    "settled: in equilibrium; for the DEM only: random: anywhere in the column, list: particles "
                    "one by one, SI, columns species, x, y, z and if not zero vx, vy, vz, wx, wy, wz, y upward")),
           key(&Bed::seed, "seed", range(0, 9.2e18), help("of random numbers")),
+          key(&Bed::perturbation, "perturbation", range(0, 0.1),
+              help("share by which the solids fractions of a mixed start differ from cell to cell at random, so that a "
+                   "bed of several cells across need not wait for round-off to break up; two-fluid model; 0: none")),
       });
 }
 

@@ -30,6 +30,7 @@ inline core::Scene binary_bed(int nx, int ny, double width, double height) {
   scene.bed.volume_share = {0.569, 0.431};
   scene.bed.solids_fraction = 0.62;
   scene.bed.start_solids_fraction = 0.55;
+  scene.bed.perturbation = 0;  // even, as what it is compared with
   scene.bed.static_height = 0.4 * height;
   scene.inlet.superficial_velocity = {{0.0, 0.03}};
   scene.effects = {{"drag", "cello"}, {"solids_stress", "frictional"}, {"species_exchange", "syamlal"}};
@@ -56,6 +57,7 @@ inline core::Scene uniform_bed(double diameter, double density, double fluid_den
   scene.bed.volume_share = {1.0};
   scene.bed.solids_fraction = scene.bed.start_solids_fraction = solids_fraction;
   scene.bed.static_height = height;
+  scene.bed.perturbation = 0;  // even, as what it is compared with
   scene.effects = {{"drag", "cello"}};
   scene.tfm.integrator = core::TfmIntegrator::explicit_steps;
   return scene;

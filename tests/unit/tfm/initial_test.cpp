@@ -1,0 +1,65 @@
+#include "tfm/initial.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/timers.hpp"
+#include "scenes/beds.hpp"
+#include "tfm/evenness.hpp"
+
+namespace polybed::tfm {
+namespace {
+
+core::Scene uneven_bed(double perturbation, std::uint64_t seed = 1) {
+  core::Scene scene = scenes::binary_bed(6, 20, 0.03, 0.1);
+  scene.bed.perturbation = perturbation;
+  scene.bed.seed = seed;
+  return scene;
+}
+
+std::vector<double> fractions(const core::Scene& scene, double* difference = nullptr) {
+  core::Timers timers;
+  Model model(scene, timers);
+  model.show(0);
+  if (difference != nullptr) *difference = lateral_difference(model.constants().grid, model.fields());
+  return model.fields().solids.fraction[0];
+}
+
+TEST(Initial, AMixedStartDiffersFromCellToCellByTheShareAskedFor) {
+  double even = 1, uneven = 0;
+  const std::vector<double> before = fractions(uneven_bed(0), &even), after = fractions(uneven_bed(1e-3), &uneven);
+  EXPECT_LT(even, 1e-15);
+  EXPECT_GT(uneven, 0.1e-3 * 0.55);
+  EXPECT_LT(uneven, 4e-3 * 0.55);  // each side within the share and the mean taken off
+  const core::Grid grid = core::grid_of(uneven_bed(0).column, nullptr);
+  for (int y = 0; y < 20; ++y) {  // each layer keeps its solids
+    double change = 0;
+    for (int x = 0; x < 6; ++x) {
+      const auto c = std::size_t(grid.index(x, y));
+      change += after[c] - before[c];
+      EXPECT_NEAR(after[c], before[c], 2e-3 * before[c]);
+    }
+    EXPECT_NEAR(change, 0, 1e-15);
+  }
+}
+
+TEST(Initial, ThePerturbationFollowsFromTheSeed) {
+  EXPECT_EQ(fractions(uneven_bed(1e-3)), fractions(uneven_bed(1e-3)));
+  EXPECT_NE(fractions(uneven_bed(1e-3)), fractions(uneven_bed(1e-3, 2)));
+}
+
+TEST(Evenness, WarnsOfABedThatIsOneColumnOfCells) {
+  core::Timers timers;
+  Model even(uneven_bed(0), timers), uneven(uneven_bed(1e-3), timers);
+  even.show(0);
+  uneven.show(0);
+  EXPECT_EQ(warning_of_an_even_bed(even.constants().grid, even.fields()).size(), 1u);
+  EXPECT_TRUE(warning_of_an_even_bed(uneven.constants().grid, uneven.fields()).empty());
+  core::Scene single = uneven_bed(0);
+  single.column.cells[0] = 1;
+  Model column(single, timers);
+  column.show(0);
+  EXPECT_TRUE(warning_of_an_even_bed(column.constants().grid, column.fields()).empty());
+}
+
+}  // namespace
+}  // namespace polybed::tfm

@@ -1,0 +1,37 @@
+#include "tfm/evenness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numerics/ranks.hpp"
+
+namespace polybed::tfm {
+
+using core::Index;
+
+double lateral_difference(const core::Grid& grid, const Fields& fields) {
+  const double* phi = fields.solids_fraction.data();
+  double most = 0;
+  for (int axis = 0; axis < grid.dimensions; axis += 2) {
+    const Index s = grid.stride(axis);
+    core::for_each_row(grid, core::interior_faces(grid, axis), [&](Index begin, Index end) {
+      for (Index f = begin; f < end; ++f) most = std::max(most, std::abs(phi[f] - phi[f - s]));
+    });
+  }
+  return core::greatest_of_ranks(grid, most);
+}
+
+std::vector<std::string> warning_of_an_even_bed(const core::Grid& grid, const Fields& fields) {
+  constexpr double even = 1e-4;
+  if (grid.column_cells(0) * grid.column_cells(2) == 1) return {};
+  const double difference = lateral_difference(grid, fields);
+  if (difference > even) return {};
+  return {fmt::format(
+      "laterally uniform: solids fractions differ by {:.1g} at most from side to side; one cell across gives "
+      "the same bed sooner, or see bed.perturbation",
+      difference)};
+}
+
+}  // namespace polybed::tfm
