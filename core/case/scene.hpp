@@ -95,7 +95,7 @@ struct Bed {
   Start start;
   std::uint64_t seed = 1;
   double perturbation = 1e-3;  ///< share by which cells of a mixed start differ at random
-  bool held = false;  ///< particles do not move: a fixed bed; key of [dem]
+  bool held = false;           ///< particles do not move: a fixed bed; key of [dem]
 };
 
 struct Inlet {
