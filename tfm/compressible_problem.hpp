@@ -3,11 +3,17 @@
 
 #include <cstdint>
 
+#include "core/error.hpp"
 #include "core/numerics/integrator.hpp"
 #include "tfm/pressure_coupling.hpp"
 #include "tfm/right_hand_side.hpp"
 
 namespace polybed::tfm {
+
+[[noreturn]] inline void refuse_compressible_start() {
+  throw core::NumericsError(
+      "the state at the start has no rates: check the bed's solids fraction and fluid.outlet_pressure");
+}
 
 class CompressibleProblem : public core::OdeProblem {
  public:

@@ -3,25 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/ranks.hpp"
-#include "core/start_error.hpp"
+#include "fluid/pressure.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "tfm/initial.hpp"
-#include "tfm/packing_limit.hpp"
 #include "tfm/particle_scene.hpp"
-#include "tfm/resting_tolerances.hpp"
-#include "tfm/rules.hpp"
+#include "tfm/parts/compressible_fluid.hpp"
+#include "tfm/parts/first_order.hpp"
+#include "tfm/parts/follow_bed.hpp"
+#include "tfm/parts/inlet_jump.hpp"
+#include "tfm/parts/packing_check.hpp"
 #include "tfm/step_estimate.hpp"
+#include "tfm/tolerances.hpp"
 
 namespace polybed::tfm {
 
 using core::Index;
-using Kind = StateLayout::Entry::Kind;
 
 namespace {
 
@@ -42,9 +43,6 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   return constants;
 }
 
-/// Absolute tolerance of the fractions.
-double fraction_tolerance(double rtol) { return 0.1 * rtol; }
-
 Discretisation make_discretisation(const core::Tfm& options, core::Momentum momentum) {
   const auto scheme = [](bool limited) { return limited ? Scheme::limited : Scheme::upwind; };
   const bool both = momentum == core::Momentum::conservative_limited;
@@ -63,199 +61,109 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
                  fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed,
                                    scene.column.outlet == core::Outlet::open),
                  fluid::Inlet(core::grid_of(scene.column, ranks), scene),
-                 make_discretisation(scene.tfm, momentum_.form), timers) {
-  choose_integrator(scene);
-  const Constants& constants = equations_.constants();
-  layout_ = StateLayout(constants.grid, int(constants.species()),
-                        integrator_kind_ == core::TfmIntegrator::implicit_steps || compressible(),
-                        transports_temperature(), constants.openings.passages());
+                 make_discretisation(scene.tfm, momentum_.form), timers),
+      integrator_(choose_integrator(scene, constants(), effects(), inlet().greatest())),
+      layout_(constants().grid, int(constants().species()),
+              integrator_.kind == core::TfmIntegrator::implicit_steps || compressible(), transports_temperature(),
+              constants().openings.passages()),
+      pressure_scale_(scene.fluid.outlet_pressure * (100.0 / 101325)) {
   column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
-  velocity_scale_ = std::max(
-      {0.1 * greatest_terminal_velocity(constants), inlet().greatest(), constants.openings.greatest(), least_scale});
-  pressure_scale_ = scene.fluid.outlet_pressure * (100.0 / 101325);
-  Fields& fields = equations_.fields();
-  fill_bed(scene.bed, constants, effects().solids_stress.get(), fields.solids);
-  constants.openings.set_velocities(fields.solids);
-  core::for_each_row(constants.grid, core::owned_faces(constants.grid, 1), [&](Index begin, Index end) {
-    std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inlet().mean_velocity(0));
-  });
-  core::Field even = core::make_field(constants.grid);  // what flows in before the jets have their own velocities
-  fluid::for_each_boundary_row(constants.grid, 1, 0, [&](Index begin, Index end) {
-    std::fill(even.begin() + begin, even.begin() + end, inlet().mean_velocity(0));
-  });
-  follows_solids_ = options_.follow_bed && integrator_kind_ != core::TfmIntegrator::implicit_steps && !compressible() &&
-                    !transports_temperature() && !constants.openings.present();
-  y_.resize(layout_.size());
-  dydt_.assign(layout_.size(), 0.0);
-  layout_.pack(fields.solids, fields.fluid, y_);
-  project_jump(even);
-  if (options_.flux == core::FractionFlux::limited)
-    fallback_.emplace(constants, boundaries(), fraction_tolerance(options_.rtol));
-  if (compressible()) start_compressible();
-  make_integrator();
+  velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants()), inlet().greatest(),
+                              constants().openings.greatest(), least_scale});
+  fill_state(scene);
+  make_parts();
+  for (const auto& part : parts_) part->start(time_, y_);
+  stepping_ =
+      make_stepping(integrator_.kind, equations_, layout_, options_,
+                    tolerances_of(equations_, layout_, options_.rtol, velocity_scale_, pressure_scale_), timers);
   begin_integration();
 }
 
 Model::~Model() = default;
 
-/// The rule rests on measured costs, docs/record/cost.md: a liquid bed is cheaper with steps that take the drag alone
-/// implicitly, unless a wholly implicit one replaces more than 1.5 of them, because the solids' pressure binds them;
-/// one that settles or is fluidised by a gas is cheaper with wholly implicit ones.
-void Model::choose_integrator(const core::Scene& scene) {
-  integrator_kind_ = options_.integrator;
-  integrator_reason_ = "as the case says";
-  if (integrator_kind_ == core::TfmIntegrator::automatic) {
-    const bool gas = equations_.constants().fluid.density < 100;
-    const bool still = scene.column.closed || inlet().greatest() == 0;
-    constexpr double dear_above = 1.5;
-    const double replaced = split_steps_per_implicit(scene, equations_.constants(), effects(), inlet().greatest());
-    integrator_kind_ = compressible() || gas || still || replaced > dear_above ? core::TfmIntegrator::implicit_steps
-                       : effects().drag                                        ? core::TfmIntegrator::split_steps
-                                                                               : core::TfmIntegrator::explicit_steps;
-    integrator_reason_ = compressible() ? "compressible: sound is faster than anything that matters"
-                         : gas          ? "gas: drag relaxes faster than anything moves"
-                         : still        ? "nothing flows in: the bed settles"
-                                        : fmt::format("in a liquid, an implicit step for {:.1f} others", replaced);
-  }
-  if (integrator_kind_ == core::TfmIntegrator::split_steps && (compressible() || !effects().drag))
-    throw core::StartError(fmt::format("tfm.integrator = \"imex\" takes the drag implicitly: it needs {}",
-                                       compressible() ? "an incompressible fluid" : "a drag law"));
-  const std::string wrong = wrong_with_implicit_tolerance(options_.rtol);
-  if (integrator_kind_ == core::TfmIntegrator::implicit_steps && !wrong.empty())
-    throw core::StartError(fmt::format("tfm.rtol = {} with the implicit integrator: {}", options_.rtol, wrong));
+/// The bed at rest, in the flow that the inlet drives.
+void Model::fill_state(const core::Scene& scene) {
+  const core::Grid& grid = constants().grid;
+  Fields& fields = equations_.fields();
+  fill_bed(scene.bed, constants(), effects().solids_stress.get(), fields.solids);
+  constants().openings.set_velocities(fields.solids);
+  core::for_each_row(grid, core::owned_faces(grid, 1), [&](Index begin, Index end) {
+    std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inlet().mean_velocity(0));
+  });
+  core::Field even = core::make_field(grid);  // what flows in before the jets have their own velocities
+  fluid::for_each_boundary_row(grid, 1, 0, [&](Index begin, Index end) {
+    std::fill(even.begin() + begin, even.begin() + end, inlet().mean_velocity(0));
+  });
+  y_.resize(layout_.size());
+  dydt_.assign(layout_.size(), 0.0);
+  layout_.pack(fields.solids, fields.fluid, y_);
+  project_jump(equations_, layout_, velocity_scale_, time_, even, y_);
 }
 
-std::vector<double> Model::absolute_tolerances() const {
-  std::vector<double> atol(layout_.size());
-  constexpr double not_tested = 1e9;  // m: sums of fluxes follow from the rest and need no error test of their own
-  for (const StateLayout::Entry& entry : layout_.entries()) {
-    const double value = entry.kind == Kind::fraction      ? fraction_tolerance(options_.rtol)
-                         : entry.kind == Kind::passed      ? not_tested
-                         : entry.kind == Kind::pressure    ? pressure_scale_ * options_.rtol
-                         : entry.kind == Kind::temperature ? options_.rtol * velocity_scale_ * velocity_scale_
-                                                           : options_.rtol * velocity_scale_;
-    std::fill_n(atol.begin() + std::ptrdiff_t(entry.begin), entry.size, value);
-  }
-  return atol;
+template <class Made, class... Args>
+Made* Model::add_part(Args&&... args) {
+  auto part = std::make_unique<Made>(std::forward<Args>(args)...);
+  Made* made = part.get();
+  parts_.push_back(std::move(part));
+  return made;
 }
 
-/// Where nothing flows in at times; empty elsewhere.
-core::TolerancesAt Model::tolerances_at() const {
-  if (!boundaries().closed() && !inlet().shuts()) return {};
-  return RestingTolerances(constants().grid, boundaries(), layout_, absolute_tolerances(), velocity_scale_,
-                           constants().gravity);
+void Model::make_parts() {
+  const bool implicit = integrator_.kind == core::TfmIntegrator::implicit_steps;
+  if (options_.follow_bed && !implicit && !compressible() && !transports_temperature() &&
+      !constants().openings.present())
+    add_part<FollowBed>(equations_, layout_);
+  if (compressible())
+    compressible_fluid_ = add_part<CompressibleFluid>(equations_, layout_, timers_);
+  else
+    add_part<InletJump>(equations_, layout_, velocity_scale_);
+  if (effects().solids_stress) packing_check_ = add_part<PackingCheck>(constants(), layout_, *effects().solids_stress);
+  if (options_.flux == core::FractionFlux::limited)
+    add_part<FirstOrder>(equations_, layout_, fraction_tolerance(options_.rtol));
 }
 
-void Model::make_integrator() {
-  if (integrator_kind_ == core::TfmIntegrator::implicit_steps) {
-    implicit_ = std::make_unique<ImplicitProblem>(equations_, layout_, timers_);
-    core::ImplicitOptions options;
-    options.rtol = options_.rtol;
-    options.atol = absolute_tolerances();
-    options.ranks = constants().grid.ranks;
-    options.atol_at = tolerances_at();
-    options.id.assign(layout_.size(), 1.0);
-    // Of a compressible fluid p is differential, but left out of the error test all the same: sound that carries
-    // nothing must not set the step.
-    for (const StateLayout::Entry& entry : layout_.entries())
-      if (entry.kind == Kind::pressure || entry.kind == Kind::passed)
-        std::fill_n(options.id.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
-    integrator_ = core::make_implicit(*implicit_, std::move(options));
-  } else {
-    core::OdeProblem* problem = nullptr;
-    if (compressible()) {
-      acoustic_ = std::make_unique<CompressibleProblem>(equations_, layout_);
-      problem = acoustic_.get();
-    } else {
-      const double tolerance = options_.pressure_tolerance.value_or(std::min(1e-4, 0.1 * options_.rtol));
-      explicit_ = std::make_unique<ExplicitProblem>(equations_, layout_, tolerance, timers_,
-                                                    integrator_kind_ == core::TfmIntegrator::split_steps);
-      problem = explicit_.get();
-    }
-    core::ExplicitOptions options;
-    options.rtol = options_.rtol;
-    options.atol = absolute_tolerances();
-    options.fixed_step = options_.fixed_step.value_or(0);
-    options.ranks = constants().grid.ranks;
-    options.atol_at = tolerances_at();
-    integrator_ = integrator_kind_ == core::TfmIntegrator::split_steps
-                      ? core::make_split(*explicit_, std::move(options))
-                      : core::make_explicit(*problem, std::move(options));
-  }
+void Model::go_on_above_packing(bool go_on) {
+  if (packing_check_ != nullptr) packing_check_->go_on_above_packing(go_on);
 }
 
-/// Starts the integrator at (time_, y_). The implicit one needs consistent rates and pressure: one projected
-/// right-hand side gives both.
+std::optional<fluid::MassAccount> Model::fluid_account(double t) const {
+  if (compressible_fluid_ == nullptr) return std::nullopt;
+  return compressible_fluid_->account(t);
+}
+
+/// Starts the integrator at (time_, y_).
 void Model::begin_integration() {
   equations_.begin(time_);
-  follow_solids(y_);
-  if (explicit_) {
-    explicit_->begin();
-    explicit_->begin_step(step_);
-  }
-  if (compressible()) {
-    begin_compressible();
-  } else if (implicit_) {
-    // The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed
-    // run gives the same bits.
-    for (const StateLayout::Entry& entry : layout_.entries())
-      if (entry.kind == Kind::pressure) std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
-    ExplicitProblem projected(equations_, layout_, 1e-8, timers_);
-    if (projected.rates(time_, y_, dydt_) != core::Rate::ok)
-      throw core::NumericsError("the state at the start has no rates: check the bed's solids fraction");
-    for (const StateLayout::Entry& entry : layout_.entries())
-      if (entry.kind == Kind::pressure) layout_.pack(entry, fields().fluid.pressure, y_);
-  }
-  integrator_->restart(time_, y_, dydt_, step_);
+  prepare(y_);
+  stepping_->find_rates(time_, y_, dydt_);
+  for (const auto& part : parts_) part->begin(time_);
+  integrator().restart(time_, y_, dydt_, step_);
+}
+
+void Model::prepare(std::span<const double> y) {
+  for (const auto& part : parts_) part->prepare(y);
+  stepping_->begin_step(step_);
 }
 
 void Model::step(double stop) {
-  follow_solids(integrator_->state());
-  if (explicit_) explicit_->begin_step(step_);
-  const core::StepReport report = integrator_->step(stop);
-  time_ = report.time;
-  step_ = report.next_step;
-  if (compressible()) count_fluid(integrator_->state());
-  last_step_ = {report.time, report.step, report.error_norm, ""};
-  if (effects().solids_stress && !goes_on_above_packing_) require_sound_state();
-  if (fallback_) {
-    fallback_->see(layout_, integrator_->state(), effects().solids_stress.get());
-    use_fallback();
-  }
+  prepare(integrator().state());
+  const core::StepReport report = integrator().step(stop);
+  accept(report);
+  for (const auto& part : parts_) part->end_step(integrator().state());
   last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
 }
 
-/// The solids' equations are asked below the highest row that holds any, and in some rows above, where their velocities
-/// have time to become those of the flow before solids arrive. It depends on the state alone, as a restart needs.
-void Model::follow_solids(std::span<const double> y) {
-  if (!follows_solids_) return;
-  constexpr double trace = 1e-12;  // of the fraction: it stays where it is
-  constexpr int margin = 8;
-  const core::Grid& grid = constants().grid;
-  const auto holds_solids = [&](int row) {
-    const auto nx = std::size_t(grid.cells[0]);
-    for (const StateLayout::Entry& entry : layout_.entries())
-      for (int k = 0; k < grid.cells[2] && entry.kind == Kind::fraction; ++k) {
-        const auto cells =
-            y.subspan(entry.begin + (std::size_t(k) * std::size_t(grid.cells[1]) + std::size_t(row)) * nx, nx);
-        if (std::any_of(cells.begin(), cells.end(), [](double phi) { return std::abs(phi) > trace; })) return true;
-      }
-    return false;
-  };
-  int rows = grid.cells[1];
-  while (rows > 0 && !holds_solids(rows - 1)) --rows;
-  const int held = int(core::greatest_of_ranks(grid, rows > 0 ? grid.before[1] + rows : 0)) + margin;
-  equations_.hold_solids_above(held < grid.column_cells(1) ? held : std::numeric_limits<int>::max());
-}
-
-/// Throws where no bed can be so dense; the state is then the one before the step.
-void Model::require_sound_state() {
+/// Where a part refuses the step, the state is the one before it.
+void Model::accept(const core::StepReport& report) {
+  time_ = report.time;
+  step_ = report.next_step;
+  last_step_ = {report.time, report.step, report.error_norm, ""};
   try {
-    require_packing(constants(), layout_, integrator_->state(), time_, *effects().solids_stress);
+    for (const auto& part : parts_) part->accept(time_, integrator().state());
   } catch (const core::NumericsError&) {
-    time_ -= last_step_.step;
-    integrator_->interpolate(time_, y_);
+    time_ -= report.step;
+    integrator().interpolate(time_, y_);
     throw;
   }
 }
@@ -263,14 +171,7 @@ void Model::require_sound_state() {
 /// In the words of the rank where the limit is.
 std::string Model::what_limited(const core::StepReport& report) const {
   const core::Grid& grid = constants().grid;
-  const double viscosity = effects().fluid_stress ? effects().fluid_stress->kinematic_viscosity() : 0;
-  std::vector<TimeScale> scales =
-      time_scales(constants(), fields(), viscosity, integrator_kind_ == core::TfmIntegrator::split_steps);
-  if (acoustic_) {
-    const auto [seconds, cell] = effects().compressible->sound_time(fields().fluid);
-    scales.push_back({"sound", seconds, cell});
-  }
-  const TimeScale nearest = nearest_of(scales);
+  const TimeScale nearest = nearest_of(stepping_->time_scales());
   const int rank = core::rank_of_greatest(grid, -nearest.seconds);
   if (report.step >= limiting_share * core::least_of_ranks(grid, nearest.seconds))
     return core::said_by(grid, rank, place_of(nearest, grid));
@@ -278,15 +179,11 @@ std::string Model::what_limited(const core::StepReport& report) const {
   return core::said_by(grid, worst, "error test: " + layout_.describe(report.worst_entry, constants().name));
 }
 
-void Model::use_fallback() {
-  equations_.take_first_order_on(fallback_->steps_left().empty() ? nullptr : &fallback_->faces());
-}
-
 void Model::show(double t) {
   if (t != time_ || y_.empty())
-    integrator_->interpolate(t, y_);
+    integrator().interpolate(t, y_);
   else
-    std::copy(integrator_->state().begin(), integrator_->state().end(), y_.begin());
+    std::copy(integrator().state().begin(), integrator().state().end(), y_.begin());
   Fields& fields = equations_.fields();
   const core::Field pressure = fields.fluid.pressure;
   if (!equations_.evaluate(t, layout_, y_))
@@ -296,48 +193,10 @@ void Model::show(double t) {
 }
 
 void Model::restart() {
-  const auto state = integrator_->state();
+  const auto state = integrator().state();
   std::copy(state.begin(), state.end(), y_.begin());
-  // A compressible fluid hears of a jump by sound.
-  if (!compressible()) project_jump(inlet_velocity(std::nextafter(time_, -INFINITY)));
+  for (const auto& part : parts_) part->restart(time_, y_);
   begin_integration();
-}
-
-/// The inlet's velocity on the bottom faces of a field that is 0 elsewhere.
-core::Field Model::inlet_velocity(double t) const {
-  core::Field bottom = core::make_field(constants().grid);
-  inlet().set_velocity(t, bottom);
-  return bottom;
-}
-
-/// Where the inlet jumps from `before`, an impulse brings the fluxes and velocities to the new value at once, with the
-/// operator that the pressure uses.
-void Model::project_jump(const core::Field& before) {
-  if (boundaries().closed()) return;
-  core::Field jump = inlet_velocity(std::nextafter(time_, INFINITY));
-  double most = 0;
-  for (std::size_t f = 0; f < jump.size(); ++f) most = std::max(most, std::abs(jump[f] -= before[f]));
-  if (core::greatest_of_ranks(constants().grid, most) <= 1e-9 * velocity_scale_) return;
-  if (!equations_.evaluate(time_, layout_, y_)) return;
-  Fields& fields = equations_.fields();
-  const core::Field pressure = fields.fluid.pressure;
-  for (core::Field& rate : fields.flux_rate.free) std::fill(rate.begin(), rate.end(), 0.0);
-  for (core::FaceField& a : fields.solids.acceleration)
-    for (core::Field& rate : a) std::fill(rate.begin(), rate.end(), 0.0);
-  fields.flux_rate.free[1] = jump;
-  fluid::Pressure impulse(constants().grid, 1e-10);
-  std::fill(fields.fluid.pressure.begin(), fields.fluid.pressure.end(), 0.0);
-  impulse.solve(fields.flux_rate, fields.fluid.flux, 0.0, fields.fluid.pressure);
-  subtract_pressure_gradient(constants(), boundaries(), fields);
-  for (std::size_t j = 0; j < constants().species(); ++j)
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t f = 0; f < fields.solids.velocity[j][a].size(); ++f)
-        fields.solids.velocity[j][a][f] += fields.solids.acceleration[j][a][f];
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t f = 0; f < fields.fluid.flux[a].size(); ++f)
-      fields.fluid.flux[a][f] += fields.flux_rate.free[a][f];
-  fields.fluid.pressure = pressure;
-  layout_.pack(fields.solids, fields.fluid, y_);
 }
 
 std::vector<double> Model::breakpoints() const {
@@ -348,20 +207,9 @@ std::vector<double> Model::breakpoints() const {
 }
 
 Work Model::work() const {
-  const core::IntegratorStatistics s = integrator_->statistics();
   Work done = before_;
-  done.steps += s.steps;
-  done.rejected_steps += s.error_failures;
-  done.newton_iterations += s.newton_iterations;
-  done.krylov_iterations += s.linear_iterations;
-  if (fallback_) done.first_order_cells = fallback_->count();
-  if (implicit_) done.right_hand_sides += implicit_->residuals();
-  if (acoustic_) done.right_hand_sides += acoustic_->evaluations();
-  if (explicit_) {
-    done.right_hand_sides += explicit_->solves();
-    done.pressure_solves += explicit_->solves();
-    done.pressure_iterations += explicit_->iterations();
-  }
+  stepping_->count(done);
+  for (const auto& part : parts_) part->count(done);
   return done;
 }
 

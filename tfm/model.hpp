@@ -12,19 +12,18 @@
 #include "core/numerics/run.hpp"
 #include "core/output/checkpoint.hpp"
 #include "core/timers.hpp"
-#include "tfm/compressible_problem.hpp"
-#include "tfm/explicit_problem.hpp"
-#include "tfm/implicit_problem.hpp"
+#include "fluid/fluid_mass.hpp"
+#include "tfm/integrator_choice.hpp"
 #include "tfm/momentum_form.hpp"
-#include "tfm/step_limits.hpp"
+#include "tfm/right_hand_side.hpp"
+#include "tfm/step_part.hpp"
+#include "tfm/stepping.hpp"
+#include "tfm/work.hpp"
 
 namespace polybed::tfm {
 
-/// What the model has done so far; repeats exactly from run to run.
-struct Work {
-  std::uint64_t steps = 0, rejected_steps = 0, right_hand_sides = 0, pressure_solves = 0, pressure_iterations = 0,
-                newton_iterations = 0, krylov_iterations = 0, first_order_cells = 0;
-};
+class CompressibleFluid;
+class PackingCheck;
 
 /// One line of the step log.
 struct StepLine {
@@ -54,7 +53,7 @@ class Model : public core::Simulation {
   void keep_last_state();
   /// Whether steps that leave solids far above their packing are taken; without being told so a model throws
   /// core::ConservationError.
-  void go_on_above_packing(bool go_on) { goes_on_above_packing_ = go_on; }
+  void go_on_above_packing(bool go_on);
   /// Begins at time 0 from the state of a checkpoint of the same species and grid.
   void start_from(const core::Checkpoint& checkpoint);
   /// Takes a run up again from a checkpoint written by any number of ranks: each rank's own parts, the rest of the
@@ -72,8 +71,8 @@ class Model : public core::Simulation {
   /// Volume of each species that has come in and gone out since the start, m3, of the fields last shown.
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   /// Explicit or implicit steps.
-  [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_kind_; }
-  [[nodiscard]] const std::string& integrator_reason() const { return integrator_reason_; }
+  [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_.kind; }
+  [[nodiscard]] const std::string& integrator_reason() const { return integrator_.reason; }
   [[nodiscard]] const MomentumForm& momentum() const { return momentum_; }
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
   [[nodiscard]] Work work() const;
@@ -85,7 +84,7 @@ class Model : public core::Simulation {
   [[nodiscard]] std::optional<fluid::MassAccount> fluid_account(double t) const;
   /// Memory of the state and of the integrator's vectors, bytes.
   [[nodiscard]] std::size_t state_bytes() const {
-    return integrator_->workspace() + (y_.size() + dydt_.size()) * sizeof(double);
+    return integrator().workspace() + (y_.size() + dydt_.size()) * sizeof(double);
   }
   /// Velocity that errors and divergences are measured against, m/s.
   [[nodiscard]] double velocity_scale() const { return velocity_scale_; }
@@ -93,50 +92,37 @@ class Model : public core::Simulation {
   [[nodiscard]] double pressure_scale() const { return pressure_scale_; }
 
  private:
-  void choose_integrator(const core::Scene& scene);
+  template <class Made, class... Args>
+  Made* add_part(Args&&... args);
+  void make_parts();
+  void fill_state(const core::Scene& scene);
+  void begin_integration();
+  void prepare(std::span<const double> y);
+  void accept(const core::StepReport& report);
+  [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
   void check_fits(const core::Checkpoint& checkpoint) const;
   void restore_counts(const core::Checkpoint& checkpoint);
-  void make_integrator();
-  [[nodiscard]] core::Field inlet_velocity(double t) const;
-  void project_jump(const core::Field& before);
-  [[nodiscard]] std::vector<double> absolute_tolerances() const;
-  [[nodiscard]] core::TolerancesAt tolerances_at() const;
   [[nodiscard]] StateLayout layout_of_column() const { return layout_on(core::whole_column(constants().grid)); }
-  [[nodiscard]] std::string what_limited(const core::StepReport& report) const;
-  void begin_integration();
-  void follow_solids(std::span<const double> y);
-  void use_fallback();
-  void require_sound_state();
-  void restore_fallback(const core::Checkpoint& checkpoint);
+  [[nodiscard]] core::Integrator& integrator() const { return stepping_->integrator(); }
   [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }
   /// Whether theta_j is an unknown; where a local balance gives it, it is none.
   [[nodiscard]] bool transports_temperature() const { return !fields().solids.temperature_rate.empty(); }
-  void start_compressible();
-  void open_account();
-  void restore_account(const core::Checkpoint& checkpoint);
-  void begin_compressible();
-  void count_fluid(std::span<const double> y);
 
   core::Timers& timers_;
   core::Tfm options_;
   MomentumForm momentum_;
   RightHandSide equations_;
-  core::TfmIntegrator integrator_kind_{};
-  std::string integrator_reason_;
+  IntegratorChoice integrator_;
   StateLayout layout_;
-  std::unique_ptr<ExplicitProblem> explicit_;
-  std::unique_ptr<ImplicitProblem> implicit_;
-  std::unique_ptr<CompressibleProblem> acoustic_;  ///< explicit steps of a compressible fluid
-  fluid::FluidLedger ledger_;                      ///< of a compressible fluid
-  std::unique_ptr<core::Integrator> integrator_;
   double time_ = 0, step_ = 0, velocity_scale_ = 1, pressure_scale_ = 100;
   std::vector<double> y_, dydt_;
-  std::size_t column_size_ = 0;  ///< entries of the whole column's state
-  bool goes_on_above_packing_ = false;
-  bool follows_solids_ = false;  ///< their equations are asked where they are, not in the whole column
+  std::size_t column_size_ = 0;                      ///< entries of the whole column's state
+  std::vector<std::unique_ptr<StepPart>> parts_;     ///< those that the scene has, in the order in which they act
+  CompressibleFluid* compressible_fluid_ = nullptr;  ///< one of the parts, if it is there, as is the next
+  PackingCheck* packing_check_ = nullptr;
+  std::unique_ptr<Stepping> stepping_;
   StepLine last_step_;
-  std::optional<FirstOrderFallback> fallback_;  ///< absent where all fluxes are of first order anyway
-  Work before_;                                 ///< of the integrators that a restart has closed
+  Work before_;  ///< of the integrators that a restart has closed
 };
 
 }  // namespace polybed::tfm

@@ -77,37 +77,20 @@ core::Checkpoint Model::checkpoint() const {
   c.arrays["state"] = y_;
   c.arrays["pressure"].resize(constants().grid.cell_count());
   layout_.pack(layout_.entries().front(), fields().fluid.pressure, c.arrays["pressure"]);
-  if (fallback_ && !fallback_->steps_left().empty()) c.arrays["first_order_steps_left"] = fallback_->steps_left();
+  for (const auto& part : parts_) part->write(c, time_);
   for (auto& [name, parts] : checkpoint_parts())
     if (c.arrays.contains(name)) c.parts[name] = std::move(parts);
   c.numbers["time_s"] = time_;
   c.numbers["step_s"] = step_;
-  c.texts["integrator"] = core::name_of(integrator_kind_);
-  if (const auto account = fluid_account(time_)) {
-    c.numbers["fluid_start_kg"] = account->start;
-    c.numbers["fluid_in_kg"] = account->in;
-    c.numbers["fluid_out_kg"] = account->out;
-  }
+  c.texts["integrator"] = core::name_of(integrator_.kind);
   const Work done = work();
   for (const auto& [name, count] : counts) c.integers[name] = std::int64_t(done.*count);
   c.integers["first_order_cells"] = std::int64_t(done.first_order_cells);
   return c;
 }
 
-/// A run has flags only while a cell is out of bounds, so a checkpoint without them has none.
-void Model::restore_fallback(const core::Checkpoint& checkpoint) {
-  if (!fallback_) return;
-  const auto flags = checkpoint.arrays.find("first_order_steps_left");
-  const bool known = checkpoint.integers.contains("first_order_cells");
-  double count = known ? double(checkpoint.count("first_order_cells")) : 0.0;
-  core::take_from_first(constants().grid.ranks.get(), std::span(&count, 1));
-  fallback_->restore(layout_, flags == checkpoint.arrays.end() ? std::vector<double>() : flags->second,
-                     std::uint64_t(count));
-  use_fallback();
-}
-
 void Model::keep_last_state() {
-  if (time_ == last_step_.time) y_.assign(integrator_->state().begin(), integrator_->state().end());
+  if (time_ == last_step_.time) y_.assign(integrator().state().begin(), integrator().state().end());
 }
 
 void Model::start_from(const core::Checkpoint& checkpoint) {
@@ -117,8 +100,7 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
   for (const StateLayout::Entry& entry : layout_.entries())
     if (entry.kind == StateLayout::Entry::Kind::passed)
       std::fill_n(y_.begin() + std::ptrdiff_t(entry.begin), entry.size, 0.0);
-  if (compressible()) open_account();
-  restore_fallback({});
+  for (const auto& part : parts_) part->begin_from_other(time_, y_);
   begin_integration();
 }
 
@@ -128,7 +110,7 @@ void Model::check_fits(const core::Checkpoint& checkpoint) const {
   const bool first = core::is_first(constants().grid.ranks.get());  // texts are the first rank's
   if (state == checkpoint.arrays.end() || state->second.size() != y_.size() || pressure == checkpoint.arrays.end() ||
       pressure->second.size() != constants().grid.cell_count() ||
-      (first && (kind == checkpoint.texts.end() || kind->second != core::name_of(integrator_kind_))))
+      (first && (kind == checkpoint.texts.end() || kind->second != core::name_of(integrator_.kind))))
     throw core::FileError("the checkpoint belongs to another case: its unknowns or its integrator differ");
   core::require_numbers(checkpoint);
   for (const StateLayout::Entry& entry : layout_.entries()) {
@@ -151,8 +133,7 @@ void Model::resume(const core::Checkpoint& checkpoint) {
   time_ = clock[0];
   step_ = clock[1];
   restore_counts(checkpoint);
-  if (compressible()) restore_account(checkpoint);
-  restore_fallback(checkpoint);
+  for (const auto& part : parts_) part->read(checkpoint, time_);
   begin_integration();
 }
 

@@ -1,0 +1,52 @@
+// How a model steps: the form that its equations take, and the integrator of it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/case/scene.hpp"
+#include "core/numerics/integrator.hpp"
+#include "core/timers.hpp"
+#include "tfm/right_hand_side.hpp"
+#include "tfm/step_limits.hpp"
+#include "tfm/tolerances.hpp"
+#include "tfm/work.hpp"
+
+namespace polybed::tfm {
+
+class Stepping {
+ public:
+  Stepping(RightHandSide& equations, const StateLayout& layout) : equations_(equations), layout_(layout) {}
+  Stepping(const Stepping&) = delete;
+  Stepping& operator=(const Stepping&) = delete;
+  virtual ~Stepping() = default;
+
+  /// Where an integration begins at (t, y): completes what y lacks, and finds its rates if the integrator needs them.
+  virtual void find_rates(double t, std::span<double> y, std::span<double> dydt) = 0;
+  /// Called before an integration begins and before each step, with the expected length, s.
+  virtual void begin_step(double /*length*/) {}
+  /// Time scales of the processes that may limit a step, from the fields of a finished evaluation.
+  [[nodiscard]] virtual std::vector<TimeScale> time_scales() const;
+  /// Adds what the integrator and its problem have counted.
+  virtual void count(Work& work) const;
+
+  [[nodiscard]] core::Integrator& integrator() const { return *integrator_; }
+
+ protected:
+  /// Sets the pressure to 0 in a state or its rates.
+  void clear_pressure(std::span<double> of) const;
+
+  RightHandSide& equations_;
+  const StateLayout& layout_;
+  std::unique_ptr<core::Integrator> integrator_;
+  bool split_ = false;  ///< the drag is taken implicitly
+};
+
+/// By the integrator, which is not automatic, and by whether the fluid is compressible.
+/// \param equations, layout  outlive what is returned
+[[nodiscard]] std::unique_ptr<Stepping> make_stepping(core::TfmIntegrator kind, RightHandSide& equations,
+                                                      const StateLayout& layout, const core::Tfm& options,
+                                                      Tolerances tolerances, core::Timers& timers);
+
+}  // namespace polybed::tfm
