@@ -340,5 +340,13 @@ class Watch(SampleRun):
         self.assertTrue((self.directory / "report.html").exists())
 
 
+class Gallery(unittest.TestCase):
+    def test_films_of_the_docs_are_small(self):
+        films = [path for ending in ("gif", "mp4") for path in (Path(PACKAGE).parent / "docs/pictures").glob(f"*.{ending}")]
+        self.assertTrue(films)
+        for path in films:
+            self.assertLess(path.stat().st_size, 2e6, path.name)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
