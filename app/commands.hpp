@@ -40,6 +40,8 @@ void add_tfm(CLI::App& app, Commands& commands);
 void add_dem(CLI::App& app, Commands& commands);
 void add_compare(CLI::App& app, Commands& commands);
 void add_plot(CLI::App& app, Commands& commands);
+void add_report(CLI::App& app, Commands& commands);
+void add_watch(CLI::App& app, Commands& commands);
 
 void add_check(CLI::App& app, Commands& commands);
 void add_effects(CLI::App& app, Commands& commands);

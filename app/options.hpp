@@ -39,6 +39,12 @@ struct PlotOptions {
   bool quiet = false, json = false;
 };
 
+/// Options of the page that follows a run.
+struct WatchOptions {
+  std::filesystem::path run;  ///< a run directory, or a case that has one in runs/
+  int port = 0;               ///< on the loopback address; 0: any that is free
+};
+
 /// Options of the estimate of what a run will take.
 struct EstimateOptions : CaseOptions {  // case_path may be empty
   std::string model;                    ///< tfm | dem; empty: the continuum where it runs the case
@@ -102,5 +108,9 @@ core::ExitCode run_calibrate(const std::vector<std::string>& words);
 [[noreturn]] void run_stability(std::vector<std::string> words);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
+/// Makes report.html of a run; of the options only the run is read.
+core::ExitCode run_report(const PlotOptions& options);
+/// Becomes the server of the page that follows a run. Throws core::FileError.
+[[noreturn]] void run_watch(const WatchOptions& options);
 
 }  // namespace polybed::multiscale

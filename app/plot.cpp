@@ -66,16 +66,14 @@ PythonEnd draw(const PlotOptions& options) {
   return run_python("polybed.cost.picture", words, PythonOutput::show);
 }
 
-}  // namespace
-
-core::ExitCode run_plot(const PlotOptions& options) {
-  if (!options.output.empty()) core::mark_directory(options.output);
-  const PythonEnd end = draw(options);
+/// What a module that was to make something of a run has ended with. Throws core::FileError if it could not do its
+/// work.
+core::ExitCode code_of(const PythonEnd& end, const PlotOptions& options, const std::string& what) {
   if (!end.not_started.empty())
-    throw core::FileError(fmt::format("no pictures: {}; {}", end.not_started, python_packages));
+    throw core::FileError(fmt::format("no {}: {}; {}", what, end.not_started, python_packages));
   if (end.code > 128 && end.code != int(core::ExitCode::stopped))
-    throw core::FileError(fmt::format("{}: no pictures: Python was ended by signal {}; a file in it may be damaged",
-                                      options.run.string(), end.code - 128));
+    throw core::FileError(fmt::format("{}: no {}: Python was ended by signal {}; a file in it may be damaged",
+                                      options.run.string(), what, end.code - 128));
   switch (end.code) {  // the module has said what is wrong
     case 0:
       return core::ExitCode::done;
@@ -86,6 +84,23 @@ core::ExitCode run_plot(const PlotOptions& options) {
     default:
       return core::ExitCode::file;
   }
+}
+
+}  // namespace
+
+core::ExitCode run_plot(const PlotOptions& options) {
+  if (!options.output.empty()) core::mark_directory(options.output);
+  return code_of(draw(options), options, "pictures");
+}
+
+core::ExitCode run_report(const PlotOptions& options) {
+  const PythonEnd end = run_python("polybed.report", {"--", run_of(options.run).string()}, PythonOutput::show);
+  return code_of(end, options, "report.html");
+}
+
+void run_watch(const WatchOptions& options) {
+  become_python("polybed.report.watch",
+                {"--port", fmt::format("{}", options.port), "--", run_of(options.run).string()});
 }
 
 }  // namespace polybed::multiscale

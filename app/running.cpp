@@ -16,7 +16,8 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
   command.add_flag("--permissive", options.permissive,
                    "go on where a conservation law is broken more than tenfold, which ends a run otherwise");
   command.add_flag("--quiet", options.quiet, "no progress");
-  command.add_flag("!--no-picture", options.picture, "no picture.png at the end, which takes a second");
+  command.add_flag("!--no-picture", options.picture,
+                   "no picture.png and no report.html at the end, which take seconds");
   return command;
 }
 
@@ -73,6 +74,22 @@ void add_plot(CLI::App& app, Commands& commands) {
   command.add_flag("--quiet", options->quiet, "no progress");
   command.add_flag("--json", options->json, "one JSON object: the files written");
   commands.push_back({&command, doing([options] { return multiscale::run_plot(*options); })});
+}
+
+void add_report(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::PlotOptions>();
+  CLI::App& command =
+      *app.add_subcommand("report", "report.html of a run: one file with results, pictures and the case");
+  command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
+  commands.push_back({&command, doing([options] { return multiscale::run_report(*options); })});
+}
+
+void add_watch(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::WatchOptions>();
+  CLI::App& command = *app.add_subcommand("watch", "a page that follows a run, for a browser on this machine");
+  command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
+  command.add_option("--port", options->port, "of the page; default: any that is free")->check(CLI::Range(0, 65535));
+  commands.push_back({&command, doing([options] { multiscale::run_watch(*options); })});
 }
 
 }  // namespace polybed::command_line

@@ -33,7 +33,7 @@ void add_inversion(CLI::App& app, Commands& commands) {
                    "of a scan by the TFM: again with its stress table at plus and minus one standard error");
   command.add_flag("--permissive", options->permissive, "runs of a scan go on where a conservation law is broken");
   command.add_flag("--quiet", options->quiet, "no line for each run");
-  command.add_flag("!--no-picture", options->picture, "no inversion.png at the end");
+  command.add_flag("!--no-picture", options->picture, "no inversion.png and inversion.html at the end");
   commands.push_back({&command, doing([options] { multiscale::run_inversion(*options); }),
                       [options] { return options->scan.empty() ? On::one_process : On::study; }});
 }

@@ -14,7 +14,7 @@ namespace polybed::multiscale {
 [[nodiscard]] bool draw(const std::string& module, const std::filesystem::path& directory, std::string& message,
                         std::vector<std::string> options = {});
 
-/// Draws picture.png into a run directory, finished or running, likewise.
+/// Draws picture.png and makes report.html in a run directory, finished or running, likewise.
 [[nodiscard]] bool draw_picture(const std::filesystem::path& run_directory, std::string& message);
 
 }  // namespace polybed::multiscale

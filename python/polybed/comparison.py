@@ -6,15 +6,16 @@ Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a p
 """
 
 import argparse
-import base64
 import html
-import io
 import shlex
 import sys
 from pathlib import Path
 
+from polybed.drawing.units import fitting
 from polybed.in_place import in_place
 from polybed.packages import needed
+from polybed.page import file_name, picture, section, source, table, warnings
+from polybed.page import page as whole_page
 
 with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
@@ -24,43 +25,14 @@ with needed(__name__ == "__main__"):
     from polybed.drawing.style import NAMES, STYLE
     from polybed.files import contents_of, print_made, read_json
     from polybed.plot import stored_times
+    from polybed.quantities import COLUMNS, unit_of_column
     from polybed.read import nearest, read
+    from polybed.record import title_of_case
+    from polybed.scan import commands as scan_command
     from polybed.study.compare_report import with_error
-
-LOOKS = """body{font:15px/1.45 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
-table{border-collapse:collapse;margin:.6rem 0}th,td{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #ddd}
-th:first-child,td:first-child{text-align:left}img{max-width:100%}code{background:#f3f3f3}pre{background:#f3f3f3;padding:.6rem;
-overflow-x:auto;white-space:pre-wrap}.source{color:#666;font-size:85%}.missed,.warning{color:#a33}"""
-
 
 def number(value, error=None):
     return "&ndash;" if value is None else with_error(value, error).replace("+-", "&plusmn; ")
-
-
-def table(head, rows):
-    """Cells are HTML already."""
-    cells = "".join(f"<th>{cell}</th>" for cell in head)
-    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
-    return f"<table><tr>{cells}</tr>{body}</table>"
-
-
-def source(text):
-    return f'<p class="source">{text}</p>'
-
-
-def file_name(*parts):
-    return f"<code>{html.escape(str(Path(*parts)))}</code>"
-
-
-def picture(figure, told):
-    """A figure in the page itself, with what it was drawn from; nothing for no figure."""
-    if figure is None:
-        return ""
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", bbox_inches="tight")
-    plt.close(figure)
-    data = base64.b64encode(buffer.getvalue()).decode()
-    return f'<p><img alt="" src="data:image/png;base64,{data}"></p>' + source(told)
 
 
 def on_ranks(ranks):
@@ -69,17 +41,6 @@ def on_ranks(ranks):
 
 def settings(overrides):
     return [word for override in overrides for word in ("--set", override)]
-
-
-def scan_command(scan):
-    """The words that make a scan again, or find it finished: range and end are those that it had, given or by default."""
-    words = [*on_ranks(scan["ranks"]), "polybed", "inversion", scan["case"], *settings(scan["overrides"]), "--scan", scan["scan"]]
-    for option, value in (("--from", f"{scan['from_m_s']!r} m/s"), ("--to", f"{scan['to_m_s']!r} m/s"),
-                          ("--until", f"{scan['until_s']!r} s")):
-        words += [option, value]
-    if "stress_uncertainty" in scan["models"].get("tfm", {}):
-        words.append("--stress-uncertainty")
-    return words + ["-o", scan["directory"]]
 
 
 def commands(found, records, scan=None):
@@ -105,13 +66,47 @@ def folder_of(run, *parts):
     return f"{file_name(run['directory'], *parts)} (commit {html.escape(run['git_commit'])})"
 
 
+MEASURES = {"bed_height_m": "bed height", "interface_m": "height of the interface", "mixing": "mixing index (1 mixed, 0 apart)",
+            "centre_difference": "distance of the centres of two species over the bed height",
+            "pressure_drop_over_weight": "pressure drop over the buoyant weight"}
+SCORES = {"e_H": "bed height: two-fluid model over particles, less 1",
+          "e_b": "distance of the species' centres over the bed height: difference of the models",
+          "D1": "layering: 0 if both models layer the species alike, 1 if one is upside down; "
+                "the difference in the share of species 2 over the solids counted from below, integrated",
+          "u_inv": "inversion velocity: two-fluid model over particles, less 1"}
+
+
+def measure_words(name):
+    """What a measure is called in words."""
+    if name in MEASURES:
+        return MEASURES[name]
+    if name.startswith("centre_") and name.endswith("_m"):
+        return f"height of the centre of {name[len('centre_'):-len('_m')]}"
+    row = COLUMNS.get(name)
+    return row["name"].replace("_", " ") if row and row["name"] else name
+
+
+def score_words(name):
+    """What a score says, in words."""
+    if name.startswith("profile_"):
+        return f"vertical profile of {name[len('profile_'):]}: difference of the models over height, over that of the particles"
+    return SCORES.get(name, name)
+
+
+def measure_row(name, measure):
+    """Words, numbers in the unit that fits, and the file."""
+    known = [abs(measure[model]) for model in ("tfm", "dem") if measure[model] is not None]
+    factor, unit = fitting(unit_of_column(name), max(known, default=0))
+    scaled = {key: None if value is None else value * factor for key, value in measure.items()}
+    return [html.escape(measure_words(name) + (f" ({unit})" if unit else "")),
+            *(number(scaled[key], scaled[f"{key}_error"]) for key in ("tfm", "dem", "difference")),
+            "profiles.h5" if name == "interface_m" else "history.csv"]
+
+
 def measures(found):
-    rows = [[name, number(m["tfm"], m["tfm_error"]), number(m["dem"], m["dem_error"]),
-             number(m["difference"], m["difference_error"]),
-             ("profiles.h5" if name == "interface_m" else "history.csv")]
-            for name, m in found["measures"].items()]
+    rows = [measure_row(name, measure) for name, measure in found["measures"].items()]
     folders = [folder_of(found["models"][model]) for model in ("tfm", "dem")]
-    return table(["", "tfm", "dem", "tfm &minus; dem", "from"], [[html.escape(row[0]), *row[1:]] for row in rows]) + source(
+    return table(["", "two-fluid", "particles", "difference", "from"], rows) + source(
         f"time means from {found['window']['begin_s']:.4g} to {found['window']['end_s']:.4g} s, with the half-width of their "
         f"95 % interval; files of {folders[0]} and of {folders[1]}")
 
@@ -122,15 +117,16 @@ def scores(found):
         if name == "order":
             continue
         verdict = {True: "reached", False: '<span class="missed">missed</span>', None: ""}[score["reached"]]
-        rows.append([html.escape(name), number(score["value"], score["error"]), number(score["goal"]) if score["goal"] else "", verdict])
+        rows.append([html.escape(score_words(name)), number(score["value"], score["error"]), number(score["goal"]) if score["goal"] else "", verdict])
     order = found["scores"]["order"]
     top = [f"{NAMES[model]}: {html.escape(order[model]['species'])}" + ("" if order[model]["certain"] else " (within the uncertainty)")
            for model in ("tfm", "dem") if order[model]]
     verdict = {True: "the same", False: '<span class="missed">not the same</span>', None: ""}[order["same"]]
-    told = f"<p>On top: {'; '.join(top)}; {verdict}.</p>" + source("means of centre_ in history.csv of both runs") if top else ""
-    return table(["", "", "goal", ""], rows) + told + source(
-        "e_H and e_b from history.csv, D1 and profile_ from profiles.h5 of both runs"
-        + (f"; u_inv from {file_name(found['inversion_file'])}" if "inversion_file" in found else ""))
+    told = f"<p>On top: {'; '.join(top)}; {verdict}.</p>" + source("means of the heights of the centres in history.csv of both runs") if top else ""
+    return "<p>How far apart the models are: 0 is no difference; a goal is reached if the value, whatever its interval, is at most the goal.</p>" + \
+        table(["", "value", "goal", ""], rows) + told + source(
+            "bed height and distance of the centres from history.csv, layering and profiles from profiles.h5 of both runs"
+            + (f"; inversion velocity from {file_name(found['inversion_file'])}" if "inversion_file" in found else ""))
 
 
 def inversion(scan, path):
@@ -141,11 +137,11 @@ def inversion(scan, path):
     rows = [[NAMES[model], number(in_mm(of["velocity_m_s"]), in_mm(of["error_m_s"])),
              f"{number(in_mm(of['low_m_s']))} to {number(in_mm(of['high_m_s']))}", html.escape(of["outcome"]),
              str(len(of["runs"])), number(of["cpu_s"])] for model, of in scan["models"].items()]
-    text = "<h2>Inversion velocity</h2>" + table(["", "mm/s", "between, mm/s", "ended by", "runs", "CPU s"], rows) + source(
+    text = table(["", "mm/s", "between, mm/s", "ended by", "runs", "CPU s"], rows) + source(
         f"{file_name(path)} (commit {html.escape(scan['git_commit'])})")
     made = [[NAMES[model], number(in_mm(run["velocity_m_s"])), number(run["centre_difference"], run["error"]), folder_of(run)]
             for model, of in scan["models"].items() for run in of["runs"] if "git_commit" in run]
-    return text + (table(["its runs", "mm/s", "centre_difference", "from history.csv of"], made) if made else "")
+    return text + (table(["its runs", "mm/s", "distance of the centres over the bed height", "from history.csv of"], made) if made else "")
 
 
 def models(found):
@@ -185,15 +181,16 @@ def page(directory):
     if scan and "scan" not in scan:
         lines.append(f"{scan_path} does not hold what its scan was asked for, so that no command below makes it: scanned again, "
                      "with the runs that are there, it does")
-    warnings = "".join(f'<p class="warning">{html.escape(text)}</p>' for text in lines)
-    title = html.escape(f"{found['case']}: two-fluid model and particles")
     with plt.rc_context(STYLE):
         drawn = pictures(found, runs)
-    return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{LOOKS}</style></head>'
-            f"<body><h1>{title}</h1>{warnings}<h2>Measures</h2>{measures(found)}<h2>Scores</h2>{scores(found)}"
-            f"{inversion(scan, scan_path) if scan else ''}<h2>Cost</h2>{models(found)}<h2>Pictures</h2>{drawn}<h2>How to make it again</h2>"
-            f"<pre>{html.escape(commands(found, records, scan))}</pre>"
-            + source(f"all numbers: {file_name(path)}; program of commit {html.escape(found['git_commit'])}") + "</body></html>\n")
+    again = f"<pre>{html.escape(commands(found, records, scan))}</pre>" + source(
+        f"all numbers: {file_name(path)}; program of commit {html.escape(found['git_commit'])}")
+    body = [section("measures", "Both models", measures(found)), section("scores", "Scores", scores(found)),
+            section("inversion", "Inversion velocity", inversion(scan, scan_path) if scan else ""),
+            section("pictures", "Pictures", drawn), section("cost", "Cost", models(found)), warnings(lines),
+            section("commands", "How to make it again", again)]
+    title = title_of_case(records["tfm"]) or title_of_case(records["dem"]) or found["case"]
+    return whole_page(title, f"two-fluid model and particles beside each other &middot; {file_name(found['case'])}", "".join(body))
 
 
 def write_page(directory):

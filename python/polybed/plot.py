@@ -112,6 +112,17 @@ def pictures(directory, what=None, time=None, out=None, ending="png", rate=None,
         return [draw_one(run, one, time, folder, ending, rate, progress) for one in what]
 
 
+def at_end(directory, time=None):
+    """Draws picture.png and makes report.html, as a run does at its end, and returns what to say of them. A picture that cannot be made is
+    an error; a page that cannot be made is told."""
+    from polybed.report.build import told, write
+    drawn = picture(directory, time)
+    try:
+        return f"{drawn}, {told(*write(directory))}"
+    except FAULTS as error:
+        return f"{drawn}; no report.html: {error}"
+
+
 def bar(done, count):
     """A line on a terminal that says how far the film is."""
     width = 40
@@ -130,7 +141,7 @@ def parsed(arguments):
     parser.add_argument("--rate", type=float, help="frames per second (default: a film of about 12 s)")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     parser.add_argument("--json", action="store_true", help="one JSON object: the files written")
-    parser.add_argument("--picture", action="store_true", help="RUN/picture.png alone, as a run draws at its end")
+    parser.add_argument("--picture", action="store_true", help="RUN/picture.png and RUN/report.html alone, as at the end of a run")
     options = parser.parse_args(arguments)
     options.what = None if options.what == "all" else tuple(options.what.split(","))
     unknown = [what for what in options.what or () if what not in WHAT]
@@ -143,7 +154,7 @@ def main(arguments=None):
     options = parsed(arguments)
     try:
         if options.picture:
-            print(picture(options.run, options.time))
+            print(at_end(options.run, options.time))
             return 0
         progress = bar if sys.stderr.isatty() and not options.quiet else None
         paths = pictures(options.run, options.what, options.time, options.out, options.format, options.rate, progress)

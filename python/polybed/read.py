@@ -68,12 +68,19 @@ class Run:
         with self._open_step(0) as file:
             return sorted(file["step"])
 
-    def _field(self, step, name):
+    def fields_at(self, step, names):
+        """Fields of a stored step by name, which is quicker than one by one."""
+        cells = tuple(len(self.faces[axis]) - 1 for axis in "zyx")
+        found = {}
         with self._open_step(step) as file:
-            values = file["step"][name][...]
-            cells = tuple(len(self.faces[axis]) - 1 for axis in "zyx")
-            grid = cells if values.shape[:3] == cells else cells[1:]
-            return fits(values, (*grid, len(grid)) if name.startswith("u_") else grid, name)
+            for name in names:
+                values = file["step"][name][...]
+                grid = cells if values.shape[:3] == cells else cells[1:]
+                found[name] = fits(values, (*grid, len(grid)) if name.startswith("u_") else grid, name)
+        return found
+
+    def _field(self, step, name):
+        return self.fields_at(step, [name])[name]
 
     def field(self, name):
         """A field over time, as a sequence of arrays [y][x] or [z][y][x], a vector with its components behind."""

@@ -1,4 +1,4 @@
-"""Draws inversion.json of a scan, as `polybed inversion --scan` does at its end.
+"""Draws inversion.json of a scan and makes its page, as `polybed inversion --scan` does at its end.
 
     python3 -m polybed.scan DIR
 
@@ -6,10 +6,15 @@ Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a p
 """
 
 import argparse
+import shlex
 import sys
 from pathlib import Path
 
+from polybed.drawing.units import fitting, text
+from polybed.in_place import in_place
 from polybed.packages import needed
+from polybed.page import escaped, file_name, page, section, source, table
+from polybed.page import picture as shown_picture
 
 with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
@@ -18,6 +23,8 @@ with needed(__name__ == "__main__"):
     from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
     from polybed.files import contents_of, print_made, read_json
     from polybed.plot import save
+    from polybed.read import read
+    from polybed.record import title_of_case
     from polybed.study.inversion_search import known
 
 
@@ -27,30 +34,31 @@ def read_scan(directory):
 
 
 def columns(scan):
-    """Velocities in mm/s, means and half-widths of a model's runs, by rising velocity."""
-    rows = sorted((run["velocity_m_s"] * 1e3, run["centre_difference"], run["error"]) for run in scan["runs"])
+    """Velocities in m/s, means and half-widths of a model's runs, by rising velocity."""
+    rows = sorted((run["velocity_m_s"], run["centre_difference"], run["error"]) for run in scan["runs"])
     return np.array(rows).T
 
 
 def draw(found):
     """Mean difference of the centres over the velocity, by each model, with what was found."""
     figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    factor, unit = fitting("m/s", max((run["velocity_m_s"] for scan in found["models"].values() for run in scan["runs"]), default=0))
     for n, (model, scan) in enumerate(found["models"].items()):
         velocity, value, error = columns(scan)
         label = NAMES[model]
         if scan["velocity_m_s"] is not None:
             low, high = known(scan["outcome"], *(scan[f"{name}_m_s"] for name in ("low", "high", "velocity", "error")))
-            axes.axvspan(low * 1e3, high * 1e3, color=COLOURS[n], alpha=0.15, linewidth=0)
-            label += f": {scan['velocity_m_s'] * 1e3:.3g} mm/s"
-        axes.errorbar(velocity, value, error, color=COLOURS[n], marker="os"[n % 2], markersize=4, linewidth=1, capsize=2,
+            axes.axvspan(low * factor, high * factor, color=COLOURS[n], alpha=0.15, linewidth=0)
+            label += f": {text(scan['velocity_m_s'], 'm/s')}"
+        axes.errorbar(velocity * factor, value, error, color=COLOURS[n], marker="os"[n % 2], markersize=4, linewidth=1, capsize=2,
                       label=label)
     axes.axhline(0, color=PALE, linewidth=0.8, zorder=0)
     balance = found["force_balance"]
     if balance:
-        axes.axvline(balance["velocity_m_s"] * 1e3, color=GREY, linestyle=":", linewidth=1,
-                     label=f"force balance: {balance['velocity_m_s'] * 1e3:.3g} mm/s")
+        axes.axvline(balance["velocity_m_s"] * factor, color=GREY, linestyle=":", linewidth=1,
+                     label=f"force balance: {text(balance['velocity_m_s'], 'm/s')}")
     first, second = found["species"]
-    axes.set_xlabel("superficial velocity (mm/s)")
+    axes.set_xlabel(f"superficial velocity ({unit})")
     axes.set_ylabel(f"centre of {second} less that of {first}, over the bed height")
     axes.legend(fontsize=8)
     return figure
@@ -63,11 +71,84 @@ def picture(directory, output=None):
         return save(draw(found), Path(output) if output else Path(directory) / "inversion.png")
 
 
+OUTCOMES = {"bracket": "the range is narrow enough", "indistinct": "what is left is within the uncertainty of the runs",
+            "not found": "no change of places in the range"}
+
+
+def commands(scan):
+    """The words that make a scan again, or find it finished: range and end are those that it had, given or by default."""
+    words = [*(["mpirun", "-n", str(scan["ranks"])] if scan["ranks"] > 1 else []), "polybed", "inversion", scan["case"]]
+    words += [*(word for override in scan["overrides"] for word in ("--set", override)), "--scan", scan["scan"]]
+    for option, value in (("--from", f"{scan['from_m_s']!r} m/s"), ("--to", f"{scan['to_m_s']!r} m/s"),
+                          ("--until", f"{scan['until_s']!r} s")):
+        words += [option, value]
+    if "stress_uncertainty" in scan["models"].get("tfm", {}):
+        words.append("--stress-uncertainty")
+    return words + ["-o", scan["directory"]]
+
+
+def velocity_row(model, of):
+    """What was found by a model."""
+    if of["velocity_m_s"] is None:
+        found = "not found"
+    else:
+        found = text(of["velocity_m_s"], "m/s") + (f" &plusmn; {text(of['error_m_s'], 'm/s', 2)}" if of["error_m_s"] is not None else "")
+    between = " to ".join("?" if of[f"{end}_m_s"] is None else text(of[f"{end}_m_s"], "m/s") for end in ("low", "high"))
+    return [NAMES[model], found, between, escaped(OUTCOMES.get(of["outcome"], of["outcome"])), str(len(of["runs"])), text(of["cpu_s"], "s")]
+
+
+def title_of(found):
+    """Title of the case by the record of a run of it, else its path."""
+    for of in found["models"].values():
+        for run in of["runs"]:
+            title = title_of_case(read(run["directory"]).record) if Path(run["directory"]).is_dir() else ""
+            if title:
+                return title
+    return found["case"]
+
+
+def text_of(found, path):
+    """The page as text."""
+    with plt.rc_context(STYLE):
+        drawn = shown_picture(draw(found), f"means over the last part of each run, with their 95 % intervals; {file_name(path)}",
+                              "distance of the centres over the velocity")
+    first, second = map(escaped, found["species"])
+    rows = [velocity_row(model, of) for model, of in found["models"].items()]
+    balance = found["force_balance"]
+    if balance:
+        rows.append(["force balance, without a run", text(balance["velocity_m_s"], "m/s"), "", "", "", ""])
+    made = [[NAMES[model], text(run["velocity_m_s"], "m/s"), f"{run['centre_difference']:.3g} &plusmn; {run['error']:.1g}",
+             file_name(run["directory"])] for model, of in found["models"].items() for run in of["runs"]]
+    body = [section("found", "Inversion velocity", table(["", "superficial velocity", "between", "ended because", "runs", "computing"], rows) + source(
+        f"The velocity at which {first} and {second} change places.")),
+        section("picture", "Runs", drawn + table(["", "velocity", f"centre of {second} less that of {first}, over the bed height", "run"], made)),
+        section("commands", "How to make it again",
+                f"<pre>{escaped(shlex.join(commands(found)))}</pre>" if "scan" in found else "")]
+    return page(title_of(found), f"inversion velocity by runs &middot; {file_name(found['case'])}", "".join(body))
+
+
+def write_page(directory):
+    """Puts DIR/inversion.html in place whole and returns its path."""
+    path = Path(directory) / "inversion.json"
+    found = read_scan(directory)
+    with contents_of(path):
+        content = text_of(found, path)
+    place = path.with_suffix(".html")
+    with in_place(place) as temporary:
+        temporary.write_text(content, encoding="utf-8")
+    return place
+
+
+def drawn(directory):
+    """Makes picture and page of a scan, and returns their paths as lines."""
+    return f"{picture(directory)}\n{write_page(directory)}"
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="polybed.scan", description="Draws a scan for the inversion velocity.")
     parser.add_argument("directory", help="folder of inversion.json")
     directory = parser.parse_args(arguments).directory
-    return print_made(lambda: [picture(directory)])
+    return print_made(lambda: [drawn(directory)])
 
 
 if __name__ == "__main__":

@@ -210,6 +210,7 @@ class Comparison(Scratch):
         text = (self.folder / "page/comparison.html").read_text()
         self.assertEqual(text.count('src="data:image/png;base64,'), 5)  # three instants, profiles, history
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)[^"]*"', text), [])
+        self.assertGreater(text.find(">Warnings<"), text.find(">Pictures<"), "warnings come after the results")
         found = strict_json((self.folder / "page/comparison.json").read_text())
         self.numbers_stand_on(text, found)
         for line in found["warnings"]:
@@ -232,13 +233,14 @@ class Comparison(Scratch):
     def numbers_stand_on(self, text, found):
         """Every mean of both models and every score of comparison.json, and beside the folder of each run its commit."""
         for name, measure in found["measures"].items():
-            means = "".join(f"<td>{page.number(measure[m], measure[f'{m}_error'])}</td>" for m in ("tfm", "dem"))
-            self.assertIn(f"<td>{name}</td>{means}", text)
-        self.assertIn(f"<td>{found['measures']['bed_height_m']['dem']:.4g} &plusmn; ", text)
+            self.assertIn("".join(f"<td>{cell}</td>" for cell in page.measure_row(name, measure)), text)
+        self.assertIn(f"<td>bed height (mm)</td><td>{1e3 * found['measures']['bed_height_m']['tfm']:.4g} &plusmn; ", text)
+        self.assertIn(f"<td>{1e3 * found['measures']['bed_height_m']['dem']:.4g} &plusmn; ", text)
         for name, score in found["scores"].items():
             if name != "order":
-                self.assertIn(f"<td>{name}</td><td>{page.number(score['value'], score['error'])}</td>", text)
-        self.assertRegex(text, f"<td>e_H</td><td>{found['scores']['e_H']['value']:.4g} ")
+                self.assertIn(f"<td>{page.score_words(name)}</td><td>{page.number(score['value'], score['error'])}</td>", text)
+                self.assertNotEqual(page.score_words(name), name, "a score is explained")
+        self.assertRegex(text, f"<td>{page.SCORES['e_H']}</td><td>{found['scores']['e_H']['value']:.4g} ")
         self.assertIn(f"On top: two-fluid: {found['scores']['order']['tfm']['species']}", text)
         self.assertRegex(text, r"On top[^\n]*?centre_ in history\.csv of both runs")
         for model in ("tfm", "dem"):
@@ -273,7 +275,7 @@ class Comparison(Scratch):
         self.ends(DONE, "compare", self.case, "--tfm", self.folder / "both/tfm", "--dem", self.folder / "both/dem", "-o",
                   self.folder / "scanned", "--inversion", path.parent)
         text = (self.folder / "scanned/comparison.html").read_text()
-        self.assertIn("<td>u_inv</td><td>0.05 &plusmn; 0.01</td>", text)
+        self.assertIn(f"<td>{page.SCORES['u_inv']}</td><td>0.05 &plusmn; 0.01</td>", text)
         self.assertIn("<td>two-fluid</td><td>21 &plusmn; 0.1</td><td>20.7 to 21.3</td><td>bracket</td>", text)
         self.assertIn(f"<code>{path}</code> (commit {found['git_commit']})", text)
         for run in runs:

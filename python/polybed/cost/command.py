@@ -75,7 +75,7 @@ def parser():
     options.add_argument("--force", action="store_true", help="replace a sweep that exists")
     options.add_argument("--quiet", action="store_true", help="no progress")
     options.add_argument("--json", action="store_true", help="cost.json on standard output")
-    options.add_argument("--no-picture", dest="picture", action="store_false", help="no cost.png and cost.svg")
+    options.add_argument("--no-picture", dest="picture", action="store_false", help="no cost.png, cost.svg and cost.html")
     return options
 
 

@@ -2,7 +2,7 @@
 
     python3 -m polybed.cost.picture DIR [--out DIR]
 
-Reads DIR/cost.json, writes cost.png and cost.svg and prints their paths. Exit codes are those of polybed.
+Reads DIR/cost.json, writes cost.png, cost.svg and the page cost.html and prints their paths. Exit codes are those of polybed.
 """
 
 import argparse
@@ -18,6 +18,8 @@ with needed(__name__ == "__main__"):
     from polybed.drawing.style import STYLE
     from polybed.files import contents_of, print_made, read_json
     from polybed.plot import save
+
+    from polybed.cost.page import write_page
 
 
 def pictures(directory, out=None):
@@ -35,7 +37,7 @@ def main(arguments=None):
     parser.add_argument("directory")
     parser.add_argument("--out", help="folder of the pictures (default: that of the sweep)")
     options = parser.parse_args(arguments)
-    return print_made(lambda: pictures(options.directory, options.out))
+    return print_made(lambda: [*pictures(options.directory, options.out), *([] if options.out else [write_page(options.directory)])])
 
 
 if __name__ == "__main__":

@@ -142,7 +142,9 @@ def write_sweep(sweep, of, folder, picture):
         return ""
     try:
         from polybed.cost.picture import pictures  # what draws takes longer to import than all else
+        from polybed.cost.page import write_page
         pictures(folder)
+        write_page(folder)
     except Exception as error:  # what lies in the folder is complete without its picture
         return str(error)
     return ""

@@ -53,7 +53,7 @@ def field_frames(run):
     maps = [(name, in_plane(run.field(f"phi_{name}")[0])) for name in run.species]
     void = voidages(run, int(np.argmin([run.field("voidage")[n].min() for n in steps])))
     void.maps = [("fluid", in_plane(run.field("voidage")[0]))]
-    groups = [Group("volume fraction", "viridis", (0, most), maps), void]
+    groups = [Group("solids fraction", "viridis", (0, most), maps), void]
     first_title = title_of(run, run.time[0], maps=True, digits=digits)
     figure, meshes = draw_maps(run, groups, first_title, shown_height(run, steps))
     names = [f"phi_{name}" for name in run.species] + ["voidage"]

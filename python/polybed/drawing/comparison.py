@@ -32,7 +32,7 @@ def panels_at(runs, time):
         if step is not None and run.species:
             group = fractions(run, step)
             groups.append(group)
-            found += [("map", run, f"{NAMES[model]}: $\\phi$ {name}", values, group) for name, values in group.maps]
+            found += [("map", run, f"{NAMES[model]}: {name}", values, group) for name, values in group.maps]
     most = max((group.limits[1] for group in groups), default=1)
     for group in groups:
         group.limits = (0, most)
@@ -91,7 +91,7 @@ def draw_profiles(runs, means):
             axes.fill_betweenx(height, mean - error, mean + error, color=colour(n), alpha=0.2, linewidth=0,
                                label=f"{NAMES[model]}: 95 % interval of the mean" if told else None)
             axes.set_title(name)
-            axes.set_xlabel("volume fraction")
+            axes.set_xlabel("solids fraction")
             axes.legend(fontsize=7)
     if not drawn:
         plt.close(figure)

@@ -2,9 +2,11 @@
 
 import matplotlib.pyplot as plt
 
-from polybed.drawing.style import COLOURS, GREY, PALE
+from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, shortened
+from polybed.record import title_of_case
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
+CLOCKS = {"work": "by counted work", "cpu": "CPU", "wall": "by the clock"}
 LEAST = 1e-7  # an error of 0 is drawn here
 
 
@@ -82,12 +84,19 @@ def draw(sweep):
         floor = sweep["reference"]["floor"].get(quantity["id"], 0)
         if floor > LEAST:
             axes.axvline(floor, color=GREY, lw=0.7, ls=":")
-        axes.set(xscale="log", yscale="log", xlabel=f"error of {quantity['id']}", title=quantity["id"])
-        axes.legend(fontsize=7)
-    all_axes[0][0].set_ylabel(f"s for a simulated second ({sweep['clock']})")
-    figure.suptitle(f"{case_name(sweep)}   {sweep['model']}   reference: {sweep['reference']['kind'] or 'none'}   "
-                    f"{sweep['outcome']}", fontsize=9)
+        words = quantity["id"].replace("_", " ")
+        axes.set(xscale="log", yscale="log", xlabel=f"error of the {words}", title=words)
+        if axes.get_legend_handles_labels()[1]:
+            axes.legend(fontsize=7)
+    all_axes[0][0].set_ylabel(f"computing time for a simulated second (s, {CLOCKS[sweep['clock']]})")
+    figure.suptitle(f"{shortened(title_of(sweep))}   {NAMES.get(sweep['model'], sweep['model'])}   "
+                    f"reference: {sweep['reference']['kind'] or 'none'}", fontsize=9)
     return figure
+
+
+def title_of(sweep):
+    """Title of the case, else its name."""
+    return title_of_case(sweep) or case_name(sweep)
 
 
 def case_name(sweep):

@@ -4,12 +4,13 @@ import numpy as np
 
 from polybed.drawing.maps import Group, draw_maps
 from polybed.drawing.style import FEW_SOLIDS, greatest_fraction, in_plane, shown_height, title_of, vector_in_plane
+from polybed.drawing.units import fitting
 
 
 def fractions(run, step):
     """Volume fractions of the species, on one scale."""
     maps = [(name, in_plane(run.field(f"phi_{name}")[step])) for name in run.species]
-    return Group("volume fraction", "viridis", (0, greatest_fraction(run, [step])), maps)
+    return Group("solids fraction", "viridis", (0, greatest_fraction(run, [step])), maps)
 
 
 def voidages(run, step):
@@ -22,14 +23,15 @@ def velocities(run, step):
     """Vertical velocities on one symmetric scale; where a species is absent it has none to show."""
     maps = []
     for name in [n for n in run.species if f"u_{n}" in run.fields]:
-        up = vector_in_plane(run.field(f"u_{name}")[step])[..., 1] * 1e3
+        up = vector_in_plane(run.field(f"u_{name}")[step])[..., 1]
         present = in_plane(run.field(f"phi_{name}")[step]) > FEW_SOLIDS
         maps.append((name, np.ma.masked_where(~present, up)))
     if "u_fluid" in run.fields:
-        maps.append(("fluid", vector_in_plane(run.field("u_fluid")[step])[..., 1] * 1e3))
-    most = max([1e-3] + [float(np.abs(values).max()) for _, values in maps if np.ma.count(values)])
-    most = float(f"{most:.2g}")  # two digits on the scale; a colour at its end is not to be read closer
-    return Group("vertical velocity (mm/s)", "RdBu_r", (-most, most), maps)
+        maps.append(("fluid", vector_in_plane(run.field("u_fluid")[step])[..., 1]))
+    most = max([1e-6] + [float(np.abs(values).max()) for _, values in maps if np.ma.count(values)])
+    factor, unit = fitting("m/s", most)
+    most = float(f"{most * factor:.2g}")  # two digits on the scale; a colour at its end is not to be read closer
+    return Group(f"vertical velocity ({unit})", "RdBu_r", (-most, most), [(name, values * factor) for name, values in maps])
 
 
 def draw(run, step):

@@ -4,6 +4,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY, PALE, length_unit, levels, species_line, title_of
+from polybed.drawing.units import fitting
+from polybed.outflow import discharge_rate, mass_out, recovery
 
 
 def draw_heights(axes, run, factor, unit):
@@ -42,8 +44,9 @@ def draw_mixing(axes, run):
 def draw_steps(axes, run):
     history = run.history
     known = history["dt_s"] > 0
-    axes.semilogy(history["time_s"][known], history["dt_s"][known] * 1e3, color=GREY, linewidth=0.8)
-    axes.set_ylabel("time step\n(ms)")
+    factor, unit = fitting("s", history["dt_s"].max())
+    axes.semilogy(history["time_s"][known], history["dt_s"][known] * factor, color=GREY, linewidth=0.8)
+    axes.set_ylabel(f"time step\n({unit})")
 
 
 LEDGER = ("kinetic_J", "rotational_J", "elastic_J", "potential_J", "dissipated_J", "work_J")
@@ -84,9 +87,29 @@ def draw_contacts(axes, run):
 
 
 def draw_overlap(axes, run):
-    axes.plot(run.history["time_s"], run.history["max_overlap_m"] * 1e6, color=GREY, linewidth=0.8)
+    factor, unit = fitting("m", np.nanmax(run.history["max_overlap_m"], initial=0))
+    axes.plot(run.history["time_s"], run.history["max_overlap_m"] * factor, color=GREY, linewidth=0.8)
     axes.set_ylim(bottom=0)
-    axes.set_ylabel("largest\noverlap (\u00b5m)")
+    axes.set_ylabel(f"largest\noverlap ({unit})")
+
+
+def draw_species(axes, run, values, unit, label):
+    """A quantity of each species in time."""
+    factor, shown = fitting(unit, max(np.nanmax(v, initial=0) for v in values.values()))
+    for n, name in enumerate(run.species):
+        if name in values:
+            axes.plot(run.history["time_s"], values[name] * factor, linewidth=1, **species_line(n))
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel(f"{label}" + (f" ({shown})" if shown else ""))
+
+
+def draw_discharge(axes, run):
+    """Mass of all species that leaves in a second."""
+    time, rate = discharge_rate(run.history, run.species)
+    factor, unit = fitting("kg/s", rate.max())
+    axes.plot(time, rate * factor, color=GREY, linewidth=1)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel(f"discharge\nrate ({unit})")
 
 
 def draw_invariants(axes, run):
@@ -101,7 +124,7 @@ def draw_invariants(axes, run):
         axes.text(least, n - 0.3, text, fontsize=8, va="bottom", ha="left")
     axes.set_xscale("log")
     axes.set_xlim(least, max([most] + [3 * i["worst"] / i["limit"] for i in entries]))
-    axes.set_ylim(len(entries) - 0.5, -0.8)
+    axes.set_ylim(max(len(entries), 6) - 0.5, -0.8)
     axes.set_yticks([])
     axes.spines["left"].set_visible(False)
     axes.set_xlabel("worst value of each invariant / its limit")
@@ -114,6 +137,13 @@ def panels(run):
     # particles without a fluid have no pressure
     if {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys() and np.any(history["pressure_drop_Pa"] != 0):
         chosen.append((1.2, lambda axes: draw_force_balance(axes, run)))
+    left = mass_out(history, run.species)
+    if left:
+        shares = recovery(history, run.species)
+        chosen += [(1.2, lambda axes: draw_species(axes, run, left, "kg", "left the\ncolumn")),
+                   (1.2, lambda axes: draw_species(axes, run, shares, "1", "recovery"))]
+        if len(discharge_rate(history, run.species)[0]):
+            chosen.append((1.2, lambda axes: draw_discharge(axes, run)))
     if "mixing" in history and len(run.species) > 1:
         chosen.append((1, lambda axes: draw_mixing(axes, run)))
     if set(LEDGER[:3]) <= history.keys():

@@ -96,10 +96,10 @@ def draw_fields(run, step, layout, top):
     """Volume fractions of the species and of the fluid."""
     groups = (fractions(run, step), voidages(run, step))
     for n, (group, name, values) in enumerate((group, *entry) for group in groups for entry in group.maps):
-        title = f"$\\phi$ {name}" if group is groups[0] else "voidage $\\varepsilon$"
-        mesh = draw_map(layout.map(n), run, group, title, values, top, first=n == 0)
+        mesh = draw_map(layout.map(n), run, group, name, values, top, first=n == 0)
         bar = layout.figure.colorbar(mesh, cax=layout.bar(n), orientation="horizontal")
         bar.set_ticks(group.limits, labels=[f"{limit:.2g}" for limit in group.limits])
+        bar.set_label(group.label, fontsize=8, labelpad=1)
         bar.outline.set_linewidth(0.5)
 
 

@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 
 from polybed.drawing.maps import BARS, GAP, HEAD, HEIGHT, LEFT, RIGHT, frame, map_size
 from polybed.drawing.style import COLOURS, length_unit, title_of
+from polybed.drawing.units import fitting
 
 MOST = 50_000  # circles in a picture; more take long and hide each other
 EDGE = 1.5  # points, the radius from which a circle has an outline
@@ -103,8 +104,9 @@ def speed_bar(figure, axes, end, beyond):
     """The scale of speeds beneath a view."""
     mapped = plt.cm.ScalarMappable(Normalize(0, end), "viridis")
     bar = figure.colorbar(mapped, cax=axes, orientation="horizontal", extend="max" if beyond else "neither")
-    bar.set_ticks([0, end / 2, end], labels=[f"{value:.3g}" for value in (0, end / 2, end)])
-    bar.set_label("speed (mm/s)")
+    factor, unit = fitting("m/s", end / 1e3)
+    bar.set_ticks([0, end / 2, end], labels=[f"{value / 1e3 * factor:.3g}" for value in (0, end / 2, end)])
+    bar.set_label(f"speed ({unit})")
     bar.outline.set_linewidth(0.5)
 
 

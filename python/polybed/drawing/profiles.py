@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import EMPTY, FEW_SOLIDS, GREY, PALE, length_unit, levels, species_line, title_of
+from polybed.drawing.units import fitting
 from polybed.read import nearest
 
 
@@ -45,31 +46,40 @@ def draw_fractions(axes, run, row, factor):
     axes.set_xlabel("volume fraction")
 
 
+def greatest(run, row, kind):
+    """The greatest magnitude of a quantity at a stored time, of all species and the fluid; 0 without any."""
+    values = [np.abs(profile[row]) for name, profile in run.profiles.items() if name.startswith(f"{kind}_")]
+    return max([0.0] + [float(np.nanmax(v)) for v in values if np.isfinite(v).any()])
+
+
 def draw_velocities(axes, run, row, factor):
-    draw_quantity(axes, run, row, "u", factor, 1e3)
+    scale, unit = fitting("m/s", greatest(run, row, "u"))
+    draw_quantity(axes, run, row, "u", factor, scale)
     if "u_fluid" in run.profiles:
         height = run.profiles["y_m"] * factor
-        axes.plot(run.profiles["u_fluid"][row] * 1e3, height, color="black", linestyle=(0, (3, 1)), linewidth=1, label="fluid")
+        axes.plot(run.profiles["u_fluid"][row] * scale, height, color="black", linestyle=(0, (3, 1)), linewidth=1, label="fluid")
     axes.axvline(0, color=PALE, linewidth=0.8, zorder=0)
     most = max(1e-3, 1.1 * max(np.abs(axes.get_xlim())))
     axes.set_xlim(-most, most)
-    axes.set_xlabel("mean vertical velocity (mm/s)")
+    axes.set_xlabel(f"mean vertical velocity ({unit})")
 
 
 def draw_pressure(axes, run, row, factor):
-    if "p" in run.profiles:
-        axes.plot(run.profiles["p"][row], run.profiles["y_m"] * factor, color="black")
     weight = value_at(run, "buoyant_weight_Pa", run.profiles["time_s"][row])
+    scale, unit = fitting("Pa", max(weight or 0, float(np.nanmax(np.abs(run.profiles["p"][row]))) if "p" in run.profiles else 0))
+    if "p" in run.profiles:
+        axes.plot(run.profiles["p"][row] * scale, run.profiles["y_m"] * factor, color="black")
     if weight is not None:
-        axes.axvline(weight, color=GREY, linestyle="-.", linewidth=1, label="buoyant weight")
+        axes.axvline(weight * scale, color=GREY, linestyle="-.", linewidth=1, label="buoyant weight")
     axes.set_xlim(left=min(0, axes.get_xlim()[0]))
-    axes.set_xlabel("net pressure (Pa)")
+    axes.set_xlabel(f"net pressure ({unit})")
 
 
 def draw_temperature(axes, run, row, factor):
-    draw_quantity(axes, run, row, "theta", factor, 1e6)
+    scale, unit = fitting("m2/s2", greatest(run, row, "theta"))
+    draw_quantity(axes, run, row, "theta", factor, scale)
     axes.set_xlim(0, max(1e-3, axes.get_xlim()[1]))  # of particles that move as one there is only rounding
-    axes.set_xlabel("granular temperature (mm$^2$/s$^2$)")
+    axes.set_xlabel(f"granular temperature ({unit})")
 
 
 def edges(centres):
@@ -93,7 +103,7 @@ def draw_in_time(axes, run, name, most, factor, time):
     for column, _, line in levels(history):
         axes.plot(history["time_s"], history[column] * factor, color="white", linestyle=line, linewidth=1)
     axes.axvline(time, color="white", linewidth=0.6)
-    axes.set_title(f"{name}: volume fraction in time")
+    axes.set_title(f"{name}: solids fraction in time")
     axes.set_xlabel("time (s)")
     return mesh
 
@@ -140,6 +150,6 @@ def draw(run, time):
         mesh = draw_in_time(ax, run, name, most, factor, time)
     below[0].set_ylabel(f"height y ({unit})")
     below[0].set_ylim(0, shown_top(run) * factor)
-    lower.colorbar(mesh, ax=list(below), pad=0.01).set_label("volume fraction")
+    lower.colorbar(mesh, ax=list(below), pad=0.01).set_label("solids fraction")
     figure.suptitle(title_of(run, time) + "   lateral means", fontsize=10)
     return figure

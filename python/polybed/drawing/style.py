@@ -12,11 +12,14 @@ matplotlib.use("Agg")
 import numpy as np
 
 from polybed.quantities import LEVELS
+from polybed.record import title_of_case
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
 NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each other
 LINES = ["-", "--", "-."]  # beyond six species the colours come again, in another line
 LEVEL_LINES = ["--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))]  # of levels in the bed
+INTERFACE = "interface_m"  # between two species; of three there is more than one
+TITLE = 70  # characters of a title in a picture
 GREY = "#555555"
 PALE = "#bbbbbb"
 EMPTY = "#eeeeee"  # of a map where there is nothing to show
@@ -40,10 +43,11 @@ def species_line(n):
 
 
 def levels(history):
-    """(column, label, line) of each level in the bed that a history has somewhere: its height, the interface."""
+    """(column, label, line) of each level in the bed that a history has somewhere: its height, the interface of two species."""
     lines = dict(zip(LEVELS, itertools.cycle(LEVEL_LINES)))
+    species = sum(column.startswith("centre_") for column in history)
     return [(column, label, lines[column]) for column, label in LEVELS.items()
-            if not np.isnan(history.get(column, np.nan)).all()]
+            if not np.isnan(history.get(column, np.nan)).all() and not (column == INTERFACE and species > 2)]
 
 
 def length_unit(run):
@@ -83,10 +87,16 @@ def state_of(run):
     return "" if state in ("", "done") else state.split(":")[0]
 
 
+def shortened(text):
+    """A title that fits above a picture, as plain text: no mark of it is read as mathematics."""
+    plain = " ".join(text.split()).replace("$", r"\$")
+    return plain if len(plain) <= TITLE else plain[: TITLE - 1].rstrip() + "\u2026"
+
+
 def title_of(run, time=None, maps=False, digits=".4g"):
     """What a picture shows, in a line; of maps of a 3-D run, that they are a plane of it."""
     model = {"tfm": "two-fluid model", "dem": "discrete particles"}.get(run.record.get("model"), "")
-    parts = [run.directory.resolve().name, model, "" if time is None else f"t = {time:{digits}} s", state_of(run)]
+    parts = [shortened(title_of_case(run.record) or run.directory.resolve().name), model, "" if time is None else f"t = {time:{digits}} s", state_of(run)]
     if maps and run.dimensions == 3:
         parts.append("plane at half depth")
     return "   ".join(part for part in parts if part)

@@ -1,0 +1,104 @@
+"""cost.html of a sweep: what to use, what it costs, what the error is made of, and how to make it again; one file that stands alone."""
+
+import shlex
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+from polybed.drawing import cost
+from polybed.drawing.style import NAMES, STYLE
+from polybed.drawing.units import text
+from polybed.files import contents_of, read_json
+from polybed.in_place import in_place
+from polybed.page import escaped, file_name, page, picture, section, source, table, warnings
+
+STATUS = {"pareto": "nothing cheaper is as accurate", "dominated": "another is cheaper and as accurate",
+          "hollow": "too near the reference to be ranked", "model": "another model or other data: not ranked",
+          "predicted": "predicted, not run", "not run": "not run", "failed": "failed", "refused": "refused"}
+OUTCOMES = {"done": "", "refused": "No recommendation: ", "failed": "The sweep failed: "}
+
+
+def percent(value, error=None):
+    if value is None:
+        return "&ndash;"
+    return f"{100 * value:.2g}" + ("" if error is None else f" &plusmn; {100 * error:.1g}")
+
+
+def quantity_words(name):
+    return escaped(name.replace("_", " "))
+
+
+def settings_words(run):
+    """The settings of a row, and what is special about it."""
+    words = [f"{axis} {level}" for axis, level in run["settings"].items() if axis in ("rtol", "grid", "scheme")]
+    return escaped(", ".join([*words, run["note"]] if run["note"] else words) or run["kind"])
+
+
+def recommendation(sweep):
+    """What to use for the accuracy asked for."""
+    if not sweep["recommend"]:
+        told = escaped(sweep["reason"] or "no run reaches the accuracy asked for")
+        return f"<p>{OUTCOMES.get(sweep['outcome'], '')}{told}.</p>"
+    found = []
+    for one in sweep["recommend"]:
+        keys = " ".join(f"--set {shlex.quote(override)}" for override in one["overrides"])
+        found.append(f"<p>For an error of at most {percent(one['target'])} % in the {quantity_words(one['qoi'])}: "
+                     f"<b>{settings_words(sweep['runs'][one['run']])}</b>, error {percent(one['error'], one['ci'])} %, "
+                     f"{text(one['s_per_sim_s'], 's')} of computing for a simulated second"
+                     f"{'' if one['confirmed'] else ' (not confirmed by a second run)'}.</p>"
+                     + (f"<pre>{escaped(keys)}</pre>" if keys else ""))
+    return '<div class="card">' + "".join(found) + "</div>"
+
+
+def runs(sweep):
+    shown = [q for q in sweep["qoi"] if q["shown"]]
+    advised = {one["run"] for one in sweep["recommend"]}
+    rows = []
+    for n, run in enumerate(sweep["runs"]):
+        if run["status"] == "not run":
+            continue
+        errors = [run["qoi"].get(q["id"], {}) for q in shown]
+        status = "not ranked: there is no reference" if run["status"] == "hollow" and not sweep["reference"]["kind"] else run["status"]
+        state = "<b>recommended</b>" if n in advised else escaped(STATUS.get(status, status))
+        rows.append([settings_words(run), text(run["s_per_sim_s"], "s") if run["s_per_sim_s"] > 0 else "&ndash;",
+                     *(percent(error.get("error"), error.get("error_ci")) for error in errors), state])
+    left = sum(run["status"] == "not run" for run in sweep["runs"])
+    told = "".join(f"{quantity_words(q['id'])}: {escaped(q['definition'])}. " for q in shown)
+    return table(["settings", "for a simulated second", *(f"error of the {quantity_words(q['id'])} (%)" for q in shown), ""], rows) + source(
+        f"An error is the distance from the reference ({escaped(sweep['reference']['kind'] or 'there is none')}). {told}"
+        + (f"{left} more were not run: the budget was {text(sweep['budget_s'], 's')}." if left else ""))
+
+
+def shares(title, rows):
+    """What an error is made of; nothing without a number."""
+    known = [[escaped(row["row"]), percent(row["value"]), escaped(row["note"])] for row in rows if row["value"] is not None]
+    missing = ", ".join(escaped(row["row"]) for row in rows if row["value"] is None)
+    return table([title, "%", ""], known) + (source(f"not measured: {missing}") if missing else "") if known else ""
+
+
+def text_of(sweep, path):
+    """The page as text."""
+    measured = any(q["id"] in run["qoi"] for run in sweep["runs"] for q in sweep["qoi"] if q["shown"])
+    with plt.rc_context(STYLE):
+        drawn = picture(cost.draw(sweep) if measured else None, f"all runs; {file_name(path)}", "error against computing time")
+    words = ["polybed", "cost", sweep["case_path"], *(w for o in sweep["overrides"] for w in ("--set", o)), "--model", sweep["model"],
+             "--budget", f"{sweep['budget_s']:g}s", "--target", f"{100 * sweep['target']:g}%", "-o", str(path.parent), "--force"]
+    body = [section("use", "What to use", recommendation(sweep)), section("picture", "Error against computing time", drawn),
+            section("runs", "Runs", runs(sweep)),
+            section("made", "What the error is made of", shares("part", sweep["attribution"]) + shares("input, changed by what it is usually known to",
+                                                                                             sweep["inputs"])),
+            warnings(sweep["warnings"]), section("commands", "How to make it again", f"<pre>{escaped(shlex.join(words))}</pre>")]
+    under = f"accuracy and computing time, {escaped(NAMES.get(sweep['model'], sweep['model']))} &middot; {file_name(sweep['case_path'])}"
+    return page(cost.title_of(sweep), under, "".join(body))
+
+
+def write_page(directory):
+    """Puts DIR/cost.html in place whole and returns its path."""
+    path = Path(directory) / "cost.json"
+    sweep = read_json(path, "polybed cost")
+    with contents_of(path):
+        found = text_of(sweep, path)
+    place = path.with_suffix(".html")
+    with in_place(place) as temporary:
+        temporary.write_text(found, encoding="utf-8")
+    return place

@@ -1,0 +1,41 @@
+"""Units with the SI prefix in which numbers read well: 2.3 m/s rather than 2300 mm/s."""
+
+PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "\u00b5"), (1e-9, "n"))
+WHOLE = {"1", "", "kg/m3"}  # units that stand without a prefix
+SQUARED = {"m2/s2": (2, "{0}m\u00b2/s\u00b2")}
+GRAMS = {"kg": "g", "kg/s": "g/s"}
+
+
+def fitting(unit, greatest):
+    """(factor, name): what numbers in an SI unit are multiplied with, so that the greatest of them reads as 1 to 1000, and the unit
+    then. Numbers all 0, or without a unit, keep it."""
+    if unit in WHOLE or not 0 < greatest < float("inf"):
+        return 1.0, {"1": "", "m2/s2": "m\u00b2/s\u00b2"}.get(unit, unit)
+    power, name = SQUARED.get(unit, (1, "{0}" + unit))
+    if unit in GRAMS:
+        greatest, name = greatest * 1e3, "{0}" + GRAMS[unit]
+        factor, prefix = fitting_prefix(greatest, 1)
+        return (1.0, unit) if prefix == "k" else (1e3 * factor, name.format(prefix))
+    factor, prefix = fitting_prefix(greatest, power)
+    return factor, name.format(prefix)
+
+
+def fitting_prefix(greatest, power):
+    """The greatest prefix of which there is at least one; the smallest of all if there is none."""
+    for size, prefix in PREFIXES:
+        if greatest * (1 + 1e-9) >= size**power:
+            return size**-power, prefix
+    return PREFIXES[-1][0] ** -power, PREFIXES[-1][1]
+
+
+def mean_text(value, spread, unit):
+    """A mean and how far it spreads, in one unit, as in 120 +- 3 mm."""
+    factor, name = fitting(unit, max(abs(value), abs(spread)))
+    spread = spread if spread > 1e-9 * abs(value) else 0.0  # less is rounding of what does not change
+    return f"{value * factor:.3g} \u00b1 {spread * factor:.2g} {name}".strip()
+
+
+def text(value, unit, digits=3):
+    """A number with the unit that fits, as in 2.3 mm/s."""
+    factor, name = fitting(unit, abs(value))
+    return f"{value * factor:.{digits}g} {name}".strip()

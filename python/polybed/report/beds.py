@@ -1,0 +1,162 @@
+"""The bed over its stored times for a page: maps of the fields, and the particles in three dimensions."""
+
+import numpy as np
+
+from polybed.drawing.style import COLOURS, FEW_SOLIDS, in_plane, length_unit, vector_in_plane
+from polybed.drawing.units import fitting
+from polybed.report.pack import EMPTY, changes, levels, packed, plain_numbers, thinned
+
+MOST_CELLS = 40_000  # of one map; a finer one is averaged
+MOST_LEVELS = 24_000_000  # of all maps together: bytes before they are compressed
+MOST_TEXT = 4_000_000  # characters of all maps, and of all particles
+FEWEST_STEPS = 12  # of particles; fewer steps are not enough to see a motion: particles are left out instead
+
+
+def coarse(values, share):
+    """Means over share x share cells; cells left at the upper ends are left out."""
+    if share == 1:
+        return values
+    ny, nx = (length // share for length in values.shape)
+    return values[: ny * share, : nx * share].reshape(ny, share, nx, share).mean(axis=(1, 3))
+
+
+def names_of(run):
+    """(field, label, kind) of the maps."""
+    found = [(f"phi_{name}", name, "solids") for name in run.species] + [("voidage", "fluid", "voidage")]
+    found += [(f"u_{name}", name, "velocity") for name in (*run.species, "fluid")]
+    return [entry for entry in found if entry[0] in run.fields]
+
+
+def read_maps(run, chosen, share):
+    """Of each field its maps [step][y][x]; velocities upwards, and none where their species is absent."""
+    names = names_of(run)
+    maps = {name: [] for name, _, _ in names}
+    for step in chosen:
+        fields = run.fields_at(int(step), list(maps))
+        for name, label, kind in names:
+            plane = vector_in_plane(fields[name])[..., 1] if kind == "velocity" else in_plane(fields[name])
+            if kind == "velocity" and f"phi_{label}" in fields:
+                plane = np.where(in_plane(fields[f"phi_{label}"]) > FEW_SOLIDS, plane, np.nan)
+            maps[name].append(coarse(plane, share).astype(np.float32))
+    return {name: np.stack(rows) for name, rows in maps.items()}
+
+
+def scale_of(kind, arrays):
+    """(low, high, colours, unit factor and name) that the maps of a kind share."""
+    most = max([1e-9] + [float(np.nanmax(np.abs(a))) for a in arrays if np.isfinite(a).any()])
+    if kind == "velocity":
+        factor, unit = fitting("m/s", most)
+        return -most, most, "signed", factor, f"upward velocity ({unit})"
+    if kind == "voidage":
+        least = min(float(np.nanmin(a)) for a in arrays)
+        return min(np.floor(least * 10) / 10, 0.9), 1.0, "fluid", 1.0, "voidage (volume fraction of the fluid)"
+    return 0.0, max(0.1, most), "solids", 1.0, "solids fraction"
+
+
+def rows_shown(run, maps):
+    """How many rows from the bottom: a fifth above the highest solids of all steps."""
+    solids = sum(maps[name] for name, _, kind in names_of(run) if kind == "solids")
+    count = next(iter(maps.values())).shape[1]
+    filled = np.flatnonzero(np.max(solids, axis=(0, 2)) > FEW_SOLIDS) if np.ndim(solids) else []
+    return min(count, max(1, int(np.ceil(1.2 * (filled[-1] + 1))))) if len(filled) else count
+
+
+def maps_of(run):
+    """The maps for JSON, with the slider's times; None of a run without fields."""
+    if len(run.time) == 0 or not names_of(run):
+        return None
+    cells = in_plane(run.field(names_of(run)[0][0])[0]).shape[:2]
+    share = max(1, int(np.ceil(np.sqrt(cells[0] * cells[1] / MOST_CELLS))))
+    share = min(share, *cells)
+    bytes_of_step = len(names_of(run)) * (cells[0] // share) * (cells[1] // share)
+    chosen = thinned(len(run.time), max(2, MOST_LEVELS // bytes_of_step))
+    maps = read_maps(run, chosen, share)
+    rows, factor = rows_shown(run, maps), length_unit(run)[0]
+    scales = {kind: scale_of(kind, [maps[n][:, :rows] for n, _, k in names_of(run) if k == kind]) for _, _, kind in names_of(run)}
+    while True:
+        found = []
+        for name, label, kind in names_of(run):
+            low, high, colours, scale, title = scales[kind]
+            found.append({"label": label, "kind": kind, "scale": title, "colours": colours, "low": low * scale, "high": high * scale,
+                          "levels": packed(levels(maps[name][:, :rows], low, high))})
+        if sum(len(one["levels"]) for one in found) <= MOST_TEXT or len(chosen) <= 2:
+            break
+        kept = thinned(len(chosen), len(chosen) // 2)
+        chosen, maps = chosen[kept], {name: values[kept] for name, values in maps.items()}
+    ny, nx = next(iter(maps.values())).shape[1:]
+    faces = run.faces["x"], run.faces["y"]
+    size = [float(faces[0][nx * share] * factor), float(faces[1][rows * share] * factor)]
+    notes = [f"{len(chosen)} of {len(run.time)} stored times"] if len(chosen) < len(run.time) else []
+    notes += [f"each pixel is the mean of {share} x {share} cells"] if share > 1 else []
+    notes += ["the plane at half depth"] if run.dimensions == 3 else []
+    return {"time": plain_numbers(run.time[chosen]), "nx": nx, "ny": rows, "size": size, "maps": found, "note": "; ".join(notes),
+            "empty": EMPTY}
+
+
+def positions_of(run, steps, ids):
+    """Places as two-byte shares of the box about the column, [step][particle][axis], 65535 of one that is not there; the box; speeds."""
+    shape = len(steps), len(ids)
+    place = np.full((*shape, 3), np.nan)
+    speed = np.full(shape, np.nan)
+    for n, step in enumerate(steps):
+        at = np.searchsorted(ids, step.id)
+        known = np.flatnonzero((at < len(ids)) & (ids[np.minimum(at, len(ids) - 1)] == step.id))
+        place[n, at[known]] = step.position[known]
+        speed[n, at[known]] = np.sqrt((step.velocity[known] ** 2).sum(axis=1))
+    low = np.minimum(np.nanmin(place, axis=(0, 1), initial=0.0), 0)
+    high = np.maximum(np.nanmax(place, axis=(0, 1), initial=0.0), run.particles.size)
+    high = np.where(high > low, high, low + 1e-9)
+    with np.errstate(invalid="ignore"):
+        shares = np.rint((place - low) / (high - low) * 65534)
+    return np.where(np.isfinite(shares), shares, 65535).astype(np.uint16), low, high, speed
+
+
+def properties(steps, ids):
+    """Species and radius of every particle, whenever it is there."""
+    species, radius = np.zeros(len(ids), np.uint8), np.zeros(len(ids))
+    for step in steps:
+        at = np.searchsorted(ids, step.id)
+        known = np.flatnonzero((at < len(ids)) & (ids[np.minimum(at, len(ids) - 1)] == step.id))
+        species[at[known]], radius[at[known]] = step.species[known], step.radius[known]
+    return species, radius
+
+
+def packed_particles(run, chosen, share):
+    """Every share-th particle at the chosen steps, as they stand in the page."""
+    steps = [run.particles[int(n)] for n in chosen]
+    ids = np.unique(np.concatenate([step.id for step in steps]))[::share]
+    places, low, high, speed = positions_of(run, steps, ids)
+    species, radius = properties(steps, ids)
+    heights = places[..., 1][places[..., 1] != 65535]
+    highest = heights.max() / 65534 if len(heights) else 0
+    most = float(np.nanquantile(speed, 0.99)) if np.isfinite(speed).any() else 0.0
+    most = max(most, 1e-6)
+    factor, unit = fitting("m/s", most)
+    return {"count": len(ids), "places": packed(changes(places)), "speeds": packed(levels(speed, 0, most)),
+            "species": packed(species), "radius": packed((radius * length_unit(run)[0]).astype(np.float32)),
+            "low": [float(v) for v in low * length_unit(run)[0]], "high": [float(v) for v in high * length_unit(run)[0]],
+            "top": float(low[1] + (high[1] - low[1]) * highest) * length_unit(run)[0], "fastest": f"{most * factor:.3g} {unit}"}
+
+
+def particles_of(run):
+    """The particles for JSON, with the slider's times; None of a run without any."""
+    total = int(run.particles.count.max()) if len(run.particles) else 0
+    if total == 0:
+        return None
+    count, share = len(run.particles), max(1, -(-total * FEWEST_STEPS * 5 // MOST_TEXT))
+    chosen = thinned(count, max(FEWEST_STEPS, MOST_TEXT // (3 * max(1, total // share))))
+    while True:
+        found = packed_particles(run, chosen, share)
+        size = sum(len(found[name]) for name in ("places", "speeds", "species", "radius"))
+        if size <= MOST_TEXT:
+            break
+        if len(chosen) > FEWEST_STEPS:
+            chosen = chosen[thinned(len(chosen), max(FEWEST_STEPS, len(chosen) * MOST_TEXT // (size + MOST_TEXT // 4)))]
+        else:
+            share *= 2
+    notes = [f"{len(chosen)} of {count} stored times"] if len(chosen) < count else []
+    notes += [f"one particle in {share}"] if share > 1 else []
+    size = run.particles.size * length_unit(run)[0]
+    size[1] = min(size[1], max(1.1 * found["top"], 0.25 * size[0]))  # a bed in a tall column is not to be a strip at the bottom
+    return found | {"time": plain_numbers(run.particles.time[chosen]), "names": run.particles.species, "size": [float(v) for v in size],
+                    "colours": [COLOURS[n % len(COLOURS)] for n in range(len(run.particles.species))], "note": "; ".join(notes)}

@@ -1,0 +1,94 @@
+"""Puts the page of a run together."""
+
+import json
+import time
+from pathlib import Path
+
+from polybed import page
+from polybed.drawing.style import length_unit
+from polybed.drawing.units import text
+from polybed.files import contents_of
+from polybed.in_place import in_place
+from polybed.read import Snapshot
+from polybed.record import case_of, title_of_case
+from polybed.report import sections
+from polybed.report.beds import maps_of, particles_of
+from polybed.report.card import card_of
+from polybed.report.series import history_of, profiles_of
+
+SCRIPT = Path(__file__).with_name("viewer.js").read_text(encoding="utf-8")
+NAME = "report.html"
+
+
+def heading(run):
+    """Title of the case, else the name of the folder."""
+    return title_of_case(run.record) or run.directory.resolve().name
+
+
+def under(run):
+    """The line below the title, HTML: model, folder, time, state."""
+    record = run.record
+    parts = [sections.MODELS.get(record.get("model"), ""), f"<code>{page.escaped(run.directory.resolve().name)}</code>"]
+    times = run.history.get("time_s", ())
+    time_s = times[-1] if len(times) else record.get("time_s")  # the record of a run that goes on is from its last checkpoint
+    if isinstance(time_s, (int, float)):
+        parts.append(f"{text(time_s, 's')} simulated")
+    state = record.get("state", "no run.json yet")
+    parts.append(page.escaped(state) if state == "done" else f'<span class="warning">{page.escaped(state)}</span>')
+    return " &middot; ".join(part for part in parts if part)
+
+
+def drawn(run):
+    """What the script draws, as a dictionary for JSON."""
+    factor, unit = length_unit(run)
+    return {"maps": maps_of(run), "particles": particles_of(run), "profiles": profiles_of(run, factor), "history": history_of(run),
+            "unit": unit}
+
+
+def parts(run):
+    """The written sections by name: (title, HTML)."""
+    record = run.record
+    case = case_of(record)
+    return {"card": ("Results", card_of(run)), "beds": ("The bed", ""), "history": ("History", ""),
+            "limits": ("What limited the steps", sections.limits(run) + sections.work(record)),
+            "invariants": ("Invariants", sections.invariants(record)), "effects": ("Effects", sections.effects(record, case)),
+            "case": ("The case", sections.the_case(record)), "cite": ("How to cite", sections.cite(record, case)),
+            "commands": ("Commands", sections.commands(run, record))}
+
+
+def embedded(data):
+    """JSON inside a page: no text of it can end the element that it is in."""
+    return json.dumps(data, ensure_ascii=False, allow_nan=False).replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e")
+
+
+def page_of(run, live=""):
+    """The page as text. live: HTML of what a page that renews itself shows first"""
+    data = drawn(run)
+    body = live
+    for name, (title, text_of) in parts(run).items():
+        if name == "beds":
+            text_of = '<div id="bed-view"></div>' if live or data["maps"] or data["particles"] or data["profiles"] else ""
+        if name == "history":
+            text_of = '<div id="history-view" class="row"></div>' if live or data["history"] else ""
+        body += page.section(name, title, text_of)
+    body += page.warnings(run.record.get("warnings", []))
+    script = (f'<noscript><p>The pictures need JavaScript.</p></noscript><script type="application/json" id="data">{embedded(data)}</script>'
+              f"<script>{SCRIPT}</script>")
+    return page.page(heading(run), under(run), body, script)
+
+
+def write(directory):
+    """Puts RUN/report.html in place whole. Returns its path, its size in bytes and the seconds that it took."""
+    begin = time.perf_counter()
+    run = Snapshot(directory)
+    with contents_of(run.directory):
+        content = page_of(run).encode("utf-8", errors="replace")
+    path = run.directory / NAME
+    with in_place(path) as temporary:
+        temporary.write_bytes(content)
+    return path, len(content), time.perf_counter() - begin
+
+
+def told(path, size, seconds):
+    """What a command says of a page."""
+    return f"{path} ({size / 1e6:.2g} MB, made in {seconds:.2g} s)"

@@ -1,0 +1,395 @@
+"use strict";
+// Draws what a page of a run holds: maps and particles with a slider over the stored times, profiles beside them, the history.
+(() => {
+  const COLOURS = {  // 17 points of viridis, cividis and RdBu, between which colours are linear
+    solids: "44015448186a472d7b4240863b528b33638d2c728e26828e21918c1fa08828ae803fbc735ec96284d44baddc30d8e219fde725",
+    fluid: "00224e002e6a1a386f32436d434e6c535a6d61656f6f70737d7c788c88789b9476aba072bcae6ccdbb63dec958f0d846fee838",
+    signed: "0530611752902a71b23f8ec06bacd19bc9e0c2ddece0ecf3f7f6f6fbe5d8fbccb4f5aa89e48066d05548ba2832930e2667001f",
+  };
+  const NOTHING = [238, 238, 238], PIXELS = window.devicePixelRatio || 1;
+  const make = (kind, into, text = "") => { const e = document.createElement(kind); e.textContent = text; into.append(e); return e; };
+
+  function colourTable(name) {
+    const points = COLOURS[name].match(/.{6}/g).map(p => [0, 2, 4].map(n => parseInt(p.substr(n, 2), 16)));
+    return Array.from({ length: 255 }, (_, level) => {
+      const at = level / 254 * 16, n = Math.min(15, Math.floor(at)), share = at - n;
+      return points[n].map((c, k) => Math.round(c + (points[n + 1][k] - c) * share));
+    });
+  }
+
+  /** Numbers of Huffman codes by length: how many there are, and the symbols in order (RFC 1951, 3.2.2). */
+  function codes(lengths) {
+    const count = new Uint16Array(16), first = new Uint16Array(16), symbols = new Uint16Array(lengths.length);
+    for (const length of lengths) ++count[length];
+    count[0] = 0;
+    for (let n = 1; n < 16; ++n) first[n] = first[n - 1] + count[n - 1];
+    lengths.forEach((length, symbol) => { if (length) symbols[first[length]++] = symbol; });
+    return { count, symbols };
+  }
+
+  const LENGTHS = [3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 17, 19, 23, 27, 31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258];
+  const FAR = [1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577];
+  const ORDER = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
+  const FIXED = [codes(Array.from({ length: 288 }, (_, n) => n < 144 ? 8 : n < 256 ? 9 : n < 280 ? 7 : 8)), codes(new Array(30).fill(5))];
+
+  /** The bytes of a text from the page: base64 of zlib (RFC 1950, 1951). Done here, as not every browser can. */
+  function unpacked(text) {
+    const input = Uint8Array.from(atob(text), c => c.charCodeAt(0));
+    let output = new Uint8Array(4 * input.length + 1024), size = 0, at = 2, held = 0, bits = 0, last = 0;
+    const take = count => {
+      while (bits < count) { held |= input[at++] << bits; bits += 8; }
+      const value = held & ((1 << count) - 1);
+      held >>>= count; bits -= count;
+      return value;
+    };
+    const symbol = ({ count, symbols }) => {
+      let code = 0, first = 0, index = 0;
+      for (let length = 1; length < 16; ++length) {
+        code |= take(1);
+        if (code - first < count[length]) return symbols[index + code - first];
+        index += count[length]; first = (first + count[length]) << 1; code <<= 1;
+      }
+      throw new Error("damaged data in this page");
+    };
+    const room = more => { if (size + more > output.length) { const old = output; output = new Uint8Array(2 * (size + more)); output.set(old); } };
+    function dynamic() {
+      const literals = take(5) + 257, distances = take(5) + 1, used = take(4) + 4, small = new Array(19).fill(0), lengths = [];
+      for (let n = 0; n < used; ++n) small[ORDER[n]] = take(3);
+      const table = codes(small);
+      while (lengths.length < literals + distances) {
+        const kind = symbol(table);
+        if (kind < 16) lengths.push(kind);
+        else { const [value, times] = kind === 16 ? [lengths.at(-1), 3 + take(2)] : [0, kind === 17 ? 3 + take(3) : 11 + take(7)]; for (let n = 0; n < times; ++n) lengths.push(value); }
+      }
+      return [codes(lengths.slice(0, literals)), codes(lengths.slice(literals))];
+    }
+    while (!last) {
+      last = take(1);
+      const kind = take(2);
+      if (kind === 0) {
+        held = bits = 0;
+        const length = input[at] + 256 * input[at + 1];
+        room(length); output.set(input.subarray(at + 4, at + 4 + length), size); at += 4 + length; size += length;
+        continue;
+      }
+      const [literals, distances] = kind === 1 ? FIXED : dynamic();
+      for (let value = symbol(literals); value !== 256; value = symbol(literals)) {
+        if (value < 256) { room(1); output[size++] = value; continue; }
+        const n = value - 257, length = LENGTHS[n] + take(n < 8 || n === 28 ? 0 : (n >> 2) - 1), d = symbol(distances);
+        const back = FAR[d] + take(d < 4 ? 0 : (d >> 1) - 1);
+        room(length);
+        for (let k = 0; k < length; ++k, ++size) output[size] = output[size - back];
+      }
+    }
+    return output.slice(0, size);
+  }
+
+  function nearest(times, time) {
+    let best = 0;
+    times.forEach((t, n) => { if (Math.abs(t - time) < Math.abs(times[best] - time)) best = n; });
+    return best;
+  }
+
+  /** A canvas of a size in pixels of the page, sharp on every screen; returns its context. */
+  function canvas(into, width, height) {
+    const element = make("canvas", into);
+    element.width = width * PIXELS; element.height = height * PIXELS;
+    element.style.width = width + "px";
+    const to = element.getContext("2d");
+    to.scale(PIXELS, PIXELS);
+    to.font = "11px sans-serif";
+    return to;
+  }
+
+  const shown = value => String(Number(value.toPrecision(3)));
+
+  function ticks(low, high, most) {
+    const rough = (high - low) / most, size = 10 ** Math.floor(Math.log10(rough));
+    const step = [1, 2, 5, 10].find(s => s * size >= rough) * size, found = [];
+    for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * (high - low); ++n) found.push(n * step);
+    return found;
+  }
+
+  /** Axes and curves. chart: {lines: [{x, y, colour, dash}], x: [low, high], y: [low, high], across, up, mark} */
+  function drawChart(to, width, height, chart) {
+    const left = 52, right = 10, top = 8, bottom = 34;
+    const px = x => left + (x - chart.x[0]) / (chart.x[1] - chart.x[0] || 1) * (width - left - right);
+    const py = y => height - bottom - (y - chart.y[0]) / (chart.y[1] - chart.y[0] || 1) * (height - top - bottom);
+    to.clearRect(0, 0, width, height);
+    to.strokeStyle = "#222"; to.fillStyle = "#222"; to.lineWidth = 1; to.setLineDash([]);
+    to.beginPath(); to.moveTo(left, top); to.lineTo(left, height - bottom); to.lineTo(width - right, height - bottom); to.stroke();
+    to.textAlign = "center";
+    for (const x of ticks(...chart.x, Math.max(2, width / 90))) { to.fillText(shown(x), px(x), height - bottom + 14); to.fillRect(px(x), height - bottom, 1, 4); }
+    to.fillText(chart.across, (left + width - right) / 2, height - 4);
+    to.textAlign = "right";
+    for (const y of ticks(...chart.y, Math.max(2, height / 60))) { to.fillText(shown(y), left - 6, py(y) + 4); to.fillRect(left - 4, py(y), 4, 1); }
+    if (chart.up) { to.save(); to.translate(11, (height - bottom) / 2); to.rotate(-Math.PI / 2); to.textAlign = "center"; to.fillText(chart.up, 0, 0); to.restore(); }
+    to.save(); to.beginPath(); to.rect(left, top, width - left - right, height - top - bottom); to.clip();
+    if (chart.mark !== undefined) { to.strokeStyle = "#aaa"; to.beginPath(); to.moveTo(px(chart.mark), top); to.lineTo(px(chart.mark), height); to.stroke(); }
+    for (const line of chart.lines) {
+      to.strokeStyle = line.colour; to.lineWidth = 1.6; to.setLineDash(line.dash); to.beginPath();
+      let pen = false;
+      line.x.forEach((x, n) => {
+        const y = line.y[n];
+        if (x === null || y === null) { pen = false; return; }
+        if (pen) to.lineTo(px(x), py(y)); else to.moveTo(px(x), py(y));
+        pen = true;
+      });
+      to.stroke();
+    }
+    to.restore(); to.setLineDash([]);
+  }
+
+  function drawKey(into, lines) {
+    const key = make("div", into);
+    key.className = "key";
+    for (const line of lines) {
+      const entry = make("span", key), mark = make("i", entry);
+      mark.style.borderColor = line.colour;
+      if (line.dash.length) mark.style.borderTopStyle = line.dash[0] > 3 ? "dashed" : "dotted";
+      make("b", entry, line.label).style.fontWeight = "normal";
+    }
+  }
+
+  function rangeOf(lines, zero) {
+    const all = lines.flatMap(l => l.y).filter(v => v !== null);
+    let low = all.reduce((a, b) => Math.min(a, b), Infinity), high = all.reduce((a, b) => Math.max(a, b), -Infinity);
+    if (!all.length) return [0, 1];
+    if (zero) { low = Math.min(0, low); high = Math.max(0, high); }
+    const margin = 0.05 * (high - low || Math.abs(high) || 1);
+    return [zero && low === 0 ? 0 : low - margin, high + margin];
+  }
+
+  /** Adds the panels of the history; returns what moves their marks to a time. */
+  function showHistory(into, panels, end) {
+    const drawn = panels.map(panel => {
+      const figure = make("div", into);
+      figure.className = "figure";
+      make("div", figure, panel.title);
+      const width = 490, height = 190, to = canvas(figure, width, height);
+      drawKey(figure, panel.lines);
+      if (panel.note) make("div", figure, panel.note).className = "source";
+      const chart = { lines: panel.lines, x: [panel.lines[0].x[0], Math.max(end, panel.lines[0].x[0] + 1e-9)], y: rangeOf(panel.lines, panel.zero), across: "time (s)" };
+      return time => drawChart(to, width, height, { ...chart, mark: time });
+    });
+    return time => drawn.forEach(draw => draw(time));
+  }
+
+  /** Adds the maps; returns {time, draw(step, kind), kinds}. */
+  function showMaps(into, maps, unit, height) {
+    const width = Math.min(330, Math.max(46, height * maps.size[0] / maps.size[1])), tall = Math.min(height, width * maps.size[1] / maps.size[0]);
+    const cells = maps.nx * maps.ny, plane = document.createElement("canvas");
+    plane.width = maps.nx; plane.height = maps.ny;
+    const paint = plane.getContext("2d"), image = paint.createImageData(maps.nx, maps.ny);
+    for (const map of maps.maps) {
+      const level = unpacked(map.levels), table = colourTable(map.colours), figure = make("div", into);
+      map.figure = figure;
+      figure.className = "figure"; figure.title = map.scale;
+      make("div", figure, map.label);
+      const to = canvas(figure, width + 34, tall + 62);
+      map.draw = step => {
+        for (let n = 0; n < cells; ++n) {
+          const row = maps.ny - 1 - Math.floor(n / maps.nx), value = level[step * cells + n];
+          const colour = value === maps.empty ? NOTHING : table[value], at = 4 * (row * maps.nx + n % maps.nx);
+          image.data[at] = colour[0]; image.data[at + 1] = colour[1]; image.data[at + 2] = colour[2]; image.data[at + 3] = 255;
+        }
+        paint.putImageData(image, 0, 0);
+        to.clearRect(0, 0, width + 34, tall + 62);
+        to.imageSmoothingEnabled = false;
+        to.drawImage(plane, 30, 4, width, tall);
+        to.strokeStyle = "#222"; to.lineWidth = 1; to.strokeRect(30, 4, width, tall);
+        to.fillStyle = "#222"; to.textAlign = "right";
+        for (const y of ticks(0, maps.size[1], 6)) to.fillText(shown(y), 27, 8 + tall * (1 - y / maps.size[1]));
+        for (let n = 0; n < 255; ++n) { to.fillStyle = `rgb(${table[n]})`; to.fillRect(30 + n / 255 * width, tall + 22, width / 255 + 0.7, 8); }
+        to.fillStyle = "#222";
+        to.textAlign = "left"; to.fillText(shown(map.low), 24, tall + 43);
+        to.textAlign = "right"; to.fillText(shown(map.high), 34 + width, tall + 43);
+        to.textAlign = "center"; to.fillText(unit, 30 + width / 2, tall + 17);
+      };
+    }
+    const kinds = [...new Set(maps.maps.map(m => m.kind))];
+    return { time: maps.time, draw(step, chosen) {
+      for (const map of maps.maps) { map.figure.style.display = chosen.includes(map.kind) ? "" : "none"; if (chosen.includes(map.kind)) map.draw(step); }
+    }, kinds };
+  }
+
+  /** Adds the profiles; returns {time, draw(step)}. */
+  function showProfiles(into, profiles, unit, height, top) {
+    const draws = [];
+    for (const chart of profiles.charts) {
+      const figure = make("div", into), width = 300, rows = profiles.y.length;
+      figure.className = "figure";
+      make("div", figure, `lateral mean: ${chart.title}`);
+      const to = canvas(figure, width, height + 40);
+      drawKey(figure, chart.lines);
+      for (const line of chart.lines) {
+        const bytes = unpacked(line.y);
+        line.levels = new Uint16Array(bytes.buffer);
+      }
+      draws.push(step => drawChart(to, width, height + 40, { x: [chart.low, chart.high], y: [0, top], across: "", up: `height (${unit})`,
+        lines: chart.lines.map(line => {
+          const found = Array.from(line.levels.subarray(step * rows, (step + 1) * rows), v => v === 65535 ? null : chart.low + v / 65534 * (chart.high - chart.low));
+          return { colour: line.colour, dash: line.dash, x: found, y: profiles.y };
+        }) }));
+    }
+    return { time: profiles.time, draw: step => draws.forEach(d => d(step)) };
+  }
+
+  function ball(colour) {
+    const size = 64, element = document.createElement("canvas");
+    element.width = element.height = size;
+    const to = element.getContext("2d"), light = to.createRadialGradient(size * 0.36, size * 0.32, 2, size / 2, size / 2, size / 2);
+    light.addColorStop(0, "#ffffff"); light.addColorStop(0.35, colour); light.addColorStop(1, "#00000066");
+    to.beginPath(); to.arc(size / 2, size / 2, size / 2, 0, 7);
+    to.fillStyle = colour; to.fill();
+    to.globalAlpha = 0.55; to.fillStyle = light; to.fill();
+    return element;
+  }
+
+  const MOVING = 20000;  // particles drawn while the view turns
+
+  /** Adds the particles, in a view that can be turned; returns {time, draw(step), by}. */
+  function showParticles(into, all, unit) {
+    const [packed, speeds, species, radii] = [all.places, all.speeds, all.species, all.radius].map(unpacked);
+    const radius = new Float32Array(radii.buffer), count = all.count, steps = all.time.length, numbers = count * 3, total = steps * numbers;
+    const places = new Uint16Array(total);
+    for (let n = 0; n < total; ++n) places[n] = packed[n] + 256 * packed[total + n] + (n >= numbers ? places[n - numbers] : 0);
+    const size = 460, figure = make("div", into);
+    figure.className = "figure";
+    make("div", figure, "particles: drag to turn, wheel to come nearer, double click to reset");
+    const to = canvas(figure, size, size), element = to.canvas;
+    element.id = "particles"; element.tabIndex = 0;
+    const key = all.names.map((label, n) => ({ label, colour: all.colours[n], dash: [] })), keys = make("div", figure);
+    const bySpecies = all.colours.map(ball), bySpeed = colourTable("solids").filter((_, n) => n % 8 === 0).map(c => ball(`rgb(${c})`));
+    const start = { yaw: 0.5, pitch: 0.25, zoom: 1 }, view = { ...start, by: "species", step: 0 };
+    const span = all.high.map((h, k) => h - all.low[k]);
+
+    function draw(most = Infinity) {
+      // y is up; the box turns about its middle
+      const [cy, sy, cp, sp] = [Math.cos(view.yaw), Math.sin(view.yaw), Math.cos(view.pitch), Math.sin(view.pitch)];
+      const scale = view.zoom * 0.92 * size / Math.hypot(...all.size), base = view.step * numbers;
+      const project = (x, y, z) => {
+        const [a, b, c] = [x - all.size[0] / 2, y - all.size[1] / 2, z - all.size[2] / 2];
+        const across = cy * a + sy * c, into = -sy * a + cy * c;
+        return [size / 2 + scale * across, size / 2 - scale * (cp * b - sp * into), cp * into + sp * b];
+      };
+      to.clearRect(0, 0, size, size);
+      to.strokeStyle = "#bbb";
+      for (let k = 0; k < 3; ++k) for (let n = 0; n < 4; ++n) {
+        const ends = [0, 1].map(e => { const p = [0, 0, 0]; p[k] = e * all.size[k]; p[(k + 1) % 3] = (n & 1) * all.size[(k + 1) % 3]; p[(k + 2) % 3] = (n >> 1) * all.size[(k + 2) % 3]; return project(...p); });
+        to.beginPath(); to.moveTo(ends[0][0], ends[0][1]); to.lineTo(ends[1][0], ends[1][1]); to.stroke();
+      }
+      const seen = [], stride = Math.max(1, Math.ceil(count / most));
+      for (let n = 0; n < count; n += stride) {
+        const at = base + 3 * n;
+        if (places[at] === 65535) continue;
+        const [x, y, deep] = project(...[0, 1, 2].map(k => all.low[k] + places[at + k] / 65534 * span[k]));
+        seen.push([deep, x, y, n]);
+      }
+      seen.sort((a, b) => a[0] - b[0]);
+      for (const [, x, y, n] of seen) {
+        const r = radius[n] * scale, speed = speeds[view.step * count + n];
+        const sprite = view.by === "species" ? bySpecies[species[n]] : bySpeed[Math.min(bySpeed.length - 1, speed >> 3)];
+        to.drawImage(sprite, x - r, y - r, 2 * r, 2 * r);
+      }
+      element.dataset.drawn = seen.length;
+    }
+
+    let held = null;
+    element.addEventListener("pointerdown", e => { held = [e.clientX, e.clientY]; element.setPointerCapture(e.pointerId); });
+    element.addEventListener("pointermove", e => {
+      if (!held) return;
+      view.yaw += (e.clientX - held[0]) / 120; view.pitch = Math.max(-1.57, Math.min(1.57, view.pitch + (e.clientY - held[1]) / 120));
+      held = [e.clientX, e.clientY];
+      draw(MOVING);
+    });
+    element.addEventListener("pointerup", () => { held = null; draw(); });
+    element.addEventListener("dblclick", () => { Object.assign(view, start); draw(); });
+    element.addEventListener("wheel", e => { e.preventDefault(); view.zoom = Math.max(0.2, Math.min(20, view.zoom * Math.exp(-e.deltaY / 500))); draw(); }, { passive: false });
+    element.addEventListener("keydown", e => {
+      const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[e.key];
+      if (!turn) return;
+      e.preventDefault(); view.yaw += turn[0]; view.pitch += turn[1]; draw();
+    });
+    function by(name) {
+      view.by = name;
+      keys.replaceChildren();
+      if (name === "species") drawKey(keys, key);
+      else make("div", keys, `speed: dark 0, bright ${all.fastest} and more`).className = "key";
+      draw();
+    }
+    keys.className = "keys";
+    by("species");
+    return { time: all.time, draw(step) { view.step = step; draw(); }, by };
+  }
+
+  function choice(into, name, options, act) {
+    const label = make("label", into, name + " "), select = make("select", label);
+    for (const [value, text] of options) make("option", select, text).value = value;
+    select.addEventListener("change", () => act(select.value));
+    return select;
+  }
+
+  const KINDS = { solids: "solids fraction", voidage: "voidage", velocity: "upward velocity" };
+  let showing = 0;  // drawings so far
+
+  /** Draws all; where: {time, end, kind, by} keeps what the reader has chosen when the page renews itself. */
+  function show(data, where = { end: true }) {
+    const bed = document.createElement("div"), height = 400;
+    const controls = make("div", bed), views = make("div", bed), rows = make("div", bed);
+    controls.className = "row controls"; views.className = rows.className = "row";
+    const maps = data.maps && showMaps(views, data.maps, data.unit, height);
+    const particles = data.particles && showParticles(views, data.particles, data.unit);
+    const top = data.maps ? data.maps.size[1] : data.particles ? data.particles.size[1] : data.profiles ? data.profiles.y.at(-1) : 1;
+    const profiles = data.profiles && showProfiles(rows, data.profiles, data.unit, 300, top);
+    const history = document.getElementById("history-view"), panels = document.createElement("div");
+    panels.className = "row";
+    const mark = history && data.history.length ? showHistory(panels, data.history, data.history[0].lines[0].x.at(-1)) : () => {};
+    const times = (particles || maps || profiles || { time: [] }).time;
+    const slider = make("input", controls), label = make("output", controls);
+    let kind = where.kind || "solids";
+    function draw() {
+      const time = times[slider.value] ?? 0;
+      label.textContent = `t = ${time} s`;
+      if (maps) maps.draw(nearest(maps.time, time), kind === "solids" ? ["solids", "voidage"] : [kind]);
+      if (particles) particles.draw(nearest(particles.time, time));
+      if (profiles) profiles.draw(nearest(profiles.time, time));
+      mark(times.length ? time : undefined);
+      Object.assign(where, { time, end: Number(slider.value) === times.length - 1, kind });
+    }
+    slider.type = "range"; slider.id = "slider"; slider.min = 0; slider.max = Math.max(0, times.length - 1);
+    slider.setAttribute("aria-label", "stored time");
+    slider.value = where.end ? slider.max : nearest(times, where.time);
+    slider.addEventListener("input", draw);
+    const play = document.createElement("button");
+    play.textContent = "play"; play.id = "play";
+    controls.prepend(play);
+    let timer = null;
+    play.addEventListener("click", () => {
+      play.textContent = timer ? "play" : "stop";
+      if (timer) { clearInterval(timer); timer = null; return; }
+      timer = setInterval(() => {
+        if (!slider.isConnected) { clearInterval(timer); return; }
+        slider.value = (Number(slider.value) + 1) % times.length; draw();
+      }, Math.max(40, 8000 / times.length));
+    });
+    if (maps && maps.kinds.includes("velocity")) {
+      const select = choice(controls, "show", [["solids", "solids fraction and voidage"], ["velocity", KINDS.velocity]], value => { kind = value; draw(); });
+      select.id = "kind"; select.value = kind;
+    }
+    if (particles) {
+      const select = choice(controls, "colour by", [["species", "species"], ["speed", "speed"]], value => { where.by = value; particles.by(value); });
+      select.id = "by"; select.value = where.by || "species";
+      particles.by(select.value);
+    }
+    for (const part of [data.maps, data.particles]) if (part && part.note) make("p", bed, part.note).className = "source";
+    if (times.length < 2) controls.style.display = "none";
+    document.getElementById("bed-view")?.replaceChildren(bed);
+    history?.replaceChildren(panels);
+    draw();
+    document.body.dataset.shown = ++showing;
+  }
+
+  window.polybedShow = show;
+  show(JSON.parse(document.getElementById("data").textContent));
+})();

@@ -1,0 +1,233 @@
+"""Serves a page that follows a run, on the loopback address: what `polybed watch` hands over to.
+
+    python3 -m polybed.report.watch RUN [--port N]
+
+The page is report.html with the progress above it; it asks for new data as long as the run goes on. The server ends with the run, once
+a browser that looks has had the last state. Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is
+missing, 130 stopped.
+"""
+
+import argparse
+import contextlib
+import fcntl
+import sys
+import threading
+import time
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+from polybed.packages import NO_FILE, needed
+
+with needed(__name__ == "__main__"):
+    from polybed.drawing.units import text
+    from polybed.files import FAULTS, contents_of
+    from polybed.page import escaped, section
+    from polybed.read import Snapshot
+    from polybed.record import case_of
+    from polybed.report import sections
+    from polybed.report.build import drawn, embedded, page_of, parts, told, under, write
+
+STOPPED = 130
+LOOPBACK = "127.0.0.1"
+RENEWED = 2.0  # s between two looks at the run
+SHARE = 0.1  # of the time, at most, that looking at the run may take
+LAST_LOOK = 5.0  # s that the server waits, after the end, for a browser to take the last state
+TAIL = 64_000  # bytes of steps.csv that are read for what limits now
+# The page asks, shows what is new, and stops asking when the run has ended.
+FOLLOW = """(async () => {
+  const where = { end: true };
+  for (let version = -1;;) {
+    await new Promise(go => setTimeout(go, %d));
+    let found;
+    try { found = await (await fetch("data.json?" + version)).json(); }
+    catch { document.getElementById("progress-text").textContent = "the server has ended"; return; }
+    if (found.version !== version) {
+      version = found.version;
+      for (const [name, text] of Object.entries(found.html)) { const part = document.getElementById(name); if (part) part.innerHTML = text; }
+      if (found.data) window.polybedShow(found.data, where);
+    }
+    if (found.ended) return;
+  }
+})();"""
+
+
+def writes(directory):
+    """Whether a process writes into a run directory: it has the mark locked as long as it lives. The shared lock by which this is asked
+    is given back at once."""
+    try:
+        with open(directory / ".polybed", "rb") as mark:
+            try:
+                fcntl.flock(mark, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            except BlockingIOError:
+                return True
+    except OSError:
+        pass
+    return False
+
+
+def limits_now(directory):
+    """What limited the latest steps, by their number, most often first: [(reason, steps)]."""
+    path = directory / "steps.csv"
+    try:
+        with path.open("rb") as file:
+            file.seek(max(0, path.stat().st_size - TAIL))
+            lines = file.read().decode("utf-8", "replace").split("\n")[1:-1]
+    except OSError:
+        return []
+    return sections.most_common_of(lines)
+
+
+class Progress:
+    """How far a run is and how long it still takes, by what it has simulated while it was watched."""
+
+    def __init__(self):
+        self.first = None  # (time of the clock, simulated time) when the run was seen first
+
+    def of(self, run, clock, goes_on):
+        """(share done, line): share None if the end is not known."""
+        history = run.history
+        now = float(history["time_s"][-1]) if history and len(history["time_s"]) else 0.0
+        end = case_of(run.record).get("run", {}).get("until")
+        state = run.record.get("state", "no run.json yet")
+        if not isinstance(end, (int, float)) or end <= 0:
+            return None, f"{text(now, 's')} simulated, {state}"
+        line = f"{text(now, 's')} of {text(end, 's')} simulated"
+        if not goes_on:
+            return now / end, f"{line}, {'no process writes this run' if state == 'running' else state}"
+        self.first = self.first or (clock, now)
+        seconds, simulated = clock - self.first[0], now - self.first[1]
+        left = f", about {text((end - now) * seconds / simulated, 's', 2)} left" if simulated > 0 else ""
+        return now / end, line + left
+
+
+class Watched:
+    """A run that is looked at again and again: what the server answers with."""
+
+    def __init__(self, directory):
+        self.run = Snapshot(directory)
+        self.directory, self.progress = self.run.directory, Progress()
+        self.version, self.seen, self.ended = 0, -1, False
+        self.wait, self.answer, self.lock = RENEWED, b"{}", threading.Lock()
+
+    def look(self):
+        """Reads the run as it is now. Raises what reading raises."""
+        begin = time.monotonic()
+        goes_on = writes(self.directory)
+        run = Snapshot(self.directory)
+        with contents_of(self.directory):
+            html = {"under": under(run), "progress": self.shown(run, goes_on)}
+            for name, (title, words) in parts(run).items():
+                if words and name in ("card", "limits", "invariants"):
+                    html[name] = f"<h2>{escaped(title)}</h2>{words}"
+            data = drawn(run)
+        text_of = embedded({"version": self.version + 1, "ended": not goes_on, "html": html, "data": data})
+        with self.lock:
+            self.run, self.version, self.answer, self.ended = run, self.version + 1, text_of.encode(), not goes_on
+        self.wait = max(RENEWED, (time.monotonic() - begin) / SHARE)
+
+    def shown(self, run, goes_on):
+        share, line = self.progress.of(run, time.time(), goes_on)
+        bar = "" if share is None else f'<div class="bar"><div style="width:{100 * min(1, share):.2f}%"></div></div>'
+        now = limits_now(self.directory)
+        step = run.record.get("step", {}).get("limited_by")
+        why = ", ".join(f"{escaped(reason)} ({count} of the last steps)" for reason, count in now[:3]) or escaped(step or "")
+        return f'<h2>Progress</h2>{bar}<p id="progress-text">{escaped(line)}</p>' + (f"<p>Steps are limited by: {why}</p>" if why else "")
+
+    def page(self):
+        """The page as a browser gets it first."""
+        with self.lock:
+            run, ended = self.run, self.ended
+        with contents_of(self.directory):
+            live = section("progress", "Progress", self.shown(run, not ended).split("</h2>", 1)[1])
+            whole = page_of(run, live)
+        return whole.replace("</body>", f"<script>{FOLLOW % int(1e3 * RENEWED)}</script></body>")
+
+    def data(self, known):
+        """The newest state, without what the page has already; whether it is the last."""
+        with self.lock:
+            if known == self.version:
+                return embedded({"version": known, "ended": self.ended, "html": {}, "data": None}).encode(), self.ended
+            return self.answer, self.ended
+
+
+def handler_of(watched, port):
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self):
+            # a page of elsewhere that has its name point to this machine is not answered
+            if self.headers.get("Host") not in (f"{LOOPBACK}:{port()}", f"localhost:{port()}"):
+                return self.send_error(HTTPStatus.FORBIDDEN)
+            place, _, query = self.path.partition("?")
+            try:
+                if place == "/":
+                    return self.send(watched.page().encode("utf-8", "replace"), "text/html; charset=utf-8")
+                if place == "/data.json":
+                    content, last = watched.data(int(query) if query.lstrip("-").isdigit() else -1)
+                    self.send(content, "application/json")
+                    watched.seen = watched.version if last else watched.seen
+                    return None
+            except FAULTS as error:
+                return self.send_error(HTTPStatus.INTERNAL_SERVER_ERROR, explain=str(error))
+            return self.send_error(HTTPStatus.NOT_FOUND)
+
+        def send(self, content, kind):
+            self.send_response(HTTPStatus.OK)
+            for name, value in (("Content-Type", kind), ("Content-Length", str(len(content))), ("Cache-Control", "no-store")):
+                self.send_header(name, value)
+            self.end_headers()
+            self.wfile.write(content)
+
+        def log_message(self, *words):
+            """Requests are not told."""
+
+    return Handler
+
+
+def follow(watched):
+    """Looks at the run until it has ended and a browser has seen that, or none comes."""
+    while not watched.ended:
+        time.sleep(watched.wait)
+        try:
+            watched.look()
+        except FAULTS as error:  # a file that is being replaced: the next look reads it
+            print(error, file=sys.stderr)
+            if not watched.directory.is_dir():
+                raise
+    until = time.monotonic() + LAST_LOOK
+    while watched.seen != watched.version and time.monotonic() < until:
+        time.sleep(0.1)
+
+
+def serve(directory, port):
+    watched = Watched(directory)
+    watched.look()
+    if watched.ended:
+        print(f"no process writes {watched.directory}; its page is {told(*write(watched.directory))}")
+        return
+    server = ThreadingHTTPServer((LOOPBACK, port), handler_of(watched, lambda: server.server_address[1]))
+    server.daemon_threads = True
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    print(f"http://{LOOPBACK}:{server.server_address[1]}/ shows {watched.directory} until the run ends; Ctrl-C ends it before", flush=True)
+    try:
+        follow(watched)
+    finally:
+        server.shutdown()
+        server.server_close()
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="polybed watch", description="Serves a page that follows a run.")
+    parser.add_argument("run", help="run directory")
+    parser.add_argument("--port", type=int, default=0, help="default: any that is free")
+    options = parser.parse_args(arguments)
+    try:
+        serve(options.run, options.port)
+    except FAULTS as error:
+        print(error, file=sys.stderr)
+        return NO_FILE
+    except KeyboardInterrupt:
+        return STOPPED
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

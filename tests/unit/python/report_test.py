@@ -1,0 +1,352 @@
+#!/usr/bin/python3
+"""The page of a run, piece by piece, on runs that the C++ writers have written: report_test.py WRITER PACKAGE_DIRECTORY"""
+
+import base64
+import fcntl
+import json
+import subprocess
+import sys
+import tempfile
+import time
+import types
+import unittest
+import urllib.error
+import urllib.request
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+WRITER, PACKAGE = sys.argv[1], sys.argv[2]
+sys.path.insert(0, PACKAGE)
+
+from report_pages import EVIL, Page, add_case, data_of
+
+import polybed
+from polybed import outflow
+from polybed.drawing import units
+from polybed.report import beds, build, card, pack, sections, series
+
+MOST_BYTES = 10e6  # of a page
+
+
+def unpacked(text, kind):
+    return np.frombuffer(zlib.decompress(base64.b64decode(text)), dtype=kind)
+
+
+class SampleRun(unittest.TestCase):
+    """Two species in a column of 60 mm by 200 mm, 18 x 60 cells, five times from 0 to 1 s; see write_sample_run.cpp."""
+
+    kind = 2
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.directory = Path(scratch.name) / "bed-tfm"
+        subprocess.run([WRITER, self.directory, str(self.kind)], check=True)
+        self.sample = polybed.read(self.directory)
+
+    def page(self):
+        path, size, seconds = build.write(self.directory)
+        self.assertEqual(path.stat().st_size, size)
+        self.assertGreater(seconds, 0)
+        return path.read_text()
+
+
+class Whole(SampleRun):
+    def test_it_stands_alone_and_names_are_escaped(self):
+        add_case(self.directory)
+        text = self.page()
+        page = Page(text)
+        self.assertEqual(page.loaded, [], "nothing is loaded from elsewhere")
+        self.assertFalse(any("onerror" in attributes for _, attributes in page.elements))
+        self.assertIn(EVIL, "".join(page.text), "the title is shown as it is written")
+        self.assertEqual(len([1 for tag, _ in page.elements if tag == "script"]), 2)
+
+    def test_sections(self):
+        add_case(self.directory)
+        shown = "".join(Page(self.page()).text)
+        for words in ("Results", "The bed", "History", "Invariants", "Effects", "19 %, up to 22 %", "The case", "How to cite", "Commands",
+                      "superficial" if self.kind == 2 else "fine"):
+            self.assertIn(words, shown)
+
+    def test_a_bare_run_has_a_page(self):
+        for name in ("profiles.h5", "history.csv", "run.json"):
+            (self.directory / name).unlink()
+        self.assertIn("no run.json yet", "".join(Page(self.page()).text))
+
+    def test_a_run_without_anything_stored(self):
+        empty = self.directory.parent / "empty"
+        empty.mkdir()
+        path, _, _ = build.write(empty)
+        Page(path.read_text())
+
+    def test_damaged_files_are_told(self):
+        record = json.loads((self.directory / "run.json").read_text()) | {"case": "no = [toml"}
+        (self.directory / "run.json").write_text(json.dumps(record))
+        with self.assertRaisesRegex(polybed.FormatError, "case in run.json"):
+            build.write(self.directory)
+
+    def test_the_command(self):
+        line = [sys.executable, "-m", "polybed.report"]
+        done = subprocess.run([*line, self.directory], capture_output=True, text=True, env={"PYTHONPATH": PACKAGE})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"report\.html \([\d.e-]+ MB, made in [\d.]+ s\)")
+        self.assertEqual(subprocess.run([*line, "nowhere"], capture_output=True, env={"PYTHONPATH": PACKAGE}).returncode, 4)
+
+
+class Maps(SampleRun):
+    def test_levels_are_the_fields(self):
+        maps = data_of(self.page())["maps"]
+        fine = next(m for m in maps["maps"] if (m["kind"], m["label"]) == ("solids", "fine"))
+        levels = unpacked(fine["levels"], np.uint8).reshape(5, maps["ny"], maps["nx"])
+        found = levels / pack.LEVELS * (fine["high"] - fine["low"]) + fine["low"]
+        half_a_level = 0.5 * (fine["high"] - fine["low"]) / pack.LEVELS
+        np.testing.assert_allclose(found, self.sample.phi_fine[:][:, : maps["ny"]], atol=1.001 * half_a_level)
+        self.assertEqual(maps["time"], [0, 0.25, 0.5, 0.75, 1])
+
+    def test_the_top_is_a_fifth_above_the_solids_of_all_times(self):
+        # see plot_test.py: the highest cell with solids ends at 35/300 m at 1 s; 42 of 60 cells of 200 mm
+        maps = data_of(self.page())["maps"]
+        self.assertEqual(maps["ny"], 42)
+        self.assertAlmostEqual(maps["size"][1], 140)
+
+    def test_no_velocity_where_a_species_is_absent(self):
+        maps = data_of(self.page())["maps"]
+        up = next((m for m in maps["maps"] if (m["kind"], m["label"]) == ("velocity", "fine")), None)
+        if up is not None:
+            levels = unpacked(up["levels"], np.uint8).reshape(5, maps["ny"], maps["nx"])
+            np.testing.assert_array_equal(levels == pack.EMPTY, self.sample.phi_fine[:][:, : maps["ny"]] <= 0.01)
+        fluid = next(m for m in maps["maps"] if (m["kind"], m["label"]) == ("velocity", "fluid"))
+        self.assertEqual(fluid["low"], -fluid["high"])
+
+    def test_averages_of_cells(self):
+        values = np.arange(20.0).reshape(4, 5)
+        np.testing.assert_array_equal(beds.coarse(values, 2), [[3, 5], [13, 15]])
+        self.assertIs(beds.coarse(values, 1), values)
+
+
+class Maps3D(Maps):
+    kind = 3
+
+    def test_levels_are_the_fields(self):
+        maps = data_of(self.page())["maps"]
+        fine = next(m for m in maps["maps"] if (m["kind"], m["label"]) == ("solids", "fine"))
+        levels = unpacked(fine["levels"], np.uint8).reshape(5, maps["ny"], maps["nx"])
+        half_a_level = 0.5 * fine["high"] / pack.LEVELS
+        np.testing.assert_allclose(levels / pack.LEVELS * fine["high"], self.sample.phi_fine[:][:, 2, : maps["ny"]], atol=1.001 * half_a_level)
+        self.assertIn("half depth", maps["note"])
+
+    def test_no_velocity_where_a_species_is_absent(self):
+        pass
+
+
+class Particles(SampleRun):
+    """300 particles of 2 and 4 mm diameter on a lattice, one fewer at each time; see write_sample_run.cpp."""
+
+    kind = "particles"
+
+    def test_places_are_those_of_the_particles(self):
+        found = data_of(self.page())["particles"]
+        low, high, count = np.array(found["low"]), np.array(found["high"]), found["count"]
+        self.assertEqual(count, 300)
+        parts = unpacked(found["places"], np.uint8).reshape(2, 5, count, 3).astype(np.uint16)
+        places = np.cumsum(parts[0] + 256 * parts[1], axis=0, dtype=np.uint16)
+        ids = np.unique(np.concatenate([step.id for step in self.sample.particles]))
+        for n, step in enumerate(self.sample.particles):
+            there = places[n, :, 0] != 65535
+            self.assertEqual(list(ids[there]), sorted(step.id), "one that has gone is not drawn")
+            order = np.argsort(step.id)
+            metres = places[n][there] / 65534 * (high - low) + low
+            np.testing.assert_allclose(metres, 1e3 * step.position[order], atol=0.5001 * (high - low).max() / 65534)
+            np.testing.assert_allclose(unpacked(found["radius"], "<f4")[there], 1e3 * step.radius[order], rtol=1e-6)
+            np.testing.assert_array_equal(unpacked(found["species"], np.uint8)[there], step.species[order])
+
+
+class Noise:
+    """A run whose fields, or particles, are noise, which nothing compresses: the worst that there is for the size of a page."""
+
+    def __init__(self, steps, cells, species):
+        self.generator = np.random.default_rng(1)
+        self.time, self.cells = np.linspace(0, 1, steps), cells
+        self.species = [f"s{n}" for n in range(species)]
+        self.fields = [*(f"phi_{name}" for name in self.species), *(f"u_{name}" for name in self.species), "voidage", "u_fluid"]
+        self.faces = {"x": np.linspace(0, 0.1, cells[1] + 1), "y": np.linspace(0, 0.3, cells[0] + 1)}
+        self.size, self.dimensions = (0.1, 0.3), 2
+
+    def noise(self, name):
+        return self.generator.random((*self.cells, 2) if name.startswith("u_") else self.cells)
+
+    def field(self, name):
+        return [self.noise(name)]
+
+    def fields_at(self, _, names):
+        return {name: self.noise(name) for name in names}
+
+
+class NoisyParticles:
+    def __init__(self, steps, count):
+        self.generator = np.random.default_rng(2)
+        self.time, self.count = np.linspace(0, 1, steps), np.full(steps, count)
+        self.species, self.size = ["fine"], np.array([0.1, 0.3, 0.1])
+
+    def __len__(self):
+        return len(self.time)
+
+    def __getitem__(self, _):
+        count = self.count[0]
+        return types.SimpleNamespace(id=np.arange(count), species=np.zeros(count, int), radius=np.full(count, 1e-3),
+                                     position=self.generator.random((count, 3)) * self.size, velocity=self.generator.random((count, 3)))
+
+
+class Sizes(unittest.TestCase):
+    def test_a_hundred_frames_of_noise_are_below_the_limit(self):
+        # of both kinds together, which no run has; the rest of a page is below 1 MB
+        maps = beds.maps_of(Noise(100, (200, 70), 3))
+        run = types.SimpleNamespace(particles=NoisyParticles(100, 20_000), size=(0.1, 0.3))
+        particles = beds.particles_of(run)
+        self.assertLess(len(json.dumps([maps, particles])), MOST_BYTES - 1e6)
+        self.assertGreaterEqual(len(maps["time"]), 20, "most frames of this size fit, were they not noise")
+        self.assertIn("of 100 stored times", maps["note"])
+        self.assertGreaterEqual(len(particles["time"]), beds.FEWEST_STEPS)
+
+    def test_all_frames_are_kept_where_they_fit(self):
+        run = Noise(100, (60, 20), 2)
+        run.noise = lambda name: np.zeros((*run.cells, 2) if name.startswith("u_") else run.cells)
+        maps = beds.maps_of(run)
+        self.assertEqual(len(maps["time"]), 100)
+        self.assertEqual(maps["note"], "")
+
+    def test_a_fine_grid_is_averaged(self):
+        maps = beds.maps_of(Noise(2, (900, 300), 1))
+        self.assertLessEqual(maps["nx"] * maps["ny"], beds.MOST_CELLS)
+        self.assertIn("mean of 3 x 3 cells", maps["note"])
+
+
+class Numbers(unittest.TestCase):
+    def test_prefixes(self):
+        for value, unit, told in ((2.3, "m/s", "2.3 m/s"), (0.0023, "m/s", "2.3 mm/s"), (1.0, "m", "1 m"), (0.9999, "m", "1e+03 mm"),
+                                  (4.5e-7, "s", "450 ns"), (101325, "Pa", "101 kPa"), (2.5e-6, "kg", "2.5 mg"), (3.2, "kg", "3.2 kg"),
+                                  (2e-6, "m2/s2", "2 mm\u00b2/s\u00b2"), (0, "m", "0 m"), (0.25, "1", "0.25")):
+            self.assertEqual(units.text(value, unit), told)
+        self.assertEqual(units.mean_text(0.12, 0.0034, "m"), "120 \u00b1 3.4 mm")
+
+    def test_every_nth_entry_keeps_the_last(self):
+        self.assertEqual(list(pack.thinned(10, 4)), [0, 3, 6, 9])
+        self.assertEqual(list(pack.thinned(9, 4)), [2, 5, 8])
+        self.assertEqual(list(pack.thinned(3, 4)), [0, 1, 2])
+
+    def test_levels(self):
+        np.testing.assert_array_equal(pack.levels([0, 0.5, 1, 7, np.nan], 0, 1), [0, 127, 254, 254, pack.EMPTY])
+        self.assertEqual(pack.plain_numbers([1.234567, np.nan]), [1.2346, None])
+
+
+class Outflow(unittest.TestCase):
+    """A bed of 2 kg that loses 0.1 kg/s, of which as much is fed: after 10 s, 1 kg of 3 kg has left."""
+
+    def setUp(self):
+        t = np.linspace(0, 10, 101)
+        self.history = {"time_s": t, "mass_fine_kg": np.full(101, 2.0), "in_fine_kg": 0.1 * t, "out_fine_kg": 0.1 * t}
+
+    def test_recovery_and_rate(self):
+        self.assertAlmostEqual(outflow.recovery(self.history, ["fine"])["fine"][-1], 1 / 3)
+        time_of, rate = outflow.discharge_rate(self.history, ["fine"])
+        np.testing.assert_allclose(rate, 0.1)
+        self.assertAlmostEqual(time_of[0], 10 / outflow.PARTS / 2)
+
+    def test_nothing_leaves(self):
+        self.history["out_fine_kg"] *= 0
+        self.assertEqual(outflow.mass_out(self.history, ["fine"]), {})
+        self.assertEqual(len(outflow.discharge_rate(self.history, ["fine"])[0]), 0)
+
+    def test_panels(self):
+        run = types.SimpleNamespace(history=self.history, species=["fine"])
+        self.assertEqual([p["title"] for p in series.outflow_panels(run)], ["left the column (kg)", "recovery", "discharge rate (g/s)"])
+
+
+class Written(unittest.TestCase):
+    def test_reasons_without_their_place(self):
+        self.assertEqual(sections.reason_of("error test: u_fine.y (0, 1)"), "error test: u_fine.y")
+        self.assertEqual(sections.reason_of("stop at output"), "stop at output")
+
+    def test_shares_of_steps(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            path = Path(scratch) / "steps.csv"
+            path.write_text('time_s,dt_s,error_norm,limited_by\n1,1,0.1,"drag at (0, 1)"\n2,1,0.1,"drag at (0, 2)"\n5,3,0.1,"growth"\n6,1')
+            seconds, steps = sections.limits_of_steps(path)
+        self.assertEqual((dict(seconds), dict(steps)), ({"drag": 2, "growth": 3}, {"drag": 2, "growth": 1}))
+
+    def test_a_recorded_card_is_rendered(self):
+        entries = {"bed_height": {"value": 0.12, "interval": 0.003, "unit": "m"}, "state": "fluidised <b>", "carried_out": None}
+        shown = "".join(Page(card.recorded(entries)).text)
+        for words in ("bed height", "0.12 \u00b1 0.003 m", "fluidised <b>"):
+            self.assertIn(words, shown)
+        self.assertIn("u over <u_mf>", "".join(Page(card.recorded(["u over <u_mf>"])).text))
+
+
+class Watch(SampleRun):
+    """A lock on the mark stands for the process that writes."""
+
+    def setUp(self):
+        super().setUp()
+        add_case(self.directory, state="running")
+        self.mark = open(self.directory / ".polybed", "w")
+        self.addCleanup(self.mark.close)
+        fcntl.flock(self.mark, fcntl.LOCK_EX)
+
+    def start(self):
+        child = subprocess.Popen([sys.executable, "-u", "-m", "polybed.report.watch", self.directory], stdout=subprocess.PIPE, text=True,
+                                 env={"PYTHONPATH": PACKAGE})
+        self.addCleanup(child.stdout.close)
+        self.addCleanup(child.kill)
+        return child, child.stdout.readline().split()[0]
+
+    def get(self, place, host=None):
+        request = urllib.request.Request(place, headers={"Host": host} if host else {})
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            return answer.read().decode()
+
+    def test_it_follows_a_run_and_ends_with_it(self):
+        child, place = self.start()
+        self.assertTrue(place.startswith("http://127.0.0.1:"))
+        page = Page(self.get(place))
+        self.assertEqual(page.loaded, [])
+        self.assertIn("Progress", "".join(page.text))
+        state = json.loads(self.get(place + "data.json?-1"))
+        self.assertFalse(state["ended"])
+        self.assertIn("1 s of 1 s simulated", state["html"]["progress"])
+        self.assertIsNone(json.loads(self.get(place + f"data.json?{state['version']}"))["data"] if not state["ended"] else None)
+        for other in ("evil.example", "127.0.0.1:1"):
+            with self.assertRaises(urllib.error.HTTPError) as refused:
+                self.get(place, other)
+            self.assertEqual(refused.exception.code, 403)
+            refused.exception.close()
+        with self.assertRaises(urllib.error.HTTPError) as missing:
+            self.get(place + "run.json")
+        missing.exception.close()
+        self.mark.close()
+        until = time.monotonic() + 60
+        while not state["ended"] and time.monotonic() < until:
+            state = json.loads(self.get(place + "data.json?-1"))
+            time.sleep(0.2)
+        self.assertTrue(state["ended"])
+        self.assertIn("no process writes this run", state["html"]["progress"])
+        self.assertEqual(child.wait(60), 0)
+
+    def test_a_run_that_has_ended_gets_its_page(self):
+        self.mark.close()
+        child, _ = self.start()
+        self.assertEqual(child.wait(60), 0)
+        self.assertTrue((self.directory / "report.html").exists())
+
+
+class Gallery(unittest.TestCase):
+    def test_films_of_the_docs_are_small(self):
+        films = [path for ending in ("gif", "mp4") for path in (Path(PACKAGE).parent / "docs/pictures").glob(f"*.{ending}")]
+        self.assertTrue(films)
+        for path in films:
+            self.assertLess(path.stat().st_size, 2e6, path.name)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
