@@ -52,6 +52,7 @@ void add_measure(CLI::App& app, Commands& commands);
 void add_keys(CLI::App& app, Commands& commands);
 
 void add_cost(CLI::App& app, Commands& commands);
+void add_fit(CLI::App& app, Commands& commands);
 void add_inversion(CLI::App& app, Commands& commands);
 void add_move_table(CLI::App& app, Commands& commands);
 void add_calibrate(CLI::App& app, Commands& commands);

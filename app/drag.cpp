@@ -15,6 +15,7 @@
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
+#include "relevance/drag_law.hpp"
 
 namespace polybed::multiscale {
 
@@ -24,14 +25,14 @@ using closures::DragLaw;
 
 DragLaw law_of(const DragOptions& options) {
   const auto names = closures::drag_law_names();
-  if (std::find(names.begin(), names.end(), options.law) == names.end()) {
+  if (!relevance::drag_file(options.law) && std::find(names.begin(), names.end(), options.law) == names.end()) {
     const std::string near = core::nearest_name(options.law, names);
     throw core::CaseError("unknown drag law '" + options.law + "'" +
                           (near.empty() ? "; see polybed list" : "; did you mean '" + near + "'?"));
   }
   try {
-    return closures::drag_law(options.law, options.partition,
-                              options.guard ? closures::Guard::on : closures::Guard::off);
+    return relevance::drag_law_named(options.law, options.partition,
+                                     options.guard ? closures::Guard::on : closures::Guard::off);
   } catch (const std::invalid_argument& error) {
     throw core::CaseError(std::string(error.what()) + "; see polybed list");
   }

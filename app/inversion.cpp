@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/closure_uncertainty.hpp"
 #include "app/options.hpp"
 #include "core/case/file.hpp"
 #include "core/output/json.hpp"
@@ -96,8 +97,6 @@ void add_pairs(const BinaryBed& bed, const std::string& method, std::vector<Meth
 
 /// Every method, with every drag law where it takes one; the force balance also with every mean law and partition.
 std::vector<MethodRow> all_methods(const BinaryBed& bed) {
-  const std::vector<core::Role> roles = all_roles();
-  const auto drag = std::find_if(roles.begin(), roles.end(), [](const core::Role& r) { return r.name == "drag"; });
   std::vector<MethodRow> rows;
   for (const InversionMethod& method : inversion_methods()) {
     if (!method.takes_law) {
@@ -105,7 +104,7 @@ std::vector<MethodRow> all_methods(const BinaryBed& bed) {
           {method.name, "", "", inversion_points(bed, closures::drag_law("cello", closures::Guard::on), method.name)});
       continue;
     }
-    for (const core::Law& law : drag->laws)
+    for (const closures::DragLawInfo& law : closures::drag_laws())
       rows.push_back({method.name, law.name, "",
                       inversion_points(bed, closures::drag_law(law.name, closures::Guard::on), method.name)});
     if (method.takes_partition) add_pairs(bed, method.name, rows);
@@ -175,6 +174,11 @@ void run_inversion(const InversionOptions& options) {
   if (!options.temperature.empty()) chosen.overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
   if (!options.law.empty()) chosen.overrides.push_back("effects.drag=\"" + options.law + "\"");
   if (!options.partition.empty()) chosen.overrides.push_back("effects.partition=\"" + options.partition + "\"");
+  if (options.closure_uncertainty) {
+    if (!options.scan.empty()) throw core::CaseError("--closure-uncertainty is of the force balance: leave out --scan");
+    if (options.method == "all") throw core::CaseError("--closure-uncertainty is of one method, not of all");
+    run_closure_uncertainty(chosen, "inversion", options.method);
+  }
   options.scan.empty() ? run_without_a_run(chosen) : run_inversion_scan(chosen);
 }
 

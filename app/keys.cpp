@@ -7,6 +7,7 @@
 #include <span>
 
 #include "app/options.hpp"
+#include "closures/drag_form.hpp"
 #include "core/case/case_rules.hpp"
 #include "core/case/keys.hpp"
 #include "core/error.hpp"
@@ -42,6 +43,15 @@ core::Json json_of(const core::Role& role) {
   return {{"role", role.name}, {"models", role.models}, {"slot", role.slot}, {"help", role.help}, {"laws", laws}};
 }
 
+/// Forms of drag laws and their published constants: what `polybed fit` begins from.
+core::Json forms_of_drag() {
+  core::Json forms = core::Json::object();
+  for (const closures::DragForm& form : closures::drag_forms())
+    for (const closures::DragFormConstant& constant : form.constants)
+      forms[form.name][constant.name] = constant.published;
+  return forms;
+}
+
 void print_list_json(const std::vector<core::Role>& all) {
   core::Json roles = core::Json::array(), rules = core::Json::array();
   for (const core::Role& role : all) roles.push_back(json_of(role));
@@ -54,7 +64,7 @@ void print_list_json(const std::vector<core::Role>& all) {
   add(scene_rules(), "tfm, dem");
   add(tfm::model_rules(), "tfm");
   add(dem::model_rules(), "dem");
-  core::print("{}\n", core::json_text({{"roles", roles}, {"rules", rules}}));
+  core::print("{}\n", core::json_text({{"roles", roles}, {"rules", rules}, {"drag_forms", forms_of_drag()}}));
 }
 
 /// A cell of a Markdown table.

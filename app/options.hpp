@@ -23,9 +23,10 @@ struct RunOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-<model>
   std::string until;             ///< empty: as the case says
   bool resume = false, force = false, quiet = false;
-  bool permissive = false;          ///< goes on where a conservation law is broken
-  bool picture = true;              ///< drawn at the end
-  bool stress_uncertainty = false;  ///< of the TFM: again with its stress table at plus and minus one standard error
+  bool permissive = false;           ///< goes on where a conservation law is broken
+  bool picture = true;               ///< drawn at the end
+  bool closure_uncertainty = false;  ///< again with its drag law moved within its band
+  bool stress_uncertainty = false;   ///< of the TFM: again with its stress table at plus and minus one standard error
 };
 
 /// Options of the pictures of a run.

@@ -40,8 +40,11 @@ void add_tfm(CLI::App& app, Commands& commands) {
   CLI::App& command = add_run(app, "tfm", "run the case as a continuum (two-fluid model)", *options);
   command.add_flag("--stress-uncertainty", options->stress_uncertainty,
                    "again with the stress table at plus and minus one standard error: the band of the bed height");
-  commands.push_back({&command, doing([options] { multiscale::run_tfm(*options); }),
-                      [options] { return options->stress_uncertainty ? On::study : On::all_ranks; }});
+  command.add_flag("--closure-uncertainty", options->closure_uncertainty,
+                   "again with the drag law moved within its band: the band of the bed height");
+  commands.push_back({&command, doing([options] { multiscale::run_tfm(*options); }), [options] {
+                        return options->stress_uncertainty || options->closure_uncertainty ? On::study : On::all_ranks;
+                      }});
 }
 
 void add_dem(CLI::App& app, Commands& commands) {

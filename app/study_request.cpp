@@ -14,6 +14,7 @@ core::Json common_request(const RunOptions& options, const std::string& kind) {
           {"resume", options.resume},
           {"force", options.force},
           {"permissive", options.permissive},
+          {"output", options.output.string()},
           {"stress_uncertainty", options.stress_uncertainty},
           {"quiet", options.quiet},
           {"json", options.json},

@@ -13,6 +13,15 @@ void add_cost(CLI::App& app, Commands& commands) {
       {&command, [&command]() -> core::ExitCode { multiscale::become_python("polybed.cost", command.remaining()); }});
 }
 
+/// Its options are those of the Python package, `polybed fit --help` included.
+void add_fit(CLI::App& app, Commands& commands) {
+  CLI::App& command = *app.add_subcommand("fit", "fit a drag law to rows of resolved flow, and write a law file");
+  command.prefix_command();
+  command.set_help_flag();
+  commands.push_back(
+      {&command, [&command]() -> core::ExitCode { multiscale::become_python("polybed.fit", command.remaining()); }});
+}
+
 void add_inversion(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<multiscale::InversionOptions>();
   CLI::App& command =
@@ -31,11 +40,14 @@ void add_inversion(CLI::App& app, Commands& commands) {
   command.add_option("--until", options->until, "simulated time of each run, e.g. \"20 s\"");
   command.add_flag("--stress-uncertainty", options->stress_uncertainty,
                    "of a scan by the TFM: again with its stress table at plus and minus one standard error");
+  command.add_flag("--closure-uncertainty", options->closure_uncertainty,
+                   "of the force balance: with the band of its drag law; -o DIR keeps record and picture");
   command.add_flag("--permissive", options->permissive, "runs of a scan go on where a conservation law is broken");
   command.add_flag("--quiet", options->quiet, "no line for each run");
   command.add_flag("!--no-picture", options->picture, "no inversion.png and inversion.html at the end");
-  commands.push_back({&command, doing([options] { multiscale::run_inversion(*options); }),
-                      [options] { return options->scan.empty() ? On::one_process : On::study; }});
+  commands.push_back({&command, doing([options] { multiscale::run_inversion(*options); }), [options] {
+                        return options->scan.empty() && !options->closure_uncertainty ? On::one_process : On::study;
+                      }});
 }
 
 /// For the package's own use.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/case_run.hpp"
+#include "app/closure_uncertainty.hpp"
 #include "app/stress_uncertainty.hpp"
 #include "core/print.hpp"
 #include "multiscale/requirements.hpp"
@@ -169,6 +170,7 @@ class TfmRun final : public CaseRun {
 }  // namespace
 
 void run_tfm(const RunOptions& options) {
+  if (options.closure_uncertainty) run_closure_uncertainty(options, "tfm");
   if (options.stress_uncertainty) run_stress_uncertainty(options);
   const core::Scene scene = read_scene(options);
   const fs::path directory = run_directory(options, "tfm");

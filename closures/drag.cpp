@@ -17,24 +17,24 @@ template <class Law>
 void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds, double* f,
               double* re_dfdre, GuardCount& count) {
   std::size_t outside = 0;
-  if constexpr (std::is_same_v<Law, DragCello>) {
+  if constexpr (requires { law.surely_inside(1.0, 1.0); }) {
     std::size_t inside = 0;
     for (std::size_t n = 0; n < rows; ++n) {
-      const DragValue value = DragCello::bare(voidage[n], reynolds[n]);
+      const DragValue value = law.bare(voidage[n], reynolds[n]);
       f[n] = value.f;
       re_dfdre[n] = value.re_dfdre;
     }
-    for (std::size_t n = 0; n < rows; ++n) inside += DragCello::surely_inside(voidage[n], reynolds[n]) ? 1 : 0;
+    for (std::size_t n = 0; n < rows; ++n) inside += law.surely_inside(voidage[n], reynolds[n]) ? 1 : 0;
     for (std::size_t n = 0; n < rows && inside < rows; ++n) {
-      if (DragCello::surely_inside(voidage[n], reynolds[n]) || !law.outside(voidage[n], reynolds[n])) continue;
+      if (law.surely_inside(voidage[n], reynolds[n]) || !law.outside(voidage[n], reynolds[n])) continue;
       ++outside;
       const DragValue value = law(voidage[n], reynolds[n]);
       f[n] = value.f;
       re_dfdre[n] = value.re_dfdre;
     }
-  } else if constexpr (requires { Law::bare_of_size(1.0, 1.0); }) {
+  } else if constexpr (requires { law.bare_of_size(1.0, 1.0); }) {
     for (std::size_t n = 0; n < rows; ++n) {
-      const DragValue value = Law::bare_of_size(voidage[n], reynolds[n]);
+      const DragValue value = law.bare_of_size(voidage[n], reynolds[n]);
       f[n] = value.f;
       re_dfdre[n] = value.re_dfdre;
     }
@@ -223,6 +223,11 @@ struct Kernels<Law> {
   static constexpr auto particles = evaluate_particles_in_media<Law>;
 };
 
+/// Scales f by the factors of a moved law: see DragLaw. \param y  of each row
+void move(const DragLaw& law, std::span<const double> y, double* f) {
+  for (std::size_t n = 0; n < y.size(); ++n) f[n] *= law.moved(y[n]);
+}
+
 /// The law, or the partition that shares its base law.
 template <class Body>
 void visit_sharing(const DragLaw& law, Body&& body) {
@@ -236,7 +241,7 @@ void take_mean(const DragLaw& law, const Own& own, std::span<const double> voida
   const std::size_t cells = voidage.size();
   Block::Row mean, one, slope;
   GuardCount not_told;  // the range that counts is that of the mean law
-  drag_of_points(law, voidage, {reynolds.data(), cells}, {mean.data(), cells}, {slope.data(), cells}, count);
+  drag_of_points({law.law}, voidage, {reynolds.data(), cells}, {mean.data(), cells}, {slope.data(), cells}, count);
   core::in_vectors<evaluate<Own>>(own, cells, voidage.data(), reynolds.data(), one.data(), slope.data(), not_told);
   for (std::size_t c = 0; c < cells; ++c) f[c] *= mean[c] / one[c];
 }
@@ -251,6 +256,10 @@ void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::sp
                                                      re_dfdre.data(), count);
       },
       law.law);
+  for (std::size_t n = 0; n < f.size() && law.is_moved(); ++n) {
+    f[n] *= law.common;
+    re_dfdre[n] *= law.common;
+  }
 }
 
 void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
@@ -260,7 +269,7 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
   visit_sharing(law, [&](const auto& l) {
     using Law = std::remove_cvref_t<decltype(l)>;
     BlockFor<Law> block;
-    Block::Row reynolds;
+    Block::Row reynolds, y;
     GuardCount of_partition;
     for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
       block.cells = std::min(voidage.size() - begin, Block::most);
@@ -268,10 +277,14 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
       for (std::size_t j = 0; j < diameter.size(); ++j) {
         core::in_vectors<Kernels<Law>::species>(l, block, share[j] + begin, slip[j] + begin, diameter[j], per_viscosity,
                                                 f[j] + begin, law.partition ? of_partition : count);
-        if (!law.partition) continue;
-        for (std::size_t c = 0; c < block.cells; ++c)
-          reynolds[c] = per_viscosity * slip[j][begin + c] / block.per_mean[c];
-        take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, f[j] + begin, count);
+        if (law.partition) {
+          for (std::size_t c = 0; c < block.cells; ++c)
+            reynolds[c] = per_viscosity * slip[j][begin + c] / block.per_mean[c];
+          take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, f[j] + begin, count);
+        }
+        if (!law.is_moved()) continue;
+        for (std::size_t c = 0; c < block.cells; ++c) y[c] = diameter[j] * block.per_mean[c];
+        move(law, {y.data(), block.cells}, f[j] + begin);
       }
     }
   });
@@ -291,7 +304,7 @@ void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std:
   visit_sharing(law, [&](const auto& l) {
     using Law = std::remove_cvref_t<decltype(l)>;
     BlockFor<Law> block;
-    Block::Row reynolds;
+    Block::Row reynolds, y;
     GuardCount of_partition;
     for (std::size_t begin = 0; begin < voidage.size(); begin += Block::most) {
       block.cells = std::min(voidage.size() - begin, Block::most);
@@ -300,9 +313,13 @@ void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std:
                             &share[begin],   &diameter[begin], &slip[begin]};
       core::in_vectors<Kernels<Law>::particles>(l, block, in, largest, per_viscosity, &f[begin],
                                                 law.partition ? of_partition : count);
-      if (!law.partition) continue;
-      for (std::size_t c = 0; c < block.cells; ++c) reynolds[c] = per_viscosity * in.slip[c] / in.per_mean[c];
-      take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, &f[begin], count);
+      if (law.partition) {
+        for (std::size_t c = 0; c < block.cells; ++c) reynolds[c] = per_viscosity * in.slip[c] / in.per_mean[c];
+        take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, &f[begin], count);
+      }
+      if (!law.is_moved()) continue;
+      for (std::size_t c = 0; c < block.cells; ++c) y[c] = in.diameter[c] * in.per_mean[c];
+      move(law, {y.data(), block.cells}, &f[begin]);
     }
   });
 }

@@ -1,6 +1,7 @@
 // The menu of drag laws: variants, visited once per batch, so that the chosen law is inlined in the loop.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,14 +21,14 @@
 
 namespace polybed::closures {
 
-/// Every law of mixtures by name; the order is that of the lists shown.
+/// Every law of mixtures by name, and the forms whose constants a file gives; the order is that of the lists shown.
 using MixtureLaw =
     std::variant<EachSpecies<DragStokes>, EachSpecies<DragTurtonLevenspiel>, EachSpecies<DragSchillerNaumann>,
                  EachSpecies<DragDallavalle>, EachSpecies<DragCarmanKozeny>, EachSpecies<DragErgun>,
                  EachSpecies<DragFand>, EachSpecies<DragWenYu>, EachSpecies<DragDiFelice>, EachSpecies<DragBatchelor>,
                  EachSpecies<DragRichardsonZaki>, EachSpecies<DragGidaspow>, EachSpecies<DragHkl>, EachSpecies<DragVbk>,
                  MixtureVbkTheory, MixtureVbkCorrected, MixtureCello, MixtureBrinkmanOseen, MixtureYinSundaresan,
-                 MixturePatwardhanTien, MixtureSyamlal>;
+                 MixturePatwardhanTien, MixtureSyamlal, MixtureFittedCello, MixtureFittedBrinkmanOseen>;
 
 /// How a mean drag is shared among species: f_j = f_mean(eps, Re_m) f_j^part/f_one^part(eps, Re_m), f_one^part the
 /// partition's own law of one size and Re_m = rho_f u_j D_mean/mu of the particle's own slip. Partitions that are a
@@ -39,6 +40,14 @@ using Partition = std::variant<CelloShares<DragStokes>, VbkTheoryShares<DragStok
 struct DragLaw {
   MixtureLaw law;
   std::optional<Partition> partition = {};
+  /// What a study of the law's uncertainty moves: f_j is multiplied by common [1 + tilt (y_j - 1)]. The tilt changes
+  /// the ratio of the species alone: where f_j goes as y_j, sum x_j f_j/y_j^2 is the same.
+  double common = 1, tilt = 0;
+
+  [[nodiscard]] bool is_moved() const { return common != 1 || tilt != 0; }
+  /// The factor of a species; above 0 for any y_j.
+  [[nodiscard]] double moved(double y) const { return common * std::max(1 + tilt * (y - 1), least_tilted); }
+  static constexpr double least_tilted = 0.1;
 };
 
 /// The law of a name, with or without its guard; throws std::invalid_argument for an unknown name.
@@ -47,6 +56,10 @@ struct DragLaw {
 /// A law of one size as the mean of a partition; "none" is the law alone. The pair that a law of mixtures is made of is
 /// that law. Throws std::invalid_argument for an unknown name and for a law that is no mean.
 [[nodiscard]] DragLaw drag_law(std::string_view name, std::string_view partition, Guard guard);
+
+/// The law with the partition of a name, "none" being the law alone; throws std::invalid_argument for an unknown name
+/// and for a law that is no mean. \param name  of the law
+[[nodiscard]] DragLaw shared_by(const DragLaw& law, std::string_view name, std::string_view partition, Guard guard);
 
 struct DragLawInfo {
   std::string name, help;

@@ -33,10 +33,30 @@ namespace polybed::closures {
 /// a row.
 using BrinkmanMedium = std::array<double, 7>;
 
-struct DragBrinkmanOseen {
+/// The fitted constants of the form, in the order of I and then c; all positive.
+struct BrinkmanOseenConstants {
+  double inertia_phi = 0.9095, stretch = 0.7664, power = 0.4422, power_phi = 0.2509;
+  double forchheimer = 0.04289, forchheimer_phi = 20.4, screening = 2.664;
+};
+
+/// The constants of this project, known to the compiler.
+struct PublishedBrinkmanOseen {
   static constexpr std::string_view name = "brinkman_oseen";
   static constexpr std::string_view help =
       "spheres in a Brinkman medium with Oseen's inertia, fitted to lattice-Boltzmann data; voidage 0.35-1, Re <= 1050";
+  static constexpr BrinkmanOseenConstants constants{};
+};
+
+/// Constants of a file: see closures/drag_form.hpp.
+struct FittedBrinkmanOseen {
+  static constexpr std::string_view name = "fitted brinkman_oseen";
+  static constexpr std::string_view help = "the form of brinkman_oseen with constants of a file";
+  static constexpr bool is_fitted = true;
+  BrinkmanOseenConstants constants = {};
+};
+
+template <class Source>
+struct BrinkmanOseenForm : Source {
   static constexpr double most_reynolds = 1050;
   Guard guard = Guard::on;
 
@@ -46,23 +66,24 @@ struct DragBrinkmanOseen {
   [[nodiscard]] bool outside(double eps, double re) const { return (eps < 0.35) | (eps > 1) | (re > most_reynolds); }
 
   /// The same without the guard, and without a branch.
-  [[nodiscard]] static DragValue bare_of_size(double eps, double re) { return bare(medium(eps, 1), 1, re); }
+  [[nodiscard]] DragValue bare_of_size(double eps, double re) const { return bare(medium(eps, 1), 1, re); }
 
   /// \param m2  sum x_k/y_k^2, 1 of one size
-  [[nodiscard]] static BrinkmanMedium medium(double voidage, double m2) {
+  [[nodiscard]] BrinkmanMedium medium(double voidage, double m2) const {
+    const BrinkmanOseenConstants& k = this->constants;
     const double phi = std::max(1 - voidage, 0.0), eps = 1 - phi, per_eps = 1 / eps, eps2 = eps * eps;
     const double logarithmic = phi * plain_log(std::max(phi, 1e-300));
     const double dilute = 1 + 1.5 * std::numbers::sqrt2 * std::sqrt(phi) + 135.0 / 64 * logarithmic + 10.456 * phi;
     const double f0 = 10 * phi * per_eps * per_eps + eps2 * eps2 * eps * dilute;
-    const double c = phi / (2 * eps + 2.664 * phi * phi * phi);
-    const double oseen = 3.0 / 16 * (1 + 0.9095 * phi) * per_eps * per_eps / std::sqrt(std::sqrt(eps));
+    const double c = phi / (2 * eps + k.screening * phi * phi * phi);
+    const double oseen = 3.0 / 16 * (1 + k.inertia_phi * phi) * per_eps * per_eps / std::sqrt(std::sqrt(eps));
     return {per_eps,
             std::sqrt(phi + eps * m2) * ((1 - c) * f0 - per_eps),
             c * f0,
             1.5 * c,
             oseen,
-            3.0 / 16 * 0.04289 * (1 + 20.4 * phi),
-            -0.4422 + 0.2509 * phi};
+            3.0 / 16 * k.forchheimer * (1 + k.forchheimer_phi * phi),
+            -k.power + k.power_phi * phi};
   }
 
   /// f_j of a species of y_j = D_j over the Sauter diameter. \param re  of its own diameter and slip
@@ -71,7 +92,7 @@ struct DragBrinkmanOseen {
   }
 
   /// The same without the guard, and without a branch.
-  [[nodiscard]] static DragValue bare(const BrinkmanMedium& m, double y, double re) {
+  [[nodiscard]] DragValue bare(const BrinkmanMedium& m, double y, double re) const {
     return joined(m, y, inertia(m, re));
   }
 
@@ -87,14 +108,14 @@ struct DragBrinkmanOseen {
   }
 
   /// I and R dI/dR.
-  [[nodiscard]] static DragValue inertia(const BrinkmanMedium& m, double re) {
+  [[nodiscard]] DragValue inertia(const BrinkmanMedium& m, double re) const {
     const auto& [per_eps, linear, square, shade, oseen, forchheimer, power] = m;
-    const double stretched = 1 + 0.7664 * re;
+    const double stretched = 1 + this->constants.stretch * re;
     const double falling = oseen * plain_exp(power * plain_log(stretched));
     return {re * (falling + forchheimer), re * (falling * (1 + power * (stretched - 1) / stretched) + forchheimer)};
   }
 
-  [[nodiscard]] static DragValue beyond_data(const BrinkmanMedium& m, double re) {
+  [[nodiscard]] DragValue beyond_data(const BrinkmanMedium& m, double re) const {
     const DragValue at_c = inertia(m, most_reynolds);
     const DragValue t_c = DragTurtonLevenspiel{}(1, most_reynolds), t = DragTurtonLevenspiel{}(1, re);
     const double scale = at_c.f / (t_c.f - 1), mismatch = (at_c.re_dfdre - scale * t_c.re_dfdre) / most_reynolds;
@@ -103,18 +124,25 @@ struct DragBrinkmanOseen {
   }
 };
 
+using DragBrinkmanOseen = BrinkmanOseenForm<PublishedBrinkmanOseen>;
+using DragFittedBrinkmanOseen = BrinkmanOseenForm<FittedBrinkmanOseen>;
+
 /// The law of a mixture. It is not a base law times a factor: a medium for each cell, then f_j of each species in it.
-struct MixtureBrinkmanOseen {
-  static constexpr std::string_view name = DragBrinkmanOseen::name, help = DragBrinkmanOseen::help;
+template <class Mean>
+struct BrinkmanOseenShares {
+  static constexpr std::string_view name = Mean::name, help = Mean::help;
   static constexpr std::string_view shares = "each size in a Brinkman medium; the mean rises with sum x_j/y_j^2";
   static constexpr bool obeys_sum_rule = true;  ///< its mean is sum x_k f_k/y_k^2, which rises with m2
   static constexpr bool mean_is_base = false;
-  using Base = DragBrinkmanOseen;
+  using Base = Mean;
   using Medium = BrinkmanMedium;
   Base base;
   [[nodiscard]] Medium medium(double eps, const Composition& c) const {
-    return Base::medium(eps, c.per_square / (c.per_mean * c.per_mean));
+    return base.medium(eps, c.per_square / (c.per_mean * c.per_mean));
   }
 };
+
+using MixtureBrinkmanOseen = BrinkmanOseenShares<DragBrinkmanOseen>;
+using MixtureFittedBrinkmanOseen = BrinkmanOseenShares<DragFittedBrinkmanOseen>;
 
 }  // namespace polybed::closures

@@ -22,10 +22,33 @@
 
 namespace polybed::closures {
 
-struct DragCello {
+/// The constants of the form, in the order of the formula, and the voidage at which Omega_j = y_j, T(4.28); all
+/// positive.
+struct CelloConstants {
+  double k1_linear = 128, k1_square = 715, k1_below = 49.5;
+  double k2_linear = 0.13, k2_square = 6.66e-4, k2_below_linear = 3.42e-2, k2_below_square = 6.92e-6;
+  double k3_voidage = 410, k3_dense = 9.2e7, k3_voidage_square = 1900, k3_reynolds = 0.066;
+  double pole_voidage = 6600, pole_reynolds = 4.92e-4, pole_voidage_square = 43000;
+  double pole_reynolds_square = 1.31e-4, pole_voidage_cube = 7.38e4, crossing = 0.73;
+};
+
+/// The constants of the thesis, known to the compiler.
+struct PublishedCello {
   static constexpr std::string_view name = "cello";
   static constexpr std::string_view help =
       "the thesis's law on lattice-Boltzmann data; T(4.1)-(4.2), voidage 0.35-1, Re <= 1050";
+  static constexpr CelloConstants constants{};
+};
+
+/// Constants of a file: see closures/drag_form.hpp.
+struct FittedCello {
+  static constexpr std::string_view name = "fitted cello", help = "the form of cello with constants of a file";
+  static constexpr bool is_fitted = true;
+  CelloConstants constants = {};
+};
+
+template <class Source>
+struct CelloForm : Source {
   static constexpr double least_voidage = 0.35;  ///< of the data; below, the guard G3
   Guard guard = Guard::on;
 
@@ -39,45 +62,56 @@ struct DragCello {
   }
 
   /// Whether outside() is false without its square root: Re_c is at least 687 within the data.
-  [[nodiscard]] static bool surely_inside(double eps, double re) {
+  [[nodiscard]] bool surely_inside(double eps, double re) const {
+    if constexpr (requires { Source::is_fitted; }) return !outside(eps, re);
     return (eps >= least_voidage) & (eps <= 1) & (re <= 600);
   }
 
   /// The published formula, branch-free. Divisions are what it costs: each denominator is inverted once.
-  [[nodiscard]] static DragValue bare(double eps, double re) {
+  [[nodiscard]] DragValue bare(double eps, double re) const {
+    const CelloConstants& k = this->constants;
     const double eps2 = eps * eps, eps4 = eps2 * eps2;
     const double k0 = (1 - eps) / (1 + 3 * eps);
-    const double up2 = 1 + re * (0.13 + 6.66e-4 * re), per_down2 = 1 / (1 + re * (3.42e-2 + 6.92e-6 * re));
+    const double up2 = 1 + re * (k.k2_linear + k.k2_square * re);
+    const double per_down2 = 1 / (1 + re * (k.k2_below_linear + k.k2_below_square * re));
     const double ratio2 = up2 * per_down2;
-    const double d2 = re * (0.13 + 2 * 6.66e-4 * re - ratio2 * (3.42e-2 + 2 * 6.92e-6 * re)) * per_down2;
+    const double d2 = re *
+                      (k.k2_linear + 2 * k.k2_square * re - ratio2 * (k.k2_below_linear + 2 * k.k2_below_square * re)) *
+                      per_down2;
     const double k2 = k0 * k0, k4 = k2 * k2, k8 = k4 * k4, k20 = k8 * k8 * k4;
-    const double linear = 9.2e7 * k20 - 0.066, up3 = eps * (-410 + 1900 * eps) + linear * re;
-    const double per_down3 = 1 / (pole_constant(eps) + re * (4.92e-4 - 1.31e-4 * re)), ratio3 = up3 * per_down3;
+    const double linear = k.k3_dense * k20 - k.k3_reynolds;
+    const double up3 = eps * (-k.k3_voidage + k.k3_voidage_square * eps) + linear * re;
+    const double per_down3 = 1 / (pole_constant(eps) + re * (k.pole_reynolds - k.pole_reynolds_square * re)),
+                 ratio3 = up3 * per_down3;
     const double per_re1 = 1 / (1 + re), front = 2 * re * re * per_re1, k3 = front * ratio3;
     // Re dK3/dRe = K3 (Re front'/front) + front (Re up' - up3 Re down'/down3) / down3
-    const double d3 =
-        k3 * (2 + re) * per_re1 + front * re * (linear - ratio3 * (4.92e-4 - 2 * 1.31e-4 * re)) * per_down3;
+    const double d3 = k3 * (2 + re) * per_re1 +
+                      front * re * (linear - ratio3 * (k.pole_reynolds - 2 * k.pole_reynolds_square * re)) * per_down3;
     const double f = creeping(eps) + (ratio2 - 1) * eps4 + k3 * (1 - eps4);
     return {f, d2 * eps4 + d3 * (1 - eps4)};
   }
 
   /// K1, the limit Re -> 0.
-  [[nodiscard]] static double creeping(double eps) {
+  [[nodiscard]] double creeping(double eps) const {
+    const CelloConstants& k = this->constants;
     const double k0 = (1 - eps) / (1 + 3 * eps);
-    return (1 + k0 * (128 + 715 * k0)) / (eps * eps * (1 + 49.5 * k0));
+    return (1 + k0 * (k.k1_linear + k.k1_square * k0)) / (eps * eps * (1 + k.k1_below * k0));
   }
 
   /// Re_c: up to here the formula is used.
-  [[nodiscard]] static double most_reynolds(double eps) {
-    constexpr double a = 1.31e-4, b = 4.92e-4;
+  [[nodiscard]] double most_reynolds(double eps) const {
+    const double a = this->constants.pole_reynolds_square, b = this->constants.pole_reynolds;
     const double pole = (b + std::sqrt(std::max(b * b + 4 * a * pole_constant(eps), 0.0))) / (2 * a);
     return std::min(1050.0, 0.5463 * pole);
   }
 
  private:
-  [[nodiscard]] static double pole_constant(double eps) { return eps * (6600 + eps * (-43000 + 7.38e4 * eps)); }
+  [[nodiscard]] double pole_constant(double eps) const {
+    const CelloConstants& k = this->constants;
+    return eps * (k.pole_voidage + eps * (-k.pole_voidage_square + k.pole_voidage_cube * eps));
+  }
 
-  [[nodiscard]] static DragValue guarded(double eps, double re) {
+  [[nodiscard]] DragValue guarded(double eps, double re) const {
     if (eps >= least_voidage) return beyond_data(eps, re);
     const double low = std::max(eps, 0.10), scale = (least_voidage / low) * (least_voidage / low);
     const DragValue edge = beyond_data(least_voidage, re);
@@ -85,7 +119,7 @@ struct DragCello {
   }
 
   /// G1 and G2 at a voidage inside the data.
-  [[nodiscard]] static DragValue beyond_data(double eps, double re) {
+  [[nodiscard]] DragValue beyond_data(double eps, double re) const {
     const double re_c = most_reynolds(eps);
     if (re <= re_c) return bare(eps, re);
     const DragValue at_c = bare(eps, re_c), t_c = DragTurtonLevenspiel{}(1, re_c), t = DragTurtonLevenspiel{}(1, re);
@@ -95,5 +129,8 @@ struct DragCello {
             at_c.f * t.re_dfdre / t_c.f + mismatch * (re * ratio * ratio * ratio - 3 * fade)};
   }
 };
+
+using DragCello = CelloForm<PublishedCello>;
+using DragFittedCello = CelloForm<FittedCello>;
 
 }  // namespace polybed::closures

@@ -11,9 +11,21 @@ namespace {
 
 constexpr std::string_view no_partition = "none";
 
+/// Forms whose constants a file gives have no place in the menu.
+template <class Law>
+constexpr bool is_in_menu = !requires {
+  Law::Base::is_fitted;
+};
+
+template <class Variant, std::size_t Place, class Body>
+void see(Body& body) {
+  using Law = std::variant_alternative_t<Place, Variant>;
+  if constexpr (is_in_menu<Law>) body(std::type_identity<Law>{});
+}
+
 template <class Variant, class Body, std::size_t... Places>
 void for_each_of(Body&& body, std::index_sequence<Places...>) {
-  (body(std::type_identity<std::variant_alternative_t<Places, Variant>>{}), ...);
+  (see<Variant, Places>(body), ...);
 }
 
 template <class Variant, class Body>
@@ -48,6 +60,11 @@ std::string_view base_name(const MixtureLaw& law) {
   return std::visit([](const auto& l) { return std::remove_cvref_t<decltype(l.base)>::name; }, law);
 }
 
+bool is_law_of_one_size(const DragLaw& law, std::string_view name) {
+  const bool fitted = std::visit([](const auto& l) { return !is_in_menu<std::remove_cvref_t<decltype(l)>>; }, law.law);
+  return fitted || base_name(law.law) == name;
+}
+
 }  // namespace
 
 DragLaw drag_law(std::string_view name, Guard guard) {
@@ -57,15 +74,23 @@ DragLaw drag_law(std::string_view name, Guard guard) {
 }
 
 DragLaw drag_law(std::string_view name, std::string_view partition, Guard guard) {
-  const DragLaw law = drag_law(name, guard);
+  return shared_by(drag_law(name, guard), name, partition, guard);
+}
+
+DragLaw shared_by(const DragLaw& law, std::string_view name, std::string_view partition, Guard guard) {
   if (partition == no_partition) return law;
   const auto sharing = named<Partition>(partition, guard);
   if (!sharing) throw std::invalid_argument("unknown partition '" + std::string(partition) + "'");
-  if (base_name(law.law) != name)
+  if (!is_law_of_one_size(law, name))
     throw std::invalid_argument("drag law '" + std::string(name) +
                                 "' is no law of one size: a partition cannot share it");
+  DragLaw shared = law;
   const DragLaw of_partition = drag_law(partition, guard);
-  return base_name(of_partition.law) == name ? of_partition : DragLaw{law.law, sharing};
+  if (base_name(of_partition.law) == name)
+    shared.law = of_partition.law;
+  else
+    shared.partition = sharing;
+  return shared;
 }
 
 std::vector<DragLawInfo> drag_laws() {

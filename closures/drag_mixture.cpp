@@ -31,6 +31,7 @@ void species_of_mixture(const Law& law, double voidage, const Composition& compo
   }
 }
 
+/// The law of one size, without the factor of a moved law.
 DragValue base_at(const DragLaw& law, double voidage, double reynolds) {
   return std::visit([&](const auto& l) { return l.base(voidage, reynolds); }, law.law);
 }
@@ -51,19 +52,26 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
   const auto find = [&](const auto& l) {
     species_of_mixture(l, voidage, composition, share, diameter, slip, fluid_density, viscosity, f, re_dfdre);
   };
-  if (!law.partition) return std::visit(find, law.law);
-  std::visit(
-      [&](const auto& part) {
-        find(part);
-        for (std::size_t j = 0; j < diameter.size(); ++j) {
-          const double reynolds = fluid_density * slip[j] / (composition.per_mean * viscosity);
-          const DragValue mean = base_at(law, voidage, reynolds), one = part.base(voidage, reynolds);
-          const double ratio = f[j] / one.f, slope = (re_dfdre[j] - ratio * one.re_dfdre) / one.f;
-          f[j] = ratio * mean.f;
-          re_dfdre[j] = ratio * mean.re_dfdre + slope * mean.f;
-        }
-      },
-      *law.partition);
+  if (!law.partition)
+    std::visit(find, law.law);
+  else
+    std::visit(
+        [&](const auto& part) {
+          find(part);
+          for (std::size_t j = 0; j < diameter.size(); ++j) {
+            const double reynolds = fluid_density * slip[j] / (composition.per_mean * viscosity);
+            const DragValue mean = base_at(law, voidage, reynolds), one = part.base(voidage, reynolds);
+            const double ratio = f[j] / one.f, slope = (re_dfdre[j] - ratio * one.re_dfdre) / one.f;
+            f[j] = ratio * mean.f;
+            re_dfdre[j] = ratio * mean.re_dfdre + slope * mean.f;
+          }
+        },
+        *law.partition);
+  for (std::size_t j = 0; j < diameter.size() && law.is_moved(); ++j) {
+    const double factor = law.moved(diameter[j] * composition.per_mean);
+    f[j] *= factor;
+    re_dfdre[j] *= factor;
+  }
 }
 
 double pure_drag_at(const DragLaw& law, double voidage, double reynolds) {
@@ -77,12 +85,12 @@ double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::sp
                     std::span<const double> diameter, std::span<const double> f) {
   const auto built_on_base = [](const auto& l) { return std::remove_cvref_t<decltype(l)>::mean_is_base; };
   const bool base = law.partition ? std::visit(built_on_base, *law.partition) : std::visit(built_on_base, law.law);
-  return base ? base_at(law, voidage, reynolds).f : mean_of_species(share, diameter, f);
+  return base ? law.common * base_at(law, voidage, reynolds).f : mean_of_species(share, diameter, f);
 }
 
 double deviation_from_base(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
                            std::span<const double> diameter, std::span<const double> f) {
-  return mean_of_species(share, diameter, f) / base_at(law, voidage, reynolds).f - 1;
+  return mean_of_species(share, diameter, f) / (law.common * base_at(law, voidage, reynolds).f) - 1;
 }
 
 }  // namespace polybed::closures

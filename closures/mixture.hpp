@@ -56,13 +56,15 @@ struct MixtureTerms {
   double voidage, length, offset, factor;
 };
 
-/// h(eps) of T(4.28), gamma = 0.27: (1-eps)(0.73-eps)/(0.73 eps).
-[[nodiscard]] inline double cello_h(double voidage) { return (1 - voidage) * (0.73 - voidage) / (0.73 * voidage); }
+/// h(eps) of T(4.28): (1-eps)(crossing-eps)/(crossing eps). \param crossing  the voidage at which h is 0: 1 - gamma
+[[nodiscard]] inline double cello_h(double voidage, double crossing = 0.73) {
+  return (1 - voidage) * (crossing - voidage) / (crossing * voidage);
+}
 
 /// h with its guard G4: taken at eps >= 0.35, and not below -0.95 y_m/(y_max - 1), which keeps Omega_j > 0
 /// for every mixture and the sum rule exact. Without a branch: of equal sizes the bound is huge, not infinite.
-[[nodiscard]] inline double cello_h_guarded(double voidage, double y_max, double y_m) {
-  return std::max(cello_h(std::max(voidage, 0.35)), -0.95 * y_m / std::max(y_max - 1, 1e-300));
+[[nodiscard]] inline double cello_h_guarded(double voidage, double y_max, double y_m, double crossing = 0.73) {
+  return std::max(cello_h(std::max(voidage, 0.35), crossing), -0.95 * y_m / std::max(y_max - 1, 1e-300));
 }
 
 }  // namespace polybed::closures

@@ -39,10 +39,17 @@ struct CelloShares {
   static constexpr bool mean_is_base = true;
   using Base = Mean;
   Base base;
+  /// 1 - gamma: that of the base law if it has one.
+  [[nodiscard]] double crossing() const {
+    if constexpr (requires { base.constants.crossing; }) return base.constants.crossing;
+    return PublishedCello::constants.crossing;
+  }
   /// h/y_m.
   [[nodiscard]] double coefficient(double eps, const Composition& c) const {
     const double y_m = c.average * c.per_mean, y_max = c.largest * c.per_mean;
-    return (base.guard == Guard::on ? cello_h_guarded(std::min(eps, 1.0), y_max, y_m) : cello_h(eps)) / y_m;
+    return (base.guard == Guard::on ? cello_h_guarded(std::min(eps, 1.0), y_max, y_m, crossing())
+                                    : cello_h(eps, crossing())) /
+           y_m;
   }
   [[nodiscard]] MixtureTerms term(const MixtureCell& cell, double diameter, double) const {
     const double y = diameter * cell.per_mean;
@@ -51,6 +58,7 @@ struct CelloShares {
 };
 
 using MixtureCello = CelloShares<DragCello>;
+using MixtureFittedCello = CelloShares<DragFittedCello>;
 
 /// Omega_j = y_j, T(3.53).
 template <class Mean>

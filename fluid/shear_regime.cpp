@@ -11,6 +11,7 @@
 #include "closures/relevance.hpp"
 #include "closures/stress_reference.hpp"
 #include "core/error.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::fluid {
@@ -21,7 +22,7 @@ closures::DragLaw law_of_scene(const core::Scene& scene) {
   const std::string name = core::law_of(scene, "drag");
   if (name == "none")
     throw core::CaseError("calibrate: particles in a fluid need a drag law: [effects] drag = ..., see polybed list");
-  return closures::drag_law(name, closures::Guard::on);
+  return relevance::drag_law_named(name);
 }
 
 /// Voidage at which drag carries the buoyant weight of one species alone, in [0.4, 0.99].

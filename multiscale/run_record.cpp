@@ -156,6 +156,7 @@ void begin_record(Json& json, const core::Scene& scene, const std::string& model
           {"git_commit", core::git_commit()}, {"state", state}, {"case", text},   {"case_hash", core::text_hash(text)},
           {"overrides", scene.overrides},     {"ranks", ranks}};
   write_size_classes(json, scene);
+  if (!scene.drag_record.empty()) json["drag_law"] = core::parse_json(scene.drag_record);
   json["machine"] = {{"processor", processor()},
                      {"vectors", core::vector_width_name()},
                      {"cores", std::thread::hardware_concurrency()}};

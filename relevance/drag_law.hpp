@@ -1,14 +1,27 @@
-// The drag law of a case: its mean law, and the partition if it names one.
+// The drag law of a case: its mean law, and the partition if it names one. A law is one of the menu, or a fitted or a
+// moved one of a file: "file:LAW.json".
 #pragma once
+
+#include <optional>
 
 #include "closures/drag.hpp"
 #include "core/case/scene.hpp"
 
 namespace polybed::relevance {
 
-/// Throws std::invalid_argument where the case has no law, or a partition of what is no law of one size.
+/// The file of a law that is in one; nothing if it is a law of the menu.
+[[nodiscard]] std::optional<std::string> drag_file(const std::string& law);
+
+/// A law by the name that a case or a command gives. Throws std::invalid_argument for an unknown law or partition, and
+/// for a partition of what is no law of one size; core::CaseError with file, line and column for what is wrong with a
+/// law file, core::FileError if it cannot be read.
+/// \param law  of the menu, or "file:LAW.json"  \param partition  "none": the law alone
+[[nodiscard]] closures::DragLaw drag_law_named(const std::string& law, const std::string& partition = "none",
+                                               closures::Guard guard = closures::Guard::on);
+
+/// The same of a case. Throws std::invalid_argument also where the case has no law.
 [[nodiscard]] inline closures::DragLaw drag_law_of(const core::Scene& scene) {
-  return closures::drag_law(core::law_of(scene, "drag"), core::law_of(scene, "partition"), closures::Guard::on);
+  return drag_law_named(core::law_of(scene, "drag"), core::law_of(scene, "partition"));
 }
 
 /// Its name for reports: "wen_yu", or "wen_yu x brinkman_oseen".

@@ -11,6 +11,7 @@
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case/particle_list.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "relevance/gas_slip.hpp"
 
@@ -258,9 +259,8 @@ Survey survey(const core::Scene& scene) {
   const std::string named = core::law_of(scene, "drag");
   s.drag_law = named == "none" || named == core::automatic ? "cello" : named;
   const std::string partition = core::law_of(scene, "partition");
-  const closures::DragLaw law = partition == core::automatic
-                                    ? closures::drag_law(s.drag_law, closures::Guard::on)
-                                    : closures::drag_law(s.drag_law, partition, closures::Guard::on);
+  const closures::DragLaw law =
+      partition == core::automatic ? drag_law_named(s.drag_law) : drag_law_named(s.drag_law, partition);
   for (const core::Fluid& state : fluids_of(scene)) {
     BedInFluid bed(scene, state, law, s);
     const bool one = s.least_velocity == s.greatest_velocity;

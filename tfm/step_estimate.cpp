@@ -70,7 +70,7 @@ double greatest_terminal_velocity(const Constants& constants) {
 double expanded_fraction(const Constants& constants, const std::string& name, double velocity, double packed) {
   const double excess = mean_density(constants) - constants.fluid.density;
   if (!(excess * constants.gravity > 0)) return 0;
-  const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
+  const closures::DragLaw law = relevance::drag_law_named(name);
   const double diameter = closures::sauter_diameter(constants.bed_share, constants.diameter);
   const auto f = [&](double eps, double re) {
     double value = 0, slope = 0;

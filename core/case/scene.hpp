@@ -262,6 +262,8 @@ struct Scene {
   std::vector<ContactPair> contact_pairs;
   Calibrate calibrate;
   std::vector<SizeClasses> size_classes;
+  /// What the file of the drag law said when the case was read, JSON: a record, not read again; empty without one.
+  std::string drag_record;
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
 };
 

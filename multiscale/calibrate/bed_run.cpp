@@ -14,6 +14,7 @@
 #include "multiscale/calibrate/bed_scene.hpp"
 #include "multiscale/calibrate/box_result.hpp"
 #include "multiscale/calibrate/slab.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -37,7 +38,7 @@ double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, doubl
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const std::string name = core::law_of(scene, "drag");
   if (name == "none") throw core::CaseError("calibrate.regime = \"bed\" needs a drag law: [effects] drag = ...");
-  const closures::DragLaw law = closures::drag_law(name, closures::Guard::on);
+  const closures::DragLaw law = relevance::drag_law_named(name);
   return closures::carrying_velocity(
       [&](double eps, double reynolds) { return closures::pure_drag_at(law, eps, reynolds); },
       {mean.diameter, std::abs(mean.density - fluid.density), fluid.density, fluid.viscosity, scene.column.gravity},

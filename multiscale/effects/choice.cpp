@@ -5,6 +5,8 @@
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "relevance/drag_file.hpp"
+#include "relevance/drag_law.hpp"
 
 namespace polybed::multiscale {
 
@@ -16,6 +18,8 @@ core::Scene read_chosen_case(const std::filesystem::path& path, const std::vecto
   core::Scene chosen = with_choice(read_case(path, overrides));
   if (!chosen.chooser.chosen.empty()) core::refuse(scene_rules(), chosen);  // what is chosen beside what is given
   choose_stiffness(chosen);
+  if (const auto file = relevance::drag_file(core::law_of(chosen, "drag")))
+    chosen.drag_record = relevance::record_of(*file, relevance::read_drag_file(*file));
   return chosen;
 }
 

@@ -87,7 +87,7 @@ Error of_system(const std::string& system) {
       if (table.text(n, "system") != system) continue;
       const double eps = table.number(n, "eps"), y = table.number(n, "y_j");
       const double omega = y * (1 + cello_h(eps) * (y - 1) / table.number(n, "ym_used"));
-      error.see(alpha_of_omega(eps, omega, y) * DragCello::bare(eps, table.number(n, "Rebar")).f / eps,
+      error.see(alpha_of_omega(eps, omega, y) * DragCello{}.bare(eps, table.number(n, "Rebar")).f / eps,
                 table.number(n, "n_j_LBM"));
     }
   }

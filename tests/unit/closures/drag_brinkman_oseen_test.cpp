@@ -74,7 +74,7 @@ TEST(BrinkmanOseen, GuardBeyondTheData) {
     EXPECT_NEAR(above.f, below.f + 1e-6 * below.re_dfdre, 1e-11 * below.f);
     EXPECT_NEAR(above.re_dfdre, below.re_dfdre, 1e-5 * below.re_dfdre);
   }
-  EXPECT_EQ(law(0.5, 1000).f, DragBrinkmanOseen{Guard::off}(0.5, 1000).f);
+  EXPECT_EQ(law(0.5, 1000).f, (DragBrinkmanOseen{{}, Guard::off}(0.5, 1000).f));
 }
 
 TEST(BrinkmanOseen, LimitsOfOneSize) {

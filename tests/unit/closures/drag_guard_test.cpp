@@ -49,7 +49,7 @@ struct Misbehaviour {
 };
 
 Misbehaviour search(Guard guard, int points) {
-  const DragCello law{guard};
+  const DragCello law{{}, guard};
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> voidage(0.02, 0.999), exponent(-3, 6);
   Misbehaviour found;
@@ -114,7 +114,7 @@ TEST(DragGuard, SumRuleHoldsForEveryMixture) {
     for (double& x : share) x /= sum;
     const double eps = 0.1 + 0.9 * uniform(random), mean = sauter_diameter(share, diameter);
     for (const Guard guard : {Guard::on, Guard::off}) {
-      const std::vector<double> omega = omegas({{guard}}, eps, share, diameter);
+      const std::vector<double> omega = omegas({{{}, guard}}, eps, share, diameter);
       double rule = 0, size = 0;
       for (std::size_t j = 0; j < species; ++j) {
         const double y = diameter[j] / mean;

@@ -158,7 +158,7 @@ TEST(DragTables, TenAndFourSizes) {
     for (std::size_t n = 0; n < table.rows(); ++n) {
       const double eps = table.number(n, "eps"), re = table.number(n, "Rebar"), y = table.number(n, "y_j");
       const double omega = y * (1 + cello_h(eps) * (y - 1) / table.number(n, "ym_used"));
-      const double alpha = alpha_of_omega(eps, omega, y), mean = DragCello::bare(eps, re).f / eps;
+      const double alpha = alpha_of_omega(eps, omega, y), mean = DragCello{}.bare(eps, re).f / eps;
       const std::string where = name + " row " + std::to_string(n);
       expect_relative(alpha, table.number(n, "alpha_NM_calc"), 1e-5, where);
       expect_relative(mean, table.number(n, "nbar_NM_calc"), 1e-5, where);

@@ -1,0 +1,66 @@
+"""The band that the uncertainty of the drag law puts about an answer."""
+
+import json
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from polybed.drawing.style import COLOURS, GREY, PALE, STYLE
+from polybed.read import read
+from polybed.study.measured import centre_difference, history_of, species_of
+
+
+def draw_inversion(record, figure):
+    """The inversion point in the plane of velocity and voidage, with the points of each move."""
+    axes = figure.add_subplot()
+    velocity, voidage = record["velocity_m_s"], record["voidage"]
+    if velocity["low"] is not None:
+        axes.axvspan(1e3 * velocity["low"], 1e3 * velocity["high"], color=PALE, alpha=0.5, lw=0, label="band")
+        for (name, pair), colour in zip(velocity["by"].items(), COLOURS):
+            at = [1e3 * pair["minus"], 1e3 * velocity["value"], 1e3 * pair["plus"]]
+            of = voidage["by"][name]
+            axes.plot(at, [of["minus"], voidage["value"], of["plus"]], "o-", ms=3, color=colour, label=name)
+    axes.plot(1e3 * velocity["value"], voidage["value"], "k+", ms=9, label=record["law"])
+    axes.set_xlabel("inversion velocity, mm/s")
+    axes.set_ylabel("voidage")
+    axes.legend()
+
+
+def series_of(folder):
+    """Time, bed height and centre difference of a run."""
+    history = history_of(read(folder))
+    return history["time_s"], {"bed_height_m": history["bed_height_m"],
+                               "centre_difference": centre_difference(history, species_of(history))}
+
+
+def draw_runs(record, folder, figure):
+    """Bed height and centre difference over time, with the range of the runs whose law is moved."""
+    time, base = series_of(folder)
+    moved = [series_of(folder / f"{name}-{sign}") for name in record["band"] for sign in ("minus", "plus")]
+    panels = [(name, label) for name, label in (("bed_height_m", "bed height, m"), ("centre_difference", "centre difference"))
+              if len(base[name])]
+    for n, (name, label) in enumerate(panels, 1):
+        axes = figure.add_subplot(1, len(panels), n)
+        all_runs = np.array([base[name], *(np.interp(time, at, values[name]) for at, values in moved)])
+        axes.fill_between(time, all_runs.min(axis=0), all_runs.max(axis=0), color=PALE, alpha=0.6, lw=0, label="law within its band")
+        axes.plot(time, base[name], color=COLOURS[0], lw=1, label=record["law"])
+        if record.get(name, {}).get("low") is not None:
+            axes.axhspan(record[name]["low"], record[name]["high"], xmin=0.75, color=GREY, alpha=0.25, lw=0)
+        axes.set_xlabel("time, s")
+        axes.set_ylabel(label)
+    axes.legend()
+
+
+def draw(folder):
+    """Writes closure_uncertainty.png beside the record of that name, and returns its path."""
+    folder = Path(folder)
+    record = json.loads((folder / "closure_uncertainty.json").read_text(encoding="utf-8"))
+    with plt.rc_context(STYLE):
+        figure = plt.figure(figsize=(6.4 if record["kind"] == "tfm" else 4, 3))
+        draw_inversion(record, figure) if record["kind"] == "inversion" else draw_runs(record, folder, figure)
+        figure.tight_layout()
+        path = folder / "closure_uncertainty.png"
+        figure.savefig(path)
+        plt.close(figure)
+    return path

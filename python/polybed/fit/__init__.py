@@ -1,0 +1,1 @@
+"""Fits drag laws to rows of resolved flow: what `polybed fit` hands over to."""

@@ -1,0 +1,173 @@
+"""The command line of polybed fit, and what it writes: law.json, fit.json, accuracy.md, errors.csv and fit.png."""
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from polybed.fit import errors
+from polybed.fit.fitting import Problem
+from polybed.fit.page import page, write_errors
+from polybed.fit.rows import read_points
+from polybed.program import call
+from polybed.study import output_folder
+from polybed.study.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
+from polybed.study.record import draw, remark, write_record
+
+INTERVAL = (2.5, 97.5)  # per cent of the draws
+FORM_OFF = 1e-9  # of the force, between this package and the program: rounding
+
+
+def whole(low, high):
+    def read(text):
+        number = int(text)
+        if not low <= number <= high:
+            raise argparse.ArgumentTypeError(f"{number} is not in the range {low} to {high}")
+        return number
+    read.__name__ = "whole number"
+    return read
+
+
+def parser():
+    options = argparse.ArgumentParser(prog="polybed fit", allow_abbrev=False,
+                                      description="Fits the constants of a drag law to rows of resolved flow, and writes a law file.")
+    options.add_argument("rows", nargs="+", metavar="ROWS", type=Path,
+                         help="tables of polybed resolve or of tests/data/lbm; of a folder its tab_A_*.csv")
+    options.add_argument("--form", choices=("cello", "brinkman_oseen"), default="brinkman_oseen")
+    options.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder; default runs/<name of the rows>-fit")
+    options.add_argument("--bootstrap", type=whole(0, 10000), default=100, metavar="N", help="draws for the intervals (default: 100)")
+    options.add_argument("--seed", type=whole(0, 2**63 - 1), default=1, help="of the draws")
+    options.add_argument("--force", action="store_true", help="replace a fit that is in the folder")
+    options.add_argument("--no-picture", dest="picture", action="store_false", help="no fit.png")
+    options.add_argument("--quiet", action="store_true", help="no progress")
+    options.add_argument("--json", action="store_true", help="fit.json on standard output")
+    return options
+
+
+def published_of(form):
+    return json.loads(call("list", "--json"))["drag_forms"][form]
+
+
+def interval_of(problem, drawn):
+    """95 % intervals of the constants, by name; empty without draws."""
+    if not len(drawn):
+        return {}
+    low, high = np.percentile(drawn, INTERVAL, axis=0)
+    below, above = problem.constants(low), problem.constants(high)
+    return {name: [below[name], above[name]] for name in problem.free}
+
+
+def band_of_draws(problem, drawn):
+    """Greatest standard deviation of the force on any row that comes of the uncertainty of the constants; None without draws."""
+    if not len(drawn):
+        return None
+    logs = np.log1p(np.array([problem.relative(problem.constants(d)) for d in drawn]))
+    return float(np.nanmax(np.nanstd(logs[:, problem.known], axis=0)))
+
+
+def law_file(form, constants, band=None, about=None):
+    law = {"filetype": "polybed drag law", "version": 1, "form": form, "constants": constants}
+    return law | ({"band": band, "fit": about} if band else {})
+
+
+def by_source(points, arrays):
+    """Summaries of arrays of errors, by the file of the points, and of all."""
+    source = np.concatenate([[p.source] * len(p.net) for p in points])
+    names = list(dict.fromkeys(p.source for p in points))
+    parts = {name: source == name for name in names} | {"all": np.full(len(source), True)}
+    return {name: {what: None if values is None else errors.summary(values[of]) for what, values in arrays.items()}
+            for name, of in parts.items()}
+
+
+def write_law(path, text):
+    path.write_text(json.dumps(text, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def fit(given, folder):
+    points = read_points(given.rows)
+    problem = Problem(given.form, published_of(given.form), points)
+    if problem.known.sum() <= len(problem.free):
+        raise StudyError(WRONG_CASE, f"{problem.known.sum()} forces cannot determine {len(problem.free)} constants: give more rows")
+    if not given.quiet:
+        remark(f"{len(points)} points, {problem.known.sum()} forces, {len(problem.free)} constants of {given.form}")
+    found = problem.fit()
+    constants = problem.constants(found)
+    drawn = problem.bootstrap(found, given.bootstrap, given.seed)
+    write_law(folder / "law.json", law_file(given.form, constants))
+    nets = errors.net_by_program(points, f"file:{folder / 'law.json'}")
+    by_program, by_published = errors.relative(points, nets), errors.relative(points, errors.net_by_program(points, given.form))
+    own = problem.relative(constants)
+    off = np.nanmax(np.abs((1 + own) / (1 + by_program) - 1))
+    if off > FORM_OFF:
+        remark(f"on some rows the guard of {given.form} answers: up to {100 * off:.2g} % from the form that was fitted")
+    arrays = {"published": by_published, "fitted": by_program, "row_left_out": problem.left_out_by_row(found),
+              "voidage_left_out": problem.left_out_by_voidage(found)}
+    broken = float(np.abs(problem.violations(constants)).max())
+    summaries, band = by_source(points, arrays), errors.band_of(points, nets)
+    about = {"rows": [str(path) for path in given.rows], "points": len(points), "forces": int(problem.known.sum()),
+             "form": given.form, "free": problem.free, "bootstrap": given.bootstrap, "seed": given.seed,
+             "created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
+    record = {"filetype": "polybed drag fit", "version": 1, **about, "law": str(folder / "law.json"), "constants": constants,
+              "published": problem.published, "interval": interval_of(problem, drawn), "errors": summaries, "band": band,
+              "from_constants": band_of_draws(problem, drawn), "guard_answers_by": float(off),
+              "constraints": {"greatest_violation": broken, "sum_rule": sum_rule(points, nets, given.form)}}
+    write_law(folder / "law.json", law_file(given.form, constants, band, about))
+    (folder / "accuracy.md").write_text(page(record), encoding="utf-8")
+    write_errors(folder / "errors.csv", points, arrays)
+    return record
+
+
+def sum_rule(points, nets, form):
+    """Greatest relative departure of sum x_j n_j/y_j^2 from the mean that the law has, n_mean = f_mean/eps; an identity of both forms, so
+    rounding. None without mixtures."""
+    worst = None
+    for p, net in zip(points, nets):
+        if len(net) < 2:
+            continue
+        y = p.diameter * (p.share / p.diameter).sum()
+        mean = (p.share * net / y**2).sum()  # = f_mean (1 + phi/eps) where the rule is kept: n_j = f_j + phi y^2 f_mean/eps
+        pure = net - (1 - p.voidage) * y**2 * mean
+        worst = max(worst or 0.0, abs((p.share * pure / y**2).sum() / (p.voidage * mean) - 1))
+    return worst
+
+
+def told(record):
+    every = record["errors"]["all"]
+    lines = [f"{'':20}{'mean':>8}{'rms':>8}{'greatest':>10}   % of {every['fitted']['points']} forces"]
+    for what, name in (("published", "published constants"), ("fitted", "fitted"), ("row_left_out", "row left out"),
+                       ("voidage_left_out", "voidages left out")):
+        if every[what]:
+            lines.append(f"{name:20}{every[what]['mean']:8.2f}{every[what]['rms']:8.2f}{every[what]['greatest']:10.1f}")
+    band = {name: f"{100 * value:.1f} %" for name, value in record["band"].items() if value is not None}
+    return "\n".join([*lines, "band: " + ", ".join(f"{name} {value}" for name, value in band.items()),
+                      f"{record['law']}: use it as drag = \"file:{record['law']}\""])
+
+
+def make(given):
+    name = given.rows[0].stem if len(given.rows) == 1 else given.rows[0].parent.name or "rows"
+    folder = given.output or Path("runs") / f"{name}-fit"
+    if (folder / "fit.json").exists() and not given.force:
+        raise StudyError(WRONG_CASE, f"{folder} holds a fit already: --force replaces it, -o names another folder")
+    with output_folder.taken(folder):
+        record = fit(given, folder)
+        text = write_record(folder / "fit.json", record)
+    if given.picture:
+        draw("polybed.drawing.fit", "draw", folder, "fit.png", given.quiet or given.json)
+    answer(text if given.json else told(record))
+    worst = record["constraints"]["greatest_violation"]
+    if worst > 0.01:
+        remark(f"the fitted law breaks a constraint by {100 * worst:.2g} %: see accuracy.md")
+        return NUMBERS
+    return DONE
+
+
+def main(arguments):
+    given = parser().parse_args(arguments)
+    return guarded(lambda: make(given))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,36 @@
+// Files of drag laws: what `polybed fit` and the studies of a law's uncertainty write.
+//
+//   {"filetype": "polybed drag law", "version": 1,
+//    "form": "cello", "constants": {"k1_linear": 128, ...},     or "law": "wen_yu", one of the menu
+//    "common": 1.04, "tilt": 0.01,                              left out: 1 and 0; see closures::DragLaw
+//    "band": {...}, "fit": {...}}                               for people and studies, not read here
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "closures/drag_form.hpp"
+
+namespace polybed::relevance {
+
+struct DragFile {
+  std::string form;                         ///< empty: `law`
+  std::map<std::string, double> constants;  ///< of the form
+  std::string law;
+  double common = 1, tilt = 0;
+  std::string hash;  ///< of the file's text
+};
+
+/// Throws core::CaseError with file, line and column of what is wrong, all of it; core::FileError if the file cannot be
+/// read.
+[[nodiscard]] DragFile read_drag_file(const std::filesystem::path& path);
+
+/// What a run keeps of a law file, which may change later: path, hash, form and constants, as JSON.
+[[nodiscard]] std::string record_of(const std::filesystem::path& path, const DragFile& file);
+
+/// The law of a file, without a partition.
+[[nodiscard]] closures::DragLaw law_of_file(const DragFile& file, closures::Guard guard);
+
+}  // namespace polybed::relevance

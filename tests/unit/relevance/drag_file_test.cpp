@@ -1,0 +1,121 @@
+// Law files: what is read, and what is said of a wrong one, with its place.
+#include "relevance/drag_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.hpp"
+#include "relevance/drag_law.hpp"
+
+namespace polybed::relevance {
+namespace {
+
+using testing::HasSubstr;
+
+class LawFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = testing::TempDir() + "law-" + test->name() + ".json";
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  [[nodiscard]] std::string name() const { return "file:" + path_; }
+
+  void write(const std::string& text) const { std::ofstream(path_) << text; }
+
+  /// What is said of a file.
+  [[nodiscard]] std::string said_of(const std::string& text) const {
+    write(text);
+    try {
+      (void)read_drag_file(path_);
+    } catch (const core::CaseError& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+
+  static std::string head() { return "{\"filetype\": \"polybed drag law\", \"version\": 1,\n"; }
+
+  /// A file of a form with its published constants, a line each from line 4 on.
+  static std::string published(const std::string& form) {
+    std::string text = head() + " \"form\": \"" + form + "\", \"constants\": {";
+    for (const closures::DragForm& f : closures::drag_forms())
+      for (const closures::DragFormConstant& c : f.constants)
+        if (f.name == form)
+          text += (text.back() == '{' ? "\n  \"" : ",\n  \"") + c.name + "\": " + std::to_string(c.published);
+    return text + "}}\n";
+  }
+
+  std::string path_;
+};
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST_F(LawFile, IsReadAsALawOfOneSizeAndOfMixtures) {
+  const std::string text = published("brinkman_oseen");
+  write(changed(text, "\"stretch\": 0.766400", "\"stretch\": 0.8"));
+  const closures::DragLaw law = drag_law_named(name());
+  std::map<std::string, double> constants;
+  const std::vector<closures::DragForm> forms = closures::drag_forms();
+  for (const closures::DragFormConstant& c : forms[1].constants) constants[c.name] = c.published;
+  constants["stretch"] = 0.8;
+  const closures::DragLaw expected = closures::fitted_drag_law("brinkman_oseen", constants, closures::Guard::on);
+  EXPECT_EQ(closures::pure_drag_at(law, 0.6, 50), closures::pure_drag_at(expected, 0.6, 50));
+  EXPECT_TRUE(drag_law_named(name(), "cello").partition);
+  EXPECT_THROW((void)drag_law_named(name(), "syamlal"), std::invalid_argument);
+}
+
+TEST_F(LawFile, MovesALawOfTheMenu) {
+  write(head() + "\"law\": \"wen_yu\", \"common\": 1.1, \"tilt\": -0.05}");
+  const closures::DragLaw law = drag_law_named(name(), "brinkman_oseen");
+  EXPECT_NEAR(closures::pure_drag_at(law, 0.8, 20),
+              1.1 * closures::pure_drag_at(closures::drag_law("wen_yu", closures::Guard::on), 0.8, 20), 1e-12);
+  EXPECT_TRUE(law.partition);
+  EXPECT_EQ(law.tilt, -0.05);
+  write(head() + "\"law\": \"syamlal\"}");
+  EXPECT_THROW((void)drag_law_named(name(), "brinkman_oseen"), std::invalid_argument);
+}
+
+TEST_F(LawFile, RecordHasHashAndConstants) {
+  write(published("cello"));
+  const std::string record = record_of(path_, read_drag_file(path_));
+  EXPECT_THAT(record, HasSubstr("\"k1_linear\":128"));
+  EXPECT_THAT(record, HasSubstr("\"hash\":\"" + read_drag_file(path_).hash));
+}
+
+TEST_F(LawFile, SaysWhatIsWrongAndWhere) {
+  const std::string good = published("cello");
+  EXPECT_EQ(said_of(good), "nothing");
+  EXPECT_THAT(said_of(changed(good, "\"k1_square\": 715.000000", "\"k1_square\": -715")),
+              HasSubstr(path_ + ":4:3: constants.k1_square = -715: expected a number above 0"));
+  EXPECT_THAT(said_of(changed(good, "k1_square", "k1_squared")),
+              HasSubstr(":4:3: unknown constant 'k1_squared'; did you mean 'k1_square'?"));
+  EXPECT_THAT(said_of(changed(good, "k1_square", "k1_squared")), HasSubstr("constants.k1_square is missing"));
+  EXPECT_THAT(said_of(changed(good, "715.000000", "\"many\"")), HasSubstr("constants.k1_square = \"many\""));
+  EXPECT_THAT(said_of(changed(good, "\"cello\"", "\"celo\"")), HasSubstr(":2:2: unknown form 'celo'; did you mean"));
+  EXPECT_THAT(said_of(changed(good, "715.000000", "715 716")), HasSubstr(path_ + ":4:"));
+  EXPECT_THAT(said_of(changed(good, "\"version\": 1", "\"version\": 2")), HasSubstr(":1:34: version"));
+  EXPECT_THAT(said_of("[]"), HasSubstr(":1:1: expected an object"));
+  EXPECT_THAT(said_of("{}"), HasSubstr("no drag law"));
+  EXPECT_THAT(said_of(head() + "\"law\": \"wen_yu\", \"comon\": 1.1}"), HasSubstr("did you mean 'common'?"));
+  EXPECT_THAT(said_of(head() + "\"law\": \"wen_yu\",\n\"tilt\": 3}"), HasSubstr(":3:1: tilt = 3"));
+  EXPECT_THAT(said_of(head() + "\"law\": \"wen_you\"}"), HasSubstr("did you mean 'wen_yu'?"));
+  EXPECT_THAT(said_of(head() + "\"tilt\": 0}"), HasSubstr("either \"form\""));
+  EXPECT_THAT(said_of(changed(good, "\"k3_voidage\": 410", "\"k3_voidage\": 2050")),
+              HasSubstr("falls there as the velocity rises"));
+}
+
+TEST_F(LawFile, WithoutTheFile) {
+  EXPECT_THROW((void)drag_law_named("file:" + path_), core::FileError);
+  EXPECT_FALSE(drag_file("cello"));
+}
+
+}  // namespace
+}  // namespace polybed::relevance
