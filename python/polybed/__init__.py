@@ -3,6 +3,7 @@
 import sys
 
 from polybed.packages import needed
+from polybed.version import __version__
 
 with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it still looks for
     from polybed.files import FormatError, ReplacedError
@@ -12,5 +13,5 @@ with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it stil
     from polybed.read import Run, read
     from polybed.solids_table import SolidsTable, read_table
 
-__all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "calibrate", "compare",
+__all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "__version__", "calibrate", "compare",
            "inversion", "read", "read_table", "run", "sweep"]
