@@ -1,0 +1,71 @@
+"""The documentation as HTML, made by Sphinx from the Markdown of the README, the docs and the cases:
+
+    cmake --build build --target docs
+
+The pages stay as they are read in the sources; what only the site needs is added here. A link without a target is an error (-W).
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+from polybed.version import __version__  # noqa: E402
+
+project = "polybed"
+author = copyright = "the polybed authors"
+version = release = __version__
+root_doc = "README"
+include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "LICENSE", "docs/**", "cases/**"]
+exclude_patterns = ["build*", "**/.*", "runs", "docs/site"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
+source_suffix = {".md": "markdown"}
+myst_heading_anchors = 4
+autodoc_typehints = "description"
+autodoc_member_order = "bysource"
+pygments_style = "friendly"
+suppress_warnings = ["misc.highlighting_failure", "myst.header"]
+
+html_theme = "furo"
+html_title = f"polybed {version}"
+html_show_copyright = html_show_sphinx = html_copy_source = html_show_sourcelink = False
+html_additional_pages = {"index": "to_readme.html"}
+templates_path = ["."]
+# Debian's MathJax, copied into the site: its pages are read without a network.
+mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_CHTML-full"
+MATHJAX = Path("/usr/share/javascript/mathjax")
+
+PARTS = {"Guide": "guide", "Reference": "reference", "Theory": "theory", "Record": "record"}
+PYTHON = "\n```{eval-rst}\n.. automodule:: polybed\n   :members:\n```\n"
+
+
+def contents():
+    """The pages by part, in the order in which docs/README.md links them."""
+    overview = (ROOT / "docs/README.md").read_text()
+    links = list(dict.fromkeys(re.findall(r"\]\(((?:guide|reference|theory|record)/[\w-]+)\.md", overview)))
+    text = "\n```{toctree}\n:hidden:\n\ndocs/README\n```\n"
+    for caption, folder in PARTS.items():
+        listed = [link for link in links if link.startswith(folder)]
+        listed += sorted(name for p in (ROOT / "docs" / folder).glob("*.md") if (name := f"{folder}/{p.stem}") not in listed)
+        text += f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "".join(f"docs/{link}\n" for link in listed) + "```\n"
+    cases = sorted(path.relative_to(ROOT).with_suffix("") for path in (ROOT / "cases").rglob("README.md"))
+    text += "\n```{toctree}\n:hidden:\n:caption: Cases\n\n" + "".join(f"{path}\n" for path in cases) + "```\n"
+    return text + "\n```{toctree}\n:hidden:\n:caption: Project\n\nCONTRIBUTING\nCHANGELOG\n```\n"
+
+
+def complete(app, page, source):
+    """Adds what only the site has; GitHub and Sphinx name a block of mathematics differently."""
+    source[0] = re.sub(r"^```math$", "```{math}", source[0], flags=re.M)
+    source[0] += {"README": contents(), "docs/reference/python": PYTHON}.get(page, "")
+
+
+def copy_mathjax(app, error):
+    import shutil
+    target = Path(app.outdir) / "_static/mathjax"
+    if error is None and app.builder.format == "html" and not target.exists():
+        shutil.copytree(MATHJAX, target, ignore=shutil.ignore_patterns("png", "unpacked", "localization", "test"))
+
+
+def setup(app):
+    app.connect("source-read", complete)
+    app.connect("build-finished", copy_mathjax)
