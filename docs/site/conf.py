@@ -5,6 +5,7 @@
 The pages stay as they are read in the sources; what only the site needs is added here. A link without a target is an error (-W).
 """
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -59,13 +60,20 @@ def complete(app, page, source):
     source[0] += {"README": contents(), "docs/reference/python": PYTHON}.get(page, "")
 
 
-def copy_mathjax(app, error):
-    import shutil
-    target = Path(app.outdir) / "_static/mathjax"
-    if error is None and app.builder.format == "html" and not target.exists():
-        shutil.copytree(MATHJAX, target, ignore=shutil.ignore_patterns("png", "unpacked", "localization", "test"))
+def finish(app, error):
+    """Puts MathJax in, and Gumshoe in front of Furo's script: Debian leaves an import there, which no browser takes from a file."""
+    if error is not None or app.builder.format != "html":
+        return
+    static = Path(app.outdir) / "_static"
+    if not (static / "mathjax").exists():
+        shutil.copytree(MATHJAX, static / "mathjax", ignore=shutil.ignore_patterns("png", "unpacked", "localization", "test"))
+    script = static / "scripts/furo.js"
+    imported, text = 'import Gumshoe from "./gumshoe-patched.js";', script.read_text()
+    if imported in text:
+        script.write_text((static / "scripts/gumshoe-patched.js").read_text() + text.replace(imported, ""))
 
 
 def setup(app):
     app.connect("source-read", complete)
-    app.connect("build-finished", copy_mathjax)
+    app.connect("env-get-outdated", lambda *_: ["README"])  # its contents are those of the folders
+    app.connect("build-finished", finish)
