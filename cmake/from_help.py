@@ -12,22 +12,38 @@ import subprocess
 import sys
 from pathlib import Path
 
-ENTRY = re.compile(r"^ {2}(\S+)(.*)$")
-COLUMN = 30  # where the program begins what it says of an option
-CHOICES = re.compile(r":\{(.*)\}")
+HEADINGS = {"Positionals:": "Positionals", "Options:": "Options", "Subcommands:": "Subcommands",  # of CLI11, and of argparse:
+            "positional arguments:": "Positionals", "options:": "Options"}
+CHOICES = re.compile(r"(?!\{false)\{(.*)\}")
+
+
+def names_and_value(head):
+    """("-o,--output", "TEXT") of "-o,--output TEXT", and of "-o DIR, --output DIR" as argparse has it."""
+    if ", -" in head:
+        names = re.findall(r"(?:^|, )(--?[\w-]+)", head)
+        return ",".join(names), head[head.index(names[-1]) + len(names[-1]):]
+    names, _, value = head.partition(" ")
+    return names, value
 
 
 def sections(text):
-    """{heading: [(names, value, help)]} of what --help prints, and the first line under ""."""
-    found, heading = {"": text.lstrip().split("\n")[0]}, None
+    """{heading: [(names, value, help)]} of what --help prints, and the first line under "". Deeper ones are of a group of options."""
+    column = 24 if text.startswith("usage:") else 30  # where argparse and CLI11 begin what they say of an option
+    found, heading, indent = {"": text.lstrip().split("\n")[0]}, None, 0
     for line in text.split("\n"):
-        if re.match(r"^[A-Z]\w+:$", line):
-            heading = found.setdefault(line[:-1], [])
-        elif heading is not None and (entry := ENTRY.match(line[:COLUMN] if line[COLUMN - 1:COLUMN] == " " else line)):
-            heading.append((entry[1], entry[2].strip(), line[COLUMN:] if line[COLUMN - 1:COLUMN] == " " else ""))
-        elif heading and line.startswith(" " * COLUMN):
+        if line.strip() in HEADINGS:
+            heading, indent = found.setdefault(HEADINGS[line.strip()], []), len(line) - len(line.lstrip())
+            continue
+        line = line[indent:]
+        if heading is None or not line.startswith("  ") or not line.strip() or line.strip().startswith("["):
+            continue
+        if line.startswith(" " * column):
             names, value, told = heading[-1]
             heading[-1] = (names, value, f"{told} {line.strip()}".strip())
+        else:
+            cut = column if line[column - 1:column] == " " else len(line)
+            names, value = names_and_value(line[:cut].strip())
+            heading.append((names, value.strip(), line[cut:].strip()))
     return found
 
 

@@ -68,10 +68,13 @@ class Package(unittest.TestCase):
         page = gzip.decompress((self.usr / "share/man/man1/polybed.1.gz").read_bytes()).decode()
         for command in ("tfm", "dem", "compare", "plot"):
             self.assertIn(f".SS polybed {command}", page)
-        self.assertIn("simulated time", page)
+        for told in ("simulated time", "directory of a run of polybed tfm, finished or not", "axes by commas", "JSON file of profiles instead"):
+            self.assertIn(told, " ".join(page.split()))
         completion = self.usr / "share/bash-completion/completions/polybed"
-        script = f". {completion}; COMP_WORDS=(polybed inversion x --scan ''); COMP_CWORD=4; _polybed; echo ${{COMPREPLY[@]}}"
-        self.assertEqual(done("bash", "-c", script).split(), ["tfm", "dem", "both"])
+        for words, expected in (("inversion x --scan ''", ["tfm", "dem", "both"]), ("cost x --model ''", ["tfm", "dem"]),
+                                ("compare --inv", ["--inversion"]), ("measure --pro", ["--profiles"])):
+            script = f". {completion}; COMP_WORDS=(polybed {words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); _polybed; echo ${{COMPREPLY[@]}}"
+            self.assertEqual(done("bash", "-c", script).split(), expected)
         documents = self.usr / "share/doc/polybed"
         for name in ("copyright", "CITATION.cff", "html/index.html", "html/searchindex.js", "html/docs/reference/case.html"):
             self.assertTrue((documents / name).stat().st_size > 0, name)
