@@ -30,6 +30,7 @@ suppress_warnings = ["misc.highlighting_failure", "myst.header"]
 html_theme = "furo"
 html_title = f"polybed {version}"
 html_show_copyright = html_show_sphinx = html_copy_source = html_show_sourcelink = False
+html_show_search_summary = False  # a browser does not let a page from a file read others
 html_additional_pages = {"index": "to_readme.html"}
 templates_path = ["."]
 # Debian's MathJax, copied into the site: its pages are read without a network.
