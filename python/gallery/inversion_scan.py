@@ -7,7 +7,7 @@
 from common import options, plt, save
 
 import polybed
-from polybed import scan
+from polybed.drawing import inversion_scan
 
 chosen = options(__doc__, "small-binary")
 methods = ("force_balance", "bulk_density", "expansion", "density_maximum")
@@ -21,5 +21,5 @@ if by_runs["velocity_m_s"] is None:
     print(f"runs: none between {by_runs['low_m_s'] * 1e3:.2f} and {by_runs['high_m_s'] * 1e3:.2f} mm/s")
 else:
     print(f"runs: {by_runs['velocity_m_s'] * 1e3:.2f} mm/s, in {by_runs['cpu_s']:.0f} CPU s")
-with plt.rc_context(scan.STYLE):
-    save(scan.draw(found), chosen.output, "inversion.png")
+with plt.rc_context(inversion_scan.STYLE):
+    save(inversion_scan.draw(found), chosen.output, "inversion.png")

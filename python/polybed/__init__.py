@@ -1,16 +1,26 @@
-"""Runs polybed, reads what its runs hold, and draws it. It computes no physics."""
+"""Runs polybed, reads what its runs hold, and draws it. It computes no physics.
 
+Functions have the names of the commands. Numbers that go in are in SI units, or texts with their unit ("30 mm/s"); what comes out says its
+unit. A command that fails raises ProgramError with the program's message and exit code.
+"""
+
+import importlib
 import sys
 
 from polybed.packages import needed
+from polybed.version import __version__
+
+# Packages of the name of a function below: imported first, they do not take its place when one of their modules is imported.
+importlib.import_module("polybed.cost")
 
 with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it still looks for
     from polybed.files import FormatError, ReplacedError
     from polybed.particles import Particles
-    from polybed.program import ProgramError, calibrate, compare, inversion, run, sweep
+    from polybed.program import ProgramError, calibrate, case, compare, inversion, run, sweep
     from polybed.quantities import Quantity
     from polybed.read import Run, read
     from polybed.solids_table import SolidsTable, read_table
+    from polybed.studies import cost, measure, scan
 
-__all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "calibrate", "compare",
-           "inversion", "read", "read_table", "run", "sweep"]
+__all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "__version__", "calibrate",
+           "case", "compare", "cost", "inversion", "measure", "read", "read_table", "run", "scan", "sweep"]

@@ -28,7 +28,7 @@ with needed(__name__ == "__main__"):
     from polybed.quantities import COLUMNS, unit_of_column
     from polybed.read import nearest, read
     from polybed.record import title_of_case
-    from polybed.scan import commands as scan_command
+    from polybed.drawing.inversion_scan import commands as scan_command
     from polybed.study.compare_report import with_error
 
 def number(value, error=None):

@@ -1,10 +1,17 @@
 """Keys of a case file with their values, as Python has them and as the program takes them."""
 
+from __future__ import annotations
+
 import json
 import os
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+Value = Any  # text, number, truth, list or dictionary of such; array or number of numpy
+Overrides = Mapping[str, Value]
 
 
-def plain(value, key):
+def plain(value: Value, key: str) -> Value:
     """A value without numpy: text, number, truth, or a list or a dictionary of such. Raises TypeError with the key."""
     if hasattr(value, "tolist"):  # arrays and numbers of numpy
         value = value.tolist()
@@ -19,7 +26,7 @@ def plain(value, key):
     raise TypeError(f"{key}: a value of type {type(value).__name__} ({value!r}); allowed are texts, numbers, lists, arrays and dictionaries")
 
 
-def toml(value):
+def toml(value: Value) -> str:
     """A plain value as a case file has it."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{json.dumps(name)} = {toml(entry)}" for name, entry in value.items()) + "}"
@@ -28,7 +35,7 @@ def toml(value):
     return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False)  # repr: inf and nan are TOML's too
 
 
-def flat(overrides, table=""):
+def flat(overrides: Overrides | None, table: str = "") -> Iterator[tuple[str, Value]]:
     """(key, value) with dots in the key for each level of dictionaries: {"tfm": {"rtol": 1e-4}} is tfm.rtol."""
     for name, value in (overrides or {}).items():
         key = f"{table}{name}"
@@ -38,6 +45,6 @@ def flat(overrides, table=""):
             yield key, plain(value, key)
 
 
-def words(overrides):
+def words(overrides: Overrides | None) -> list[str]:
     """The options of the command line that say the same."""
     return [word for key, value in flat(overrides) for word in ("--set", f"{key}={toml(value)}")]

@@ -12,19 +12,26 @@ values: texts with or without a unit, numbers, lists and arrays; {"tfm": {"rtol"
 of its progress goes to standard error as it comes, unless quiet.
 """
 
+from __future__ import annotations
+
 import contextlib
+import itertools
 import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 from polybed import search
 from polybed.files import FAULTS, read_json
-from polybed.overrides import plain, toml, words
-from polybed.read import read
-from polybed.solids_table import read_table
+from polybed.overrides import Overrides, Value, plain, toml, words
+from polybed.read import Run, read
+from polybed.solids_table import SolidsTable, read_table
+
+Place = str | os.PathLike[str]  # of a file or a folder
 
 OWN = Path(__file__).resolve()
 MODELS = ("tfm", "dem")
@@ -37,12 +44,12 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
 class ProgramError(Exception):
     """The program ended with another code than 0; the text is what it said."""
 
-    def __init__(self, words, code, said):
+    def __init__(self, words: list[str], code: int, said: str) -> None:
         super().__init__(f"{' '.join(words)}\nended with {code}: {said.strip()}")
         self.code, self.said = code, said.strip()
 
 
-def program():
+def program() -> str:
     """Path of the program: $POLYBED, or that beside which this package is installed or was built, or the one on the path."""
     in_sources = (OWN.parents[2] / "CMakeLists.txt").is_file()
     tried = [os.environ.get("POLYBED"), OWN.parents[2] / "build/polybed" if in_sources else OWN.parents[4] / "bin/polybed"]
@@ -55,7 +62,7 @@ def program():
     return found
 
 
-def mpirun():
+def mpirun() -> str:
     """Path of the program that starts ranks."""
     found = search.find("mpirun")
     if not found:
@@ -63,27 +70,32 @@ def mpirun():
     return found
 
 
-def said_by(child, label):
+def show(label: str | None, line: str) -> None:
+    """Shows a line behind a label, unless that is None."""
+    if label is not None:
+        with contextlib.suppress(OSError, ValueError):  # a standard error that is full or closed ends no run
+            print(label + line, end="", file=sys.stderr, flush=True)
+
+
+def said_by(child: subprocess.Popen[str], label: str | None) -> str:
     """What a program says on standard error, as text; shown as it comes, behind a label, unless that is None."""
-    lines = []
-    for line in child.stderr:
+    lines: list[str] = []
+    for line in child.stderr or ():
         lines.append(line)
-        if label is not None:
-            with contextlib.suppress(OSError, ValueError):  # a standard error that is full or closed ends no run
-                print(label + line, end="", file=sys.stderr, flush=True)
+        show(label, line)
     return "".join(lines)
 
 
-def call(*options, ranks=1, label=None):
+def call(*options: object, ranks: int = 1, label: str | None = None) -> str:
     """Runs a command of the program and returns what it printed; what it says is shown behind a label, unless that is None. One that
     is interrupted, or whose caller is, ends with a checkpoint. Raises ProgramError."""
     line = [program(), *map(str, options)]
     if ranks > 1:
         line = [mpirun(), "-q", "-n", str(ranks), *line]
-    pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(line, env=MPI | dict(os.environ, PATH=search.path()), encoding="utf-8", errors="replace", **pipes) as child, \
-            ThreadPoolExecutor(1) as reader:
+    with subprocess.Popen(line, env=MPI | dict(os.environ, PATH=search.path()), encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child, ThreadPoolExecutor(1) as reader:
         try:
+            assert child.stdout is not None  # it is a pipe
             printed = reader.submit(child.stdout.read)
             said = said_by(child, label)
             child.wait()
@@ -95,22 +107,32 @@ def call(*options, ranks=1, label=None):
     return printed.result()
 
 
-def label_of(quiet, name=""):
+def label_of(quiet: bool, name: str = "") -> str | None:
     """What stands before the lines that a command shows; None shows nothing."""
     return None if quiet else name and f"{name}: "
 
 
-def settings(overrides, until=None):
+def settings(overrides: Overrides | None, until: Value | None = None) -> list[str]:
     return words(overrides) + ([] if until is None else ["--until", str(plain(until, "until"))])
 
 
-def resolved(case, overrides, until):
+def case(name: str) -> Path:
+    """Path of the case file of a shipped case, by the name of its folder: case("small-binary"). Raises KeyError with the names."""
+    tried = [OWN.parents[2] / "cases", *(Path(program()).parents[1] / beside for beside in ("share/polybed/cases", "cases"))]
+    folder = next((each for each in tried if each.is_dir()), None)
+    names = sorted(path.parent.name for path in folder.glob("*/case.toml")) if folder else []
+    if folder is None or name not in names:
+        raise KeyError(f"there is no case {name!r}; there are {', '.join(names) or 'none beside the program'}")
+    return folder / name / "case.toml"
+
+
+def resolved(case: Place, overrides: Overrides | None, until: Value | None) -> tuple[str, str]:
     """The case as the record of a run of it has it, and its hash."""
     found = json.loads(call("check", case, *settings(overrides, until), "--resolved", "--json"))
     return found["case"], found["hash"]
 
 
-def finished(output, model, text):
+def finished(output: Path, model: str, text: str) -> bool:
     """Whether a folder holds a finished run by this model of this very case. What is no whole record is of no finished run."""
     try:
         record = read(output).record
@@ -119,18 +141,19 @@ def finished(output, model, text):
     return bool(record) and (record["state"], record["model"], record.get("case")) == ("done", model, text)
 
 
-def name_of(case):
+def name_of(case: Place) -> str:
     """What a case is called: a case.toml by its folder."""
     path = Path(case).resolve()
     return path.parent.name if path.stem == "case" else path.stem
 
 
-def folder_of(case, what, digest):
+def folder_of(case: Place, what: str, digest: str) -> Path:
     """Default folder: runs/<case name>-<what>-<hash of the resolved case>, so that other overrides have another one."""
     return Path("runs") / f"{name_of(case)}-{what}-{digest}"
 
 
-def made(case, model, overrides, until, ranks, label, place):
+def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int, label: str | None,
+         place: Callable[[str], Path]) -> Run:
     """Opens the run that is in a folder, or makes it. place: the folder by the hash of the resolved case."""
     if model not in MODELS:
         raise ValueError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
@@ -141,7 +164,8 @@ def made(case, model, overrides, until, ranks, label, place):
     return read(output)
 
 
-def run(case, model="tfm", overrides=None, output=None, until=None, ranks=1, quiet=False, label=""):
+def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None,
+        ranks: int = 1, quiet: bool = False, label: str = "") -> Run:
     """Runs a case by a model, "tfm" or "dem", and opens the run.
 
     overrides: keys of the case file with their values, {"tfm.rtol": 1e-4, "species.fine.diameter": "1 mm"}
@@ -153,24 +177,30 @@ def run(case, model="tfm", overrides=None, output=None, until=None, ranks=1, qui
                 lambda digest: Path(output) if output else folder_of(case, model, digest))
 
 
-def sweep(case, key, values, model="tfm", overrides=None, output=None, until=None, at_once=1, quiet=False):
+def sweep(case: Place, key: str, values: Iterable[Value], model: str = "tfm", overrides: Overrides | None = None,
+          output: Place | None = None, until: Value | None = None, at_once: int = 1, quiet: bool = False) -> list[Run]:
     """Runs a case for several values of a key and returns the runs in their order, each in a folder of its own, called by the value
     and the hash of its case.
 
-    at_once: how many run side by side
+    values: numbers in SI, texts with a unit, or an array along its first axis; until: simulated time, "20 s" or seconds
+    at_once: how many run side by side; unless quiet, a line on standard error says how many are done
     """
+    each, done = list(values), itertools.count(1)
     folder = Path(output) if output else Path("runs") / f"{name_of(case)}-{model}-sweep"
 
-    def one(value):
+    def one(value: Value) -> Run:
         shown = f"{key}-{toml(plain(value, key))}".replace('"', "")[:60]
         name = "".join(c if c.isalnum() or c in ".-" else "_" for c in shown)
-        return made(case, model, dict(overrides or {}) | {key: value}, until, 1, label_of(quiet, shown),
-                    lambda digest: folder / f"{name}-{digest}")
+        found = made(case, model, dict(overrides or {}) | {key: value}, until, 1, label_of(quiet, shown),
+                     lambda digest: folder / f"{name}-{digest}")
+        show(label_of(quiet), f"{next(done)} of {len(each)} runs done: {shown}\n")
+        return found
     with ThreadPoolExecutor(at_once) as pool:
-        return list(pool.map(one, values))
+        return list(pool.map(one, each))
 
 
-def compare(case, tfm=None, dem=None, overrides=None, output=None, until=None, page=False, quiet=False):
+def compare(case: Place, tfm: Run | Place | None = None, dem: Run | Place | None = None, overrides: Overrides | None = None,
+            output: Place | None = None, until: Value | None = None, page: bool = False, quiet: bool = False) -> dict[str, Any]:
     """Compares both models on a case: comparison.json as a dictionary. Runs that are not given are made, or opened.
 
     tfm, dem: runs, or their directories
@@ -178,32 +208,38 @@ def compare(case, tfm=None, dem=None, overrides=None, output=None, until=None, p
     page: also writes comparison.html
     """
     output = Path(output) if output else folder_of(case, "compare", resolved(case, overrides, until)[1][:DIGITS])
-    options = []
+    options: list[object] = []
     for model, given in (("tfm", tfm), ("dem", dem)):
         made = run(case, model, overrides, output / model, until, quiet=quiet, label=model) if given is None else given
         options += [f"--{model}", getattr(made, "directory", made)]
     call("compare", case, *settings(overrides, until), *options, "-o", output, *([] if page else ["--no-picture"]), label=label_of(quiet))
-    return read_json(output / "comparison.json", "polybed comparison")
+    found: dict[str, Any] = read_json(output / "comparison.json", "polybed comparison")
+    return found
 
 
-def inversion(case, scan=None, overrides=None, output=None, until=None, begin=None, end=None, method=None, quiet=False):
+def inversion(case: Place, scan: str | None = None, overrides: Overrides | None = None, output: Place | None = None,
+              until: Value | None = None, begin: Value | None = None, end: Value | None = None, method: str | None = None,
+              quiet: bool = False) -> dict[str, Any]:
     """The inversion point: by force balance (or another method, see `polybed inversion`) without a run, or by a scan.
 
     scan: None, "tfm", "dem" or "both"; of a scan what inversion.json says is returned
     output: of a scan; default runs/<case name>-inversion-<hash of the resolved case>
     begin, end: velocities between which a scan begins, "30 mm/s"
     """
-    options = ["inversion", case, *settings(overrides, until if scan else None), *(["--method", method] if method else [])]
+    options: list[object] = ["inversion", case, *settings(overrides, until if scan else None), *(["--method", method] if method else [])]
     if scan is None:
-        return json.loads(call(*options, "--json"))
+        balance: dict[str, Any] = json.loads(call(*options, "--json"))
+        return balance
     output = Path(output) if output else folder_of(case, "inversion", resolved(case, overrides, until)[1][:DIGITS])
     for option, velocity in (("--from", begin), ("--to", end)):
-        options += [] if velocity is None else [option, velocity]
+        options += [] if velocity is None else [option, plain(velocity, option)]
     call(*options, "--scan", scan, "-o", output, "--no-picture", label=label_of(quiet))
-    return read_json(output / "inversion.json", "polybed inversion")
+    found: dict[str, Any] = read_json(output / "inversion.json", "polybed inversion")
+    return found
 
 
-def calibrate(case, overrides=None, output=None, jobs=1, quiet=False):
+def calibrate(case: Place, overrides: Overrides | None = None, output: Place | None = None, jobs: int = 1,
+              quiet: bool = False) -> SolidsTable:
     """Runs the boxes of a case and returns the table that they give, arrays by name with units. Finished boxes are kept: the
     same call runs none, another grid of points only what is new. Raises ProgramError, with code 3 if the table may not be used.
 

@@ -1,9 +1,15 @@
 """Numbers with their unit: what a run holds, by name."""
 
+from __future__ import annotations
+
 import json
 import pathlib
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from polybed.read import Run
 
 # What `polybed measure --list --json` says of every measure.
 TABLE = json.loads(pathlib.Path(__file__).with_name("measures.json").read_text())
@@ -18,30 +24,33 @@ BEGINNINGS = {"phi_": "1", "voidage": "1", "u_": "m/s", "theta_": "m2/s2", "tota
 
 
 class Quantity:
-    """An array with its unit and the times of its first axis; numpy takes it as the array."""
+    """An array with its unit and the times of its first axis; numpy takes it as the array.
 
-    def __init__(self, values, unit, time):
+    values: [time], [time][y], or [time][y][x] as the fields; unit: of its values, "1" without; time: s
+    """
+
+    def __init__(self, values: Any, unit: str, time: Any) -> None:
         self.values, self.unit, self.time = np.asarray(values), unit, np.asarray(time)
 
-    def __array__(self, *arguments, **options):
+    def __array__(self, *arguments: Any, **options: Any) -> np.ndarray:
         return np.asarray(self.values, *arguments, **options)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.values)
 
-    def __getitem__(self, item):
+    def __getitem__(self, item: Any) -> Any:
         return self.values[item]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Quantity of shape {self.values.shape} in {self.unit}"
 
-    def last(self, share=0.25):
+    def last(self, share: float = 0.25) -> tuple[Any, Any]:
         """Mean and standard deviation over the last part of the time, a quarter, in its unit."""
         late = self.values[self.time >= self.time[-1] - share * (self.time[-1] - self.time[0])]
         return late.mean(axis=0), late.std(axis=0)
 
 
-def unit_of_column(name):
+def unit_of_column(name: str) -> str:
     """Unit of a column of the history; "1" for what has none, as a number of contacts."""
     for ending, unit in ENDINGS.items():
         if name.endswith(ending):
@@ -49,7 +58,7 @@ def unit_of_column(name):
     return "1"
 
 
-def unit_of_field(name):
+def unit_of_field(name: str) -> str:
     if name == "p":
         return "Pa"
     for beginning, unit in BEGINNINGS.items():
@@ -58,7 +67,7 @@ def unit_of_field(name):
     return "1"
 
 
-def find(run, name, source=None):
+def find(run: Run, name: str, source: str | None = None) -> Quantity:
     """A quantity of a run: of its history, where the unit at the end of a column's name may be left out ("bed_height"), of its
     profiles, or of its fields. The first that has it, unless a source is named."""
     found = {"history": of_history, "profiles": of_profiles, "fields": of_fields}
@@ -71,7 +80,7 @@ def find(run, name, source=None):
     raise KeyError(f"{run.directory} holds no {name}; it holds {', '.join(names(run))}")
 
 
-def of_history(run, name):
+def of_history(run: Run, name: str) -> Quantity | None:
     history = run.history
     for column in [name, *(name + ending for ending in ENDINGS)]:
         if column in history:
@@ -79,17 +88,17 @@ def of_history(run, name):
     return None
 
 
-def of_profiles(run, name):
+def of_profiles(run: Run, name: str) -> Quantity | None:
     profiles = run.profiles
     if name not in profiles or name in ("time_s", "y_m"):
         return None
     return Quantity(profiles[name], unit_of_field(name), profiles["time_s"])
 
 
-def of_fields(run, name):
+def of_fields(run: Run, name: str) -> Quantity | None:
     return Quantity(run.field(name)[:], unit_of_field(name), run.time) if name in run.fields else None
 
 
-def names(run):
+def names(run: Run) -> list[str]:
     """What find() knows of a run."""
     return sorted({*run.history, *run.profiles, *run.fields} - {"y_m"})

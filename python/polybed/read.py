@@ -12,7 +12,12 @@
 Nothing is read before it is asked for, and a run that is still going on can be read: each file is whole.
 """
 
+from __future__ import annotations
+
 import functools
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +25,9 @@ from polybed import quantities
 from polybed.files import DamagedError, contents_of, fits, open_hdf5, read_text, rising
 from polybed.folder import RunFolder
 from polybed.particles import Particles, nearest
+
+if TYPE_CHECKING:
+    import xarray
 
 
 class Series:
@@ -46,11 +54,11 @@ class Series:
 class Run:
     """A run directory. Fields are attributes (run.voidage, run.u_fluid, run.phi_<name>) or run.field(name)."""
 
-    def __init__(self, directory):
+    def __init__(self, directory: str | os.PathLike[str]) -> None:
         self._folder = RunFolder(directory)
-        self.directory = self._folder.path
-        self.time = np.empty(0)
-        self.faces = {}
+        self.directory: Path = self._folder.path
+        self.time: np.ndarray = np.empty(0)  # of the stored fields, s
+        self.faces: dict[str, np.ndarray] = {}  # of the cells along x, y, z, m
         path = self._folder.file("fields.h5")
         if path.exists():
             with open_hdf5(path, "polybed fields") as file:
@@ -82,7 +90,7 @@ class Run:
     def _field(self, step, name):
         return self.fields_at(step, [name])[name]
 
-    def field(self, name):
+    def field(self, name: str) -> Series:
         """A field over time, as a sequence of arrays [y][x] or [z][y][x], a vector with its components behind."""
         if name not in self.fields:
             raise KeyError(f"{self.directory}/fields holds no {name}; it holds {', '.join(self.fields)}")
@@ -97,31 +105,31 @@ class Run:
         return [*super().__dir__(), *self.fields]
 
     @property
-    def dimensions(self):
+    def dimensions(self) -> int:
         """2 or 3."""
         return self.field(self.fields[0])[0].ndim if self.fields and len(self.time) else 0
 
     @property
-    def size(self):
+    def size(self) -> tuple[float, float]:
         """Width and height of the column, m; of a run without anything stored yet, zeros."""
         if self.faces:
             return self.faces["x"][-1], self.faces["y"][-1]
-        return tuple(self.particles.size[:2])
+        return self.particles.size[0], self.particles.size[1]
 
     @property
-    def record(self):
+    def record(self) -> dict[str, Any]:
         """run.json as a dictionary; empty if there is none yet."""
         return self._folder.record()
 
     @property
-    def species(self):
+    def species(self) -> list[str]:
         """Names of the species, in the order of the case, which the columns of the history keep."""
         stored = [name[len("phi_") :] for name in self.fields if name.startswith("phi_")] or self.particles.species
         columns = [column[len("centre_") : -len("_m")] for column in self.history if column.startswith("centre_")]
         return [name for name in columns if name in stored] + [name for name in stored if name not in columns]
 
     @property
-    def history(self):
+    def history(self) -> dict[str, np.ndarray]:
         """history.csv: a dictionary of columns; entries without value are NaN; a row being written is left out."""
         path = self._folder.file("history.csv")
         if not path.exists():
@@ -139,7 +147,7 @@ class Run:
         return {name: table[:, n] for n, name in enumerate(names)}
 
     @property
-    def profiles(self):
+    def profiles(self) -> dict[str, np.ndarray]:
         """profiles.h5: a dictionary of time_s [time], y_m [y] and profiles [time][y]."""
         path = self._folder.file("profiles.h5")
         if not path.exists():
@@ -149,20 +157,35 @@ class Run:
             shape = tuple(map(len, axes.values()))
             return axes | {name: fits(data[...], shape, name) for name, data in file.items() if name not in axes}
 
-    def quantity(self, name, source=None):
+    def quantity(self, name: str, source: str | None = None) -> quantities.Quantity:
         """What is called so in the history, the profiles or the fields, with its unit; see polybed.quantities.find."""
         return quantities.find(self, name, source)
 
-    def names(self):
+    def form_of(self, name: str) -> tuple[tuple[int, ...], np.dtype]:
+        """Shape and type of a field at one stored time."""
+        with self._open_step(0) as file:
+            return file["step"][name].shape, file["step"][name].dtype
+
+    def frame(self) -> Any:
+        """The history as a pandas.DataFrame over time_s; see polybed.labelled.frame."""
+        from polybed import labelled
+        return labelled.frame(self)
+
+    def dataset(self, source: str = "fields") -> xarray.Dataset:
+        """Fields or profiles as an xarray.Dataset with units, read when values are asked for; see polybed.labelled."""
+        from polybed import labelled
+        return labelled.dataset(self, source)
+
+    def names(self) -> list[str]:
         """What quantity() knows."""
         return quantities.names(self)
 
-    def plot(self, what=None, **options):
+    def plot(self, what: str | list[str] | None = None, **options: Any) -> list[Path]:
         """Draws the run, or one kind of picture of it, and returns the paths; see polybed.plot.pictures."""
         from polybed import plot
         return plot.pictures(self._folder.file(), (what,) if isinstance(what, str) else what, **options)
 
-    def step_at(self, time):
+    def step_at(self, time: float) -> int:
         """Number of the stored step nearest to a time."""
         if len(self.time) == 0:
             raise IndexError(f"{self.directory} has no stored fields yet")
@@ -172,10 +195,10 @@ class Run:
 class Snapshot(Run):
     """A run whose history and profiles are read once: a picture of a run that goes on shows one state of it."""
 
-    history = functools.cached_property(Run.history.fget)
-    profiles = functools.cached_property(Run.profiles.fget)
+    history = functools.cached_property(Run.history.fget)  # type: ignore[assignment, attr-defined]
+    profiles = functools.cached_property(Run.profiles.fget)  # type: ignore[assignment, attr-defined]
 
 
-def read(directory):
+def read(directory: str | os.PathLike[str]) -> Run:
     """Opens a run directory, of a finished or a running run."""
     return Run(directory)

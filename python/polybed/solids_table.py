@@ -6,8 +6,12 @@
     table.attributes["regime"], table.attributes["reference"]
 """
 
+from __future__ import annotations
+
+import os
 import zlib
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +23,7 @@ UNITS = {"velocity": "m/s", "theta_bed": BED + "/rho_p"}
 AXES = ("phi", "stokes", "e", "mu_p", "x2")  # of sheared particles, in the order of the arrays
 
 
-def checksum(arrays):
+def checksum(arrays: Any) -> int:
     """CRC-32 of arrays by name, what the attribute crc32 of a table holds: over all numbers as doubles with the low byte first,
     in the order of the names. A table that you write yourself gets it by file.attrs["crc32"] = checksum(file)."""
     found = 0
@@ -31,7 +35,7 @@ def checksum(arrays):
 class SolidsTable:
     """A table.h5, read whole: table[name] is an array, table.unit(name) its unit, "1" of ratios, fractions and seeds."""
 
-    def __init__(self, path):
+    def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
         with open_hdf5(self.path, "polybed solids table") as file:
             self.attributes = dict(file.attrs)
@@ -39,19 +43,19 @@ class SolidsTable:
         if "crc32" in self.attributes and self.attributes["crc32"] != checksum(self._arrays):
             raise DamagedError(self.path, "its checksum does not hold")
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._arrays:
             raise KeyError(f"{self.path} holds no {name}; it holds {', '.join(self.names())}")
         return self._arrays[name]
 
-    def names(self):
+    def names(self) -> list[str]:
         return sorted(self._arrays)
 
-    def unit(self, name):
+    def unit(self, name: str) -> str:
         self[name]  # one that is not there has no unit
         return BED if name.startswith("p_bed") and not name.endswith("_n") else UNITS.get(name, "1")
 
 
-def read_table(path):
+def read_table(path: str | os.PathLike[str]) -> SolidsTable:
     """Opens a table of the solids stress, table.h5."""
     return SolidsTable(path)

@@ -19,10 +19,10 @@ from program import DONE, FILE, ROOT, Scratch
 
 sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
-import polybed.cost.picture  # noqa: E402
-import polybed.scan  # noqa: E402
 import polybed.stability  # noqa: E402
 from polybed import comparison, plot  # noqa: E402
+from polybed.cost import picture as cost_picture  # noqa: E402
+from polybed.drawing import inversion_scan  # noqa: E402
 from polybed.drawing import stress_table, style  # noqa: E402
 
 style.STYLE |= {"figure.dpi": 20, "savefig.dpi": 20}  # for speed
@@ -198,7 +198,7 @@ class DamagedRuns(Scratch):
         self.each_damage(self.place / "both", ["comparison.json"], check)
 
     def test_what_other_commands_write(self):
-        for module, name, kind in ((polybed.cost.picture, "cost.json", "cost"), (polybed.scan, "inversion.json", "inversion"),
+        for module, name, kind in ((cost_picture, "cost.json", "cost"), (inversion_scan, "inversion.json", "inversion"),
                                    (polybed.stability, "stability.json", "stability"), (stress_table, "table.h5", "solids table")):
             path = self.folder / name
             for content in ("", "{", "[]", "noise", json.dumps({"filetype": f"polybed {kind}", "version": 1}),

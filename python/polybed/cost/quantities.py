@@ -22,7 +22,7 @@ class QuantityInfo(NamedTuple):
 class MeasureOn(NamedTuple):
     """Slabs of the case as it is given, whatever the grid of the run."""
     slab: float  # m
-    count: int
+    count: int  # type: ignore[assignment]  # in place of the method of tuples
     window: Window
 
 

@@ -144,7 +144,7 @@ def make(request):
         text = write_record(path, record_of(request, case, scans))
         answer(text if request["json"] else f"{report.findings(scans, request['force_balance'])}{path}")
         if request["picture"]:
-            draw("polybed.scan", "drawn", directory, "picture", not speaks(request))
+            draw("polybed.drawing.inversion_scan", "drawn", directory, "picture", not speaks(request))
     return DONE
 
 

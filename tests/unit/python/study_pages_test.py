@@ -11,7 +11,7 @@ sys.path.insert(0, sys.argv[1])
 
 from report_pages import EVIL, Page
 
-from polybed import scan
+from polybed.drawing import inversion_scan
 from polybed.cost import page as cost_page
 
 TITLE = f"title = {json.dumps(EVIL)}"
@@ -61,7 +61,7 @@ class Pages(unittest.TestCase):
         self.assertIn("No recommendation: no trustworthy reference.", shown)
 
     def test_scan(self):
-        shown = self.written("inversion.json", SCAN, scan.write_page)
+        shown = self.written("inversion.json", SCAN, inversion_scan.write_page)
         for words in ("31 mm/s \u00b1 1 mm/s", "30 mm/s to 32 mm/s", "the range is narrow enough", "force balance, without a run36 mm/s",
                       "-0.1 \u00b1 0.01", "--from '0.02 m/s'", "fine<b> and coarse change places"):
             self.assertIn(words, shown)

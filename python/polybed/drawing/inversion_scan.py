@@ -1,6 +1,6 @@
 """Draws inversion.json of a scan and makes its page, as `polybed inversion --scan` does at its end.
 
-    python3 -m polybed.scan DIR
+    python3 -m polybed.drawing.inversion_scan DIR
 
 Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing.
 """
@@ -145,7 +145,7 @@ def drawn(directory):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="polybed.scan", description="Draws a scan for the inversion velocity.")
+    parser = argparse.ArgumentParser(prog="polybed.drawing.inversion_scan", description="Draws a scan for the inversion velocity.")
     parser.add_argument("directory", help="folder of inversion.json")
     directory = parser.parse_args(arguments).directory
     return print_made(lambda: [drawn(directory)])

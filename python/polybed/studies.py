@@ -1,0 +1,55 @@
+"""Commands that read a run or make a study, as functions of the same name; `polybed.compare` and `polybed.inversion` stand in
+polybed.program."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from polybed.files import read_json
+from polybed.overrides import Overrides, Value, plain
+from polybed.program import DIGITS, Place, call, folder_of, inversion, label_of, resolved, settings
+from polybed.read import Run
+
+
+def measure(run: Run | Place) -> dict[str, Any]:
+    """Numbers read off the stored profiles of a run, without a run: what `polybed measure RUN --json` prints.
+
+    run: a run, or its directory
+    Returns a dictionary of lists over the stored times; each name ends in its unit ("bed_height_m"), None where a measure has
+    no value. Raises ProgramError.
+    """
+    found: dict[str, Any] = json.loads(call("measure", run.directory if isinstance(run, Run) else run, "--json"))
+    return found
+
+
+def scan(case: Place, model: str = "both", overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None,
+         begin: Value | None = None, end: Value | None = None, quiet: bool = False) -> dict[str, Any]:
+    """Scans for the velocity at which two species change places, by runs: what `polybed inversion CASE --scan` finds.
+
+    model: "tfm", "dem" or "both"
+    until: simulated time of each run, "20 s" or seconds; begin, end: superficial velocities of the first bracket, "30 mm/s" or m/s
+    output: default runs/<case name>-inversion-<hash of the resolved case>
+    Returns inversion.json as a dictionary: velocities in m/s. Raises ProgramError.
+    """
+    return inversion(case, model, overrides, output, until, begin, end, quiet=quiet)
+
+
+def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), target: str | None = None, budget: str | None = None,
+         overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None, picture: bool = False,
+         quiet: bool = False) -> dict[str, Any]:
+    """Measures error against computing time over the settings of a case: what `polybed cost CASE` finds.
+
+    model: "tfm", "dem", or None for what the command takes by default
+    axes: settings that are varied, ("rtol", "grid", "drag"); target: error, "1%"; budget: wall time, "20min"
+    output: default runs/<case name>-cost-<hash of the resolved case>; a sweep that stands there goes on where it ended
+    Returns cost.json as a dictionary: errors relative, times in seconds. Raises ProgramError.
+    """
+    folder = Path(output) if output else folder_of(case, "cost", resolved(case, overrides, until)[1][:DIGITS])
+    options: list[object] = ["cost", case, *settings(overrides, until), "-o", folder, *([] if picture else ["--no-picture"])]
+    for option, value in (("--model", model), ("--axes", ",".join(axes) or None), ("--target", target), ("--budget", budget)):
+        options += [] if value is None else [option, plain(value, option)]
+    call(*options, *(["--resume"] if (folder / "cost.json").exists() else []), label=label_of(quiet))
+    found: dict[str, Any] = read_json(folder / "cost.json", "polybed cost")
+    return found

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Results in Python with names and units, and commands as functions. Usage: python_results_test.py PROGRAM"""
+import contextlib
+import io
+import os
+import sys
+
+import numpy as np
+
+import program
+from program import ROOT, WRONG_CASE, Scratch, strict_json
+
+sys.path.insert(0, str(ROOT / "python"))
+import polybed  # noqa: E402
+import polybed.cost.picture  # noqa: E402, F401  the functions keep their names
+
+CASE = ROOT / "cases/small-binary/case.toml"
+SHORT = {"output.every": "1 ms", "output.history_every": "0.1 ms"}
+UNTIL = "10 ms"
+
+
+class Results(Scratch):
+    @classmethod
+    def setUpClass(cls):
+        os.environ["POLYBED"] = program.PROGRAM
+
+    def run_short(self):
+        return polybed.run(CASE, "tfm", SHORT, self.folder / "run", UNTIL, quiet=True)
+
+    def test_the_history_is_a_frame(self):
+        run = self.run_short()
+        frame = run.frame()
+        self.assertEqual((frame.index.name, len(frame)), ("time_s", 101))
+        for name in frame:
+            np.testing.assert_array_equal(frame[name], run.history[name])
+        self.assertEqual([frame.attrs["units"][name] for name in ("bed_height_m", "pressure_drop_Pa", "mixing")], ["m", "Pa", "1"])
+
+    def test_fields_and_profiles_are_datasets_with_units(self):
+        run = self.run_short()
+        fields, profiles = run.dataset(), run.dataset("profiles")
+        self.assertEqual((fields.phi_fine.dims, fields.u_fluid.dims), (("time", "y", "x"), ("time", "y", "x", "component")))
+        self.assertEqual((fields.phi_fine.units, fields.u_fluid.units, fields.time.units, fields.y.units), ("1", "m/s", "s", "m"))
+        np.testing.assert_array_equal(fields.time, run.time)
+        np.testing.assert_allclose(fields.y, 0.0093 * (np.arange(30) + 0.5), rtol=1e-12)  # 30 cells of 0.279 m
+        self.assertEqual(profiles.voidage.dims, ("time", "y"))
+        np.testing.assert_array_equal(profiles.voidage, run.profiles["voidage"])
+        with self.assertRaisesRegex(KeyError, "there is no heat; there are fields, profiles"):
+            run.dataset("heat")
+
+    def test_every_way_to_index_gives_the_numbers_of_the_run(self):
+        run = self.run_short()
+        velocity, whole = run.dataset().u_fluid, run.u_fluid[:]
+        for key in ((), (-1,), (slice(2, 9, 3),), (slice(None), 4), (3, slice(None), 1, 0), ([5, 2],), (slice(1, 3), [7, 1]), (2, [4, 4], 0),
+                    ([1, 3], slice(5), [0, 1], 1), (slice(8, 2, -2), slice(None, None, -1))):
+            expected = whole
+            for axis in reversed(range(len(key))):  # one axis after the other: xarray indexes so
+                expected = expected[(slice(None),) * axis + (key[axis],)]
+            np.testing.assert_array_equal(velocity[key], expected, err_msg=str(key))
+
+    def test_nothing_is_read_before_it_is_asked_for(self):
+        run = self.run_short()
+        fields = run.dataset()
+        (run.directory / "fields/000005.h5").unlink()
+        kept = fields.voidage.isel(time=[0, 10]).values
+        self.assertEqual(kept.shape, (2, 30, 2))
+        with self.assertRaises(FileNotFoundError):
+            fields.voidage.isel(time=4).values  # noqa: B018
+
+    def test_measures_are_those_of_the_command(self):
+        run = self.run_short()
+        told = strict_json(program.run("measure", run.directory, "--json").stdout)
+        self.assertEqual((polybed.measure(run), polybed.measure(run.directory)), (told, told))
+        with self.assertRaisesRegex(polybed.ProgramError, "no-such-run"):
+            polybed.measure(self.folder / "no-such-run")
+
+    def test_a_sweep_over_an_array_says_how_far_it_is(self):
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            runs = polybed.sweep(CASE, "inlet.superficial_velocity", np.array([0.02, 0.03]), overrides=SHORT, output=self.folder, until="2 ms")
+        self.assertEqual([run.record["state"] for run in runs], ["done", "done"])
+        self.assertIn("1 of 2 runs done: inlet.superficial_velocity-0.02\n", shown.getvalue())
+        self.assertIn("2 of 2 runs done: inlet.superficial_velocity-0.03\n", shown.getvalue())
+
+    def test_a_cost_is_what_the_command_writes(self):
+        found = polybed.cost(CASE, "tfm", ("rtol",), budget="120s", output=self.folder / "cost", until="30 ms", quiet=True)
+        self.assertEqual(found, strict_json((self.folder / "cost/cost.json").read_text()))
+        self.assertEqual(found["filetype"], "polybed cost")
+        with self.assertRaisesRegex(polybed.ProgramError, "nonsense") as caught:
+            polybed.cost(CASE, axes=("nonsense",), output=self.folder / "other", until="30 ms", quiet=True)
+        self.assertEqual(caught.exception.code, WRONG_CASE)
+
+    def test_shipped_cases_are_found_by_name(self):
+        self.assertEqual(polybed.case("small-binary"), CASE)
+        with self.assertRaisesRegex(KeyError, "there is no case 'none'; there are .*small-binary"):
+            polybed.case("none")
+
+    def test_a_scan_is_an_inversion_by_runs(self):
+        found = polybed.scan(CASE, "tfm", {"output.history_every": "2 ms"}, self.folder / "scan", "0.8 s", quiet=True)
+        self.assertEqual(found, strict_json((self.folder / "scan/inversion.json").read_text()))
+        self.assertEqual(list(found["models"]), ["tfm"])
+
+
+if __name__ == "__main__":
+    program.main()
