@@ -70,7 +70,7 @@ MEASURES = {"bed_height_m": "bed height", "interface_m": "height of the interfac
             "centre_difference": "distance of the centres of two species over the bed height",
             "pressure_drop_over_weight": "pressure drop over the buoyant weight"}
 SCORES = {"e_H": "bed height: two-fluid model over particles, less 1",
-          "e_b": "distance of the species' centres over the bed height: difference of the models",
+          "e_b": "distance of the centres of two species over the bed height: difference of the models",
           "D1": "layering: 0 if both models layer the species alike, 1 if one is upside down; "
                 "the difference in the share of species 2 over the solids counted from below, integrated",
           "u_inv": "inversion velocity: two-fluid model over particles, less 1"}

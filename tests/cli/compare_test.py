@@ -242,7 +242,7 @@ class Comparison(Scratch):
                 self.assertNotEqual(page.score_words(name), name, "a score is explained")
         self.assertRegex(text, f"<td>{page.SCORES['e_H']}</td><td>{found['scores']['e_H']['value']:.4g} ")
         self.assertIn(f"On top: two-fluid: {found['scores']['order']['tfm']['species']}", text)
-        self.assertRegex(text, r"On top[^\n]*?centre_ in history\.csv of both runs")
+        self.assertRegex(text, r"On top[^\n]*?heights of the centres in history\.csv of both runs")
         for model in ("tfm", "dem"):
             record = strict_json((self.folder / "both" / model / "run.json").read_text())
             folder = self.folder / "both" / model
