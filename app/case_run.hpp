@@ -23,6 +23,9 @@
 
 namespace polybed::multiscale {
 
+/// The timer of what watches the effects that are left out.
+inline constexpr const char* monitor_term = "monitor";
+
 class CaseRun {
  public:
   virtual ~CaseRun() = default;
@@ -62,7 +65,7 @@ class CaseRun {
   void judge(std::span<const measures::WorstInvariant> worst);
 
   /// Writes "prediction". \param actual  CPU s of all ranks
-  void write_prediction_of(core::Json& json, const std::string& state, double actual);
+  void write_prediction_of(core::Json& json, double actual);
   /// The same on standard error.
   void print_prediction(double actual);
 
@@ -71,7 +74,7 @@ class CaseRun {
   template <class Model>
   void watch(Monitor* monitor, const Model& model) {
     if (monitor == nullptr || !monitor->due()) return;
-    const auto scope = timers_.scope("monitor");
+    const auto scope = timers_.scope(monitor_term);
     const std::size_t settings = monitor->settings().size();
     say(monitor->look(model));
     if (monitor->settings().size() > settings) say({advice_of(*monitor) + "  (end this run first: Ctrl-C)"});
@@ -112,6 +115,7 @@ class CaseRun {
   [[noreturn]] void fail(const core::NumericsError& error);
 
   TimeBand prediction_;                    ///< of the whole run
+  bool ended_ = false;                     ///< the run will not go on
   std::optional<std::string> broken_law_;  ///< what to say of it
 };
 

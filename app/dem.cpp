@@ -119,7 +119,7 @@ class DemRun final : public CaseRun {
                  {"wall_s", wall_seconds()},
                  {"integrator", model_.synchronised() ? "synchronised" : "thesis"},
                  {"integrator_reason", model_.limits().integrator_reason}});
-    write_prediction_of(json, state, cpu_);
+    write_prediction_of(json, cpu_);
     json["step"] = step_json();
     write_overlap(json, model_.overlap_expected());
     json["work"] = work_json();

@@ -12,6 +12,7 @@
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
 #include "relevance/drag_law.hpp"
+#include "relevance/effects/drag.hpp"
 
 namespace polybed::multiscale {
 
@@ -96,8 +97,6 @@ void add_pairs(const BinaryBed& bed, const std::string& method, std::vector<Meth
 
 /// Every method, with every drag law where it takes one; the force balance also with every mean law and partition.
 std::vector<MethodRow> all_methods(const BinaryBed& bed) {
-  const std::vector<core::Role> roles = all_roles();
-  const auto drag = std::find_if(roles.begin(), roles.end(), [](const core::Role& r) { return r.name == "drag"; });
   std::vector<MethodRow> rows;
   for (const InversionMethod& method : inversion_methods()) {
     if (!method.takes_law) {
@@ -105,7 +104,7 @@ std::vector<MethodRow> all_methods(const BinaryBed& bed) {
           {method.name, "", "", inversion_points(bed, closures::drag_law("cello", closures::Guard::on), method.name)});
       continue;
     }
-    for (const core::Law& law : drag->laws)
+    for (const core::Law& law : relevance::effects::drag.laws)
       rows.push_back({method.name, law.name, "",
                       inversion_points(bed, closures::drag_law(law.name, closures::Guard::on), method.name)});
     if (method.takes_partition) add_pairs(bed, method.name, rows);

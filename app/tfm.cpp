@@ -113,7 +113,7 @@ class TfmRun final : public CaseRun {
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
                             promise ? &*promise : nullptr, monitor_ ? monitor_->warnings() : std::vector<std::string>{},
-                            [&](core::Json& json) { write_prediction_of(json, state, totals_.cpu_seconds); }});
+                            [&](core::Json& json) { write_prediction_of(json, totals_.cpu_seconds); }});
   }
 
   TimeBand predicted() override { return tfm_time(scene_, model_, known_machine()); }
