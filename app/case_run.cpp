@@ -14,7 +14,7 @@
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
                  std::shared_ptr<const core::Ranks> ranks, const std::string& model)
@@ -236,4 +236,4 @@ void print_timers(const core::Timers& timers) {
     core::print(stderr, "{:26} {:9.3f} {:10}\n", term.name, term.seconds, term.calls);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

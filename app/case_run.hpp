@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/run_directory.hpp"
+#include "app/studies.hpp"
 #include "core/interrupt.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/numerics/run.hpp"
@@ -21,7 +22,7 @@
 #include "multiscale/effects/monitor.hpp"
 #include "multiscale/estimate/estimate.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 /// The timer of what watches the effects that are left out.
 inline constexpr const char* monitor_term = "monitor";
@@ -139,4 +140,4 @@ void start_run(const RunStart& run, const std::function<void()>& start);
 /// Prints the table of time by term.
 void print_timers(const core::Timers& timers);
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -17,7 +17,7 @@
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -245,4 +245,4 @@ void run_dem(const RunOptions& options) {
   run->run();
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -16,7 +16,7 @@
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -234,4 +234,4 @@ void run_drag(const DragOptions& options) {
   print_point(options, law);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -14,7 +14,7 @@
 #include "relevance/drag_law.hpp"
 #include "relevance/effects/drag.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -177,4 +177,4 @@ void run_inversion(const InversionOptions& options) {
   options.scan.empty() ? run_without_a_run(chosen) : run_inversion_scan(chosen);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -17,7 +17,7 @@
 #include "multiscale/scene_rules.hpp"
 #include "tfm/particle_scene.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -135,4 +135,4 @@ void run_list(bool json) {
   }
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

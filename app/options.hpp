@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "app/studies.hpp"
 #include "core/error.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 /// Options of the commands that take a case.
 struct CaseOptions {
@@ -103,4 +104,4 @@ core::ExitCode run_calibrate(const std::vector<std::string>& words);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -11,7 +11,7 @@
 #include "multiscale/run_record.hpp"
 #include "tfm/observers.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -178,4 +178,4 @@ void run_tfm(const RunOptions& options) {
   run->run();
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app
