@@ -1,42 +1,41 @@
 // Commands that answer a question without a run.
 #include "app/commands.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 namespace {
 
 On only_first_rank() { return On::first_rank; }
 
 struct EffectsOptions {
-  multiscale::CaseOptions scene;
+  CaseOptions scene;
   std::string audited;
   bool audit_json = false, bench_json = false;
   int bench_rounds = 3;
 };
 
 core::ExitCode run_effects(const EffectsOptions& options, bool audit, bool bench) {
-  if (audit) return multiscale::run_effects_audit(options.audited, options.audit_json);
+  if (audit) return run_effects_audit(options.audited, options.audit_json);
   if (bench)
-    multiscale::run_effects_bench(options.bench_rounds, options.bench_json);
+    run_effects_bench(options.bench_rounds, options.bench_json);
   else if (options.scene.case_path.empty())
     throw core::CaseError("effects: name a CASE, audit RUN, or bench");
   else
-    multiscale::run_effects(options.scene);
+    run_effects(options.scene);
   return core::ExitCode::done;
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::RunOptions>();
+  const auto options = std::make_shared<RunOptions>();
   const auto resolved = std::make_shared<bool>(false);
   CLI::App& command = *app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run");
   take_case(command, *options);
   command.add_option("--until", options->until, "simulated time, e.g. \"20 s\"");
   command.add_flag("--resolved", *resolved, "the case alone, without what it will need");
-  commands.push_back({&command, doing([options, resolved] {
-                        *resolved ? multiscale::print_resolved(*options) : multiscale::run_check(*options);
-                      }),
+  commands.push_back({&command,
+                      doing([options, resolved] { *resolved ? print_resolved(*options) : run_check(*options); }),
                       [resolved] { return *resolved ? On::one_process : On::first_rank; }});
 }
 
@@ -60,18 +59,18 @@ void add_effects(CLI::App& app, Commands& commands) {
 }
 
 void add_estimate(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::EstimateOptions>();
+  const auto options = std::make_shared<EstimateOptions>();
   CLI::App& command = *app.add_subcommand("estimate", "time, memory and disk of a run, and what would make it cheaper");
   take_case(command, *options, false);
   command.add_option("--model", options->model, "tfm | dem")->check(CLI::IsMember({"tfm", "dem"}));
   command.add_option("--ranks", options->ranks, "that will share the case")->check(CLI::Range(1, 1000000));
   command.add_option("--probe", options->probe, "run the case itself for so long first, e.g. 5s");
   command.add_flag("--machine", options->machine, "measure this machine (30 s) and keep what was found");
-  commands.push_back({&command, doing([options] { multiscale::run_estimate(*options); }), only_first_rank});
+  commands.push_back({&command, doing([options] { run_estimate(*options); }), only_first_rank});
 }
 
 void add_drag(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::DragOptions>();
+  const auto options = std::make_shared<DragOptions>();
   const auto guard = std::make_shared<std::string>("on");
   CLI::App& command = *app.add_subcommand("drag", "evaluate a drag closure at a point, or for every row of a CSV file");
   command.add_option("--law", options->law, "see polybed list");
@@ -83,12 +82,12 @@ void add_drag(CLI::App& app, Commands& commands) {
   command.add_flag("--json", options->json, "one JSON object");
   commands.push_back({&command, doing([options, guard] {
                         options->guard = *guard == "on";
-                        multiscale::run_drag(*options);
+                        run_drag(*options);
                       })});
 }
 
 void add_measure(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::MeasureOptions>();
+  const auto options = std::make_shared<MeasureOptions>();
   CLI::App& command = *app.add_subcommand("measure", "bed height, centres, mixing, ... of the profiles of a run");
   CLI::Option_group& what = *command.add_option_group("what");
   what.add_option("RUN", options->run, "run directory");
@@ -97,7 +96,7 @@ void add_measure(CLI::App& app, Commands& commands) {
   what.require_option(1);
   command.add_flag("--markdown", options->markdown, "of the list: the page of the documentation")->needs(list);
   command.add_flag("--json", options->json, "one JSON object");
-  commands.push_back({&command, doing([options] { multiscale::run_measure(*options); })});
+  commands.push_back({&command, doing([options] { run_measure(*options); })});
 }
 
 void add_keys(CLI::App& app, Commands& commands) {
@@ -110,14 +109,14 @@ void add_keys(CLI::App& app, Commands& commands) {
   CLI::App& all = *app.add_subcommand("schema", "all keys of the case file");
   all.add_flag("--json", schema->json, "as JSON");
   all.add_flag("--markdown", schema->markdown, "as the page of the documentation");
-  commands.push_back({&all, doing([schema] { multiscale::run_schema(schema->json, schema->markdown); })});
+  commands.push_back({&all, doing([schema] { run_schema(schema->json, schema->markdown); })});
   CLI::App& one = *app.add_subcommand("explain", "one key with its range, default and equation");
   one.add_option("KEY", explain->key, "e.g. tfm.rtol")->required();
   one.add_flag("--json", explain->json, "as JSON");
-  commands.push_back({&one, doing([explain] { multiscale::run_explain(explain->key, explain->json); })});
+  commands.push_back({&one, doing([explain] { run_explain(explain->key, explain->json); })});
   CLI::App& laws = *app.add_subcommand("list", "the effects and their laws");
   laws.add_flag("--json", list->json, "as JSON");
-  commands.push_back({&laws, doing([list] { multiscale::run_list(list->json); })});
+  commands.push_back({&laws, doing([list] { run_list(list->json); })});
 }
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

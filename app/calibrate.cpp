@@ -10,7 +10,7 @@
 #include "core/numerics/mpi_start.hpp"
 #include "multiscale/python_module.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -53,4 +53,4 @@ core::ExitCode run_calibrate(const std::vector<std::string>& words) {
   become_python(study, words);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

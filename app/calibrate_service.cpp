@@ -25,7 +25,7 @@
 #include "multiscale/effects/choice.hpp"
 #include "relevance/fluid_properties.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -232,4 +232,4 @@ void run_box_into(const std::string& file, const std::string& case_path, const s
   write_box(file, run_box(read_chosen_case(case_path, overrides), point_of(point)));
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

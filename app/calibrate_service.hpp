@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "app/studies.hpp"
 #include "core/numerics/ranks.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 /// Answers questions until there are no more: each is a line with a JSON array of texts, each answer a line of JSON.
 ///   case PATH SETTING...      reads the case: the plan, {"regime", "axes", "seeds", ...}; the first question
@@ -28,4 +29,4 @@ void answer_calibration(int questions, int answers, std::shared_ptr<const core::
 void run_box_into(const std::string& file, const std::string& case_path, const std::vector<std::string>& overrides,
                   const std::string& point);
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

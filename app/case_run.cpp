@@ -14,7 +14,7 @@
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
                  std::shared_ptr<const core::Ranks> ranks, const std::string& model)
@@ -51,9 +51,8 @@ TimeBand CaseRun::prediction_of(double end) const {
   return prediction_.part(share, !options_.resume);
 }
 
-void CaseRun::write_prediction_of(core::Json& json, const std::string& state, double actual) {
-  const bool ended = state != "running";
-  write_prediction(json, prediction_of(ended ? simulation().time() : scene_.run.until), ended, actual);
+void CaseRun::write_prediction_of(core::Json& json, double actual) {
+  write_prediction(json, prediction_of(ended_ ? simulation().time() : scene_.run.until), ended_, actual);
 }
 
 void CaseRun::print_prediction(double actual) {
@@ -140,7 +139,7 @@ void CaseRun::print_promise() const {
   if (!promise_) return;
   core::print(stderr, "{}", neglected_table(*promise_));
   for (const core::Timers::Term& term : timers_.terms())
-    if (term.name == "monitor")
+    if (term.name == monitor_term)
       core::print(stderr, "watching it took {:.2g} % of the time\n",
                   100 * term.seconds / std::max(core::cpu_seconds() - cpu_begin_, 1e-9));
 }
@@ -168,6 +167,7 @@ void CaseRun::fail(const core::NumericsError& error) {
 }
 
 void CaseRun::record_if_possible(const std::string& state) {
+  ended_ = true;
   try {
     (void)record(state);
   } catch (const core::FileError&) {  // what has ended the run says more
@@ -181,6 +181,7 @@ std::string CaseRun::record(const std::string& state) {
 }
 
 void CaseRun::finish(const std::string& state) {
+  ended_ = true;
   const std::string text = record(state);
   if (!first_) return;
   std::string message;
@@ -235,4 +236,4 @@ void print_timers(const core::Timers& timers) {
     core::print(stderr, "{:26} {:9.3f} {:10}\n", term.name, term.seconds, term.calls);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/run_directory.hpp"
+#include "app/studies.hpp"
 #include "core/interrupt.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/numerics/run.hpp"
@@ -21,7 +22,10 @@
 #include "multiscale/effects/monitor.hpp"
 #include "multiscale/estimate/estimate.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
+
+/// The timer of what watches the effects that are left out.
+inline constexpr const char* monitor_term = "monitor";
 
 class CaseRun {
  public:
@@ -62,7 +66,7 @@ class CaseRun {
   void judge(std::span<const measures::WorstInvariant> worst);
 
   /// Writes "prediction". \param actual  CPU s of all ranks
-  void write_prediction_of(core::Json& json, const std::string& state, double actual);
+  void write_prediction_of(core::Json& json, double actual);
   /// The same on standard error.
   void print_prediction(double actual);
 
@@ -71,7 +75,7 @@ class CaseRun {
   template <class Model>
   void watch(Monitor* monitor, const Model& model) {
     if (monitor == nullptr || !monitor->due()) return;
-    const auto scope = timers_.scope("monitor");
+    const auto scope = timers_.scope(monitor_term);
     const std::size_t settings = monitor->settings().size();
     say(monitor->look(model));
     if (monitor->settings().size() > settings) say({advice_of(*monitor) + "  (end this run first: Ctrl-C)"});
@@ -112,6 +116,7 @@ class CaseRun {
   [[noreturn]] void fail(const core::NumericsError& error);
 
   TimeBand prediction_;                    ///< of the whole run
+  bool ended_ = false;                     ///< the run will not go on
   std::optional<std::string> broken_law_;  ///< what to say of it
 };
 
@@ -135,4 +140,4 @@ void start_run(const RunStart& run, const std::function<void()>& start);
 /// Prints the table of time by term.
 void print_timers(const core::Timers& timers);
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

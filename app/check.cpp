@@ -25,7 +25,7 @@
 #include "tfm/particle_scene.hpp"
 #include "tfm/step_estimate.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -291,4 +291,4 @@ void run_check(const RunOptions& options) {
   for (const std::string& note : derived.notes) core::print("# {}\n", note);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

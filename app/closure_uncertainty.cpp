@@ -8,7 +8,7 @@
 #include "multiscale/python_module.hpp"
 #include "relevance/fluid_properties.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 void run_closure_uncertainty(const RunOptions& options, const std::string& kind, const std::string& method) {
   const core::Scene scene = read_scene(options);
@@ -24,4 +24,4 @@ void run_closure_uncertainty(const RunOptions& options, const std::string& kind,
   become_python("polybed.study.closure_uncertainty", {core::json_text(json)});
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

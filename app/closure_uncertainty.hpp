@@ -4,7 +4,7 @@
 
 #include "app/options.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 /// Becomes the study that finds the answer with the case's drag law and with the law moved within its band. Throws
 /// core::CaseError if the case has no drag law.
@@ -12,4 +12,4 @@ namespace polybed::multiscale {
 [[noreturn]] void run_closure_uncertainty(const RunOptions& options, const std::string& kind,
                                           const std::string& method = "");
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

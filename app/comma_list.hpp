@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace polybed::multiscale {
+#include "app/studies.hpp"
+
+namespace polybed::app {
 
 /// The words of "a,b,c"; empty ones are left out.
 [[nodiscard]] inline std::vector<std::string> comma_list(const std::string& text) {
@@ -18,4 +20,4 @@ namespace polybed::multiscale {
   return words;
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

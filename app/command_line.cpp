@@ -15,7 +15,7 @@
 #include "core/version.hpp"
 #include "multiscale/mpirun.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 namespace {
 
@@ -75,11 +75,11 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
     if (!command.app->parsed()) continue;
     const On on = command.on();
     if (on == On::study) {
-      multiscale::keep_ranks_for_runs(ranks);
+      keep_ranks_for_runs(ranks);
       if (core::first_by_launcher()) code = command.run();
       continue;
     }
-    if (ranks > 1) multiscale::become_ranks(ranks, words_from_command(app, argc, argv));
+    if (ranks > 1) become_ranks(ranks, words_from_command(app, argc, argv));
     if (on != On::one_process) mpi.emplace();
     if (on != On::first_rank || mpi->first()) code = command.run();
   }
@@ -87,4 +87,4 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
   return code;
 }
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

@@ -6,11 +6,11 @@
 #include "app/mpi_session.hpp"
 #include "core/error.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 /// Does what the command line asks for and returns the code to end with; throws what the command throws. A line that
 /// cannot be read is told on standard error and is core::ExitCode::wrong_case.
 /// \param mpi  started if the command needs it
 core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi);
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

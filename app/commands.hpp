@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "app/options.hpp"
+#include "app/studies.hpp"
 #include "core/error.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 /// Which ranks a command is for. Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
 /// A study goes on in the first process alone, without MPI: what it runs, it starts on as many ranks.
@@ -59,7 +60,7 @@ void add_calibrate(CLI::App& app, Commands& commands);
 void add_stability(CLI::App& app, Commands& commands);
 
 /// CASE, --set and --json.
-void take_case(CLI::App& command, multiscale::CaseOptions& options, bool required = true);
-void take_overrides(CLI::App& command, multiscale::CaseOptions& options);
+void take_case(CLI::App& command, CaseOptions& options, bool required = true);
+void take_overrides(CLI::App& command, CaseOptions& options);
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

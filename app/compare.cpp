@@ -2,8 +2,8 @@
 #include "app/options.hpp"
 #include "multiscale/python_module.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 void run_compare(const std::vector<std::string>& words) { become_python("polybed.study.compare", words); }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

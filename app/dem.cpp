@@ -17,7 +17,7 @@
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -119,7 +119,7 @@ class DemRun final : public CaseRun {
                  {"wall_s", wall_seconds()},
                  {"integrator", model_.synchronised() ? "synchronised" : "thesis"},
                  {"integrator_reason", model_.limits().integrator_reason}});
-    write_prediction_of(json, state, cpu_);
+    write_prediction_of(json, cpu_);
     json["step"] = step_json();
     write_overlap(json, model_.overlap_expected());
     json["work"] = work_json();
@@ -245,4 +245,4 @@ void run_dem(const RunOptions& options) {
   run->run();
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -17,7 +17,7 @@
 #include "core/print.hpp"
 #include "relevance/drag_law.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -235,4 +235,4 @@ void run_drag(const DragOptions& options) {
   print_point(options, law);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -9,7 +9,7 @@
 #include "multiscale/effects/effects_text.hpp"
 #include "multiscale/scene_rules.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 void run_effects(const CaseOptions& options) {
   const core::Scene scene = read_case(options.case_path, options.overrides);
@@ -44,4 +44,4 @@ core::ExitCode run_effects_audit(const std::filesystem::path& run, bool as_json)
   return neglected.kept().value_or(false) ? core::ExitCode::done : core::ExitCode::numerics;
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -14,7 +14,7 @@
 #include "multiscale/roles.hpp"
 #include "tfm/particle_scene.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -67,4 +67,4 @@ void run_estimate(const EstimateOptions& options) {
   core::print("{}\n", core::json_text(json));
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -13,8 +13,9 @@
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
 #include "relevance/drag_law.hpp"
+#include "relevance/effects/drag.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -182,4 +183,4 @@ void run_inversion(const InversionOptions& options) {
   options.scan.empty() ? run_without_a_run(chosen) : run_inversion_scan(chosen);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -14,7 +14,7 @@
 #include "relevance/drag_law.hpp"
 #include "tfm/particle_scene.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -77,4 +77,4 @@ void run_inversion_scan(const InversionOptions& options) {
   become_python("polybed.study.inversion", {request_of(options, range_of(options, balance), balance)});
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -18,7 +18,7 @@
 #include "multiscale/scene_rules.hpp"
 #include "tfm/particle_scene.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -145,4 +145,4 @@ void run_list(bool json) {
   }
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

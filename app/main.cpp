@@ -8,8 +8,8 @@
 using namespace polybed;
 
 int main(int argc, char** argv) {
-  std::optional<command_line::MpiSession> mpi;
-  command_line::Ending ending = command_line::guarded([&] { return command_line::run(argc, argv, mpi); });
+  std::optional<app::MpiSession> mpi;
+  app::Ending ending = app::guarded([&] { return app::run(argc, argv, mpi); });
   if (mpi) mpi->agree_on(ending);
   if (!ending.message.empty()) core::print(stderr, "{}\n", ending.message);
   return ending.code;

@@ -19,7 +19,7 @@
 #include "core/print.hpp"
 #include "measures/bed_table.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -289,4 +289,4 @@ void run_measure(const MeasureOptions& options) {
   options.json ? print_json(asked, of_run) : print_table(asked, of_run);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

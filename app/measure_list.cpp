@@ -10,7 +10,7 @@
 #include "measures/bed_table.hpp"
 #include "tfm/history_table.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -95,4 +95,4 @@ void print_measures(const MeasureOptions& options) {
   }
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -2,8 +2,8 @@
 #include "app/options.hpp"
 #include "multiscale/calibrate/moved_table.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 void run_move_table(const MoveOptions& options) { write_moved_table(options.table, options.sigma, options.moved); }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

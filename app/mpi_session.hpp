@@ -11,7 +11,7 @@
 #include "core/numerics/mpi_start.hpp"
 #include "core/print.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 class MpiSession {
  public:
@@ -48,4 +48,4 @@ class MpiSession {
   int ranks_ = 1, rank_ = 0;
 };
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "app/studies.hpp"
 #include "core/error.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 /// Options of the commands that take a case.
 struct CaseOptions {
@@ -114,4 +115,4 @@ core::ExitCode run_report(const PlotOptions& options);
 /// Becomes the server of the page that follows a run. Throws core::FileError.
 [[noreturn]] void run_watch(const WatchOptions& options);
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

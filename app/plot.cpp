@@ -9,7 +9,7 @@
 #include "core/output/files.hpp"
 #include "multiscale/python_module.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -38,7 +38,7 @@ fs::path run_of(const fs::path& given) {
       fmt::format("{}: no run of it in {}; polybed tfm {} makes one", given.string(), run.string(), file.string()));
 }
 
-double seconds_of(const std::string& text) {
+double time_of(const std::string& text) {
   const auto time = core::parse_quantity(text);
   if (!time || (time->has_unit && !(time->dimension == core::dimension::time)))
     throw core::CaseError(fmt::format("--time {}: expected a time, e.g. 5 or \"5 s\"", text));
@@ -47,7 +47,7 @@ double seconds_of(const std::string& text) {
 
 std::vector<std::string> words_of(const PlotOptions& options) {
   std::vector<std::string> words{"--what", options.what, "--format", options.format};
-  if (!options.time.empty()) words.insert(words.end(), {"--time", fmt::format("{:.17g}", seconds_of(options.time))});
+  if (!options.time.empty()) words.insert(words.end(), {"--time", fmt::format("{:.17g}", time_of(options.time))});
   if (!options.output.empty()) words.insert(words.end(), {"--out", options.output.string()});
   if (options.rate > 0) words.insert(words.end(), {"--rate", fmt::format("{}", options.rate)});
   if (options.quiet) words.emplace_back("--quiet");
@@ -103,4 +103,4 @@ void run_watch(const WatchOptions& options) {
                 {"--port", fmt::format("{}", options.port), "--", run_of(options.run).string()});
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -10,7 +10,7 @@
 
 #include "core/search_path.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 namespace {
 
@@ -53,4 +53,4 @@ Ending guarded(const std::function<core::ExitCode()>& work) {
   }
 }
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

@@ -4,9 +4,10 @@
 #include <functional>
 #include <string>
 
+#include "app/studies.hpp"
 #include "core/error.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 struct Ending {
   int code = 0;
@@ -18,4 +19,4 @@ struct Ending {
 /// relative folders on the search path.
 [[nodiscard]] Ending guarded(const std::function<core::ExitCode()>& work);
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

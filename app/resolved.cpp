@@ -10,7 +10,7 @@
 #include "dem/continuum_scene.hpp"
 #include "tfm/particle_scene.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -39,4 +39,4 @@ void print_resolved(const RunOptions& options) {
                                        {"refused", refused}}));
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

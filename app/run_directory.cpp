@@ -9,7 +9,7 @@
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -108,4 +108,4 @@ void add_case(core::Checkpoint& checkpoint, const core::Scene& scene) {
   checkpoint.texts["physics_hash"] = physics_hash(scene);
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -7,11 +7,12 @@
 #include <string>
 
 #include "app/options.hpp"
+#include "app/studies.hpp"
 #include "core/case/scene.hpp"
 #include "core/output/checkpoint.hpp"
 #include "core/output/directory.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 /// The case of the command line, with --set and --until taken into it.
 [[nodiscard]] core::Scene read_scene(const RunOptions& options);
@@ -42,4 +43,4 @@ namespace polybed::multiscale {
 /// Says in a checkpoint of which case it is.
 void add_case(core::Checkpoint& checkpoint, const core::Scene& scene);
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -1,12 +1,12 @@
 // Commands that run a case, or draw what was run.
 #include "app/commands.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 namespace {
 
 /// A command that runs a case by a model of that name.
-CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& help, multiscale::RunOptions& options) {
+CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& help, RunOptions& options) {
   CLI::App& command = *app.add_subcommand(model, help);
   take_case(command, options);
   command.add_option("-o,--output", options.output, "run directory; default runs/<case name>-" + model);
@@ -23,34 +23,34 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
 
 }  // namespace
 
-void take_overrides(CLI::App& command, multiscale::CaseOptions& options) {
+void take_overrides(CLI::App& command, CaseOptions& options) {
   command.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says")
       ->take_all()
       ->allow_extra_args(false);
 }
 
-void take_case(CLI::App& command, multiscale::CaseOptions& options, bool required) {
+void take_case(CLI::App& command, CaseOptions& options, bool required) {
   command.add_option("CASE", options.case_path, "the case file")->required(required);
   take_overrides(command, options);
   command.add_flag("--json", options.json, "one JSON object on standard output, nothing else there");
 }
 
 void add_tfm(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::RunOptions>();
+  const auto options = std::make_shared<RunOptions>();
   CLI::App& command = add_run(app, "tfm", "run the case as a continuum (two-fluid model)", *options);
   command.add_flag("--stress-uncertainty", options->stress_uncertainty,
                    "again with the stress table at plus and minus one standard error: the band of the bed height");
   command.add_flag("--closure-uncertainty", options->closure_uncertainty,
                    "again with the drag law moved within its band: the band of the bed height");
-  commands.push_back({&command, doing([options] { multiscale::run_tfm(*options); }), [options] {
+  commands.push_back({&command, doing([options] { run_tfm(*options); }), [options] {
                         return options->stress_uncertainty || options->closure_uncertainty ? On::study : On::all_ranks;
                       }});
 }
 
 void add_dem(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::RunOptions>();
+  const auto options = std::make_shared<RunOptions>();
   CLI::App& command = add_run(app, "dem", "run the case particle by particle", *options);
-  commands.push_back({&command, doing([options] { multiscale::run_dem(*options); }), [] { return On::all_ranks; }});
+  commands.push_back({&command, doing([options] { run_dem(*options); }), [] { return On::all_ranks; }});
 }
 
 /// Its options are those of the Python package, `polybed compare --help` included.
@@ -59,12 +59,11 @@ void add_compare(CLI::App& app, Commands& commands) {
       *app.add_subcommand("compare", "run the case by both models, or take runs of it: how far they agree");
   command.prefix_command();
   command.set_help_flag();
-  commands.push_back(
-      {&command, doing([&command] { multiscale::run_compare(command.remaining()); }), [] { return On::study; }});
+  commands.push_back({&command, doing([&command] { run_compare(command.remaining()); }), [] { return On::study; }});
 }
 
 void add_plot(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::PlotOptions>();
+  const auto options = std::make_shared<PlotOptions>();
   CLI::App& command = *app.add_subcommand("plot", "pictures of a finished or a running run");
   command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
   command.add_option("--what", options->what,
@@ -76,23 +75,23 @@ void add_plot(CLI::App& app, Commands& commands) {
       ->check(CLI::Range(0.1, 120.0));
   command.add_flag("--quiet", options->quiet, "no progress");
   command.add_flag("--json", options->json, "one JSON object: the files written");
-  commands.push_back({&command, doing([options] { return multiscale::run_plot(*options); })});
+  commands.push_back({&command, doing([options] { return run_plot(*options); })});
 }
 
 void add_report(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::PlotOptions>();
+  const auto options = std::make_shared<PlotOptions>();
   CLI::App& command =
       *app.add_subcommand("report", "report.html of a run: one file with results, pictures and the case");
   command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
-  commands.push_back({&command, doing([options] { return multiscale::run_report(*options); })});
+  commands.push_back({&command, doing([options] { return run_report(*options); })});
 }
 
 void add_watch(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::WatchOptions>();
+  const auto options = std::make_shared<WatchOptions>();
   CLI::App& command = *app.add_subcommand("watch", "a page that follows a run, for a browser on this machine");
   command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
   command.add_option("--port", options->port, "of the page; default: any that is free")->check(CLI::Range(0, 65535));
-  commands.push_back({&command, doing([options] { multiscale::run_watch(*options); })});
+  commands.push_back({&command, doing([options] { run_watch(*options); })});
 }
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

@@ -6,7 +6,7 @@
 #include "multiscale/become.hpp"
 #include "multiscale/installed.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 void run_stability(std::vector<std::string> words) {
   const std::string program = (this_program().parent_path() / "polybed-hard").string();
@@ -16,4 +16,4 @@ void run_stability(std::vector<std::string> words) {
                   become(words)));
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

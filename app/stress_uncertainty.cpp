@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "multiscale/python_module.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 void require_table(const core::Scene& scene) {
   if (!core::law_of(scene, "solids_stress").starts_with("table:"))
@@ -19,4 +19,4 @@ void run_stress_uncertainty(const RunOptions& options) {
   become_python("polybed.study.stress_uncertainty", {core::json_text(common_request(options, "tfm"))});
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "app/options.hpp"
+#include "app/studies.hpp"
 #include "core/case/scene.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 /// Becomes the study that runs the case with its table, and with the table at plus and minus one standard error in
 /// `plus` and `minus` of the run's directory, and writes stress_uncertainty.json. Throws core::CaseError if the case
@@ -14,4 +15,4 @@ namespace polybed::multiscale {
 /// Throws core::CaseError if the case has no table to move.
 void require_table(const core::Scene& scene);
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

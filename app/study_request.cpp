@@ -4,7 +4,7 @@
 
 #include "app/run_directory.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 core::Json common_request(const RunOptions& options, const std::string& kind) {
   return {{"case", options.case_path.string()},
@@ -21,4 +21,4 @@ core::Json common_request(const RunOptions& options, const std::string& kind) {
           {"picture", options.picture}};
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

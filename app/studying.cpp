@@ -2,7 +2,7 @@
 #include "app/commands.hpp"
 #include "multiscale/python_module.hpp"
 
-namespace polybed::command_line {
+namespace polybed::app {
 
 /// Its options are those of the Python package, `polybed cost --help` included.
 void add_cost(CLI::App& app, Commands& commands) {
@@ -10,7 +10,7 @@ void add_cost(CLI::App& app, Commands& commands) {
   command.prefix_command();
   command.set_help_flag();
   commands.push_back(
-      {&command, [&command]() -> core::ExitCode { multiscale::become_python("polybed.cost", command.remaining()); }});
+      {&command, [&command]() -> core::ExitCode { become_python("polybed.cost", command.remaining()); }});
 }
 
 /// Its options are those of the Python package, `polybed fit --help` included.
@@ -18,12 +18,11 @@ void add_fit(CLI::App& app, Commands& commands) {
   CLI::App& command = *app.add_subcommand("fit", "fit a drag law to rows of resolved flow, and write a law file");
   command.prefix_command();
   command.set_help_flag();
-  commands.push_back(
-      {&command, [&command]() -> core::ExitCode { multiscale::become_python("polybed.fit", command.remaining()); }});
+  commands.push_back({&command, [&command]() -> core::ExitCode { become_python("polybed.fit", command.remaining()); }});
 }
 
 void add_inversion(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::InversionOptions>();
+  const auto options = std::make_shared<InversionOptions>();
   CLI::App& command =
       *app.add_subcommand("inversion", "the inversion point of two species: by force balance, or by a scan of runs");
   take_case(command, *options);
@@ -45,20 +44,20 @@ void add_inversion(CLI::App& app, Commands& commands) {
   command.add_flag("--permissive", options->permissive, "runs of a scan go on where a conservation law is broken");
   command.add_flag("--quiet", options->quiet, "no line for each run");
   command.add_flag("!--no-picture", options->picture, "no inversion.png and inversion.html at the end");
-  commands.push_back({&command, doing([options] { multiscale::run_inversion(*options); }), [options] {
+  commands.push_back({&command, doing([options] { run_inversion(*options); }), [options] {
                         return options->scan.empty() && !options->closure_uncertainty ? On::one_process : On::study;
                       }});
 }
 
 /// For the package's own use.
 void add_move_table(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::MoveOptions>();
+  const auto options = std::make_shared<MoveOptions>();
   CLI::App& command = *app.add_subcommand("move-table", "a table of the solids stress, moved by standard errors");
   command.group("");
   command.add_option("TABLE", options->table)->required();
   command.add_option("--sigma", options->sigma)->required();
   command.add_option("MOVED", options->moved)->required();
-  commands.push_back({&command, doing([options] { multiscale::run_move_table(*options); })});
+  commands.push_back({&command, doing([options] { run_move_table(*options); })});
 }
 
 /// Its options are those of python/polybed/calibration, `polybed calibrate --help` included.
@@ -67,9 +66,9 @@ void add_calibrate(CLI::App& app, Commands& commands) {
       "calibrate", "run boxes of particles and make a table of the solids stress for the two-fluid model");
   command.prefix_command();
   command.set_help_flag();
-  commands.push_back(
-      {&command, doing([&command] { return multiscale::run_calibrate(command.remaining()); }),
-       [&command] { return multiscale::calibrate_needs_mpi(command.remaining()) ? On::all_ranks : On::one_process; }});
+  commands.push_back({&command, doing([&command] { return run_calibrate(command.remaining()); }), [&command] {
+                        return calibrate_needs_mpi(command.remaining()) ? On::all_ranks : On::one_process;
+                      }});
 }
 
 /// Its options are those of polybed-hard, `polybed stability --help` included.
@@ -77,7 +76,7 @@ void add_stability(CLI::App& app, Commands& commands) {
   CLI::App& command = *app.add_subcommand("stability", "hard cases against every scheme: what held, cell by cell");
   command.prefix_command();
   command.set_help_flag();
-  commands.push_back({&command, doing([&command] { multiscale::run_stability(command.remaining()); })});
+  commands.push_back({&command, doing([&command] { run_stability(command.remaining()); })});
 }
 
-}  // namespace polybed::command_line
+}  // namespace polybed::app

@@ -13,7 +13,7 @@
 #include "tfm/evenness.hpp"
 #include "tfm/observers.hpp"
 
-namespace polybed::multiscale {
+namespace polybed::app {
 
 namespace {
 
@@ -118,7 +118,7 @@ class TfmRun final : public CaseRun {
     if (monitor_) warnings.insert(warnings.end(), monitor_->warnings().begin(), monitor_->warnings().end());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
                             promise ? &*promise : nullptr, std::move(warnings),
-                            [&](core::Json& json) { write_prediction_of(json, state, totals_.cpu_seconds); }});
+                            [&](core::Json& json) { write_prediction_of(json, totals_.cpu_seconds); }});
   }
 
   TimeBand predicted() override { return tfm_time(scene_, model_, known_machine()); }
@@ -186,4 +186,4 @@ void run_tfm(const RunOptions& options) {
   run->run();
 }
 
-}  // namespace polybed::multiscale
+}  // namespace polybed::app

@@ -7,6 +7,7 @@
 
 #include "closures/contact_pair.hpp"
 #include "core/case/contact_properties.hpp"
+#include "relevance/effects/contact.hpp"
 
 namespace polybed::dem {
 
@@ -38,7 +39,7 @@ double rounded_up(double value) {
 }
 
 std::string stiffer(const core::Scene& scene, const std::string& a, const std::string& b, double factor) {
-  if (core::law_of(scene, "contact") == "linear")
+  if (relevance::effects::contact.has(scene, relevance::effects::linear_springs))
     return fmt::format("dem.normal_stiffness = \"{:g} N/m\"", rounded_up(factor * scene.dem.normal_stiffness.value()));
   const core::ContactProperties given = core::contact_properties(scene, a, b);
   const auto text = [&](const std::string& key, double modulus) {

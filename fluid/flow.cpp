@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/case/laws.hpp"
 #include "core/error.hpp"
 #include "core/numerics/ranks.hpp"
 #include "fluid/convection.hpp"
@@ -36,7 +37,7 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       constants_(relevance::fluid_constants(scene.fluid)),
       gravity_(scene.column.gravity),
       tolerance_(tolerance),
-      viscous_(core::law_of(scene, "fluid_stress") != "none"),
+      viscous_(core::acts(scene, "fluid_stress")),
       conservative_(scene.scheme.momentum != core::Momentum::upwind &&
                     scene.scheme.momentum != core::Momentum::limited),
       limited_(scene.scheme.momentum != core::Momentum::upwind &&

@@ -10,6 +10,7 @@
 #include "closures/lubrication.hpp"
 #include "closures/relevance.hpp"
 #include "closures/stress_reference.hpp"
+#include "core/case/laws.hpp"
 #include "core/error.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -19,10 +20,9 @@ namespace polybed::fluid {
 namespace {
 
 closures::DragLaw law_of_scene(const core::Scene& scene) {
-  const std::string name = core::law_of(scene, "drag");
-  if (name == "none")
+  if (!core::acts(scene, "drag"))
     throw core::CaseError("calibrate: particles in a fluid need a drag law: [effects] drag = ..., see polybed list");
-  return relevance::drag_law_named(name);
+  return relevance::drag_law_named(core::law_of(scene, "drag"));
 }
 
 /// Voidage at which drag carries the buoyant weight of one species alone, in [0.4, 0.99].

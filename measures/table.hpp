@@ -55,7 +55,8 @@ struct Single {
   Readers readers = {};
 
   /// "bed_height_m", "mixing"
-  [[nodiscard]] std::string column() const { return unit == "1" ? name : name + "_" + unit; }
+  static constexpr const char* of_number = "1";
+  [[nodiscard]] std::string column() const { return unit == of_number ? name : name + "_" + unit; }
 };
 
 /// The numbers that a table asks for where there are these species. Rows of each species that follow each other stay

@@ -15,6 +15,7 @@
 #include "dem/packing.hpp"
 #include "dem/scene.hpp"
 #include "dem/settling.hpp"
+#include "relevance/effects/contact.hpp"
 
 namespace polybed::multiscale {
 
@@ -131,8 +132,7 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
 
 void choose_stiffness(core::Scene& scene) {
   const auto own = [](const auto& part) { return part.youngs_modulus.has_value(); };
-  const std::string law = core::law_of(scene, "contact");
-  if ((law != "hertz" && law != "hertz_mindlin") || own(scene.dem) ||
+  if (!relevance::effects::contact.has(scene, relevance::effects::elastic_spheres) || own(scene.dem) ||
       std::any_of(scene.species.begin(), scene.species.end(), own) ||
       std::any_of(scene.contact_pairs.begin(), scene.contact_pairs.end(), own))
     return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "closures/size_classes.hpp"
 #include "dem/effects/maker.hpp"
@@ -27,7 +28,11 @@ const relevance::MenuEntry* find_entry(const std::string& role) {
 }
 
 bool can_be_added(const relevance::MenuEntry& entry, const std::string& model) {
-  return entry.slot == "Force" && entry.models.find(model) != std::string::npos;
+  const auto is_force = [&](const dem::Maker* one) {
+    return one->effect == entry.effect && std::holds_alternative<dem::MakeForce>(one->make);
+  };
+  return std::any_of(dem::effects().begin(), dem::effects().end(), is_force) &&
+         entry.models.find(model) != std::string::npos;
 }
 
 std::vector<core::Role> all_roles() { return relevance::roles_of(menu()); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/case/laws.hpp"
 #include "relevance/situation.hpp"
 
 namespace polybed::relevance {
@@ -15,7 +16,7 @@ DecisionRule rule_for(const core::Scene& scene, const Menu& menu, bool free) {
   if (free) return rule;
   for (const MenuEntry& entry : menu) {
     const std::string law = core::law_of(scene, entry.effect->role);
-    if (law != core::automatic) (law == "none" ? rule.off : rule.on).insert(entry.effect->role);
+    if (law != core::automatic) (core::is_off(law) ? rule.off : rule.on).insert(entry.effect->role);
   }
   return rule;
 }

@@ -19,7 +19,7 @@ using State = EffectRow::State;
 using Kind = EffectRow::Kind;
 
 EffectRow always(const char* effect, const char* reason) {
-  EffectRow row = effect_row(effect, "exact", "-", Kind::condition);
+  EffectRow row = effect_row(effect, "exact", no_number, Kind::condition);
   row.state = State::on;
   row.reason = reason;
   return row;
@@ -86,7 +86,7 @@ EffectRow level(const Survey& survey) {
   row.threshold = 0.02;
   Supremum greatest;
   for (const Situation& s : survey.situations)
-    if (s.zone != "freeboard") greatest.add(s, s.relaxation_time() * s.slip / survey.height);
+    if (s.zone != Zone::freeboard) greatest.add(s, s.relaxation_time() * s.slip / survey.height);
   greatest.fill(row);
   row.reason = row.value && *row.value < 0.02 ? "algebraic slip would do; it is not in the product"
                                               : "each phase needs its own momentum";
@@ -182,7 +182,7 @@ EffectRow capillary(const core::Scene& scene, const Survey& survey) {
 }
 
 EffectRow sintering() {
-  EffectRow row = effect_row("sintering", "none", "-", Kind::unmodelled);
+  EffectRow row = effect_row("sintering", "none", no_number, Kind::unmodelled);
   row.state = State::unknown;
   row.reason = "unknown: needs how the material softens; not modelled";
   return row;

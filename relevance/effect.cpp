@@ -10,6 +10,16 @@ bool Encountered::certain() const {
   return !(fluid_density * std::sqrt(closures::dot(slip, slip)) * diameter / viscosity > greatest_certain_reynolds);
 }
 
+bool Effect::law_has(const std::string& law, const Trait& trait) const {
+  const auto is_named = [&](const std::string& name) {
+    const std::size_t file = name.find(':');
+    return file == std::string::npos ? law == name : law.starts_with(name.substr(0, file + 1));
+  };
+  return std::any_of(traits.begin(), traits.end(), [&](const LawsWith& one) {
+    return one.trait == &trait && std::any_of(one.laws.begin(), one.laws.end(), is_named);
+  });
+}
+
 Surfaces surfaces_of(const core::Scene& scene, const Survey& survey) {
   const double known = scene.material.hamaker_constant, usual = survey.is_gas || !survey.has_fluid ? 1e-19 : 1e-20;
   return {scene.chooser.roughness.value_or(scene.material.roughness),

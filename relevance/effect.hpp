@@ -45,6 +45,17 @@ struct Encountered {
   [[nodiscard]] bool certain() const;
 };
 
+/// What other code asks about laws, without knowing their names; told apart by its address.
+struct Trait {
+  const char* what;
+};
+
+/// The laws of an effect, by name, that have a trait.
+struct LawsWith {
+  const Trait* trait;
+  std::vector<std::string> laws;
+};
+
 struct Effect {
   std::string role;                    ///< key in [effects]
   std::string help = {};               ///< one line
@@ -62,6 +73,14 @@ struct Effect {
   /// Sets the keys that a law needs where the chooser has chosen it.
   std::function<void(core::Scene&, const Surfaces&)> set_keys = {};
   bool of_acceleration = false;  ///< vanishes in the mean of what is steady
+  std::vector<LawsWith> traits = {};
+
+  /// Whether a law has a trait; "table:a.h5" is the law "table:FILE".
+  [[nodiscard]] bool law_has(const std::string& law, const Trait& trait) const;
+  /// The same of the law that a scene gives this role; false of a role that it leaves out or to the chooser.
+  [[nodiscard]] bool has(const core::Scene& scene, const Trait& trait) const {
+    return law_has(core::law_of(scene, role), trait);
+  }
 };
 
 /// An effect with the models that act on it.

@@ -13,6 +13,9 @@ struct NumberBand {
   double least = 0, most = 0;
 };
 
+/// In place of a number in words, where none decides.
+inline constexpr const char* no_number = "-";
+
 struct EffectRow {
   enum class State { on, off, unknown };
   enum class Kind {
@@ -42,6 +45,8 @@ struct EffectRow {
   std::string reason;
   std::string remark;     ///< added to the reason, whatever is decided
   std::string not_built;  ///< why a run cannot have it; empty: it can
+
+  [[nodiscard]] bool has_number() const { return number != no_number; }
 };
 
 /// A row that is not yet weighed.

@@ -1,4 +1,5 @@
 #include "relevance/effect_rules.hpp"
+#include "core/case/laws.hpp"
 
 namespace polybed::relevance {
 
@@ -7,8 +8,6 @@ namespace {
 using core::Broken;
 using core::Rule;
 using core::Scene;
-
-bool is_named(const std::string& law) { return law != "none" && law != core::automatic; }
 
 std::string key_of(const std::string& role) { return "effects." + role; }
 
@@ -24,7 +23,7 @@ Rule rule_of(const std::string& role, const std::vector<std::string>& rests_on, 
              std::function<bool(const Scene&)> wrong) {
   return {keys_of(role, rests_on), message, [=, wrong = std::move(wrong)](const Scene& scene) {
             const std::string law = core::law_of(scene, role);
-            return is_named(law) && wrong(scene) ? Broken({law}) : Broken();
+            return core::is_law(law) && wrong(scene) ? Broken({law}) : Broken();
           }};
 }
 
@@ -48,11 +47,11 @@ Rule idle_in_a_sheared_box(const std::string& role) {
       }};
 }
 
-std::vector<Rule> excludes(const std::string& role, const std::string& law, const std::string& other,
+std::vector<Rule> excludes(const std::string& role, const std::optional<std::string>& law, const std::string& other,
                            const std::string& other_law, const std::string& why) {
   const auto both = [=](const Scene& scene) {
     const std::string one = core::law_of(scene, role);
-    return (law == "*" ? is_named(one) : one == law) && core::law_of(scene, other) == other_law;
+    return (law ? one == *law : core::is_law(one)) && core::law_of(scene, other) == other_law;
   };
   const std::string at = key_of(role), against = key_of(other);
   return {{{at, against},

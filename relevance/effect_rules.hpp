@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,11 @@ namespace polybed::relevance {
 /// Of what the fluid of a sheared box, which moves with its flow, cannot do.
 [[nodiscard]] core::Rule idle_in_a_sheared_box(const std::string& role);
 
-/// Two rules, one at each role: a law of one cannot be with a law of another. \param law  "*": any
-[[nodiscard]] std::vector<core::Rule> excludes(const std::string& role, const std::string& law,
+/// In place of a law: any that the scene names.
+inline constexpr std::nullopt_t any_law = std::nullopt;
+
+/// Two rules, one at each role: a law of one cannot be with a law of another.
+[[nodiscard]] std::vector<core::Rule> excludes(const std::string& role, const std::optional<std::string>& law,
                                                const std::string& other, const std::string& other_law,
                                                const std::string& why);
 

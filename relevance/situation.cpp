@@ -1,6 +1,7 @@
 #include "relevance/situation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -10,6 +11,7 @@
 #include "closures/mixture.hpp"
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "core/case/laws.hpp"
 #include "core/case/particle_list.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -106,7 +108,7 @@ class BedInFluid {
     const auto f = [&](double eps, double re) { return closures::pure_drag_at(law_, eps, re); };
     // A packed bed takes no more than what carries it: beyond, it expands.
     const double lifts = bed_.excess * bed_.gravity > 0 ? closures::carrying_velocity(f, bed_, packed) : velocity;
-    if (velocity > 0) add("packed", std::min(velocity, lifts), packed);
+    if (velocity > 0) add(Zone::packed, std::min(velocity, lifts), packed);
     if (const auto known = scene_.chooser.voidage) {
       add_bulk(velocity, *known);
     } else if (velocity > 0) {
@@ -138,7 +140,7 @@ class BedInFluid {
     return s;
   }
 
-  void add(const std::string& zone, double velocity, double voidage) {
+  void add(Zone zone, double velocity, double voidage) {
     if (!(velocity > 0)) return;
     std::vector<double> slip(diameter_.size(), velocity), f(diameter_.size()), slope(diameter_.size());
     closures::drag_of_mixture(law_, voidage, survey_.share, diameter_, slip, fluid_.density, fluid_.viscosity, f,
@@ -148,12 +150,12 @@ class BedInFluid {
       if (f[j] > 0) s.f = f[j];
       survey_.situations.push_back(s);
     }
-    if (zone == "bulk") note_mixture(velocity, voidage, f);
+    if (zone == Zone::bulk) note_mixture(velocity, voidage, f);
   }
 
   void add_bulk(double velocity, double voidage) {
-    add("bulk", velocity, voidage);
-    if (scene_.column.sides == core::Boundary::wall) add("wall", velocity, voidage);
+    add(Zone::bulk, velocity, voidage);
+    if (scene_.column.sides == core::Boundary::wall) add(Zone::wall, velocity, voidage);
   }
 
   /// One particle above the bed: carried up, or falling back.
@@ -163,7 +165,7 @@ class BedInFluid {
       const double terminal = closures::settling_velocity(p.diameter, p.density - p.fluid_density, p.fluid_density,
                                                           p.viscosity, scene_.column.gravity);
       if (const double w = std::max(velocity, terminal); w > 0)
-        survey_.situations.push_back(in_zone(p, "freeboard", w, 1, law_));
+        survey_.situations.push_back(in_zone(p, Zone::freeboard, w, 1, law_));
     }
   }
 
@@ -203,7 +205,7 @@ std::vector<Situation> dry_bed(const core::Scene& scene) {
   std::vector<Situation> bed;
   for (const core::Species& species : scene.species) {
     Situation s;
-    s.zone = "packed";
+    s.zone = Zone::packed;
     s.species = species.name;
     s.diameter = species.diameter;
     s.density = species.density;
@@ -228,8 +230,13 @@ double Situation::time() const { return closures::time_of_scene(width, slip, rel
 
 double Situation::exchange() const { return 18 * viscosity * voidage * (1 - voidage) * f / (diameter * diameter); }
 
-Situation in_zone(Situation s, const std::string& zone, double velocity, double voidage, const closures::DragLaw& law) {
-  const bool alone = zone == "freeboard", at_wall = alone || zone == "wall";
+std::string name_of(Zone zone) {
+  constexpr std::array names{"packed", "bulk", "wall", "freeboard"};
+  return names.at(std::size_t(zone));
+}
+
+Situation in_zone(Situation s, Zone zone, double velocity, double voidage, const closures::DragLaw& law) {
+  const bool alone = zone == Zone::freeboard, at_wall = alone || zone == Zone::wall;
   s.zone = zone;
   s.velocity = velocity;
   s.voidage = voidage;
@@ -256,8 +263,7 @@ Survey survey(const core::Scene& scene) {
   find_scales_of_run(scene, fluid.density, s);
   s.is_gas = scene.fluid.substance() == core::Substance::air ||
              scene.fluid.equation_of_state == core::Compressibility::ideal_gas || fluid.density < lightest_liquid;
-  const std::string named = core::law_of(scene, "drag");
-  s.drag_law = named == "none" || named == core::automatic ? "cello" : named;
+  s.drag_law = core::names_law(scene, "drag") ? core::law_of(scene, "drag") : "cello";
   const std::string partition = core::law_of(scene, "partition");
   const closures::DragLaw law =
       partition == core::automatic ? drag_law_named(s.drag_law) : drag_law_named(s.drag_law, partition);
@@ -275,7 +281,7 @@ Survey survey(const core::Scene& scene) {
 std::vector<Situation> only_zones(const std::vector<Situation>& all, const std::vector<std::string>& zones) {
   std::vector<Situation> chosen;
   for (const Situation& s : all)
-    if (zones.empty() || std::find(zones.begin(), zones.end(), s.zone) != zones.end()) chosen.push_back(s);
+    if (zones.empty() || std::find(zones.begin(), zones.end(), name_of(s.zone)) != zones.end()) chosen.push_back(s);
   return chosen;
 }
 

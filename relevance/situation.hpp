@@ -10,9 +10,13 @@
 
 namespace polybed::relevance {
 
+enum class Zone { packed, bulk, wall, freeboard };
+/// As cases and tables call it.
+[[nodiscard]] std::string name_of(Zone zone);
+
 /// A particle of one species somewhere in the column.
 struct Situation {
-  std::string zone;     ///< packed | bulk | wall | freeboard
+  Zone zone{};
   std::string species;  ///< its name
   double diameter = 0, density = 0;
   double fluid_density = 0, viscosity = 0, temperature = 0;  ///< temperature 0: not known
@@ -37,7 +41,7 @@ struct Situation {
 };
 
 /// A species in a zone; what follows from zone, velocity and voidage is filled in: slip U/eps, drag, shear.
-[[nodiscard]] Situation in_zone(Situation particle, const std::string& zone, double velocity, double voidage,
+[[nodiscard]] Situation in_zone(Situation particle, Zone zone, double velocity, double voidage,
                                 const closures::DragLaw& law);
 
 /// What a scene spans.

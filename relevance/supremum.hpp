@@ -33,8 +33,8 @@ class Supremum {
  private:
   using Placed = std::optional<std::pair<double, std::string>>;
   void note(const Situation& s, double value, Placed& greatest) {
-    if (!greatest || value > greatest->first) greatest = {value, s.species + ", " + s.zone};
-    auto& zone = zones_.try_emplace(s.zone, value).first->second;
+    if (!greatest || value > greatest->first) greatest = {value, s.species + ", " + name_of(s.zone)};
+    auto& zone = zones_.try_emplace(name_of(s.zone), value).first->second;
     zone = std::max(zone, value);
   }
   Placed certain_, uncertain_;

@@ -1,5 +1,6 @@
 #include "tfm/effects.hpp"
 
+#include "core/case/laws.hpp"
 #include "tfm/effects/maker.hpp"
 #include "tfm/effects/solids_wall_johnson_jackson.hpp"
 
@@ -11,7 +12,7 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
   Effects made;
   for (const Maker* one : list) {
     const std::string law = core::law_of(scene, one->effect->role);
-    if (one->make != nullptr && law != "none") one->make({scene, constants, boundaries, law, fields, made});
+    if (one->make != nullptr && !core::is_off(law)) one->make({scene, constants, boundaries, law, fields, made});
   }
   if (scene.tfm.solids_wall == core::SolidsWall::johnson_jackson)
     made.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);

@@ -6,6 +6,8 @@
 #include <variant>
 
 #include "closures/stress_frictional.hpp"
+#include "core/case/laws.hpp"
+#include "relevance/effects/solids_stress.hpp"
 #include "tfm/packing_limit.hpp"
 
 namespace polybed::tfm {
@@ -15,19 +17,15 @@ namespace {
 using core::Broken;
 using core::Scene;
 
-/// Whether a scene's solids have a stress with a part from collisions: kinetic, or a table, which may be of either
-/// kind.
-bool may_collide(const std::string& stress) { return stress == "kinetic" || stress.starts_with("table:"); }
-
 bool is_implicit(const Scene& scene) { return scene.tfm.integrator == core::TfmIntegrator::implicit_steps; }
 
-bool has_stress(const Scene& scene) { return core::law_of(scene, "solids_stress") != "none"; }
+bool has_stress(const Scene& scene) { return core::acts(scene, "solids_stress"); }
 
 Broken wall_without_viscosity(const Scene& scene) {
-  const std::string stress = core::law_of(scene, "solids_stress");
+  const bool left_open = core::law_of(scene, "solids_stress") == core::automatic;
   return core::broken_if(scene.tfm.solids_wall == core::SolidsWall::johnson_jackson &&
-                         core::law_of(scene, "solids_viscosity") == "none" && !may_collide(stress) &&
-                         stress != core::automatic);
+                         !core::acts(scene, "solids_viscosity") && !left_open &&
+                         !relevance::effects::solids_stress.has(scene, relevance::effects::with_collisions));
 }
 
 /// tfm.max_packing if it is a number, else 0.

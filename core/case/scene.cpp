@@ -1,5 +1,7 @@
 #include "core/case/scene.hpp"
 
+#include "core/case/laws.hpp"
+
 namespace polybed::core {
 
 Substance Fluid::substance() const {
@@ -12,6 +14,10 @@ std::string text_of(const Start& start) {
   const std::string_view word = name_of(start.kind);
   return std::string(word.substr(0, word.find("FILE"))) + start.file;
 }
+
+bool is_off(const std::string& law) { return law == "none"; }
+
+bool is_law(const std::string& law) { return !is_off(law) && law != automatic; }
 
 void set_friction(Scene& scene, double friction) {
   scene.material.friction = friction;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/case/laws.hpp"
 #include "core/case/scene.hpp"
 #include "dem/box.hpp"
 #include "dem/contacts/materials.hpp"
@@ -68,7 +69,7 @@ class AffineDrag final : public StepPart {
 
 /// Whether the drag of a scene is that of a sheared box.
 [[nodiscard]] inline bool has_affine_drag(const core::Scene& scene) {
-  return scene.fluid.present() && scene.column.shear_rate != 0 && core::law_of(scene, "drag") != "none";
+  return scene.fluid.present() && scene.column.shear_rate != 0 && core::acts(scene, "drag");
 }
 
 }  // namespace polybed::dem

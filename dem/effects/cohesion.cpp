@@ -213,22 +213,27 @@ core::Rule cohesion_needs_energy(const std::string& law) {
                                 [](const core::Scene& scene) { return !(scene.dem.cohesion_energy > 0); });
 }
 
+const PairMakers cohesions{
+    {"van_der_waals",
+     [](const PairMaking& m) {
+       m.laws.cohesion = std::make_unique<VanDerWaalsCohesion>(m.materials, m.scene.material.hamaker_constant,
+                                                               m.scene.dem.cohesion_gap, m.scene.dem.asperity_radius);
+     }},
+    {"dmt",
+     [](const PairMaking& m) {
+       m.laws.cohesion = std::make_unique<DmtCohesion>(m.materials, m.scene.dem.cohesion_energy);
+     }},
+    {"jkr", [](const PairMaking& m) {
+       m.laws.cohesion =
+           std::make_unique<JkrCohesion>(m.materials, m.scene.dem.cohesion_energy, m.laws.contact_memory());
+     }}};
+
 }  // namespace
 
 extern const Maker cohesion;
 const Maker cohesion{&relevance::effects::cohesion,
                      "Pair",
-                     MakePair([](const PairMaking& m) {
-                       const core::Dem& dem = m.scene.dem;
-                       if (m.law == "van_der_waals")
-                         m.laws.cohesion = std::make_unique<VanDerWaalsCohesion>(
-                             m.materials, m.scene.material.hamaker_constant, dem.cohesion_gap, dem.asperity_radius);
-                       else if (m.law == "dmt")
-                         m.laws.cohesion = std::make_unique<DmtCohesion>(m.materials, dem.cohesion_energy);
-                       else
-                         m.laws.cohesion =
-                             std::make_unique<JkrCohesion>(m.materials, dem.cohesion_energy, m.laws.contact_memory());
-                     }),
+                     MakePair([](const PairMaking& m) { cohesions.at(m.law)(m); }),
                      {"van_der_waals"},
                      {cohesion_needs_energy("dmt"), cohesion_needs_energy("jkr")}};
 

@@ -15,10 +15,14 @@ namespace polybed::dem::makers {
 
 namespace {
 
+bool contact_has(const PairMaking& m, const relevance::Trait& trait) {
+  return relevance::effects::contact.law_has(m.law, trait);
+}
+
 std::unique_ptr<TangentialLaw> make_tangential(const PairMaking& m, int place) {
   const core::Dem& dem = m.scene.dem;
-  if (m.law == "hertz") return nullptr;
-  if (m.law == "linear")
+  if (contact_has(m, relevance::effects::frictionless)) return nullptr;
+  if (contact_has(m, relevance::effects::linear_springs))
     return std::make_unique<SpringFriction>(m.materials, dem.normal_stiffness.value(), dem.tangential_ratio, place);
   if (dem.tangential == core::Tangential::mindlin) return std::make_unique<MindlinFriction>(m.materials, place);
   if (dem.tangential == core::Tangential::mindlin_deresiewicz)
@@ -28,7 +32,7 @@ std::unique_ptr<TangentialLaw> make_tangential(const PairMaking& m, int place) {
 
 void make_contact(const PairMaking& m) {
   const MakeNormal make = [&](const Materials& materials, core::Tail tail) -> std::unique_ptr<NormalLaw> {
-    if (m.law != "linear") return std::make_unique<HertzContact>(materials, tail);
+    if (!contact_has(m, relevance::effects::linear_springs)) return std::make_unique<HertzContact>(materials, tail);
     return std::make_unique<LinearContact>(materials, m.scene.dem.normal_stiffness.value(), tail);
   };
   m.laws.normal = m.around_normal ? m.around_normal(make) : make(m.materials, m.scene.dem.tail);
@@ -41,7 +45,8 @@ core::Rule linear_has_no_radius(core::Tangential tangential) {
               "\" needs the radius of a contact, which effects.contact = \"linear\" has not: use hertz_mindlin, or "
               "dem.tangential = \"linear\"",
           [tangential](const core::Scene& scene) {
-            return core::broken_if(core::law_of(scene, "contact") == "linear" && scene.dem.tangential == tangential);
+            return core::broken_if(relevance::effects::contact.has(scene, relevance::effects::linear_springs) &&
+                                   scene.dem.tangential == tangential);
           }};
 }
 
@@ -55,7 +60,8 @@ std::vector<core::Rule> contact_rules() {
            "dem.tangential = \"linear\" is a share of dem.normal_stiffness: it goes with effects.contact = "
            "\"linear\"",
            [](const core::Scene& scene) {
-             return core::broken_if(core::law_of(scene, "contact") == "hertz_mindlin" &&
+             using namespace relevance::effects;
+             return core::broken_if(contact.has(scene, elastic_spheres) && !contact.has(scene, frictionless) &&
                                     scene.dem.tangential == core::Tangential::linear);
            }}};
 }

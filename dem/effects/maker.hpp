@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "closures/drag.hpp"
+#include "core/case/laws.hpp"
 #include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
 #include "dem/contacts/materials.hpp"
@@ -33,6 +35,9 @@ struct PairMaking {
   std::function<std::unique_ptr<NormalLaw>(const MakeNormal&)>& around_normal;  ///< empty: the normal force as it is
 };
 using MakePair = void (*)(const PairMaking&);
+
+/// The maker of each law of an effect of the slot Pair.
+using PairMakers = std::map<std::string, MakePair>;
 
 /// Slot Force.
 struct ForceMaking {
@@ -76,7 +81,7 @@ void for_each_called(const std::vector<const Maker*>& list, const core::Scene& s
   for (const Maker* one : list) {
     const Make* make = std::get_if<Make>(&one->make);
     const std::string law = core::law_of(scene, one->effect->role);
-    if (make != nullptr && law != "none") body(*make, law);
+    if (make != nullptr && !core::is_off(law)) body(*make, law);
   }
 }
 

@@ -137,23 +137,28 @@ std::vector<core::Rule> rolling_rules() {
           {{"dem.rolling_damping", "effects.rolling"},
            "dem.rolling_damping: effects.rolling = \"cdt\" has no spring to damp; use epsd",
            [](const core::Scene& scene) {
-             return core::broken_if(core::law_of(scene, "rolling") == "cdt" && scene.dem.rolling_damping > 0);
+             return core::broken_if(relevance::effects::rolling.has(scene, relevance::effects::without_spring) &&
+                                    scene.dem.rolling_damping > 0);
            }}};
 }
+
+const PairMakers resistances{{"cdt",
+                              [](const PairMaking& m) {
+                                m.laws.rolling =
+                                    std::make_unique<ConstantRolling>(m.materials, m.scene.dem.rolling_friction);
+                              }},
+                             {"epsd", [](const PairMaking& m) {
+                                const core::Dem& dem = m.scene.dem;
+                                m.laws.rolling = std::make_unique<SpringRolling>(
+                                    m.materials, dem.rolling_friction, dem.rolling_damping, m.laws.contact_memory());
+                              }}};
 
 }  // namespace
 
 extern const Maker rolling;
 const Maker rolling{&relevance::effects::rolling,
                     "Pair",
-                    MakePair([](const PairMaking& m) {
-                      const core::Dem& dem = m.scene.dem;
-                      if (m.law == "cdt")
-                        m.laws.rolling = std::make_unique<ConstantRolling>(m.materials, dem.rolling_friction);
-                      else
-                        m.laws.rolling = std::make_unique<SpringRolling>(m.materials, dem.rolling_friction,
-                                                                         dem.rolling_damping, m.laws.contact_memory());
-                    }),
+                    MakePair([](const PairMaking& m) { resistances.at(m.law)(m); }),
                     {"cdt", "epsd"},
                     rolling_rules()};
 

@@ -7,6 +7,7 @@
 #include "closures/bed_expansion.hpp"
 #include "closures/drag.hpp"
 #include "closures/sphere.hpp"
+#include "core/case/laws.hpp"
 #include "core/error.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/timers.hpp"
@@ -36,9 +37,9 @@ constexpr int heights = 9, blocks_of_a_bed = 20;
 /// Superficial velocity at which drag carries the buoyant weight at a voidage.
 double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, double voidage) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
-  const std::string name = core::law_of(scene, "drag");
-  if (name == "none") throw core::CaseError("calibrate.regime = \"bed\" needs a drag law: [effects] drag = ...");
-  const closures::DragLaw law = relevance::drag_law_named(name);
+  if (!core::acts(scene, "drag"))
+    throw core::CaseError("calibrate.regime = \"bed\" needs a drag law: [effects] drag = ...");
+  const closures::DragLaw law = relevance::drag_law_named(core::law_of(scene, "drag"));
   return closures::carrying_velocity(
       [&](double eps, double reynolds) { return closures::pure_drag_at(law, eps, reynolds); },
       {mean.diameter, std::abs(mean.density - fluid.density), fluid.density, fluid.viscosity, scene.column.gravity},
@@ -174,7 +175,7 @@ core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point) {
   const double velocity = carrying_velocity(scene, mean, 1 - point.phi);
   box.inlet.superficial_velocity = {{0, velocity}};
   for (const char* role : {"drag", "partition", "lubrication", "added_mass"})
-    if (const std::string law = core::law_of(scene, role); law != "none") box.effects[role] = law;
+    if (core::acts(scene, role)) box.effects[role] = core::law_of(scene, role);
   box.effects["contact"] = "hertz_mindlin";
   box.dem = scene.dem;
   box.material = scene.material;

@@ -7,6 +7,7 @@
 #include "closures/restitution.hpp"
 #include "closures/sphere.hpp"
 #include "closures/stress_reference.hpp"
+#include "core/case/laws.hpp"
 #include "core/error.hpp"
 #include "multiscale/calibrate/bed_scene.hpp"
 #include "multiscale/calibrate/plan.hpp"
@@ -98,8 +99,8 @@ void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
   box.effects["drag"] = core::law_of(scene, "drag");
   if (const auto partition = scene.effects.find("partition"); partition != scene.effects.end())
     box.effects.insert(*partition);
-  if (const std::string film = core::law_of(scene, "lubrication"); film != "none") {
-    box.effects["lubrication"] = film;
+  if (core::acts(scene, "lubrication")) {
+    box.effects["lubrication"] = core::law_of(scene, "lubrication");
     box.material.roughness = std::max(scene.material.roughness, scene.calibrate.film_gap * d);
     // A film acts as if it were thicker by 36 pi mu R*^2 dt/m* (dem/effects/film.hpp), R* = d/4.
     step = std::min(step, box.material.roughness * scales.least_mass / (36 * pi * mu * d * d / 16));

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
+#include <variant>
 
 #include "core/case/file.hpp"
+#include "core/case/laws.hpp"
 #include "core/timers.hpp"
 #include "dem/effects/maker.hpp"
 #include "dem/model.hpp"
@@ -41,16 +45,18 @@ density = 2000
 
 /// An effect that is added to that case, or with "none" taken from it.
 struct Benched {
-  std::string effect, law, model, per;
+  std::string effect, law;
+  CostUnit unit;
 };
 
 std::vector<Benched> benched_effects() {
   std::vector<Benched> all;
   for (const dem::Maker* one : dem::effects())
     for (const std::string& law : one->benched)
-      all.push_back({one->effect->role, law, "dem", one->slot == "Pair" ? "contact" : "particle"});
+      all.push_back({one->effect->role, law,
+                     std::holds_alternative<dem::MakePair>(one->make) ? CostUnit::contact : CostUnit::particle});
   for (const tfm::Maker* one : tfm::effects())
-    for (const std::string& law : one->benched) all.push_back({one->effect->role, law, "tfm", "cell"});
+    for (const std::string& law : one->benched) all.push_back({one->effect->role, law, CostUnit::cell});
   return all;
 }
 
@@ -63,15 +69,17 @@ struct UnitCost {
 core::Scene scene_with(const Benched* effect) {
   core::Scene scene = core::parse_case(bench_case, "bench", {}, all_roles());
   if (effect == nullptr) return scene;
-  effect->law == "none" ? void(scene.effects.erase(effect->effect)) : void(scene.effects[effect->effect] = effect->law);
+  core::is_off(effect->law) ? void(scene.effects.erase(effect->effect))
+                            : void(scene.effects[effect->effect] = effect->law);
   return scene;
 }
 
 /// Time of the terms that effects are in, s: not of the pressure, whose iterations go up and down, nor of the solver.
 double seconds_of(const core::Timers& timers) {
+  const std::set<std::string> others{"pressure", "fluid", "neighbours"};
   double seconds = 0;
   for (const core::Timers::Term& term : timers.terms())
-    if (term.name != "pressure" && term.name != "fluid" && term.name != "neighbours") seconds += term.seconds;
+    if (!others.contains(term.name)) seconds += term.seconds;
   return seconds;
 }
 
@@ -84,10 +92,10 @@ std::pair<double, double> time_steps(Model& model, const core::Timers& timers, i
   return {seconds_of(timers) - begin, std::max(count() - done, 1.0)};
 }
 
-UnitCost time_particles(const Benched* effect, const std::string& per) {
+UnitCost time_particles(const Benched* effect, CostUnit per) {
   core::Timers timers;
   dem::Model model(scene_with(effect), timers);
-  const bool contacts = per == "contact";
+  const bool contacts = per == CostUnit::contact;
   const auto [seconds, units] = time_steps(model, timers, 32, 256, [&] {
     return double(contacts ? model.work().contact_steps : model.work().particle_steps);
   });
@@ -105,8 +113,8 @@ UnitCost time_cells(const Benched* effect) {
   return {seconds / units, 0};
 }
 
-UnitCost time_of(const Benched* effect, const std::string& model, const std::string& per) {
-  return model == "dem" ? time_particles(effect, per) : time_cells(effect);
+UnitCost time_of(const Benched* effect, CostUnit per) {
+  return per == CostUnit::cell ? time_cells(effect) : time_particles(effect, per);
 }
 
 /// The least time, which nothing else has disturbed, and how far the next is from it.
@@ -125,28 +133,35 @@ struct Least {
 
 }  // namespace
 
+std::string EffectCost::model() const { return unit == CostUnit::cell ? "tfm" : "dem"; }
+
+std::string EffectCost::per() const {
+  constexpr std::array names{"particle", "contact", "cell"};
+  return names.at(std::size_t(unit));
+}
+
 std::vector<EffectCost> bench_effects(int rounds) {
   const std::vector<Benched> effects = benched_effects();
   const core::Scene bare = scene_with(nullptr);
-  std::map<std::string, Least> plain;
+  std::map<CostUnit, Least> plain;
   std::vector<Least> with(effects.size());
   for (int round = 0; round < rounds; ++round) {
-    for (const char* per : {"particle", "contact", "cell"})
-      plain[per].add(time_of(nullptr, per == std::string("cell") ? "tfm" : "dem", per));
+    for (const CostUnit per : {CostUnit::particle, CostUnit::contact, CostUnit::cell})
+      plain[per].add(time_of(nullptr, per));
     for (std::size_t n = 0; n < effects.size(); ++n) {
-      UnitCost t = time_of(&effects[n], effects[n].model, effects[n].per);
+      UnitCost t = time_of(&effects[n], effects[n].unit);
       // Per contact of the plain run: what reaches further has more pairs, and all of them are its cost.
-      if (effects[n].per == "contact") t.per_unit *= t.units / plain["contact"].units;
+      if (effects[n].unit == CostUnit::contact) t.per_unit *= t.units / plain[CostUnit::contact].units;
       with[n].add(t);
     }
   }
   std::vector<EffectCost> costs;
   for (std::size_t n = 0; n < effects.size(); ++n) {
     const Benched& e = effects[n];
-    const Least& without = plain.at(e.per);
-    const bool taken = e.law == "none";
+    const Least& without = plain.at(e.unit);
+    const bool taken = core::is_off(e.law);
     const double sign = taken ? -1e9 : 1e9;
-    costs.push_back({e.effect, taken ? core::law_of(bare, e.effect) : e.law, e.model, e.per,
+    costs.push_back({e.effect, taken ? core::law_of(bare, e.effect) : e.law, e.unit,
                      sign * (with[n].times[0] - without.times[0]), 1e9 * (with[n].spread() + without.spread()),
                      with[n].bytes > without.bytes ? with[n].bytes - without.bytes : 0});
   }
@@ -157,8 +172,9 @@ std::string bench_table(const std::vector<EffectCost>& costs) {
   std::string text =
       fmt::format("{:18} {:16} {:6} {:>10} {:>10} {:>8}  {}\n", "effect", "law", "model", "ns", "+-", "bytes", "per");
   for (const EffectCost& c : costs)
-    text += fmt::format("{:18} {:16} {:6} {:10.1f} {:10.1f} {:8}  {} and {}\n", c.effect, c.law, c.model, c.nanoseconds,
-                        c.spread, c.bytes, c.per, c.model == "dem" ? "step" : "right-hand side");
+    text +=
+        fmt::format("{:18} {:16} {:6} {:10.1f} {:10.1f} {:8}  {} and {}\n", c.effect, c.law, c.model(), c.nanoseconds,
+                    c.spread, c.bytes, c.per(), c.unit == CostUnit::cell ? "right-hand side" : "step");
   return text;
 }
 
@@ -167,8 +183,8 @@ void write_bench(core::Json& json, const std::vector<EffectCost>& costs) {
   for (const EffectCost& c : costs)
     all.push_back({{"effect", c.effect},
                    {"law", c.law},
-                   {"model", c.model},
-                   {"per", c.per},
+                   {"model", c.model()},
+                   {"per", c.per()},
                    {"ns", c.nanoseconds},
                    {"spread_ns", c.spread},
                    {"bytes", c.bytes}});

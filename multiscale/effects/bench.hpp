@@ -8,12 +8,18 @@
 
 namespace polybed::multiscale {
 
+/// What the cost of an effect is of; a cell is the two-fluid model's, the others are the particle model's.
+enum class CostUnit { particle, contact, cell };
+
 struct EffectCost {
-  std::string effect, law, model;
-  std::string per;         ///< particle | contact | cell
+  std::string effect, law;
+  CostUnit unit{};
   double nanoseconds = 0;  ///< of each step (of the two-fluid model: of each right-hand side), over the same without
   double spread = 0;       ///< of the least times from the next: less than this is nothing
   std::size_t bytes = 0;   ///< kept of each particle or contact
+
+  [[nodiscard]] std::string model() const;
+  [[nodiscard]] std::string per() const;  ///< the unit in words
 };
 
 /// \param rounds  repetitions, each of all runs in turn

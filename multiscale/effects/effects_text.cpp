@@ -1,4 +1,5 @@
 #include "multiscale/effects/effects_text.hpp"
+#include "core/case/laws.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ std::string state_text(const relevance::EffectRow& row) {
 std::string case_text(const core::Scene& scene, const relevance::EffectRow& row) {
   if (row.kind != Kind::role || !row.not_built.empty()) return "";
   const std::string law = core::law_of(scene, row.effect);
-  return law == "none" ? "off" : law;
+  return core::is_off(law) ? "off" : law;
 }
 
 std::string reason_text(const relevance::EffectRow& row) {
@@ -42,7 +43,7 @@ std::string line_of(const core::Scene& scene, const relevance::EffectRow& row) {
   return fmt::format("{:20} {:15} {:8} {:>14} {:>8} {:>8}  {:7} {:14} {}\n", row.effect, row.model, row.models,
                      value_text(row), row.threshold ? (row.below ? "<" : ">") + number(row.threshold) : "-",
                      number(row.neglected), state_text(row), case_text(scene, row),
-                     (row.number == "-" ? "" : row.number + ": ") + reason_text(row));
+                     (row.has_number() ? row.number + ": " : "") + reason_text(row));
 }
 
 }  // namespace

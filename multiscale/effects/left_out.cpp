@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "multiscale/effects/choice.hpp"
@@ -52,9 +53,10 @@ std::string largest_of(std::vector<LeftOutEffect> effects) {
 }
 
 std::string sum_text(const LeftOut& left_out) {
-  std::string text = fmt::format("left out of the {}: forces of {:.2g} of the weight (promise {:.2g}{})",
-                                 left_out.model == "tfm" ? "two-fluid model" : "particle model", left_out.sum,
-                                 left_out.promise, left_out.sum > left_out.promise ? ": more than promised" : "");
+  const std::map<std::string, std::string> names{{"tfm", "two-fluid model"}, {"dem", "particle model"}};
+  std::string text =
+      fmt::format("left out of the {}: forces of {:.2g} of the weight (promise {:.2g}{})", names.at(left_out.model),
+                  left_out.sum, left_out.promise, left_out.sum > left_out.promise ? ": more than promised" : "");
   if (left_out.up_to > std::max(left_out.sum, left_out.promise))
     text += fmt::format(", in a run up to {:.2g}", left_out.up_to);
   return text;

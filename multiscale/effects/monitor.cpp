@@ -127,9 +127,9 @@ std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
         fmt::format("{} neglected (bound {:.2g} %) reaches {:.2g} % for {:.2g} % of the particles near x = {:.3g} m, y "
                     "= {:.3g} m since "
                     "t = {:.4g} s",
-                    o.effect == "sum" ? "the sum of all forces" : o.effect, 100 * o.bound, 100 * o.greatest,
+                    o.of_all ? "the sum of all forces" : o.effect, 100 * o.bound, 100 * o.greatest,
                     100.0 * double(o.above) / double(o.count), o.place[0], o.place[1], since_[n]));
-    find_setting(o.effect);
+    find_setting(o);
   }
   warnings_.insert(warnings_.end(), lines.begin(), lines.end());
   if (!lines.empty() && scene_.chooser.monitor == core::MonitorMode::stop)
@@ -137,12 +137,13 @@ std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
   return lines;
 }
 
-void Monitor::find_setting(const std::string& effect) {
+void Monitor::find_setting(const Observed& exceeded) {
   const relevance::MenuEntry* most = nullptr;
   double greatest = 0;
   for (const Observed& o : latest_.observed()) {
     const relevance::MenuEntry* entry = find_entry(o.effect);
-    if (entry == nullptr || !can_be_added(*entry, model_) || (effect != "sum" && effect != o.effect)) continue;
+    if (entry == nullptr || !can_be_added(*entry, model_) || (!exceeded.of_all && exceeded.effect != o.effect))
+      continue;
     if (most == nullptr || o.greatest > greatest) most = entry, greatest = o.greatest;
   }
   if (most == nullptr) return;

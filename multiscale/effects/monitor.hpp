@@ -50,7 +50,7 @@ class Monitor {
 
  private:
   [[nodiscard]] std::vector<std::string> judge(const core::Ranks* ranks, double time);
-  void find_setting(const std::string& effect);
+  void find_setting(const Observed& exceeded);
 
   core::Scene scene_;
   Neglected seen_, latest_;  ///< of the whole run, and of the sample at hand

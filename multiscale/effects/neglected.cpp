@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "closures/relevance.hpp"
+#include "core/case/laws.hpp"
 #include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -55,7 +56,7 @@ Neglected::Neglected(const core::Scene& scene, const std::string& model)
   for (const relevance::EffectRow& row : choice.rows) {
     if (!row.summed) continue;
     const bool has_law = row.models.find(model) != std::string::npos && row.not_built.empty();
-    if (has_law && core::law_of(scene, row.effect) != "none") continue;
+    if (has_law && core::acts(scene, row.effect)) continue;
     const relevance::MenuEntry* entry = find_entry(row.effect);
     if (entry == nullptr || !entry->effect->share) {
       if (row.value.value_or(0) > 1e-3 * tolerance_) not_evaluated_.push_back(row.effect);
@@ -69,6 +70,7 @@ Neglected::Neglected(const core::Scene& scene, const std::string& model)
   }
   Observed sum;
   sum.effect = "sum";
+  sum.of_all = true;
   for (const Observed& one : observed_) sum.bound += one.bound;
   observed_.push_back(sum);
 }

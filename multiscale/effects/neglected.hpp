@@ -31,6 +31,7 @@ struct Encounter {
 /// One neglected force, or their sum.
 struct Observed {
   std::string effect;
+  bool of_all = false;              ///< the sum of all effects
   double bound = 0;                 ///< that it was left out with
   std::uint64_t count = 0;          ///< encounters within the closure's range
   std::uint64_t outside = 0;        ///< beyond it: not counted otherwise

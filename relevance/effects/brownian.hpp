@@ -3,6 +3,7 @@
 
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "core/case/laws.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
 #include "relevance/supremum.hpp"
@@ -35,11 +36,10 @@ inline const Effect brownian{
               rule_of("brownian", {"fluid.name", "fluid.temperature"},
                       "fluid.temperature: effects.brownian = \"{}\" needs it, as in \"20 degC\"",
                       [](const core::Scene& scene) { return scene.fluid.present() && !scene.fluid.temperature; }),
-              rule_of(
-                  "brownian", {"effects.drag", "dem.held"},
-                  "effects.brownian = \"{}\" moves particles against their drag: name a law of effects.drag, and "
-                  "leave out dem.held",
-                  [](const core::Scene& scene) { return scene.bed.held || core::law_of(scene, "drag") == "none"; })},
+              rule_of("brownian", {"effects.drag", "dem.held"},
+                      "effects.brownian = \"{}\" moves particles against their drag: name a law of effects.drag, and "
+                      "leave out dem.held",
+                      [](const core::Scene& scene) { return scene.bed.held || !core::acts(scene, "drag"); })},
     .number = "1/Pe",
     .weigh = weigh_brownian};
 

@@ -25,13 +25,20 @@ inline std::optional<EffectRow> weigh_contact(const Weighing& by, EffectRow row)
   return row;
 }
 
-inline const Effect contact{.role = "contact",
-                            .help = "forces of touching particles",
-                            .absent = "DEM only; reaches the TFM through the solids stress",
-                            .laws = {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential"},
-                                     {"hertz", "Hertz's normal force alone: no friction, no rotation"},
-                                     {"linear", "linear springs, dem.normal_stiffness"}},
-                            .number = "solids fraction",
-                            .weigh = weigh_contact};
+inline constexpr Trait frictionless{"no friction, so that nothing rotates"};
+inline constexpr Trait linear_springs{"by dem.normal_stiffness"};
+inline constexpr Trait elastic_spheres{"by Young's modulus"};
+
+inline const Effect contact{
+    .role = "contact",
+    .help = "forces of touching particles",
+    .absent = "DEM only; reaches the TFM through the solids stress",
+    .laws = {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential"},
+             {"hertz", "Hertz's normal force alone: no friction, no rotation"},
+             {"linear", "linear springs, dem.normal_stiffness"}},
+    .number = "solids fraction",
+    .weigh = weigh_contact,
+    .traits = {
+        {&frictionless, {"hertz"}}, {&linear_springs, {"linear"}}, {&elastic_spheres, {"hertz_mindlin", "hertz"}}}};
 
 }  // namespace polybed::relevance::effects

@@ -12,7 +12,8 @@ inline std::optional<EffectRow> weigh_fluid_stress(const Weighing& by, EffectRow
   row.threshold = by.scene.chooser.tolerance;
   Supremum greatest;
   for (const Situation& s : by.survey.situations)
-    if (s.zone != "freeboard") greatest.add(s, closures::fluid_stress_relevance(s.viscosity, s.exchange(), s.width));
+    if (s.zone != Zone::freeboard)
+      greatest.add(s, closures::fluid_stress_relevance(s.viscosity, s.exchange(), s.width));
   greatest.fill(row);
   return row;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "closures/relevance.hpp"
+#include "core/case/laws.hpp"
 #include "core/error.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
@@ -31,8 +32,7 @@ inline std::optional<EffectRow> weigh_gas_slip(const Weighing& by, EffectRow row
 
 /// Broken by a liquid; a fluid without known properties breaks a rule of its own.
 inline core::Broken slips_on_a_liquid(const core::Scene& scene) {
-  const std::string law = core::law_of(scene, "gas_slip");
-  if (law == "none" || law == core::automatic || !scene.fluid.present()) return {};
+  if (!core::names_law(scene, "gas_slip") || !scene.fluid.present()) return {};
   try {
     const double density = fluid_constants(scene.fluid).density;
     return density > lightest_liquid ? core::Broken({fmt::format("{:.4g}", density)}) : core::Broken();

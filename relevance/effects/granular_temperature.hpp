@@ -4,15 +4,17 @@
 #include <algorithm>
 
 #include "closures/relevance.hpp"
+#include "core/case/laws.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
+#include "relevance/effects/solids_stress.hpp"
 
 namespace polybed::relevance::effects {
 
 inline std::optional<EffectRow> weigh_granular_temperature(const Weighing& by, EffectRow row) {
   row.threshold = by.scene.chooser.tolerance;
   const EffectRow* stress = find_row(by.rows, "solids_stress");
-  if (stress == nullptr || stress->model != "kinetic") {
+  if (stress == nullptr || !solids_stress.law_has(stress->model, kinetic_theory)) {
     row.neglected = 0;
     row.reason = "acts only with kinetic solids_stress";
     return row;
@@ -23,9 +25,22 @@ inline std::optional<EffectRow> weigh_granular_temperature(const Weighing& by, E
     longest = std::max(longest, closures::conduction_length(s.diameter, std::min(by.survey.solids_fraction, 0.6),
                                                             std::min(s.restitution, 0.999)));
   row.value = longest / by.survey.height;
-  if (*row.value > *row.threshold) row.model = "transported";
-  row.reason = row.model == "transported" ? "conducted further than collisions let it stay" : "local balance is enough";
+  const bool far = *row.value > *row.threshold;
+  if (far) row.model = "transported";
+  row.reason = far ? "conducted further than collisions let it stay" : "local balance is enough";
   return row;
+}
+
+inline constexpr Trait transported{"an equation for each species"};
+[[nodiscard]] inline bool is_transported(const core::Scene& scene);
+
+/// Names of the species that lose nothing in collisions, whose temperature in a local balance has no bound.
+inline core::Broken elastic_species(const core::Scene& scene) {
+  if (!solids_stress.has(scene, kinetic_theory) || is_transported(scene)) return {};
+  std::string names;
+  for (const core::Species& species : scene.species)
+    if (species.restitution >= 1) names += (names.empty() ? "\"" : ", \"") + species.name + "\"";
+  return names.empty() ? core::Broken() : core::Broken({names});
 }
 
 inline const Effect granular_temperature{
@@ -34,13 +49,20 @@ inline const Effect granular_temperature{
     .absent = "particles have velocities of their own",
     .laws = {{"algebraic", "production, collisions and drag in balance; the default with solids_stress = kinetic"},
              {"transported", "one equation for each species"}},
-    .rules = joined({{rule_of("granular_temperature", {"effects.solids_stress"},
-                              "effects.granular_temperature = \"{}\" acts only with solids_stress = \"kinetic\" or a "
-                              "dry table",
-                              [](const core::Scene& scene) { return core::law_of(scene, "solids_stress") == "none"; })},
-                     excludes("granular_temperature", "*", "solids_stress", "frictional",
-                              "fluctuations act through the kinetic stress alone")}),
+    .rules =
+        joined({{{{"effects.solids_stress", "effects.granular_temperature", "species.restitution", "dem.restitution"},
+                  "effects.granular_temperature = \"algebraic\" needs a restitution below 1: species {}",
+                  elastic_species},
+                 rule_of("granular_temperature", {"effects.solids_stress"},
+                         "effects.granular_temperature = \"{}\" acts only with solids_stress = \"kinetic\" or a "
+                         "dry table",
+                         [](const core::Scene& scene) { return !core::acts(scene, "solids_stress"); })},
+                excludes("granular_temperature", any_law, "solids_stress", "frictional",
+                         "fluctuations act through the kinetic stress alone")}),
     .number = "conduction length over height",
-    .weigh = weigh_granular_temperature};
+    .weigh = weigh_granular_temperature,
+    .traits = {{&transported, {"transported"}}}};
+
+inline bool is_transported(const core::Scene& scene) { return granular_temperature.has(scene, transported); }
 
 }  // namespace polybed::relevance::effects

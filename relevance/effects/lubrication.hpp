@@ -25,9 +25,9 @@ inline std::optional<EffectRow> weigh_lubrication(const Weighing& by, EffectRow 
     most = std::max(most, stokes(s.slip));
     if (!row.value || least < *row.value) {
       row.value = least;
-      row.where = s.species + ", " + s.zone;
+      row.where = s.species + ", " + name_of(s.zone);
     }
-    auto& zone = row.zones.try_emplace(s.zone, least).first->second;
+    auto& zone = row.zones.try_emplace(name_of(s.zone), least).first->second;
     zone = std::min(zone, least);
   }
   row.number = fmt::format("least St* (greatest {:.2g})", most);

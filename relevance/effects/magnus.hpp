@@ -5,6 +5,7 @@
 #include "closures/relevance.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
+#include "relevance/effects/contact.hpp"
 #include "relevance/effects/sheared.hpp"
 
 namespace polybed::relevance::effects {
@@ -25,8 +26,9 @@ inline std::optional<EffectRow> weigh_magnus(const Weighing& by, EffectRow row) 
 inline std::string magnus_is_idle(const Weighing& by) {
   const std::string given = core::law_of(by.scene, "contact");
   const bool free = given == core::automatic || !by.scene.effects.contains("contact");
-  const EffectRow* contact = find_row(by.rows, "contact");
-  const bool smooth = free ? contact != nullptr && contact->model == "hertz" : given == "hertz";
+  const EffectRow* contact_row = find_row(by.rows, "contact");
+  const bool smooth = free ? contact_row != nullptr && contact.law_has(contact_row->model, frictionless)
+                           : contact.law_has(given, frictionless);
   return smooth ? "without friction nothing rotates" : "";
 }
 
@@ -43,7 +45,7 @@ inline const Effect magnus{.role = "magnus",
                            .absent = "not in this version",
                            .laws = {{"rubinow_keller", "Rubinow and Keller 1961, times 0.45 above Re_p 1"}},
                            .rules = joined({{needs_a_fluid("magnus"), idle_in_a_sheared_box("magnus")},
-                                            excludes("magnus", "*", "contact", "hertz",
+                                            excludes("magnus", any_law, "contact", "hertz",
                                                      "a force of rotation, and nothing rotates without friction")}),
                            .number = "Magnus force over weight",
                            .weigh = weigh_magnus,

@@ -15,15 +15,18 @@ inline std::optional<EffectRow> weigh_rolling(const Weighing& by, EffectRow row)
   return row;
 }
 
+inline constexpr Trait without_spring{"a constant moment, which has nothing to damp"};
+
 inline const Effect rolling{
     .role = "rolling",
     .help = "moments that resist rolling, dem.rolling_friction",
     .absent = "DEM only; reaches the TFM through the solids stress",
     .laws = {{"cdt", "constant moment mu_r R* F_n against the rolling, for contacts that move (Ai et al. 2011, A)"},
              {"epsd", "spring of rotation capped at it, dem.rolling_damping, for heaps at rest (Ai et al. 2011, C)"}},
-    .rules =
-        excludes("rolling", "*", "contact", "hertz", "a resistance to rotation, and nothing rotates without friction"),
+    .rules = excludes("rolling", any_law, "contact", "hertz",
+                      "a resistance to rotation, and nothing rotates without friction"),
     .number = "chooser.static_heap",
-    .weigh = weigh_rolling};
+    .weigh = weigh_rolling,
+    .traits = {{&without_spring, {"cdt"}}}};
 
 }  // namespace polybed::relevance::effects

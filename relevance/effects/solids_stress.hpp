@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "relevance/effect.hpp"
-#include "relevance/effect_rules.hpp"
 
 namespace polybed::relevance::effects {
 
@@ -14,10 +13,10 @@ inline std::optional<double> inertia_of_shear(const Weighing& by, EffectRow& row
   for (const core::Species& species : by.scene.species) {
     std::optional<double> most;
     for (const Situation& s : by.survey.situations)
-      if (s.species == species.name && s.zone != "freeboard" && 1 - s.voidage > 1e-2) {
+      if (s.species == species.name && s.zone != Zone::freeboard && 1 - s.voidage > 1e-2) {
         const double value = s.shear * s.relaxation_time();
         most = std::max(most.value_or(0), value);
-        auto& zone = row.zones.try_emplace(s.zone, value).first->second;
+        auto& zone = row.zones.try_emplace(name_of(s.zone), value).first->second;
         zone = std::max(zone, value);
       }
     if (most && (!least || *most < *least)) {
@@ -44,15 +43,8 @@ inline std::optional<EffectRow> weigh_solids_stress(const Weighing& by, EffectRo
   return row;
 }
 
-/// Names of the species that lose nothing in collisions, whose temperature in a local balance has no bound.
-inline core::Broken elastic_species(const core::Scene& scene) {
-  if (core::law_of(scene, "solids_stress") != "kinetic" || core::law_of(scene, "granular_temperature") == "transported")
-    return {};
-  std::string names;
-  for (const core::Species& species : scene.species)
-    if (species.restitution >= 1) names += (names.empty() ? "\"" : ", \"") + species.name + "\"";
-  return names.empty() ? core::Broken() : core::Broken({names});
-}
+inline constexpr Trait kinetic_theory{"collisions as kinetic theory has them, with a granular temperature"};
+inline constexpr Trait with_collisions{"collisions add to it, or may: a table may be of either kind"};
 
 inline const Effect solids_stress{
     .role = "solids_stress",
@@ -62,10 +54,8 @@ inline const Effect solids_stress{
              {"kinetic", "the same, and kinetic theory of collisions: pressure and viscosity"},
              {"table:FILE",
               "frictional, and what polybed calibrate measured: of a fluidised bed, or of sheared particles"}},
-    .rules = {{{"effects.solids_stress", "effects.granular_temperature", "species.restitution", "dem.restitution"},
-               "effects.granular_temperature = \"algebraic\" needs a restitution below 1: species {}",
-               elastic_species}},
     .number = "shear rate x tau_p",
-    .weigh = weigh_solids_stress};
+    .weigh = weigh_solids_stress,
+    .traits = {{&kinetic_theory, {"kinetic"}}, {&with_collisions, {"kinetic", "table:FILE"}}}};
 
 }  // namespace polybed::relevance::effects

@@ -1,10 +1,13 @@
 // Resistance of packed solids to shear.
 #pragma once
 
+#include "core/case/laws.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
 
 namespace polybed::relevance::effects {
+
+inline constexpr Trait by_inertial_number{"its friction goes with the inertial number"};
 
 inline const Effect solids_viscosity{
     .role = "solids_viscosity",
@@ -14,11 +17,12 @@ inline const Effect solids_viscosity{
              {"mu_i", "mu(I) p_f/abs(gamma), capped; Jop, Forterre and Pouliquen 2006, dry grains"}},
     .rules = {rule_of("solids_viscosity", {"effects.solids_stress"},
                       "effects.solids_viscosity = \"{}\" needs a solids_stress: its pressure",
-                      [](const core::Scene& scene) { return core::law_of(scene, "solids_stress") == "none"; })},
-    .number = "-",
+                      [](const core::Scene& scene) { return !core::acts(scene, "solids_stress"); })},
+    .number = no_number,
     .weigh = [](const Weighing&, EffectRow row) -> std::optional<EffectRow> {
       row.reason = "by hand: no number decides it";
       return row;
-    }};
+    },
+    .traits = {{&by_inertial_number, {"mu_i"}}}};
 
 }  // namespace polybed::relevance::effects

@@ -25,7 +25,7 @@ inline std::optional<EffectRow> weigh_species_exchange(const Weighing& by, Effec
   double surface = 0, greatest = 0;
   for (std::size_t j = 0; j < n; ++j) surface += survey.share[j] * phi / scene.species[j].diameter;
   for (const Situation& s : survey.situations) {
-    if (s.zone != "bulk" || std::abs(s.voidage - eps) > 1e-9) continue;
+    if (s.zone != Zone::bulk || std::abs(s.voidage - eps) > 1e-9) continue;
     const auto own = std::find_if(scene.species.begin(), scene.species.end(),
                                   [&](const core::Species& species) { return species.name == s.species; });
     for (std::size_t k = 0; k < n; ++k) {

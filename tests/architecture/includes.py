@@ -2,7 +2,7 @@
 """Every #include goes down the layers, each library is seen where it is wrapped alone, and a source includes what it uses of
 the standard library and of fmt, itself or through a header of the program: sources are compiled several at a time,
 where another's include would do. A folder reads its own table of the case and what both models share, not the table of the
-other model."""
+other model. Its namespace is the folder's."""
 import functools
 import re
 import sys
@@ -96,8 +96,16 @@ def foreign_keys(name, text):
             enumerate(text.split("\n"), 1) if not line.lstrip().startswith("#") and read.search(literal_or_comment.sub("", line))]
 
 
+def foreign_namespace(name, text):
+    """A file's names are in the namespace of its folder. What it declares of others comes first."""
+    layer, opened = name.split("/")[0], re.findall(r"^namespace polybed::(\w+)[\w:]* \{$", text, re.M)
+    if layer not in MAY_USE or not opened or opened[-1] == layer:
+        return []
+    return [f"{name}: the namespace polybed::{opened[-1]} is not that of its folder"]
+
+
 def problems_of(name, text):
-    found = foreign_keys(name, text)
+    found = foreign_keys(name, text) + foreign_namespace(name, text)
     layer = name.split("/")[0]
     for number, line in enumerate(text.split("\n"), 1):
         match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
@@ -129,6 +137,8 @@ def self_test():
     assert problems_of("relevance/a.cpp", "scene.dem.gap = scene.dem.skin;")
     assert not problems_of("relevance/a.cpp", 'scene.dem.gap = 1;  // scene.tfm.rtol\na = "case.dem.x";')
     assert not problems_of("tfm/a.cpp", '#include "fluid/pressure.hpp"\n#include <vector>')
+    assert problems_of("app/a.cpp", "namespace polybed::multiscale {\n")
+    assert not problems_of("app/a.cpp", "namespace polybed::tfm {\n}\nnamespace polybed::app {\n")
     assert not_included("core/a.cpp", "std::vector<int> a;", {"map"})
     assert not not_included("core/a.cpp", "std::vector<int> a;  // no std::map", {"core/case/scene.hpp"})
 

@@ -36,7 +36,7 @@ core::ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const command_line::Ending ending = command_line::guarded([&] { return run(argc, argv); });
+  const app::Ending ending = app::guarded([&] { return run(argc, argv); });
   if (!ending.message.empty()) core::print(stderr, "{}\n", ending.message);
   return ending.code;
 }

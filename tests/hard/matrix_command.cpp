@@ -14,7 +14,7 @@
 namespace polybed::hard {
 
 namespace fs = std::filesystem;
-using multiscale::comma_list;
+using app::comma_list;
 
 core::ExitCode run_matrix(const Options& options) {
   const Choice choice{options.suite == "full", comma_list(options.only), comma_list(options.schemes),

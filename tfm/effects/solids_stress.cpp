@@ -2,6 +2,7 @@
 #include "relevance/effects/solids_stress.hpp"
 
 #include "closures/stress_reference.hpp"
+#include "core/case/laws.hpp"
 #include "core/start_error.hpp"
 #include "fluid/solids_table.hpp"
 #include "relevance/effects/granular_temperature.hpp"
@@ -43,7 +44,7 @@ void make_table_stress(const Making& m, const std::string& file) {
                                     closures::jamming_fraction(place.friction), table.inertia, file, fields);
     return;
   }
-  const bool transported = core::law_of(scene, "granular_temperature") == "transported";
+  const bool transported = relevance::effects::is_transported(scene);
   auto kinetic = std::make_unique<KineticStress>(scene, constants, boundaries, transported,
                                                  effects.solids_stress->max_packing(), fields);
   std::vector<double> restitution;
@@ -58,18 +59,18 @@ void make_table_stress(const Making& m, const std::string& file) {
 }
 
 void make_solids_stress(const Making& m) {
-  const std::string temperature = core::law_of(m.scene, "granular_temperature");
+  const relevance::Effect& temperature = relevance::effects::granular_temperature;
   if (const auto file = table_file(m.law)) {
     make_table_stress(m, *file);
   } else {
     m.effects.solids_stress = std::make_unique<FrictionalStress>(m.scene, m.constants, m.boundaries, m.fields);
-    if (m.law == "kinetic")
-      m.effects.collisions =
-          std::make_unique<KineticStress>(m.scene, m.constants, m.boundaries, temperature == "transported",
-                                          m.effects.solids_stress->max_packing(), m.fields);
+    if (relevance::effects::solids_stress.law_has(m.law, relevance::effects::kinetic_theory))
+      m.effects.collisions = std::make_unique<KineticStress>(m.scene, m.constants, m.boundaries,
+                                                             relevance::effects::is_transported(m.scene),
+                                                             m.effects.solids_stress->max_packing(), m.fields);
   }
-  if (temperature != "none" && dynamic_cast<KineticStress*>(m.effects.collisions.get()) == nullptr)
-    throw core::StartError("effects.granular_temperature = \"" + temperature +
+  if (core::acts(m.scene, temperature.role) && dynamic_cast<KineticStress*>(m.effects.collisions.get()) == nullptr)
+    throw core::StartError("effects.granular_temperature = \"" + core::law_of(m.scene, temperature.role) +
                            "\" acts only with solids_stress = \"kinetic\" or a dry table");
 }
 

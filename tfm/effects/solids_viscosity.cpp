@@ -34,7 +34,7 @@ FrictionalViscosity::FrictionalViscosity(const core::Scene& scene, const Constan
                                          const fluid::Boundaries& boundaries, const std::string& law, Fields& fields)
     : constants_(constants),
       boundaries_(boundaries),
-      inertial_(law == "mu_i"),
+      inertial_(relevance::effects::solids_viscosity.law_has(law, relevance::effects::by_inertial_number)),
       sine_(std::sin(scene.tfm.friction_angle * std::numbers::pi / 180)),
       cap_(scene.tfm.viscosity_cap),
       least_rate_(scene.tfm.least_shear_rate) {

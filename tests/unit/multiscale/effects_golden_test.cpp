@@ -89,7 +89,7 @@ Survey survey_of(const std::vector<Golden>& species) {
     p.viscosity = one.viscosity;
     p.width = 1e-3 * one.width;
     p.gravity = 9.81;
-    s.situations.push_back(relevance::in_zone(p, "wall", 1e-3 * one.velocity, one.voidage, law));
+    s.situations.push_back(relevance::in_zone(p, relevance::Zone::wall, 1e-3 * one.velocity, one.voidage, law));
     s.share.push_back(1.0 / double(species.size()));
   }
   return s;
