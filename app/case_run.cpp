@@ -50,6 +50,13 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
   if (!options_.resume) core::on_first(ranks_.get(), [&] { core::remove_results(directory_); });
 }
 
+namespace {
+
+/// Whether a state of run.json is that of a run that has come to its end.
+bool has_ended(const std::string& state) { return state != "running"; }
+
+}  // namespace
+
 /// Of what this process has simulated, or, while it runs, will.
 TimeBand CaseRun::prediction_of(double end) const {
   const double share = scene_.run.until > 0 ? std::clamp((end - begin_) / scene_.run.until, 0.0, 1.0) : 1;
@@ -57,13 +64,13 @@ TimeBand CaseRun::prediction_of(double end) const {
 }
 
 void CaseRun::write_prediction_of(core::Json& json, const std::string& state, double actual) {
-  const bool ended = state != "running";
+  const bool ended = has_ended(state);
   write_prediction(json, prediction_of(ended ? simulation().time() : scene_.run.until), ended, actual);
 }
 
 void CaseRun::write_card_of(core::Json& json, const std::string& state, double actual) {
   if (!first_) return;
-  const bool ended = state != "running";
+  const bool ended = has_ended(state);
   card_ = {expected_,
            {},
            limited_by(),

@@ -38,7 +38,7 @@ std::vector<std::string> words_from_command(const CLI::App& app, int argc, char*
 /// An unknown command is named with the nearest one; empty: the command is known, or there is none.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   int at = 1;
-  while (at < argc && argv[at][0] == '-') at += std::string_view(argv[at]) == "-n" ? 2 : 1;
+  while (at < argc && argv[at][0] == '-') at += argv[at][1] == 'n' ? 2 : 1;
   if (at >= argc) return "";
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());

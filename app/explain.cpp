@@ -82,7 +82,7 @@ void add_measures(const measures::Table<Source>& table, const std::string& word,
                   std::vector<std::string>& names) {
   for (const measures::Measure<Source>& measure : table) {
     names.push_back(measure.name);
-    const std::string column = measure.unit == "1" ? measure.name : measure.name + "_" + measure.unit;
+    const std::string column = measures::Single<Source>{measure.name, measure.unit, {}, {}}.column();
     if (word != measure.name && word != column) continue;
     found.push_back({title_of(measure.name, "measure, unit " + measure.unit) + "  " + measure.help + "\n",
                      {{"measure", measure.name}, {"unit", measure.unit}, {"help", measure.help}}});

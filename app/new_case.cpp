@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "app/options.hpp"
 #include "core/case/keys.hpp"
@@ -80,8 +82,8 @@ KnownCase case_named(const std::string& name) {
 
 /// Files that a case reads; what describes or evaluates it stays where it is.
 bool belongs_to_case(const fs::path& file) {
-  const std::string kind = file.extension().string();
-  return file.filename() == "case.toml" || kind == ".csv" || kind == ".h5";
+  constexpr std::array<std::string_view, 3> kinds{".toml", ".csv", ".h5"};
+  return std::find(kinds.begin(), kinds.end(), file.extension().string()) != kinds.end();
 }
 
 }  // namespace

@@ -124,11 +124,12 @@ class TfmRun final : public CaseRun {
 
   /// The most frequent of what limited the steps of this process; the ends that the clock sets are no limits.
   [[nodiscard]] std::string limited_by() const override {
+    constexpr std::string_view by_clock = "event";
     std::uint64_t steps = 0;
     const std::pair<const std::string, std::uint64_t>* most = nullptr;
     for (const auto& limit : limits_) {
       steps += limit.second;
-      if (limit.first != "event" && (most == nullptr || limit.second > most->second)) most = &limit;
+      if (limit.first != by_clock && (most == nullptr || limit.second > most->second)) most = &limit;
     }
     if (most == nullptr) return "";
     return fmt::format("{} in {:.0f} % of {} steps", most->first, 100 * double(most->second) / double(steps), steps);

@@ -23,8 +23,9 @@ bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) == 1; }
 
 std::string painted(std::FILE* stream, Colour colour, const std::string& text) {
   const char *refused = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
-  const bool plain = (refused != nullptr && *refused != '\0') || terminal == nullptr ||
-                     std::string_view(terminal) == "dumb" || !is_terminal(stream);
+  constexpr std::string_view without_colours = "dumb";
+  const bool plain = (refused != nullptr && *refused != '\0') || terminal == nullptr || terminal == without_colours ||
+                     !is_terminal(stream);
   if (plain) return text;
   constexpr int codes[] = {1, 31, 32, 33, 34};  // of ECMA-48, in the order of Colour
   return fmt::format("\033[{}m{}\033[0m", codes[std::size_t(colour)], text);

@@ -76,7 +76,7 @@ struct Balance {
 
 Balance balance_of(const core::Scene& scene) {
   Balance balance;
-  if (core::law_of(scene, "drag") != "none") balance.law = relevance::drag_law_of(scene);
+  if (scene.effects.contains("drag")) balance.law = relevance::drag_law_of(scene);
   const double solids = scene.bed.solids_fraction;
   if (solids > 0 && solids < 1) balance.packed = 1 - solids;
   return balance;
@@ -84,17 +84,23 @@ Balance balance_of(const core::Scene& scene) {
 
 /// What to expect of the whole bed at the velocity of its inlet.
 void expect(const core::Scene& scene, const Balance& balance, const CarriedBed& mixture, BedOfCase& bed) {
+  using enum Fluidisation;
   const double velocity = *bed.velocity;
-  bed.state = velocity < *bed.minimum_fluidisation ? "packed" : "fluidised";
+  bed.state = velocity < *bed.minimum_fluidisation ? packed : fluidised;
   double fastest = 0;
   for (const SpeciesInFluid& species : bed.species) fastest = std::max(fastest, species.terminal.value_or(0));
-  if (velocity > fastest) bed.state = "carried_out";
-  if (bed.state == "carried_out" || !balance.known() || !(scene.bed.static_height > 0)) return;
+  if (velocity > fastest) bed.state = carried_out;
+  if (bed.state == carried_out || !balance.known() || !(scene.bed.static_height > 0)) return;
   const double voidage = closures::carried_voidage(balance.drag(), mixture, velocity, balance.packed);
   if (voidage < 1) bed.height = scene.bed.static_height * (1 - balance.packed) / (1 - voidage);
 }
 
 }  // namespace
+
+std::string name_of(Fluidisation state) {
+  const char* names[] = {"", "packed", "fluidised", "carried_out"};
+  return names[std::size_t(state)];
+}
 
 std::optional<double> BedOfCase::velocity_ratio() const {
   if (!velocity || !minimum_fluidisation || !(*minimum_fluidisation > 0)) return {};

@@ -9,6 +9,12 @@
 
 namespace polybed::multiscale {
 
+/// What the fluid does to a bed; unknown: there is no flow, or no bed.
+enum class Fluidisation { unknown, packed, fluidised, carried_out };
+
+/// As run.json has it; empty if unknown.
+[[nodiscard]] std::string name_of(Fluidisation state);
+
 /// How a particle of one species behaves in the fluid. Empty: it does not sink in the fluid, or there is none.
 struct SpeciesInFluid {
   std::string name;
@@ -21,7 +27,7 @@ struct BedOfCase {
   std::vector<SpeciesInFluid> species;
   std::optional<double> minimum_fluidisation;  ///< of the mixture, at its Sauter diameter and mean density, m/s
   std::optional<double> velocity;              ///< superficial, mean over the bottom at the end of the run, m/s
-  std::string state;                           ///< expected: packed | fluidised | carried_out; empty: no flow, no bed
+  Fluidisation state{};                        ///< expected
   std::optional<double> height;                ///< expected of a uniform bed, m
   [[nodiscard]] std::optional<double> velocity_ratio() const;
 };

@@ -66,12 +66,13 @@ Inventory inventory_of(const core::Scene& scene, const Window& window) {
   return all;
 }
 
-std::string state_of(const core::Scene& scene, const Window& window, const BedOfRun& bed) {
-  if (!scene.fluid.present() || scene.column.closed || scene.bed.start.kind == core::StartKind::list) return "";
+Fluidisation state_of(const core::Scene& scene, const Window& window, const BedOfRun& bed) {
+  using enum Fluidisation;
+  if (!scene.fluid.present() || scene.column.closed || scene.bed.start.kind == core::StartKind::list) return unknown;
   const Inventory all = inventory_of(scene, window);
-  if (all.last < 0.01 * all.first || all.centre > 0.75 * scene.column.size[1]) return "carried_out";
-  if (bed.drop) return bed.drop->value >= 0.95 ? "fluidised" : "packed";
-  return "";
+  if (all.last < 0.01 * all.first || all.centre > 0.75 * scene.column.size[1]) return carried_out;
+  if (bed.drop) return bed.drop->value >= 0.95 ? fluidised : packed;
+  return unknown;
 }
 
 /// Whether a species belongs below another one where each finds its place by weight.

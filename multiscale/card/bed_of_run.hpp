@@ -8,6 +8,7 @@
 
 #include "core/case/scene.hpp"
 #include "core/output/history.hpp"
+#include "multiscale/card/bed_of_case.hpp"
 
 namespace polybed::multiscale {
 
@@ -23,8 +24,8 @@ struct BedOfRun {
   std::optional<Mean> height;    ///< m
   std::optional<Mean> drop;      ///< pressure drop over the buoyant weight
   std::optional<double> mixing;  ///< 1 mixed, 0 separated
-  std::string state;             ///< packed | fluidised | carried_out; empty: neither a flow nor a bed
-  std::string layers;            ///< mixed | layered (denser, or else larger, below) | inverted; empty: one species
+  Fluidisation state{};
+  std::string layers;  ///< mixed | layered (denser, or else larger, below) | inverted; empty: one species
   std::map<std::string, double> out;       ///< kg since the start, of a scene that lets particles out
   std::map<std::string, double> recovery;  ///< the same over what was there at the start and was fed
   std::optional<double> discharge;         ///< kg/s, of a hopper

@@ -48,7 +48,12 @@ std::string text_of(const Mean& mean, double scale, const std::string& unit) {
   return fmt::format("{:.4g}{}{}", scale * mean.value, interval, unit);
 }
 
-std::string words_of(const std::string& state) { return state == "carried_out" ? "carried out" : state; }
+/// In words; empty if it is not known.
+std::string words_of(Fluidisation state) {
+  std::string words = name_of(state);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
 
 std::string each(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
@@ -100,8 +105,9 @@ std::string bed_text(const BedOfRun& bed) {
   std::vector<std::string> parts;
   for (const std::string& word : {words_of(bed.state), bed.layers})
     if (!word.empty()) parts.push_back(word);
-  if (bed.height && bed.state != "carried_out") parts.push_back(text_of(*bed.height, 1e3, " mm high"));
-  if (bed.drop && !bed.state.empty()) parts.push_back("pressure drop " + text_of(*bed.drop, 1, " of the weight"));
+  if (bed.height && bed.state != Fluidisation::carried_out) parts.push_back(text_of(*bed.height, 1e3, " mm high"));
+  if (bed.drop && bed.state != Fluidisation::unknown)
+    parts.push_back("pressure drop " + text_of(*bed.drop, 1, " of the weight"));
   return each(parts);
 }
 
@@ -152,7 +158,7 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
                   {"u_over_u_mf", core::or_null(expected.velocity_ratio())},
                   {"terminal_m_s", fluid ? terminal : core::Json()},
                   {"geldart", geldart.empty() ? core::Json() : geldart},
-                  {"state", text_or_null(seen.state)},
+                  {"state", text_or_null(name_of(seen.state))},
                   {"layers", text_or_null(seen.layers)},
                   {"bed_height_m", json_of(seen.height)},
                   {"pressure_drop_over_weight", json_of(seen.drop)},
@@ -168,7 +174,7 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
 
 std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOfCase& bed) {
   std::vector<std::string> lines;
-  if (!bed.state.empty()) {
+  if (bed.state != Fluidisation::unknown) {
     std::string text = words_of(bed.state);
     const double top = scene.column.size[1];
     if (bed.height)

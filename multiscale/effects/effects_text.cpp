@@ -58,6 +58,8 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return lines + line + "\n";
 }
 
+constexpr std::string_view off = "off";  // as case_text() has it
+
 /// What the table advises of a row.
 enum class Advice { none, add, replace, may_leave_out };
 
@@ -65,8 +67,8 @@ Advice advice_of(const core::Scene& scene, const relevance::EffectRow& row) {
   const std::string has = case_text(scene, row);
   if (row.kind != Kind::role || has.empty() || has == core::automatic || row.state == State::unknown)
     return Advice::none;
-  if (row.state == State::on) return has == "off" ? Advice::add : has != row.model ? Advice::replace : Advice::none;
-  return has != "off" && row.neglected ? Advice::may_leave_out : Advice::none;
+  if (row.state == State::on) return has == off ? Advice::add : has != row.model ? Advice::replace : Advice::none;
+  return has != off && row.neglected ? Advice::may_leave_out : Advice::none;
 }
 
 const char* mark_of(Advice advice) {

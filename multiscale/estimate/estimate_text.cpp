@@ -41,8 +41,9 @@ void write_estimate(core::Json& json, const CostEstimate& e) {
 }
 
 void print_estimate(const core::Scene& scene, const CostEstimate& e) {
+  constexpr std::string_view continuum = "tfm";
   core::print("{:.4g} s by the {} on {} rank{}: about {} of computing; 80 % of runs take {} to {}\n", scene.run.until,
-              e.model == "tfm" ? "two-fluid model" : "particle model", e.ranks, e.ranks > 1 ? "s" : "",
+              e.model == continuum ? "two-fluid model" : "particle model", e.ranks, e.ranks > 1 ? "s" : "",
               time_text(e.time.expected), time_text(e.time.least), time_text(e.time.most));
   core::print("  based on  {}\n", e.basis);
   if (e.ranks > 1) core::print("  wall time {}\n", time_text(e.wall));
