@@ -10,7 +10,7 @@ On only_first_rank() { return On::first_rank; }
 struct EffectsOptions {
   CaseOptions scene;
   std::string audited;
-  bool audit_json = false, bench_json = false;
+  bool audit_json = false, details = false, bench_json = false;
   int bench_rounds = 3;
 };
 
@@ -21,7 +21,7 @@ core::ExitCode run_effects(const EffectsOptions& options, bool audit, bool bench
   else if (options.scene.case_path.empty())
     throw core::CaseError("effects: name a CASE, audit RUN, or bench");
   else
-    run_effects(options.scene);
+    run_effects(options.scene, options.details);
   return core::ExitCode::done;
 }
 
@@ -30,10 +30,11 @@ core::ExitCode run_effects(const EffectsOptions& options, bool audit, bool bench
 void add_check(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<RunOptions>();
   const auto resolved = std::make_shared<bool>(false);
-  CLI::App& command = *app.add_subcommand("check", "the case, resolved, and what it will need; nothing is run");
+  CLI::App& command = *app.add_subcommand("check", "what to expect of a case and what it will need; nothing is run");
   take_case(command, *options);
   command.add_option("--until", options->until, "simulated time, e.g. \"20 s\"");
-  command.add_flag("--resolved", *resolved, "the case alone, without what it will need");
+  command.add_flag("--details", options->details, "the numerics, memory and all notes instead of one screen");
+  command.add_flag("--resolved", *resolved, "print the case with all defaults instead");
   commands.push_back({&command,
                       doing([options, resolved] { *resolved ? print_resolved(*options) : run_check(*options); }),
                       [resolved] { return *resolved ? On::one_process : On::first_rank; }});
@@ -44,9 +45,10 @@ void add_effects(CLI::App& app, Commands& commands) {
   CLI::App& command =
       *app.add_subcommand("effects", "which effects the scene calls for, with the number that decides each");
   take_case(command, options->scene, false);
+  command.add_flag("--details", options->details, "the reason of every row");
   command.require_subcommand(0, 1);
   CLI::App* audit = command.add_subcommand(
-      "audit", "what a run has left out, evaluated on all that it stored; code 3 if that breaks the promise");
+      "audit", "what a run has left out, evaluated on all that it stored; code 3 if that exceeds the bound");
   audit->add_option("RUN", options->audited, "run directory")->required();
   audit->add_flag("--json", options->audit_json, "one JSON object");
   CLI::App* bench =
@@ -67,6 +69,17 @@ void add_estimate(CLI::App& app, Commands& commands) {
   command.add_option("--probe", options->probe, "run the case itself for so long first, e.g. 5s");
   command.add_flag("--machine", options->machine, "measure this machine (30 s) and keep what was found");
   commands.push_back({&command, doing([options] { run_estimate(*options); }), only_first_rank});
+}
+
+void add_new(CLI::App& app, Commands& commands) {
+  struct Options {
+    std::string name, from;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("new", "write a case to start from: NAME/case.toml");
+  command.add_option("NAME", options->name, "folder of the new case")->required();
+  command.add_option("--from", options->from, "a template or a shipped case: polybed list cases")->required();
+  commands.push_back({&command, doing([options] { run_new(options->name, options->from); })});
 }
 
 void add_drag(CLI::App& app, Commands& commands) {
@@ -110,13 +123,16 @@ void add_keys(CLI::App& app, Commands& commands) {
   all.add_flag("--json", schema->json, "as JSON");
   all.add_flag("--markdown", schema->markdown, "as the page of the documentation");
   commands.push_back({&all, doing([schema] { run_schema(schema->json, schema->markdown); })});
-  CLI::App& one = *app.add_subcommand("explain", "one key with its range, default and equation");
-  one.add_option("KEY", explain->key, "e.g. tfm.rtol")->required();
+  CLI::App& one =
+      *app.add_subcommand("explain", "a key, role, law, measure, status, invariant, limit or exit code: what it means");
+  one.add_option("KEY", explain->key, "e.g. tfm.rtol, rtol, drag, cello, hollow, 3")->required();
   one.add_flag("--json", explain->json, "as JSON");
   commands.push_back({&one, doing([explain] { run_explain(explain->key, explain->json); })});
-  CLI::App& laws = *app.add_subcommand("list", "the effects and their laws");
+  CLI::App& laws = *app.add_subcommand("list", "the effects and their laws, or the cases to start from");
+  laws.add_option("WHAT", list->key, "cases: templates and shipped cases, instead")->check(CLI::IsMember({"cases"}));
   laws.add_flag("--json", list->json, "as JSON");
-  commands.push_back({&laws, doing([list] { run_list(list->json); })});
+  commands.push_back(
+      {&laws, doing([list] { list->key == "cases" ? run_list_cases(list->json) : run_list(list->json); })});
 }
 
 }  // namespace polybed::app

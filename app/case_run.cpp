@@ -8,6 +8,8 @@
 #include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
+#include "core/output/history.hpp"
+#include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "multiscale/picture.hpp"
 #include "multiscale/roles.hpp"
@@ -25,7 +27,10 @@ CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::
       model_name_(model),
       first_(core::is_first(ranks_.get())) {
   options_.quiet = options_.quiet || !first_;
-  core::on_first(ranks_.get(), [&] { left_out_ = left_out(scene_, model); });
+  core::on_first(ranks_.get(), [&] {
+    left_out_ = left_out(scene_, model);
+    expected_ = bed_of_case(scene_);
+  });
   for (const std::string& line : scene_warnings(scene_)) say({"warning: " + line});
 }
 
@@ -53,6 +58,22 @@ TimeBand CaseRun::prediction_of(double end) const {
 
 void CaseRun::write_prediction_of(core::Json& json, double actual) {
   write_prediction(json, prediction_of(ended_ ? simulation().time() : scene_.run.until), ended_, actual);
+}
+
+void CaseRun::write_card_of(core::Json& json, double actual) {
+  if (!first_) return;
+  card_ = {expected_,
+           {},
+           limited_by(),
+           left_out_,
+           promise_ ? promise_->kept() : std::nullopt,
+           ended_ ? std::optional(actual) : std::nullopt,
+           prediction_of(ended_ ? simulation().time() : scene_.run.until)};
+  try {
+    card_.seen = bed_of_run(scene_, core::read_history(directory_));
+  } catch (const core::FileError&) {  // no row yet, or removed meanwhile: the card is empty there
+  }
+  write_card(json, scene_, card_);
 }
 
 void CaseRun::print_prediction(double actual) {
@@ -187,12 +208,29 @@ void CaseRun::finish(const std::string& state) {
   std::string message;
   const bool drawn = options_.picture && draw_picture(directory_, message);
   if (!options_.quiet) {
-    print_timers(timers_);
-    print_summary();
+    if (options_.details) {
+      print_timers(timers_);
+      print_summary();
+    }
     if (drawn) core::print(stderr, "{}\n", message);
     if (options_.picture && !drawn) core::print(stderr, "no picture: {}\n", message);
+    print_end(text);
   }
   if (options_.json) core::print("{}\n", text);
+}
+
+/// Warnings, then the card.
+void CaseRun::print_end(const std::string& record) {
+  const core::Json json = core::parse_json(record);
+  for (const core::Json& warning : core::array_of(core::member_of(json, "warnings")))
+    core::print(stderr, "{} {}\n", core::painted(stderr, core::Colour::yellow, "warning:"), core::text_of(warning));
+  if (!options_.details) print_shares(timers_);
+  const std::string state = core::text_of(core::member_of(json, "state"));
+  core::print(
+      stderr, "\n{}\n{}\n", core::painted(stderr, core::Colour::bold, scene_.title.empty() ? "result" : scene_.title),
+      card_line("run",
+                fmt::format("{}, {:.4g} s of {} in {}", state, simulation().time(), model_name_, directory_.string())));
+  for (const std::string& line : result_lines(card_)) core::print(stderr, "{}\n", line);
 }
 
 void print_invariants(std::span<const measures::WorstInvariant> worst) {
@@ -228,6 +266,27 @@ void start_run(const RunStart& run, const std::function<void()>& start) {
       record_failed_start(run, stopped ? "stopped by the user" : fmt::format("failed: {}", error.what()));
     throw;
   }
+}
+
+void print_shares(const core::Timers& timers) {
+  constexpr std::size_t most_terms = 5;
+  constexpr double bar = 30;
+  std::vector<core::Timers::Term> terms = timers.terms();
+  double all = 0;
+  for (const core::Timers::Term& term : terms) all += term.seconds;
+  if (!(all > 0)) return;
+  std::stable_sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.seconds > b.seconds; });
+  if (terms.size() > most_terms) terms.resize(most_terms);
+  if (!core::is_terminal(stderr)) {
+    std::string line;
+    for (const core::Timers::Term& term : terms)
+      line += fmt::format("{}{} {:.0f} %", line.empty() ? "" : ", ", term.name, 100 * term.seconds / all);
+    return core::print(stderr, "time by term: {}\n", line);
+  }
+  for (const core::Timers::Term& term : terms)
+    core::print(
+        stderr, "{:26} {:3.0f} % {}\n", term.name, 100 * term.seconds / all,
+        core::painted(stderr, core::Colour::blue, std::string(std::size_t(bar * term.seconds / all + 0.5), '#')));
 }
 
 void print_timers(const core::Timers& timers) {

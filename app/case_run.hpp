@@ -18,6 +18,7 @@
 #include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "measures/invariants.hpp"
+#include "multiscale/card/card.hpp"
 #include "multiscale/effects/left_out.hpp"
 #include "multiscale/effects/monitor.hpp"
 #include "multiscale/estimate/estimate.hpp"
@@ -58,12 +59,17 @@ class CaseRun {
   /// After each step: false if the user wants to stop.
   [[nodiscard]] virtual bool after_step();
   [[nodiscard]] virtual std::vector<double> breakpoints() { return {}; }
+  /// What limited the step so far; empty: no step yet.
+  [[nodiscard]] virtual std::string limited_by() const = 0;
   /// What the whole run will take, told before it.
   [[nodiscard]] virtual TimeBand predicted() = 0;
 
   /// With what a row of the history has measured. A run that has broken a conservation law ends after the step, all
   /// that is due then being written, unless it is permissive. Collective.
   void judge(std::span<const measures::WorstInvariant> worst);
+
+  /// Writes "card", on the first rank. \param actual  CPU s of all ranks
+  void write_card_of(core::Json& json, double actual);
 
   /// Writes "prediction". \param actual  CPU s of all ranks
   void write_prediction_of(core::Json& json, double actual);
@@ -113,8 +119,11 @@ class CaseRun {
   /// The same for a run that ends with an error; a failure to write it does not hide that error.
   void record_if_possible(const std::string& state);
   void finish(const std::string& state);
+  void print_end(const std::string& record);
   [[noreturn]] void fail(const core::NumericsError& error);
 
+  BedOfCase expected_;                     ///< on the first rank
+  Card card_;                              ///< of the last record
   TimeBand prediction_;                    ///< of the whole run
   bool ended_ = false;                     ///< the run will not go on
   std::optional<std::string> broken_law_;  ///< what to say of it
@@ -139,5 +148,8 @@ void start_run(const RunStart& run, const std::function<void()>& start);
 
 /// Prints the table of time by term.
 void print_timers(const core::Timers& timers);
+
+/// Prints the share of the time that each of the longest terms took: bars on a terminal, else one line.
+void print_shares(const core::Timers& timers);
 
 }  // namespace polybed::app

@@ -1,4 +1,4 @@
-// polybed check: the case, resolved, and what it will need; nothing is run.
+// polybed check: what to expect of a case and what it will need, on one screen; nothing is run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +15,8 @@
 #include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "dem/continuum_scene.hpp"
+#include "multiscale/card/card.hpp"
+#include "multiscale/effects/left_out.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
@@ -161,37 +163,30 @@ void print_state(const char* name, const BedState& bed) {
   std::string text;
   for (const tfm::TimeScale& scale : bed.scales)
     if (std::isfinite(scale.seconds)) text += fmt::format("{} {:.2g} s, ", scale.process, scale.seconds);
-  core::print("#   {:8} (solids fraction {:.2f}): {}expected step {:.2g} s\n", name, bed.solids_fraction, text,
-              bed.step);
-}
-
-/// A time of computing as people say it.
-std::string time_text(double seconds) {
-  constexpr double short_time = 9.5;  // what rounds to one digit
-  return seconds < short_time ? fmt::format("{:.1g} s", seconds) : core::duration_text(seconds);
+  core::print("  {:8} (solids fraction {:.2f}): {}expected step {:.2g} s\n", name, bed.solids_fraction, text, bed.step);
 }
 
 void print_requirements(const core::Scene& scene, const Requirements& need) {
   constexpr double mega = 1e-6;
   const MemoryNeed& m = need.memory;
-  core::print("# {} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns,
-              core::name_of(need.integrator), need.reason);
-  core::print("# convection of momentum {} ({})\n", core::name_of(need.momentum.form), need.momentum.reason);
-  core::print("# memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
-              mega * m.total(), mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
-  core::print("# time scales of the bed, from the case alone:\n");
+  core::print("{} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, core::name_of(need.integrator),
+              need.reason);
+  core::print("convection of momentum {} ({})\n", core::name_of(need.momentum.form), need.momentum.reason);
+  core::print("memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n", mega * m.total(),
+              mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
+  core::print("time scales of the bed, from the case alone:\n");
   print_state("at rest", need.rest);
   if (need.expanded.solids_fraction != need.rest.solids_fraction) {
     print_state("lifted", need.lifted);
     print_state("expanded", need.expanded);
   }
   if (!need.time) {
-    core::print("# time: not known, the numbers failed in the sample that is measured\n");
+    core::print("time: not known, the numbers failed in the sample that is measured\n");
     return;
   }
   const TimeNeed& time = *need.time;
-  core::print("# computing {:.4g} s takes about {} here, between {} and {}: {:.2g} steps of {:.2g} s\n",
-              scene.run.until, time_text(time.expected), time_text(time.least), time_text(time.most), time.steps,
+  core::print("computing {:.4g} s takes about {} here, between {} and {}: {:.2g} steps of {:.2g} s\n", scene.run.until,
+              short_time(time.expected), short_time(time.least), short_time(time.most), time.steps,
               time.seconds_per_step);
 }
 
@@ -199,33 +194,81 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
 void print_size_classes(const core::Scene& scene) {
   for (const core::SizeClasses& record : scene.size_classes) {
     const double sauter = closures::sauter_diameter(record.share, record.diameter);
-    core::print("# {}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species,
+    core::print("{}: {} as {} classes, Sauter diameter {:.5g} m, y_m {:.5g}\n", record.species,
                 core::name_of(record.given.kind.value()), record.diameter.size(), sauter,
                 closures::poly_index_mean(record.share, record.diameter));
     for (std::size_t k = 0; k < record.diameter.size(); ++k)
-      core::print("#   {}.{}: diameter {:.6g} m, share {:.6g}, y {:.4g}\n", record.species, k + 1, record.diameter[k],
+      core::print("  {}.{}: diameter {:.6g} m, share {:.6g}, y {:.4g}\n", record.species, k + 1, record.diameter[k],
                   record.share[k], record.diameter[k] / sauter);
   }
 }
 
+// ---- the screen
+
+constexpr std::size_t screen = 25;  // lines
+
+std::string memory_text(double bytes) { return fmt::format("{:.0f} MB of memory", 1e-6 * bytes); }
+
+void add_continuum(const core::Scene& scene, const Requirements& need, std::vector<std::string>& lines) {
+  const std::string time = need.time ? fmt::format("about {} of computing, {} to {}", short_time(need.time->expected),
+                                                   short_time(need.time->least), short_time(need.time->most))
+                                     : "time not known: the numbers failed in a sample";
+  lines.push_back(card_line("polybed tfm", fmt::format("{:.4g} s on {} cells: {}; {}", scene.run.until, need.cells,
+                                                       time, memory_text(need.memory.total()))));
+}
+
+void add_particles(const core::Scene& scene, const ParticleRequirements& need, std::vector<std::string>& lines) {
+  lines.push_back(
+      card_line("polybed dem", fmt::format("{:.4g} s of {} particles: about {} of computing, {} to {}; {}",
+                                           scene.run.until, need.count(), short_time(need.expected),
+                                           short_time(need.least), short_time(need.most), memory_text(need.memory()))));
+  lines.push_back(card_line("", fmt::format("step {:.2g} s, limited by {}", need.limits.dt, need.limits.limited_by)));
+}
+
+/// Title, card, notes; those that do not fit on the screen are counted.
+void print_screen(const core::Scene& scene, std::vector<std::string> lines, const std::vector<std::string>& notes) {
+  const std::string title = scene.title.empty() ? "a case without a title" : scene.title;
+  core::print("{}\n", core::painted(stdout, core::Colour::bold, title));
+  for (const std::string& line : lines) core::print("{}\n", line);
+  const std::size_t room = screen - 3 - std::min(lines.size(), screen - 3);  // beside title, empty line and last line
+  const std::size_t shown = notes.size() <= room ? notes.size() : room - std::min<std::size_t>(room, 1);
+  if (!notes.empty()) core::print("\n");
+  for (std::size_t n = 0; n < shown; ++n)
+    core::print("{} {}\n", core::painted(stdout, core::Colour::yellow, "note:"), notes[n]);
+  if (shown < notes.size()) core::print("and {} more notes: polybed check --details\n", notes.size() - shown);
+  core::print("more: --details (numerics, memory), --resolved (all keys); polybed effects, polybed estimate\n");
+}
+
+/// What each model that runs the case leaves out.
+void add_left_out(const core::Scene& scene, const std::string& model, std::vector<std::string>& lines) {
+  lines.push_back(card_line("left out", model + ": " + left_out_text(left_out(scene, model))));
+}
+
 /// A case that only the particle model runs: what it will need there, and what keeps it from the continuum.
-void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons, bool as_json) {
-  const std::string text = core::resolved_case(scene);
+void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons,
+                          const RunOptions& options) {
   const ParticleRequirements need = particle_requirements_of(scene);
   std::vector<std::string> notes = need.warnings();
   notes.insert(notes.end(), reasons.begin(), reasons.end());
   for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
-  if (as_json) {
+  if (options.json) {
+    const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text}, {"hash", core::text_hash(text)}};
     write_particle_requirements(json, scene, need);
     write_size_classes(json, scene);
     json["notes"] = notes;
     return core::print("{}\n", core::json_text(json));
   }
-  core::print("{}\n", text);
-  print_size_classes(scene);
-  print_particle_requirements(scene, need);
-  for (const std::string& note : notes) core::print("# {}\n", note);
+  if (options.details) {
+    print_size_classes(scene);
+    print_particle_requirements(scene, need);
+    for (const std::string& note : notes) core::print("{}\n", note);
+    return;
+  }
+  std::vector<std::string> lines = expectation_lines(scene, bed_of_case(scene));
+  add_particles(scene, need, lines);
+  add_left_out(scene, "dem", lines);
+  print_screen(scene, lines, notes);
 }
 
 /// What a case that both models run will need as particles: of one that says how they touch. What keeps it from there
@@ -242,12 +285,31 @@ std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::
   return {};
 }
 
+/// What follows from the case and what it takes, all of it.
+void print_details(const core::Scene& scene, const Derived& derived, const Requirements& need,
+                   const std::optional<ParticleRequirements>& particles) {
+  print_size_classes(scene);
+  core::print("fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
+  if (derived.sound > 0) core::print("sound in the fluid {:.5g} m/s\n", derived.sound);
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    core::print("{}: terminal velocity {:.4g} m/s, Re of the inlet {:.4g}\n", scene.species[j].name,
+                derived.terminal[j], derived.reynolds[j]);
+  core::print("buoyant weight of the bed {:.5g} Pa per area\n", derived.weight);
+  if (derived.max_packing > 0) core::print("maximum packing {:.4f}\n", derived.max_packing);
+  print_requirements(scene, need);
+  if (particles) {
+    core::print("as particles, polybed dem:\n");
+    print_particle_requirements(scene, *particles);
+  }
+  for (const std::string& note : derived.notes) core::print("{}\n", note);
+}
+
 }  // namespace
 
 void run_check(const RunOptions& options) {
   const core::Scene scene = read_scene(options);
   if (const auto reasons = tfm::only_for_particles(scene); !reasons.empty())
-    return check_particle_scene(scene, reasons, options.json);
+    return check_particle_scene(scene, reasons, options);
   std::vector<std::string> hindrances;
   const std::optional<ParticleRequirements> particles =
       as_particles(scene, hindrances);  // while memory is the program's
@@ -259,8 +321,8 @@ void run_check(const RunOptions& options) {
   if (particles)
     for (const std::string& warning : particles->warnings()) derived.notes.push_back(warning);
   derived.notes.insert(derived.notes.end(), hindrances.begin(), hindrances.end());
-  const std::string text = core::resolved_case(scene);
   if (options.json) {
+    const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text},
                        {"hash", core::text_hash(text)},
                        {"fluid_density_kg_m3", derived.fluid.density},
@@ -274,21 +336,15 @@ void run_check(const RunOptions& options) {
     json["notes"] = derived.notes;
     return core::print("{}\n", core::json_text(json));
   }
-  core::print("{}\n", text);
-  print_size_classes(scene);
-  core::print("# fluid: density {:.6g} kg/m3, viscosity {:.6g} Pa s\n", derived.fluid.density, derived.fluid.viscosity);
-  if (derived.sound > 0) core::print("# sound in the fluid {:.5g} m/s\n", derived.sound);
-  for (std::size_t j = 0; j < scene.species.size(); ++j)
-    core::print("# {}: terminal velocity {:.4g} m/s, Re of the inlet {:.4g}\n", scene.species[j].name,
-                derived.terminal[j], derived.reynolds[j]);
-  core::print("# buoyant weight of the bed {:.5g} Pa per area\n", derived.weight);
-  if (derived.max_packing > 0) core::print("# maximum packing {:.4f}\n", derived.max_packing);
-  print_requirements(scene, need);
-  if (particles) {
-    core::print("# as particles, polybed dem:\n");
-    print_particle_requirements(scene, *particles);
-  }
-  for (const std::string& note : derived.notes) core::print("# {}\n", note);
+  if (options.details) return print_details(scene, derived, need, particles);
+  std::vector<std::string> lines = expectation_lines(scene, bed_of_case(scene));
+  lines.push_back(card_line(
+      "weight", fmt::format("{:.4g} Pa in the fluid: the pressure drop of the fluidised bed", derived.weight)));
+  add_continuum(scene, need, lines);
+  if (particles) add_particles(scene, *particles, lines);
+  add_left_out(scene, "tfm", lines);
+  if (particles) add_left_out(scene, "dem", lines);
+  print_screen(scene, lines, derived.notes);
 }
 
 }  // namespace polybed::app

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/commands.hpp"
+#include "core/case/keys.hpp"
 #include "core/error.hpp"
 #include "core/numerics/mpi_start.hpp"
 #include "core/numerics/ranks.hpp"
@@ -21,9 +22,9 @@ namespace {
 
 Commands add_commands(CLI::App& app) {
   Commands commands;
-  for (const auto add :
-       {add_tfm, add_dem, add_compare, add_check, add_effects, add_estimate, add_cost, add_drag, add_fit, add_inversion,
-        add_move_table, add_calibrate, add_measure, add_plot, add_report, add_watch, add_stability, add_keys})
+  for (const auto add : {add_new, add_tfm, add_dem, add_compare, add_check, add_effects, add_estimate, add_cost,
+                         add_drag, add_fit, add_inversion, add_move_table, add_calibrate, add_measure, add_plot,
+                         add_report, add_watch, add_stability, add_keys})
     add(app, commands);
   return commands;
 }
@@ -32,6 +33,20 @@ Commands add_commands(CLI::App& app) {
 std::vector<std::string> words_from_command(const CLI::App& app, int argc, char** argv) {
   const std::string command = app.get_subcommands().front()->get_name();
   return {std::find(argv, argv + argc, command), argv + argc};
+}
+
+/// An unknown command is named with the nearest one; empty: the command is known, or there is none.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  int at = 1;
+  while (at < argc && argv[at][0] == '-') at += argv[at][1] == 'n' ? 2 : 1;
+  if (at >= argc) return "";
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  const std::string word = argv[at];
+  if (std::find(names.begin(), names.end(), word) != names.end()) return "";
+  const std::string near = core::nearest_name(word, names);
+  return fmt::format("unknown command '{}'{}", word,
+                     near.empty() ? "; polybed --help lists them" : "; did you mean '" + near + "'?");
 }
 
 /// What was printed has to have arrived: a full disk shows only when the buffer is emptied.
@@ -61,6 +76,7 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
   app.add_option("-n", ranks, "before the command: the number of ranks that share it, by mpirun")
       ->check(CLI::Range(1, 1000000));
   const Commands commands = add_commands(app);
+  if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty()) throw core::CaseError(unknown);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

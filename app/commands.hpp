@@ -44,6 +44,8 @@ void add_plot(CLI::App& app, Commands& commands);
 void add_report(CLI::App& app, Commands& commands);
 void add_watch(CLI::App& app, Commands& commands);
 
+/// A case from a template.
+void add_new(CLI::App& app, Commands& commands);
 void add_check(CLI::App& app, Commands& commands);
 void add_effects(CLI::App& app, Commands& commands);
 void add_estimate(CLI::App& app, Commands& commands);

@@ -120,6 +120,7 @@ class DemRun final : public CaseRun {
                  {"integrator", model_.synchronised() ? "synchronised" : "thesis"},
                  {"integrator_reason", model_.limits().integrator_reason}});
     write_prediction_of(json, cpu_);
+    write_card_of(json, cpu_);
     json["step"] = step_json();
     write_overlap(json, model_.overlap_expected());
     json["work"] = work_json();
@@ -198,6 +199,10 @@ class DemRun final : public CaseRun {
     json["momentum_kg_m_s"] = t.momentum;
     json["contacts"] = t.contacts;
     json["max_overlap_m"] = t.max_overlap;
+  }
+
+  [[nodiscard]] std::string limited_by() const override {
+    return fmt::format("{}, {:.2g} s", model_.limits().limited_by, model_.limits().dt);
   }
 
   TimeBand predicted() override { return dem_time(scene_, known_machine()); }

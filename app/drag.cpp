@@ -1,6 +1,7 @@
 // polybed drag: a drag closure at a point, or for every row of a CSV file.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -66,6 +67,37 @@ double at_point(const DragLaw& law, double voidage, double reynolds, closures::G
   return f;
 }
 
+/// The laws of one size that are within their ranges at a point, from the least drag to the greatest.
+std::vector<std::pair<double, std::string>> laws_at(double voidage, double reynolds) {
+  std::vector<std::pair<double, std::string>> found;
+  for (const closures::DragLawInfo& info : closures::drag_laws()) {
+    if (!info.is_mean) continue;
+    closures::GuardCount count;
+    double f = 0, slope = 0;
+    closures::drag_of_points(closures::drag_law(info.name, closures::Guard::on), {&voidage, 1}, {&reynolds, 1}, {&f, 1},
+                             {&slope, 1}, count);
+    if (count.guarded == 0 && std::isfinite(f)) found.emplace_back(f, info.name);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// What the number is, on standard error: scripts read the number alone.
+void explain_point(const DragOptions& options, double f, bool outside) {
+  core::print(stderr,
+              "f = {:.5g}: drag without buoyancy over Stokes drag 3 pi mu D u, unit 1; n = f/voidage = {:.5g}\n", f,
+              f / *options.voidage);
+  for (const closures::DragLawInfo& info : closures::drag_laws())
+    if (info.name == options.law) core::print(stderr, "law {}: {}\n", info.name, info.help);
+  core::print(stderr, "range: {}\n",
+              !outside        ? "within"
+              : options.guard ? "outside the range of the law; its extension (guard) answered"
+                              : "outside the range of the law; the bare formula answered");
+  if (const auto laws = laws_at(*options.voidage, *options.reynolds); laws.size() > 1)
+    core::print(stderr, "band: {:.4g} ({}) to {:.4g} ({}), the {} laws of one size whose range has this point\n",
+                laws.front().first, laws.front().second, laws.back().first, laws.back().second, laws.size());
+}
+
 void print_point(const DragOptions& options, const DragLaw& law) {
   check_point(*options.voidage, *options.reynolds, "");
   closures::GuardCount count;
@@ -80,9 +112,7 @@ void print_point(const DragOptions& options, const DragLaw& law) {
     return;
   }
   core::print("{}\n", f);
-  if (count.guarded > 0)
-    core::print(stderr, "outside the range of {}: {}\n", options.law,
-                options.guard ? "the guard answered" : "bare formula");
+  explain_point(options, f, count.guarded > 0);
 }
 
 std::vector<std::string> split(const std::string& line) {

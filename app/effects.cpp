@@ -11,10 +11,10 @@
 
 namespace polybed::app {
 
-void run_effects(const CaseOptions& options) {
+void run_effects(const CaseOptions& options, bool details) {
   const core::Scene scene = read_case(options.case_path, options.overrides);
   const relevance::Choice choice = choose(scene);
-  if (!options.json) return core::print("{}", effects_table(scene, choice));
+  if (!options.json) return core::print("{}", effects_table(scene, choice, details));
   core::Json json;
   write_effects(json, scene, choice);
   core::print("{}\n", core::json_text(json));
@@ -35,10 +35,10 @@ core::ExitCode run_effects_audit(const std::filesystem::path& run, bool as_json)
     write_neglected(json, neglected);
     core::print("{}\n", core::json_text(json));
   } else {
-    const char* said = !neglected.kept()   ? "not to be told: all that was met is beyond the laws' range"
+    const char* said = !neglected.kept()   ? "not known: all encounters are outside the range of the laws"
                        : *neglected.kept() ? "kept"
                                            : "broken";
-    core::print("{}the promise, {:.2g} of the weight for 99 of 100 particles, is {}\n", neglected_table(neglected),
+    core::print("{}the bound, {:.2g} of the weight for 99 of 100 particles, is {}\n", neglected_table(neglected),
                 neglected.tolerance(), said);
   }
   return neglected.kept().value_or(false) ? core::ExitCode::done : core::ExitCode::numerics;

@@ -26,6 +26,7 @@ struct RunOptions : CaseOptions {
   bool resume = false, force = false, quiet = false;
   bool permissive = false;           ///< goes on where a conservation law is broken
   bool picture = true;               ///< drawn at the end
+  bool details = false;              ///< the numerics too, of a run and of polybed check
   bool closure_uncertainty = false;  ///< again with its drag law moved within its band
   bool stress_uncertainty = false;   ///< of the TFM: again with its stress table at plus and minus one standard error
 };
@@ -88,7 +89,7 @@ void run_dem(const RunOptions& options);
 void run_check(const RunOptions& options);
 /// The case alone, as a record of its run has it; as JSON with its hashes and why a model cannot run it.
 void print_resolved(const RunOptions& options);
-void run_effects(const CaseOptions& options);
+void run_effects(const CaseOptions& options, bool details);
 void run_effects_bench(int rounds, bool json);
 /// The code to end with: of numbers that failed where the promise is broken.
 core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
@@ -100,8 +101,12 @@ void run_inversion(const InversionOptions& options);
 void run_move_table(const MoveOptions& options);
 [[noreturn]] void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
-void run_explain(const std::string& key, bool json);
+void run_explain(const std::string& word, bool json);
 void run_list(bool json);
+/// Templates and shipped cases with what each shows and how long it takes.
+void run_list_cases(bool json);
+/// Writes NAME/case.toml, with the files that it reads.
+void run_new(const std::filesystem::path& name, const std::string& from);
 /// Becomes the study in Python, or serves it. \param words  its options
 core::ExitCode run_calibrate(const std::vector<std::string>& words);
 /// Whether these words are run by all ranks.

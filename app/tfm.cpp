@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "app/case_run.hpp"
 #include "app/closure_uncertainty.hpp"
@@ -78,6 +79,8 @@ class TfmRun final : public CaseRun {
 
   bool after_step() override {
     observers_->log_step();
+    const std::string& limit = model_.last_step().limited_by;
+    ++limits_[limit.substr(0, std::min(limit.find(" at ("), limit.find(": ")))];  // without the place
     watch(monitor_.get(), model_);
     return CaseRun::after_step();
   }
@@ -117,8 +120,23 @@ class TfmRun final : public CaseRun {
     std::vector<std::string> warnings = evenness_;
     if (monitor_) warnings.insert(warnings.end(), monitor_->warnings().begin(), monitor_->warnings().end());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
-                            promise ? &*promise : nullptr, std::move(warnings),
-                            [&](core::Json& json) { write_prediction_of(json, totals_.cpu_seconds); }});
+                            promise ? &*promise : nullptr, std::move(warnings), [&](core::Json& json) {
+                              write_prediction_of(json, totals_.cpu_seconds);
+                              write_card_of(json, totals_.cpu_seconds);
+                            }});
+  }
+
+  /// The most frequent of what limited the steps of this process; the ends that the clock sets are no limits.
+  [[nodiscard]] std::string limited_by() const override {
+    constexpr std::string_view by_clock = "event";
+    std::uint64_t steps = 0;
+    const std::pair<const std::string, std::uint64_t>* most = nullptr;
+    for (const auto& limit : limits_) {
+      steps += limit.second;
+      if (limit.first != by_clock && (most == nullptr || limit.second > most->second)) most = &limit;
+    }
+    if (most == nullptr) return "";
+    return fmt::format("{} in {:.0f} % of {} steps", most->first, 100 * double(most->second) / double(steps), steps);
   }
 
   TimeBand predicted() override { return tfm_time(scene_, model_, known_machine()); }
@@ -164,6 +182,7 @@ class TfmRun final : public CaseRun {
   std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: nothing is watched
   std::vector<double> initial_mass_;
   std::optional<tfm::Observers> observers_;
+  std::map<std::string, std::uint64_t> limits_;  ///< steps by what limited them
   RunTotals totals_;
 };
 

@@ -1,6 +1,10 @@
 #include "core/print.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstdlib>
+#include <string_view>
 
 namespace polybed::core {
 
@@ -13,6 +17,18 @@ int first_refusal = 0;  // the reason behind the error flag of standard output, 
 void put(std::FILE* stream, const std::string& text) {
   const bool taken = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   if (!taken && stream == stdout && first_refusal == 0) first_refusal = errno;
+}
+
+bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) == 1; }
+
+std::string painted(std::FILE* stream, Colour colour, const std::string& text) {
+  const char *refused = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
+  constexpr std::string_view without_colours = "dumb";
+  const bool plain = (refused != nullptr && *refused != '\0') || terminal == nullptr || terminal == without_colours ||
+                     !is_terminal(stream);
+  if (plain) return text;
+  constexpr int codes[] = {1, 31, 32, 33, 34};  // of ECMA-48, in the order of Colour
+  return fmt::format("\033[{}m{}\033[0m", codes[std::size_t(colour)], text);
 }
 
 int refusal_of_answer() {

@@ -12,6 +12,15 @@ namespace polybed::core {
 /// Writes a text to a stream, and never fails.
 void put(std::FILE* stream, const std::string& text);
 
+/// Whether a stream is a terminal.
+[[nodiscard]] bool is_terminal(std::FILE* stream);
+
+enum class Colour { bold, red, green, yellow, blue };
+
+/// A text in a colour where the stream is a terminal that has them and NO_COLOR (no-color.org) is not set; else as it
+/// is.
+[[nodiscard]] std::string painted(std::FILE* stream, Colour colour, const std::string& text);
+
 /// Why standard output has first refused a part of the answer, as errno; 0: all of it has arrived. Empties its buffer.
 [[nodiscard]] int refusal_of_answer();
 

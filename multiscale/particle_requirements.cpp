@@ -87,12 +87,12 @@ double expected_time(const ParticleRequirements& need, const ParticleSpeed& spee
 }
 
 void print_fluid(const FluidNeed& fluid) {
-  core::print("# fluid step {:.3g} s, one in {} of the particles': {:.3g} steps on {} cells\n", fluid.step, fluid.every,
+  core::print("fluid step {:.3g} s, one in {} of the particles': {:.3g} steps on {} cells\n", fluid.step, fluid.every,
               fluid.steps, fluid.cells);
   if (fluid.kernel.width > 0)
-    core::print("# kernel diffusion, {:.3g} mm wide: {}\n", 1e3 * fluid.kernel.width, fluid.kernel.reason);
+    core::print("kernel diffusion, {:.3g} mm wide: {}\n", 1e3 * fluid.kernel.width, fluid.kernel.reason);
   else
-    core::print("# kernel bilinear: {}\n", fluid.kernel.reason);
+    core::print("kernel bilinear: {}\n", fluid.kernel.reason);
 }
 
 }  // namespace
@@ -183,26 +183,25 @@ void print_particle_requirements(const core::Scene& scene, const ParticleRequire
   std::string each;
   for (std::size_t j = 0; j < need.numbers.size(); ++j)
     each += fmt::format("{}{} {}", j == 0 ? "" : ", ", need.numbers[j], scene.species[j].name);
-  core::print("# {} particles: {}\n", need.count(), each);
+  core::print("{} particles: {}\n", need.count(), each);
   const std::string fluid = need.fluid ? fmt::format("fluid {:.1f}, ", mega * need.fluid->memory) : "";
-  core::print("# memory about {:.0f} MB: particles and contacts {:.1f}, {}program {:.0f}\n", mega * need.memory(),
+  core::print("memory about {:.0f} MB: particles and contacts {:.1f}, {}program {:.0f}\n", mega * need.memory(),
               mega * need.particles, fluid, mega * need.program);
-  core::print("# time step {:.3g} s, limited by {}; greatest speed expected {:.3g} m/s; {} integrator ({})\n",
+  core::print("time step {:.3g} s, limited by {}; greatest speed expected {:.3g} m/s; {} integrator ({})\n",
               need.limits.dt, need.limits.limited_by, need.limits.greatest_speed,
               need.limits.synchronised ? "synchronised" : "thesis", need.limits.integrator_reason);
-  for (const dem::StepLimit& limit : need.limits.all) core::print("#   {}: {:.3g} s\n", limit.name, limit.dt);
-  core::print("# contacts overlap by up to {:.2g} of the smaller diameter, those of {}; the run stops above {:g}\n",
+  for (const dem::StepLimit& limit : need.limits.all) core::print("  {}: {:.3g} s\n", limit.name, limit.dt);
+  core::print("contacts overlap by up to {:.2g} of the smaller diameter, those of {}; the run stops above {:g}\n",
               need.overlap.share, need.overlap.pair, scene.dem.max_overlap);
   if (need.fluid) print_fluid(*need.fluid);
   const auto text = [](double seconds) {
     return seconds < 9.5 ? fmt::format("{:.1g} s", seconds) : core::duration_text(seconds);
   };
   if (need.settling > 0)
-    core::print("# the bed settles first, for about {:.2g} s, which takes {} of the time below\n", need.settling,
+    core::print("the bed settles first, for about {:.2g} s, which takes {} of the time below\n", need.settling,
                 text(need.before));
-  core::print(
-      "# computing {:.4g} s takes about {} of one core, between {} and {}: {:.3g} steps, {:.3g} particle-steps\n",
-      scene.run.until, text(need.expected), text(need.least), text(need.most), need.steps, need.particle_steps);
+  core::print("computing {:.4g} s takes about {} of one core, between {} and {}: {:.3g} steps, {:.3g} particle-steps\n",
+              scene.run.until, text(need.expected), text(need.least), text(need.most), need.steps, need.particle_steps);
 }
 
 }  // namespace polybed::multiscale

@@ -54,7 +54,7 @@ void write_overlap(core::Json& json, const dem::OverlapForecast& overlap);
 /// Members of an object that is open.
 void write_particle_requirements(core::Json& json, const core::Scene& scene, const ParticleRequirements& need);
 
-/// The same for people, each line behind a #.
+/// The same for people.
 void print_particle_requirements(const core::Scene& scene, const ParticleRequirements& need);
 
 }  // namespace polybed::multiscale

@@ -85,6 +85,17 @@ std::optional<double> scaled_number(std::string_view number, int decade) {
   return value;
 }
 
+/// With "u" for the micro sign and the Greek letter, "deg" for the degree sign.
+std::string in_ascii(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> signs{
+      {{"\u00b5", "u"}, {"\u03bc", "u"}, {"\u00b0", "deg"}}};
+  std::string plain(text);
+  for (const auto& [sign, ascii] : signs)
+    for (std::size_t at = plain.find(sign); at != std::string::npos; at = plain.find(sign, at))
+      plain.replace(at, sign.size(), ascii);
+  return plain;
+}
+
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
@@ -93,8 +104,9 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-std::optional<Quantity> parse_quantity(std::string_view text) {
-  text = trimmed(text);
+std::optional<Quantity> parse_quantity(std::string_view given) {
+  const std::string plain_text = in_ascii(given);
+  std::string_view text = trimmed(plain_text);
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double plain = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), plain);
@@ -102,6 +114,7 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   const std::string_view number = text.substr(0, std::size_t(end - text.data()));
   std::string_view rest = trimmed(text.substr(number.size()));
   if (rest == "degC" || rest == "C") return Quantity{plain + 273.15, dimension::temperature, true};
+  if (rest == "degF") return Quantity{(plain + 459.67) / 1.8, dimension::temperature, true};
   if (rest.starts_with("1/")) rest.remove_prefix(1);  // "3 1/s", as unit_name() writes it
   Units units;
   int sign = 1;
@@ -123,6 +136,13 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   const auto value = scaled_number(number, units.decade);
   if (!value || !std::isfinite(*value * units.factor)) return std::nullopt;
   return Quantity{*value * units.factor, units.dimension, units.any};
+}
+
+std::vector<std::string> unit_names() {
+  std::vector<std::string> names;
+  for (const Unit& unit : known_units) names.emplace_back(unit.name);
+  names.insert(names.end(), {"degC", "degF"});
+  return names;
 }
 
 std::string unit_name(const Dimension& d) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace polybed::core {
 
@@ -28,8 +29,12 @@ struct Quantity {
 };
 
 /// Reads "number unit", e.g. "0.807 mm", "15 degC", "1395 kg/m3", "1.14e-3 Pa s", "12"; units are joined by
-/// spaces, '*' or '/', a digit after a unit is its power. degC alone is shifted to K. Empty if the text is no quantity.
+/// spaces, '*' or '/', a digit after a unit is its power. degC and degF alone are shifted to K; "µ" is read as "u", "°"
+/// as "deg". Empty if the text is no quantity.
 [[nodiscard]] std::optional<Quantity> parse_quantity(std::string_view text);
+
+/// All units that a quantity may have.
+[[nodiscard]] std::vector<std::string> unit_names();
 
 /// The SI unit of a dimension as text, e.g. "kg/m3"; "1" for none.
 [[nodiscard]] std::string unit_name(const Dimension& dimension);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace polybed::multiscale {
@@ -39,43 +40,124 @@ std::string reason_text(const relevance::EffectRow& row) {
   return text;
 }
 
-std::string line_of(const core::Scene& scene, const relevance::EffectRow& row) {
-  return fmt::format("{:20} {:15} {:8} {:>14} {:>8} {:>8}  {:7} {:14} {}\n", row.effect, row.model, row.models,
-                     value_text(row), row.threshold ? (row.below ? "<" : ">") + number(row.threshold) : "-",
-                     number(row.neglected), state_text(row), case_text(scene, row),
-                     (row.has_number() ? row.number + ": " : "") + reason_text(row));
+constexpr std::size_t width = 100;  // columns
+
+/// A text on lines of at most `width` columns that begin with `indent` spaces.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::string lines, line(indent, ' ');
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const std::size_t end = std::min(text.find(' ', from), text.size());
+    const std::string word = text.substr(from, end - from);
+    if (line.size() > indent && line.size() + 1 + word.size() > width) {
+      lines += line + "\n";
+      line = std::string(indent, ' ');
+    }
+    line += (line.size() > indent ? " " : "") + word;
+    from = end + 1;
+  }
+  return lines + line + "\n";
+}
+
+constexpr std::string_view off = "off";  // as case_text() has it
+
+/// What the table advises of a row.
+enum class Advice { none, add, replace, may_leave_out };
+
+Advice advice_of(const core::Scene& scene, const relevance::EffectRow& row) {
+  const std::string has = case_text(scene, row);
+  if (row.kind != Kind::role || has.empty() || has == core::automatic || row.state == State::unknown)
+    return Advice::none;
+  if (row.state == State::on) return has == off ? Advice::add : has != row.model ? Advice::replace : Advice::none;
+  return has != off && row.neglected ? Advice::may_leave_out : Advice::none;
+}
+
+const char* mark_of(Advice advice) {
+  const char* marks[] = {" ", "*", "~", "-"};
+  return marks[std::size_t(advice)];
+}
+
+std::string advised_law(const relevance::EffectRow& row) { return row.state == State::on ? row.model : "off"; }
+
+std::string limit_text(const relevance::EffectRow& row) {
+  return row.threshold ? (row.below ? "< " : "> ") + number(row.threshold) : "-";
+}
+
+/// "number: reason" of a row.
+std::string why(const relevance::EffectRow& row) {
+  return (!row.has_number() ? "" : row.number + ": ") + reason_text(row);
+}
+
+std::string role_line(const core::Scene& scene, const relevance::EffectRow& row) {
+  return fmt::format("{} {:20} {:15} {:15} {:>15} {:>11}  {}\n", mark_of(advice_of(scene, row)), row.effect,
+                     case_text(scene, row).empty() ? "not built" : case_text(scene, row), advised_law(row),
+                     value_text(row), limit_text(row), row.models);
+}
+
+std::string other_line(const relevance::EffectRow& row) {
+  return fmt::format("  {:20} {:15} {:15} {:>15} {:>11}\n", row.effect, state_text(row),
+                     row.kind == Kind::condition ? row.model : "", value_text(row), limit_text(row));
+}
+
+/// A sum of forces beside what is allowed.
+std::string share_text(double sum, double allowed) { return percent(sum) + (sum > allowed ? " (too much)" : ""); }
+
+std::string sums_text(const core::Scene& scene, const relevance::Choice& choice) {
+  bool less_in_particles = false;
+  const auto by_model = [&](const std::vector<relevance::EffectRow>& rows) {
+    const double dem = relevance::neglected_sum(rows, "dem"), tfm = relevance::neglected_sum(rows, "tfm");
+    less_in_particles = less_in_particles || dem < tfm;
+    return fmt::format("dem {}, tfm {}\n", share_text(dem, choice.tolerance), share_text(tfm, choice.tolerance));
+  };
+  std::string text = fmt::format("forces left out, of the weight; {} allowed (chooser.tolerance, {}):\n",
+                                 percent(choice.tolerance), core::name_of(scene.chooser.purpose));
+  text += "  as recommended: " + by_model(choice.rows);
+  if (!relevance::has_auto(scene)) text += "  as the case is: " + by_model(choice.of_case);
+  if (less_in_particles)
+    text += "  more is left out by the two-fluid model, which has no law of some forces on particles\n";
+  if (choice.sum_up_to > choice.tolerance)
+    text += wrapped(fmt::format("in a run up to {}, where the fluid is sheared within a cell or impacts spin "
+                                "particles; polybed effects audit RUN measures it",
+                                percent(choice.sum_up_to)),
+                    2);
+  return text;
+}
+
+/// What to write into the case, with the reason of each line.
+std::string lines_for_case(const core::Scene& scene, const relevance::Choice& choice) {
+  std::string reasons, lines;
+  for (const relevance::EffectRow& row : choice.rows) {
+    const Advice advice = advice_of(scene, row);
+    if (advice == Advice::none) continue;
+    const std::string law = row.state == State::on ? row.model : "none";
+    reasons += fmt::format("{} {} = \"{}\"\n{}", mark_of(advice), row.effect, law, wrapped(why(row), 4));
+    lines += fmt::format("{}{} = \"{}\"\n", advice == Advice::add ? "" : "# ", row.effect, law);
+  }
+  if (lines.empty()) return "\nNothing to change: the case has what is recommended.\n";
+  return "\n* switch on, ~ another law is recommended, - may be left out:\n" + reasons +
+         "\nfor the case (lines behind # are a choice), or effects = \"auto\" at its top:\n\n[effects]\n" + lines;
 }
 
 }  // namespace
 
-std::string effects_table(const core::Scene& scene, const relevance::Choice& choice) {
-  std::string text = fmt::format("{:20} {:15} {:8} {:>14} {:>8} {:>8}  {:7} {:14} {}\n", "effect", "model", "acts in",
-                                 "value", "on if", "left out", "choice", "this case", "number: reason");
+std::string percent(double share) {
+  return share < 0.995 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
+std::string effects_table(const core::Scene& scene, const relevance::Choice& choice, bool details) {
+  std::string text = fmt::format("  {:20} {:15} {:15} {:>15} {:>11}  {}\n", "effect", "this case", "recommended",
+                                 "value", "matters if", "acts in");
   const Kind kinds[] = {Kind::role, Kind::condition, Kind::unmodelled};
   for (const Kind kind : kinds) {
-    if (kind == Kind::condition) text += "\nno roles:\n";
+    if (kind == Kind::condition) text += "\ndecided by other keys, or always on:\n";
     if (kind == Kind::unmodelled) text += "\nnot modelled, estimated:\n";
-    for (const relevance::EffectRow& row : choice.rows)
-      if (row.kind == kind) text += line_of(scene, row);
+    for (const relevance::EffectRow& row : choice.rows) {
+      if (row.kind != kind) continue;
+      text += kind == Kind::role ? role_line(scene, row) : other_line(row);
+      if (details) text += wrapped(why(row), 6);
+    }
   }
-  text += fmt::format(
-      "\nforces on particles left out by this choice sum to {:.2g} of the buoyant weight (promise {:.2g}, {}){}\n",
-      choice.neglected_sum, choice.tolerance, core::name_of(scene.chooser.purpose),
-      choice.neglected_sum > choice.tolerance ? ": more than promised, since what would be needed is not to be had"
-                                              : "");
-  const double two_fluid = relevance::neglected_sum(choice.rows, "tfm"),
-               of_case = relevance::neglected_sum(choice.of_case, "tfm");
-  text += fmt::format("by the two-fluid model, which has no law of any of them: {:.2g}{}\n", two_fluid,
-                      two_fluid > choice.tolerance ? ": more than promised" : "");
-  if (choice.sum_up_to > choice.tolerance)
-    text += fmt::format(
-        "in a run up to {:.2g}, where the fluid is sheared within a cell or impacts spin particles: a scale that "
-        "switches nothing; polybed effects audit tells what a run met\n",
-        choice.sum_up_to);
-  if (!relevance::has_auto(scene))
-    text += fmt::format("left out by the case as it stands: {:.2g}, by the two-fluid model {:.2g}\n", choice.case_sum,
-                        of_case);
-  return text;
+  return text + "\n" + sums_text(scene, choice) + lines_for_case(scene, choice);
 }
 
 namespace {

@@ -9,8 +9,12 @@
 
 namespace polybed::multiscale {
 
-/// Lines of the table, and below it what is left out.
-[[nodiscard]] std::string effects_table(const core::Scene& scene, const relevance::Choice& choice);
+/// The table, at most 100 columns wide, with a mark where the case should change; below it what is left out and the
+/// lines to put into the case. \param details  with the reason of every row
+[[nodiscard]] std::string effects_table(const core::Scene& scene, const relevance::Choice& choice, bool details);
+
+/// A share in per cent with two digits, e.g. "0.14 %", "120 %".
+[[nodiscard]] std::string percent(double share);
 
 /// The members "effects", "neglected_sum" and what belongs to them, into an open object.
 void write_effects(core::Json& json, const core::Scene& scene, const relevance::Choice& choice);

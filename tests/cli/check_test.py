@@ -14,11 +14,11 @@ def setting(**values):
 
 class Needs(Scratch):
     def test_the_text_tells_memory_scales_and_time(self):
-        text = self.ends(DONE, "check", CASE).stdout
-        for line in (r"# 3564 cells, 29160 unknowns; integrator imex", r"# memory about \d+ MB: state [\d.]+, fields [\d.]+",
-                     r"#   at rest  \(solids fraction 0.62\): convection [\d.]+ s, drag [\d.e-]+ s, acoustics [\d.e-]+ s, "
-                     r"bulk viscosity [\d.e-]+ s, expected step [\d.e-]+ s", r"#   expanded \(solids fraction 0\.\d+\): ",
-                     r"# computing 20 s takes about .* here, between .* and .*: [\d.e+]+ steps of [\d.e-]+ s"):
+        text = self.ends(DONE, "check", CASE, "--details").stdout
+        for line in (r"3564 cells, 29160 unknowns; integrator imex", r"memory about \d+ MB: state [\d.]+, fields [\d.]+",
+                     r"  at rest  \(solids fraction 0.62\): convection [\d.]+ s, drag [\d.e-]+ s, acoustics [\d.e-]+ s, "
+                     r"bulk viscosity [\d.e-]+ s, expected step [\d.e-]+ s", r"  expanded \(solids fraction 0\.\d+\): ",
+                     r"computing 20 s takes about .* here, between .* and .*: [\d.e+]+ steps of [\d.e-]+ s"):
             self.assertRegex(text, line)
 
     def test_scales_follow_the_case(self):

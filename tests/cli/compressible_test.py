@@ -58,7 +58,7 @@ class Compressible(Scratch):
 
     def test_check_tells_the_speed_of_sound(self):
         case = self.write("pipe.toml", PIPE)
-        self.assertIn("# sound in the fluid 290.08 m/s", self.ends(DONE, "check", case).stdout)
+        self.assertIn("\nsound in the fluid 290.08 m/s", self.ends(DONE, "check", case, "--details").stdout)
         for override, message in (("fluid.outlet_pressure=0", "outlet_pressure = 0 is out of range: at least 1"),
                                   ("fluid.name=water", "water is a liquid")):
             self.assertIn(message, self.ends(WRONG_CASE, "check", case, "--set", override).stderr)

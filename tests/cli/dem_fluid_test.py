@@ -115,7 +115,7 @@ class Files(Bed):
         self.assertLess(record["energy"]["worst_error"], record["energy"]["limit"])
 
     def test_two_lines_on_the_screen(self):
-        text = self.ends(DONE, "dem", self.case, "--no-picture", "-o", self.folder / "run", "--until", "2 ms").stderr
+        text = self.ends(DONE, "dem", self.case, "--no-picture", "--details", "-o", self.folder / "run", "--until", "2 ms").stderr
         self.assertRegex(text, r"\nfluid: \d+ steps of .*Courant number up to .*; kernel bilinear\n"
                                r"drag cello: .* evaluations, .* % guarded, .* % at the bounds of voidage; work of the fluid ")
 
@@ -196,13 +196,13 @@ class Check(Bed):
         self.assertEqual(need["fluid"]["cells"], 54)
 
     def test_the_kernel_and_why(self):
-        text = self.ends(DONE, "check", self.case).stdout
-        for line in (r"# as particles, polybed dem:", r"# 630 particles: 600 fine, 30 coarse", r"# memory about \d+ MB: .* fluid [\d.]+,",
-                     r"# fluid step [\d.e-]+ s, one in 16 of the particles': [\d.e+]+ steps on 54 cells",
-                     r"# kernel bilinear: the smallest cell has 1.67 of the largest diameters"):
+        text = self.ends(DONE, "check", self.case, "--details").stdout
+        for line in (r"as particles, polybed dem:", r"630 particles: 600 fine, 30 coarse", r"memory about \d+ MB: .* fluid [\d.]+,",
+                     r"fluid step [\d.e-]+ s, one in 16 of the particles': [\d.e+]+ steps on 54 cells",
+                     r"kernel bilinear: the smallest cell has 1.67 of the largest diameters"):
             self.assertRegex(text, line)
-        finer = self.ends(DONE, "check", self.case, "--set", "column.cells=[6,36]").stdout
-        self.assertIn("# kernel diffusion, 8 mm wide: 4 of the largest diameters, as the smallest cell has only 0.833", finer)
+        finer = self.ends(DONE, "check", self.case, "--details", "--set", "column.cells=[6,36]").stdout
+        self.assertIn("kernel diffusion, 8 mm wide: 4 of the largest diameters, as the smallest cell has only 0.833", finer)
 
     def test_what_keeps_it_from_running_is_told(self):
         def notes(*words):

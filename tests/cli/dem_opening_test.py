@@ -104,7 +104,7 @@ class Opening(Scratch):
         case = self.write("shut.toml", FALL.replace('opening = "5 mm"', ""))
         done = self.ends(DONE, "dem", case, "--json", "-o", self.folder / "none", "--until", "1 ms")
         self.assertNotIn("outflow", strict_json(done.stdout))
-        self.assertNotIn("have left", done.stderr)
+        self.assertNotIn("has left", done.stderr)
         self.assertFalse([name for name in history(self.folder / "none") if name.startswith(("out_", "carried"))])
 
     def test_too_wide_an_opening_is_refused(self):

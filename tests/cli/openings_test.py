@@ -40,9 +40,9 @@ class Openings(Scratch):
         self.assertEqual(one, other)
 
     def test_check_prints_the_classes(self):
-        done = self.ends(DONE, "check", CASE)
+        done = self.ends(DONE, "check", CASE, "--details")
         for name in NAMES:
-            self.assertIn(f"#   {name}: diameter ", done.stdout)
+            self.assertIn(f"  {name}: diameter ", done.stdout)
         answer = strict_json(self.ends(DONE, "check", CASE, "--json").stdout)
         shares = [c["share"] for c in answer["size_classes"][0]["classes"]]
         self.assertAlmostEqual(sum(shares), 1, places=14)

@@ -88,7 +88,7 @@ class Run(Scratch):
 
     def test_what_still_drifts_and_how_well_posed_the_bed_was_is_told(self):
         directory = self.folder / "run"
-        done = self.ends(DONE, "tfm", CASE, *SMALL, "--until", "1 s", "-o", directory, "--no-picture", picture=True)
+        done = self.ends(DONE, "tfm", CASE, *SMALL, "--until", "1 s", "--details", "-o", directory, "--no-picture", picture=True)
         self.assertFalse((directory / "picture.png").exists())
         self.assertNotIn("picture", done.stderr)
         record, columns = strict_json((directory / "run.json").read_text()), history(directory)

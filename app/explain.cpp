@@ -1,0 +1,145 @@
+// polybed explain: one word of the program.
+#include "app/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/options.hpp"
+#include "core/error.hpp"
+#include "core/print.hpp"
+#include "dem/history_table.hpp"
+#include "measures/bed_table.hpp"
+#include "multiscale/roles.hpp"
+#include "tfm/history_table.hpp"
+
+namespace polybed::app {
+
+core::Json json_of_key(const core::Key& key) {
+  core::Json json = {{"key", key.path()},
+                     {"kind", core::kind_name(key)},
+                     {"unit", core::unit_name(key.dimension)},
+                     {"range", core::range_text(key)},
+                     {"required", key.required},
+                     {"default", nullptr},
+                     {"help", key.help}};
+  if (!key.standard.empty()) json["default"] = key.standard;
+  if (!key.equation.empty()) json["equation"] = key.equation;
+  return json;
+}
+
+namespace {
+
+/// One meaning of a word, as text and as JSON.
+struct Meaning {
+  std::string text;
+  core::Json json;
+};
+
+std::string title_of(const std::string& name, const std::string& kind) {
+  return core::painted(stdout, core::Colour::bold, name) + "  (" + kind + ")\n";
+}
+
+Meaning meaning_of(const core::Key& key) {
+  std::string text = title_of(key.path(), "key of the case file");
+  text += fmt::format("  {}\n  {}{}\n", key.help, core::kind_name(key), key.required ? ", required" : "");
+  if (const std::string range = core::range_text(key); !range.empty()) text += fmt::format("  range: {}\n", range);
+  if (!key.standard.empty()) text += fmt::format("  default: {}\n", key.standard);
+  if (!key.equation.empty()) text += fmt::format("  {}\n", key.equation);
+  return {text, json_of_key(key)};
+}
+
+Meaning meaning_of(const core::Table& table) {
+  std::string text = title_of(core::header(table), "table of the case file");
+  for (const core::Key& key : table.keys) text += fmt::format("  {:26} {}\n", key.name, key.help);
+  return {text, {{"table", std::string(table.name)}}};
+}
+
+Meaning meaning_of(const core::Role& role) {
+  std::string text = title_of("effects." + role.name, "role in [effects]; acts in " + role.models);
+  text += fmt::format("  {}\n", role.help);
+  if (!role.absent.empty()) text += fmt::format("  elsewhere: {}\n", role.absent);
+  text += "  laws, or \"none\", or \"auto\" for what polybed effects recommends:\n";
+  for (const core::Law& law : role.laws) text += fmt::format("  {:20} {}\n", law.name, law.help);
+  return {text, {{"role", role.name}, {"models", role.models}, {"help", role.help}}};
+}
+
+Meaning meaning_of(const core::Role& role, const core::Law& law) {
+  std::string text = title_of(law.name, "law of effects." + role.name);
+  text += fmt::format("  {}\n  in the case: [effects] {} = \"{}\"\n", law.help, role.name, law.name);
+  return {text, {{"law", law.name}, {"role", role.name}, {"help", law.help}}};
+}
+
+Meaning meaning_of(const Term& term) {
+  std::string text = title_of(term.name, term.kind) + fmt::format("  {}\n", term.help);
+  if (!term.todo.empty()) text += fmt::format("  to do: {}\n", term.todo);
+  return {text, {{"term", term.name}, {"kind", term.kind}, {"help", term.help}, {"to_do", term.todo}}};
+}
+
+template <class Source>
+void add_measures(const measures::Table<Source>& table, const std::string& word, std::vector<Meaning>& found,
+                  std::vector<std::string>& names) {
+  for (const measures::Measure<Source>& measure : table) {
+    names.push_back(measure.name);
+    const std::string column = measures::Single<Source>{measure.name, measure.unit, {}, {}}.column();
+    if (word != measure.name && word != column) continue;
+    found.push_back({title_of(measure.name, "measure, unit " + measure.unit) + "  " + measure.help + "\n",
+                     {{"measure", measure.name}, {"unit", measure.unit}, {"help", measure.help}}});
+  }
+}
+
+/// "dem" and "effects.drag" as they are typed: the name of a role without its table.
+std::string without_table(const std::string& word) {
+  const std::string front = "effects.";
+  return word.starts_with(front) ? word.substr(front.size()) : word;
+}
+
+std::vector<Meaning> meanings_of(const std::string& word, std::vector<std::string>& names) {
+  std::vector<Meaning> found;
+  for (const core::Key& key : core::keys()) {
+    names.push_back(key.path());
+    names.emplace_back(key.name);
+    if (word == key.path()) return {meaning_of(key)};
+    if (word == key.name) found.push_back(meaning_of(key));
+  }
+  for (const core::Table& table : core::tables())
+    if (!table.name.empty() && word == table.name) found.push_back(meaning_of(table));
+  for (const core::Role& role : all_roles()) {
+    names.push_back(role.name);
+    if (without_table(word) == role.name) found.push_back(meaning_of(role));
+    for (const core::Law& law : role.laws) {
+      names.push_back(law.name);
+      if (word == law.name) found.push_back(meaning_of(role, law));
+    }
+  }
+  for (const Term& term : terms()) {
+    names.push_back(term.name);
+    if (word == term.name) found.push_back(meaning_of(term));
+  }
+  const dem::Parts all{.ledger = true, .outflow = true, .fluid = true, .compressible = true};
+  add_measures(measures::bed_table(), word, found, names);
+  add_measures(tfm::history_table(true, true), word, found, names);
+  add_measures(dem::history_table(all), word, found, names);
+  return found;
+}
+
+}  // namespace
+
+void run_explain(const std::string& word, bool json) {
+  std::vector<std::string> names;
+  const std::vector<Meaning> found = meanings_of(word, names);
+  if (found.empty()) {
+    const std::string near = core::nearest_name(word, names);
+    throw core::CaseError("nothing to explain is called '" + word + "'" +
+                          (near.empty() ? "; see polybed schema and polybed list" : "; did you mean '" + near + "'?"));
+  }
+  if (json) {
+    core::Json all = core::Json::array();
+    for (const Meaning& meaning : found) all.push_back(meaning.json);
+    return core::print("{}\n", core::json_text(found.size() == 1 ? all.front() : core::Json{{"meanings", all}}));
+  }
+  for (std::size_t n = 0; n < found.size(); ++n) core::print("{}{}", n > 0 ? "\n" : "", found[n].text);
+}
+
+}  // namespace polybed::app

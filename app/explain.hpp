@@ -1,0 +1,25 @@
+// What a word of the program means: a key, a role, a law, or what a run prints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/case/keys.hpp"
+#include "core/output/json.hpp"
+
+namespace polybed::app {
+
+/// A word that the program prints beside keys, roles and laws.
+struct Term {
+  std::string name, kind;  ///< status | invariant | limit of the step | outcome | exit code
+  std::string help;        ///< what it means
+  std::string todo;        ///< what to choose or to do; may be empty
+};
+
+/// All of them, app/terms.cpp.
+[[nodiscard]] const std::vector<Term>& terms();
+
+/// A key as polybed schema --json has it.
+[[nodiscard]] core::Json json_of_key(const core::Key& key);
+
+}  // namespace polybed::app

@@ -1,0 +1,123 @@
+// polybed new and polybed list cases: the cases that come with the program.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "app/options.hpp"
+#include "core/case/keys.hpp"
+#include "core/error.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/print.hpp"
+#include "multiscale/installed.hpp"
+
+namespace polybed::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A case that comes with the program.
+struct KnownCase {
+  std::string name, title;
+  std::string takes;  ///< "5 s: polybed tfm"; empty: not said
+  fs::path folder;
+  bool is_template = false;
+};
+
+/// What follows the first line that begins so, without quotes; empty if there is none.
+std::string after(const std::string& text, const std::string& front) {
+  const std::string lines = "\n" + text;
+  const std::size_t at = lines.find("\n" + front);
+  if (at == std::string::npos) return "";
+  std::string rest = lines.substr(at + 1 + front.size());
+  rest = rest.substr(0, rest.find('\n'));
+  std::erase(rest, '"');
+  return rest;
+}
+
+std::string text_of_file(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<KnownCase> cases_in(const fs::path& folder, bool templates) {
+  std::vector<KnownCase> found;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const fs::path file = entry.path() / "case.toml";
+    if (!fs::exists(file)) continue;
+    const std::string text = text_of_file(file);
+    found.push_back(
+        {entry.path().filename().string(), after(text, "title = "), after(text, "# takes "), entry.path(), templates});
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return found;
+}
+
+/// Templates first.
+std::vector<KnownCase> known_cases() {
+  const fs::path cases = beside_program(POLYBED_CASES_INSTALLED, POLYBED_CASES_SOURCE);
+  std::vector<KnownCase> all = cases_in(cases / "templates", true);
+  const std::vector<KnownCase> shipped = cases_in(cases, false);
+  all.insert(all.end(), shipped.begin(), shipped.end());
+  if (all.empty()) throw core::FileError(fmt::format("{}: no cases there", cases.string()));
+  return all;
+}
+
+KnownCase case_named(const std::string& name) {
+  const std::vector<KnownCase> all = known_cases();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const KnownCase& one) { return one.name == name; });
+  if (found != all.end()) return *found;
+  std::vector<std::string> names;
+  for (const KnownCase& one : all) names.push_back(one.name);
+  const std::string near = core::nearest_name(name, names);
+  throw core::CaseError(fmt::format("--from {}: no such template{}", name,
+                                    near.empty() ? "; see polybed list cases" : "; did you mean '" + near + "'?"));
+}
+
+/// Files that a case reads; what describes or evaluates it stays where it is.
+bool belongs_to_case(const fs::path& file) {
+  constexpr std::array<std::string_view, 3> kinds{".toml", ".csv", ".h5"};
+  return std::find(kinds.begin(), kinds.end(), file.extension().string()) != kinds.end();
+}
+
+}  // namespace
+
+void run_list_cases(bool json) {
+  const std::vector<KnownCase> all = known_cases();
+  if (json) {
+    core::Json rows = core::Json::array();
+    for (const KnownCase& one : all)
+      rows.push_back({{"name", one.name}, {"title", one.title}, {"takes", one.takes}, {"template", one.is_template}});
+    return core::print("{}\n", core::json_text({{"cases", rows}}));
+  }
+  bool templates = false;
+  for (const KnownCase& one : all) {
+    if (one.is_template && !templates) core::print("templates: polybed new NAME --from TEMPLATE\n");
+    if (!one.is_template && templates) core::print("\nshipped cases, each with a README; polybed new takes them too\n");
+    templates = one.is_template;
+    core::print("{}  {}\n", core::painted(stdout, core::Colour::bold, fmt::format("{:25}", one.name)), one.title);
+    if (!one.takes.empty()) core::print("{:25}  takes {}\n", "", one.takes);
+  }
+}
+
+void run_new(const fs::path& name, const std::string& from) {
+  const KnownCase chosen = case_named(from);
+  if (fs::exists(name / "case.toml"))
+    throw core::CaseError(fmt::format("{} exists already: choose another name", (name / "case.toml").string()));
+  core::make_directories(name);
+  for (const fs::directory_entry& entry : fs::directory_iterator(chosen.folder))
+    if (belongs_to_case(entry.path()))
+      core::write_atomically(name / entry.path().filename(), text_of_file(entry.path()));
+  const std::string file = (name / "case.toml").string();
+  const char* model = chosen.takes.find("polybed tfm") != std::string::npos || chosen.takes.empty() ? "tfm" : "dem";
+  core::print("{}: {}\n{}", file, chosen.title, chosen.takes.empty() ? "" : "takes about " + chosen.takes + "\n");
+  core::print("next:\n  polybed check {}\n  polybed {} {}\n", file, model, file);
+}
+
+}  // namespace polybed::app

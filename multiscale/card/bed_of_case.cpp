@@ -1,0 +1,150 @@
+#include "multiscale/card/bed_of_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "closures/bed_expansion.hpp"
+#include "closures/minimum_fluidisation.hpp"
+#include "closures/mixture.hpp"
+#include "closures/terminal_velocity.hpp"
+#include "relevance/drag_law.hpp"
+#include "relevance/fluid_properties.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using closures::CarriedBed;
+
+constexpr double greatest_density_of_gas = 100;  // kg/m3; liquids begin far above
+
+/// Constant before the first point and after the last, linear between.
+double value_at(const std::vector<std::pair<double, double>>& points, double time) {
+  if (points.empty()) return 0;
+  const auto after = std::find_if(points.begin(), points.end(), [&](const auto& point) { return point.first >= time; });
+  if (after == points.begin()) return points.front().second;
+  if (after == points.end()) return points.back().second;
+  const auto before = after - 1;
+  const double share = (time - before->first) / (after->first - before->first);
+  return before->second + share * (after->second - before->second);
+}
+
+/// Mean over the bottom: jets have a velocity of their own on their part of it.
+double velocity_at_end(const core::Scene& scene) {
+  const double inlet = value_at(scene.inlet.superficial_velocity, scene.run.until);
+  double mean = inlet;
+  for (const core::Jet& jet : scene.jets) {
+    double part = 1;
+    for (std::size_t side = 0; side < std::min(jet.from.size(), jet.to.size()); ++side)
+      part *= (jet.to[side] - jet.from[side]) / scene.column.size[side == 0 ? 0 : 2];
+    mean += part * (value_at(jet.superficial_velocity, scene.run.until) - inlet);
+  }
+  return mean;
+}
+
+/// Volume shares of the species, by the numbers of particles where the case has those; empty if it has neither.
+std::vector<double> shares_of(const core::Scene& scene) {
+  const std::size_t species = scene.species.size();
+  std::vector<double> share = scene.bed.volume_share;
+  if (scene.bed.particles.size() == species) {
+    share.resize(species);
+    for (std::size_t j = 0; j < species; ++j)
+      share[j] = double(scene.bed.particles[j]) * std::pow(scene.species[j].diameter, 3);
+  }
+  const double sum = std::accumulate(share.begin(), share.end(), 0.0);
+  if (share.size() != species || !(sum > 0)) return {};
+  for (double& x : share) x /= sum;
+  return share;
+}
+
+/// The balance of drag and weight in a scene.
+struct Balance {
+  std::optional<closures::DragLaw> law;
+  double packed = 0;  ///< voidage of the settled bed; 0: not known
+
+  [[nodiscard]] auto drag() const {
+    return [this](double eps, double re) { return closures::pure_drag_at(*law, eps, re); };
+  }
+  [[nodiscard]] bool known() const { return law && packed > 0; }
+  [[nodiscard]] std::optional<double> minimum_fluidisation(const CarriedBed& bed) const {
+    if (!(bed.excess > 0 && bed.gravity > 0)) return {};
+    if (known()) return closures::carrying_velocity(drag(), bed, packed);
+    return closures::minimum_fluidisation(bed.diameter, bed.excess, bed.fluid_density, bed.viscosity, bed.gravity);
+  }
+};
+
+Balance balance_of(const core::Scene& scene) {
+  Balance balance;
+  if (scene.effects.contains("drag")) balance.law = relevance::drag_law_of(scene);
+  const double solids = scene.bed.solids_fraction;
+  if (solids > 0 && solids < 1) balance.packed = 1 - solids;
+  return balance;
+}
+
+/// What to expect of the whole bed at the velocity of its inlet.
+void expect(const core::Scene& scene, const Balance& balance, const CarriedBed& mixture, BedOfCase& bed) {
+  using enum Fluidisation;
+  const double velocity = *bed.velocity;
+  bed.state = velocity < *bed.minimum_fluidisation ? packed : fluidised;
+  double fastest = 0;
+  for (const SpeciesInFluid& species : bed.species) fastest = std::max(fastest, species.terminal.value_or(0));
+  if (velocity > fastest) bed.state = carried_out;
+  if (bed.state == carried_out || !balance.known() || !(scene.bed.static_height > 0)) return;
+  const double voidage = closures::carried_voidage(balance.drag(), mixture, velocity, balance.packed);
+  if (voidage < 1) bed.height = scene.bed.static_height * (1 - balance.packed) / (1 - voidage);
+}
+
+}  // namespace
+
+std::string name_of(Fluidisation state) {
+  const char* names[] = {"", "packed", "fluidised", "carried_out"};
+  return names[std::size_t(state)];
+}
+
+std::optional<double> BedOfCase::velocity_ratio() const {
+  if (!velocity || !minimum_fluidisation || !(*minimum_fluidisation > 0)) return {};
+  return *velocity / *minimum_fluidisation;
+}
+
+std::string geldart_class(double diameter, double excess) {
+  const double d = 1e6 * diameter, density = 1e-3 * excess;
+  if (d < 30) return "C";
+  if (density * d < 225) return "A";
+  return density * d * d > 1e6 ? "D" : "B";
+}
+
+BedOfCase bed_of_case(const core::Scene& scene) {
+  BedOfCase bed;
+  if (!scene.fluid.present()) return bed;
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  const double gravity = scene.column.gravity * std::max(0.0, -scene.column.down[1]);
+  const Balance balance = balance_of(scene);
+  for (const core::Species& species : scene.species) {
+    const double excess = species.density - fluid.density;
+    const CarriedBed alone{species.diameter, excess, fluid.density, fluid.viscosity, gravity};
+    SpeciesInFluid& one = bed.species.emplace_back();
+    one.name = species.name;
+    one.minimum_fluidisation = balance.minimum_fluidisation(alone);
+    if (excess > 0 && gravity > 0)
+      one.terminal = closures::settling_velocity(species.diameter, excess, fluid.density, fluid.viscosity, gravity);
+    if (fluid.density < greatest_density_of_gas) one.geldart = geldart_class(species.diameter, excess);
+  }
+  const std::vector<double> share = shares_of(scene);
+  if (share.empty()) return bed;
+  std::vector<double> diameter;
+  double density = 0;
+  for (std::size_t j = 0; j < share.size(); ++j) {
+    diameter.push_back(scene.species[j].diameter);
+    density += share[j] * scene.species[j].density;
+  }
+  const CarriedBed mixture{closures::sauter_diameter(share, diameter), density - fluid.density, fluid.density,
+                           fluid.viscosity, gravity};
+  bed.minimum_fluidisation = balance.minimum_fluidisation(mixture);
+  const bool flows = !scene.column.closed && !(scene.inlet.superficial_velocity.empty() && scene.jets.empty());
+  if (flows) bed.velocity = velocity_at_end(scene);
+  if (flows && bed.minimum_fluidisation) expect(scene, balance, mixture, bed);
+  return bed;
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,45 @@
+// What follows for a bed from its case alone: when it is fluidised, how fast its particles fall, how high it stands.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/case/scene.hpp"
+
+namespace polybed::multiscale {
+
+/// What the fluid does to a bed; unknown: there is no flow, or no bed.
+enum class Fluidisation { unknown, packed, fluidised, carried_out };
+
+/// As run.json has it; empty if unknown.
+[[nodiscard]] std::string name_of(Fluidisation state);
+
+/// How a particle of one species behaves in the fluid. Empty: it does not sink in the fluid, or there is none.
+struct SpeciesInFluid {
+  std::string name;
+  std::optional<double> minimum_fluidisation;  ///< of a bed of this species alone, superficial, m/s
+  std::optional<double> terminal;              ///< of a single particle, m/s
+  std::string geldart;                         ///< A | B | C | D in a gas; else empty
+};
+
+struct BedOfCase {
+  std::vector<SpeciesInFluid> species;
+  std::optional<double> minimum_fluidisation;  ///< of the mixture, at its Sauter diameter and mean density, m/s
+  std::optional<double> velocity;              ///< superficial, mean over the bottom at the end of the run, m/s
+  Fluidisation state{};                        ///< expected
+  std::optional<double> height;                ///< expected of a uniform bed, m
+  [[nodiscard]] std::optional<double> velocity_ratio() const;
+};
+
+/// By the balance of the case's drag law with the buoyant weight, at the voidage of the settled bed; without a drag law
+/// or without that voidage by Wen and Yu's correlation (closures/minimum_fluidisation.hpp). Terminal velocities after
+/// Schiller and Naumann. Nothing is run. Throws core::CaseError for a fluid that is not known.
+[[nodiscard]] BedOfCase bed_of_case(const core::Scene& scene);
+
+/// Geldart's class (Powder Technology 7 (1973) 285) by his lines, rho_s - rho_f in g/cm3 and d in um: D above
+/// (rho_s - rho_f) d^2 = 1e6, A below (rho_s - rho_f) d = 225, B between. C is not a formula there: below 30 um, where
+/// his chart has its line for sand. \param diameter  m  \param excess  rho_s - rho_f, kg/m3
+[[nodiscard]] std::string geldart_class(double diameter, double excess);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,46 @@
+// What a run has made of a bed: read off its history, the same for both models.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/case/scene.hpp"
+#include "core/output/history.hpp"
+#include "multiscale/card/bed_of_case.hpp"
+
+namespace polybed::multiscale {
+
+/// A time mean.
+struct Mean {
+  double value = 0;
+  std::optional<double> interval;  ///< half-width of its 95 % interval; empty: too few rows
+};
+
+/// Over the last quarter of the time that the history covers.
+struct BedOfRun {
+  double window = 0;             ///< s
+  std::optional<Mean> height;    ///< m
+  std::optional<Mean> drop;      ///< pressure drop over the buoyant weight
+  std::optional<double> mixing;  ///< 1 mixed, 0 separated
+  Fluidisation state{};
+  std::string layers;  ///< mixed | layered (denser, or else larger, below) | inverted; empty: one species
+  std::map<std::string, double> out;       ///< kg since the start, of a scene that lets particles out
+  std::map<std::string, double> recovery;  ///< the same over what was there at the start and was fed
+  std::optional<double> discharge;         ///< kg/s, of a hopper
+  std::optional<bool> steady;              ///< empty: too few rows
+  std::vector<std::string> drifting;       ///< names of what is not steady
+};
+
+/// A mean of ten parts of a series, with the interval of Student's of nine degrees of freedom: what varies within a
+/// part is averaged, and parts count as independent. Empty where no entry is finite.
+[[nodiscard]] std::optional<Mean> mean_of_parts(const std::vector<double>& time, const std::vector<double>& value);
+
+/// What the rows say; entries that a history lacks are empty.
+/// Packed and fluidised are told apart by the pressure drop, 95 % of the weight; carried out is a bed of which less
+/// than 1 % is left, or whose centre is above three quarters of the column. Mixed are centres closer than a tenth of
+/// the bed height. The discharge is the mean rate between a tenth and nine tenths of what has left.
+[[nodiscard]] BedOfRun bed_of_run(const core::Scene& scene, const core::History& history);
+
+}  // namespace polybed::multiscale

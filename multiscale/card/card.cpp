@@ -1,0 +1,212 @@
+#include "multiscale/card/card.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/progress.hpp"
+#include "multiscale/effects/effects_text.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+core::Json text_or_null(const std::string& text) { return text.empty() ? core::Json() : core::Json(text); }
+
+core::Json json_of(const std::optional<Mean>& mean) {
+  if (!mean) return nullptr;
+  return {{"value", mean->value}, {"interval", core::or_null(mean->interval)}};
+}
+
+core::Json json_or_null(const std::map<std::string, double>& values) {
+  return values.empty() ? core::Json() : core::Json(values);
+}
+
+bool matters(const LeftOut& left_out) { return left_out.sum > left_out.promise; }
+
+// ---- words
+
+/// A quantity with the prefix that gives it one to three digits before the point.
+std::string with_prefix(double value, const char* unit) {
+  const double size = std::abs(value);
+  if (size >= 1 || size == 0) return fmt::format("{:.3g} {}", value, unit);
+  if (size >= 1e-3) return fmt::format("{:.3g} m{}", 1e3 * value, unit);
+  return fmt::format("{:.3g} µ{}", 1e6 * value, unit);
+}
+
+std::string one_digit(double value) {
+  return value < 9.5 ? fmt::format("{:.1g}", value) : fmt::format("{:.0f}", value);
+}
+
+std::string text_of(const Mean& mean, double scale, const std::string& unit) {
+  constexpr double shown = 1e-4;  // of the value: four digits
+  const bool tells = mean.interval && *mean.interval > shown * std::abs(mean.value);
+  const std::string interval = tells ? " ± " + one_digit(scale * *mean.interval) : "";
+  return fmt::format("{:.4g}{}{}", scale * mean.value, interval, unit);
+}
+
+/// In words; empty if it is not known.
+std::string words_of(Fluidisation state) {
+  std::string words = name_of(state);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string each(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
+
+constexpr std::size_t most_species = 4;  // that a line names one by one
+
+std::string of_species(const BedOfCase& bed, std::optional<double> SpeciesInFluid::*velocity) {
+  std::vector<std::string> parts;
+  for (const SpeciesInFluid& species : bed.species)
+    parts.push_back(species.name + " " + (species.*velocity ? with_prefix(*(species.*velocity), "m/s") : "-"));
+  if (parts.size() > most_species) {
+    parts.erase(parts.begin() + 1, parts.end() - 1);
+    return parts.front() + " to " + parts.back();
+  }
+  return each(parts);
+}
+
+std::string in_kilograms(double mass) { return with_prefix(1e3 * mass, "g"); }
+
+/// Minimum fluidisation, terminal velocities and, in a gas, Geldart's classes.
+void add_velocities(const BedOfCase& bed, std::vector<std::string>& lines) {
+  if (bed.species.empty()) return;
+  if (bed.minimum_fluidisation) {
+    std::string text =
+        bed.species.size() > 1 ? of_species(bed, &SpeciesInFluid::minimum_fluidisation) + ", mixture " : std::string();
+    text += with_prefix(*bed.minimum_fluidisation, "m/s");
+    if (const auto ratio = bed.velocity_ratio())
+      text += fmt::format("; u = {} is {:.2g} times that", with_prefix(*bed.velocity, "m/s"), *ratio);
+    lines.push_back(card_line("fluidises at", text));
+  }
+  lines.push_back(card_line("falls at", of_species(bed, &SpeciesInFluid::terminal)));
+  std::vector<std::string> classes;
+  for (const SpeciesInFluid& species : bed.species)
+    if (!species.geldart.empty())
+      classes.push_back(bed.species.size() > 1 ? species.name + " " + species.geldart : species.geldart);
+  if (!classes.empty()) lines.push_back(card_line("Geldart class", each(classes)));
+}
+
+std::string out_text(const BedOfRun& bed) {
+  std::vector<std::string> parts;
+  for (const auto& [name, mass] : bed.out) {
+    const auto share = bed.recovery.find(name);
+    parts.push_back(name + " " + in_kilograms(mass) +
+                    (share == bed.recovery.end() ? "" : fmt::format(" ({:.3g} %)", 100 * share->second)));
+  }
+  return each(parts);
+}
+
+std::string bed_text(const BedOfRun& bed) {
+  std::vector<std::string> parts;
+  for (const std::string& word : {words_of(bed.state), bed.layers})
+    if (!word.empty()) parts.push_back(word);
+  if (bed.height && bed.state != Fluidisation::carried_out) parts.push_back(text_of(*bed.height, 1e3, " mm high"));
+  if (bed.drop && bed.state != Fluidisation::unknown)
+    parts.push_back("pressure drop " + text_of(*bed.drop, 1, " of the weight"));
+  return each(parts);
+}
+
+std::string steady_text(const BedOfRun& bed) {
+  if (!bed.steady) return "not known: too few rows in history.csv";
+  if (*bed.steady) return fmt::format("yes, over the last {:.3g} s", bed.window);
+  return fmt::format("no: {} still drift{} over the last {:.3g} s; the numbers above are not final", each(bed.drifting),
+                     bed.drifting.size() == 1 ? "s" : "", bed.window);
+}
+
+}  // namespace
+
+std::string card_line(const std::string& heading, const std::string& text) {
+  return fmt::format("{:13} {}", heading, text);
+}
+
+std::string short_time(double seconds) {
+  constexpr double rounds_to_one_digit = 9.5;
+  return seconds < rounds_to_one_digit ? fmt::format("{:.2g} s", seconds) : core::duration_text(seconds);
+}
+
+std::string left_out_text(const LeftOut& left_out) {
+  std::string text = "forces of " + percent(left_out.sum) + " of the weight";
+  if (!matters(left_out)) return text + ", within the " + percent(left_out.promise) + " allowed: does not matter";
+  std::vector<const LeftOutEffect*> forces;
+  for (const LeftOutEffect& one : left_out.effects)
+    if (one.row.summed && one.bound && *one.bound > 0) forces.push_back(&one);
+  std::sort(forces.begin(), forces.end(), [](const auto* a, const auto* b) { return *a->bound > *b->bound; });
+  constexpr std::size_t most_named = 2;
+  std::vector<std::string> names;
+  for (std::size_t n = 0; n < std::min(forces.size(), most_named); ++n) names.push_back(forces[n]->row.effect);
+  return text + ", above the " + percent(left_out.promise) + " allowed: matters, mostly " + each(names) +
+         "; see polybed effects";
+}
+
+void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
+  const BedOfCase& expected = card.expected;
+  const BedOfRun& seen = card.seen;
+  core::Json fluidisation = core::Json::object(), terminal = core::Json::object(), geldart = core::Json::object();
+  for (const SpeciesInFluid& species : expected.species) {
+    fluidisation[species.name] = core::or_null(species.minimum_fluidisation);
+    terminal[species.name] = core::or_null(species.terminal);
+    if (!species.geldart.empty()) geldart[species.name] = species.geldart;
+  }
+  const bool fluid = scene.fluid.present();
+  fluidisation["mixture"] = core::or_null(expected.minimum_fluidisation);
+  json["card"] = {{"u_mf_m_s", fluid ? fluidisation : core::Json()},
+                  {"u_over_u_mf", core::or_null(expected.velocity_ratio())},
+                  {"terminal_m_s", fluid ? terminal : core::Json()},
+                  {"geldart", geldart.empty() ? core::Json() : geldart},
+                  {"state", text_or_null(name_of(seen.state))},
+                  {"layers", text_or_null(seen.layers)},
+                  {"bed_height_m", json_of(seen.height)},
+                  {"pressure_drop_over_weight", json_of(seen.drop)},
+                  {"mixing", core::or_null(seen.mixing)},
+                  {"out_kg", json_or_null(seen.out)},
+                  {"recovery", json_or_null(seen.recovery)},
+                  {"discharge_kg_s", core::or_null(seen.discharge)},
+                  {"steady", seen.steady ? core::Json(*seen.steady) : core::Json()},
+                  {"limited_by", text_or_null(card.limited_by)},
+                  {"left_out", left_out_text(card.left_out)},
+                  {"time_s", {{"taken", core::or_null(card.taken)}, {"predicted", card.predicted.expected}}}};
+}
+
+std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOfCase& bed) {
+  std::vector<std::string> lines;
+  if (bed.state != Fluidisation::unknown) {
+    std::string text = words_of(bed.state);
+    const double top = scene.column.size[1];
+    if (bed.height)
+      text += *bed.height < top ? fmt::format(", about {:.0f} mm high by the balance of forces", 1e3 * *bed.height)
+                                : ", up to the top of the column by the balance of forces";
+    if (bed.height)
+      text += fmt::format(" (settled {:.0f} mm, column {:.0f} mm)", 1e3 * scene.bed.static_height, 1e3 * top);
+    lines.push_back(card_line("expect", text));
+  }
+  add_velocities(bed, lines);
+  return lines;
+}
+
+std::vector<std::string> result_lines(const Card& card) {
+  const BedOfRun& seen = card.seen;
+  std::vector<std::string> lines;
+  if (const std::string text = bed_text(seen); !text.empty()) lines.push_back(card_line("bed", text));
+  add_velocities(card.expected, lines);
+  if (seen.mixing) lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", *seen.mixing)));
+  if (!seen.out.empty()) lines.push_back(card_line("has left", out_text(seen)));
+  if (seen.discharge) lines.push_back(card_line("discharge", in_kilograms(*seen.discharge) + "/s"));
+  lines.push_back(card_line("steady", steady_text(seen)));
+  if (!card.limited_by.empty()) lines.push_back(card_line("step", "limited by " + card.limited_by));
+  std::string left_out = left_out_text(card.left_out);
+  if (card.in_bound && !*card.in_bound && !matters(card.left_out))
+    left_out += "; the run went beyond it: see neglected in run.json";
+  lines.push_back(card_line("left out", left_out));
+  if (card.taken)
+    lines.push_back(card_line("time", fmt::format("{} of computing, predicted {} ({} to {})", short_time(*card.taken),
+                                                  short_time(card.predicted.expected), short_time(card.predicted.least),
+                                                  short_time(card.predicted.most))));
+  return lines;
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,43 @@
+// The result card: what a case or a run amounts to, in one object of run.json and a few lines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/output/json.hpp"
+#include "multiscale/card/bed_of_case.hpp"
+#include "multiscale/card/bed_of_run.hpp"
+#include "multiscale/effects/left_out.hpp"
+#include "multiscale/estimate/estimate.hpp"
+
+namespace polybed::multiscale {
+
+struct Card {
+  BedOfCase expected;
+  BedOfRun seen;
+  std::string limited_by;  ///< what limited most steps; empty: no step yet
+  LeftOut left_out;
+  std::optional<bool> in_bound;  ///< by what the run has met: what is left out stays within chooser.tolerance
+  std::optional<double> taken;   ///< CPU s; empty: it still runs
+  TimeBand predicted;
+};
+
+/// The member "card" of a record.
+void write_card(core::Json& json, const core::Scene& scene, const Card& card);
+
+/// Of a case that has not been run: what to expect.
+[[nodiscard]] std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOfCase& bed);
+
+/// Of a run at its end.
+[[nodiscard]] std::vector<std::string> result_lines(const Card& card);
+
+/// What a model leaves out, and whether that matters, in one line without its heading.
+[[nodiscard]] std::string left_out_text(const LeftOut& left_out);
+
+/// A computing time for people.
+[[nodiscard]] std::string short_time(double seconds);
+
+/// A line of a card: its heading, and what it says.
+[[nodiscard]] std::string card_line(const std::string& heading, const std::string& text);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+"""The result card on the screen and in run.json, against the files of the run. Usage: card_test.py PROGRAM"""
+import re
+
+import numpy as np
+
+import program
+from program import CASE, DONE, ROOT, SMALL, Scratch, history, small_bed, strict_json
+
+KEYS = {"u_mf_m_s", "u_over_u_mf", "terminal_m_s", "geldart", "state", "layers", "bed_height_m", "pressure_drop_over_weight", "mixing",
+        "out_kg", "recovery", "discharge_kg_s", "steady", "limited_by", "left_out", "time_s"}
+HEADINGS = ("bed ", "fluidises at ", "falls at ", "mixing ", "steady ", "step ", "left out ", "time ")
+SCREEN = 25  # lines
+TEMPLATES = ROOT / "cases/templates"
+
+
+class Card(Scratch):
+    def card(self, directory):
+        return strict_json((directory / "run.json").read_text())["card"]
+
+    def test_both_models_end_with_the_same_card(self):
+        case = self.write("case.toml", small_bed("20 ms"))
+        for model in ("tfm", "dem"):
+            run = self.folder / model
+            done = self.ends(DONE, model, case, "-o", run, "--no-picture", picture=True)
+            card = self.card(run)
+            self.assertEqual(set(card), KEYS)
+            self.assertEqual(set(card["u_mf_m_s"]), {"fine", "coarse", "mixture"})
+            last = done.stderr.splitlines()[-len(HEADINGS):]
+            for heading, line in zip(HEADINGS, last):
+                self.assertTrue(line.startswith(heading), (heading, last))
+            record = strict_json((run / "run.json").read_text())
+            self.assertEqual(card["time_s"], {"taken": record["cpu_s"], "predicted": record["prediction"]["cpu_s"]})
+            self.assertIsNone(card["discharge_kg_s"])
+            self.assertIsNone(card["geldart"])
+
+    def test_means_are_those_of_the_history(self):
+        """Means of ten equal parts of the last quarter, with Student's interval; summed in another order, so to rounding."""
+        run = self.folder / "run"
+        self.ends(DONE, "tfm", CASE, *SMALL, "--until", "1 s", "--set", "output.history_every=5e-3", "-o", run, "--quiet")
+        card, rows = self.card(run), history(run)
+        first = next(n for n, t in enumerate(rows["time_s"]) if t >= 0.75 - 1e-12)
+        height = np.array(rows["bed_height_m"][first:])
+        time = np.array(rows["time_s"][first:])
+        part = np.minimum((10 * ((time - time[0]) / (time[-1] - time[0]))).astype(int), 9)
+        parts = np.array([height[part == n].mean() for n in range(10)])
+        self.assertAlmostEqual(card["bed_height_m"]["value"], parts.mean(), delta=1e-12)
+        # Student's quantile of nine degrees of freedom
+        self.assertAlmostEqual(card["bed_height_m"]["interval"], 2.262 * parts.std(ddof=1) / np.sqrt(10), delta=1e-12)
+        self.assertFalse(card["steady"], "the packed bed rises at the fluid's 30 mm/s")
+        self.assertEqual(card["state"], "fluidised")
+        self.assertEqual(card["layers"], "mixed")
+
+    def test_velocities_are_those_of_the_closures(self):
+        """At the minimum fluidisation velocity the drag of the bed balances its buoyant weight, T(1.49); after Wen and Yu
+        without a drag law. By polybed drag, which gives five digits here."""
+        answer = strict_json(self.ends(DONE, "check", CASE, "--json").stdout)
+        run = self.folder / "run"
+        self.ends(DONE, "tfm", CASE, *SMALL, "--until", "10 ms", "-o", run, "--quiet")
+        card = self.card(run)
+        rho, mu = answer["fluid_density_kg_m3"], answer["fluid_viscosity_Pa_s"]
+        for name, d, density in (("fine", 0.807e-3, 1395), ("coarse", 2.01e-3, 1170)):
+            u = card["u_mf_m_s"][name]
+            f = float(self.ends(DONE, "drag", "--law", "cello", "--voidage", 0.38, "--re", rho * u * d / mu).stdout)
+            self.assertAlmostEqual(18 * mu * u * f / d**2, (density - rho) * 9.81 * 0.38, delta=1e-6 * 9.81 * (density - rho))
+            self.assertIn(name, card["terminal_m_s"])
+        self.assertAlmostEqual(card["u_over_u_mf"], 0.03 / card["u_mf_m_s"]["mixture"], places=9)
+
+    def test_a_hopper_has_a_discharge(self):
+        run = self.folder / "hopper"
+        self.ends(DONE, "dem", TEMPLATES / "hopper/case.toml", "-o", run, "--quiet", "--set", "bed.particles=[200]", "--until", "0.3 s",
+                  "--no-picture")
+        card, rows = self.card(run), history(run)
+        out, time = np.array(rows["out_glass_kg"]), rows["time_s"]
+        first, last = (int(np.argmax(out >= share * out[-1])) for share in (0.1, 0.9))
+        self.assertAlmostEqual(card["discharge_kg_s"], (out[last] - out[first]) / (time[last] - time[first]), places=12)
+        self.assertEqual(card["out_kg"], {"glass": out[-1]})
+        self.assertAlmostEqual(card["recovery"]["glass"], out[-1] / rows["mass_glass_kg"][0], places=12)
+        self.assertIsNone(card["u_mf_m_s"])
+        self.assertIsNone(card["state"])
+
+    def test_a_gas_has_geldart_classes(self):
+        """By the lines of his paper: 0.5 mm of 2500 kg/m3 is B, 1.5 mm D, 0.05 mm A."""
+        case = TEMPLATES / "gas-bed/case.toml"
+        for diameter, letter in (("0.5 mm", "B"), ("1.5 mm", "D"), ("0.05 mm", "A"), ("20 um", "C")):
+            text = self.ends(DONE, "check", case, "--set", f"species.glass.diameter={diameter}").stdout
+            self.assertIn(f"Geldart class {letter}\n", text)
+
+    def test_what_is_numerics_is_behind_details(self):
+        case = self.write("case.toml", small_bed("5 ms"))
+        plain, details = (self.ends(DONE, "tfm", case, "-o", self.folder / "run", "--force", *words).stderr for words in ([], ["--details"]))
+        for text in ("right-hand sides", "convection of momentum", "calls"):
+            self.assertNotIn(text, plain)
+            self.assertIn(text, details)
+        self.assertIn("time by term: ", plain)
+        self.assertNotIn("\033", plain + details, "a colour in a pipe")
+
+
+class Screen(Scratch):
+    def test_check_is_one_screen(self):
+        cases = sorted(ROOT.glob("cases/*/case.toml")) + sorted(TEMPLATES.glob("*/case.toml"))
+        self.assertGreater(len(cases), 20)
+        for case, done in zip(cases, program.run_all([["check", case] for case in cases])):
+            self.assertEqual(done.returncode, DONE, f"{case}\n{done.stderr}")
+            lines = done.stdout.splitlines()
+            self.assertLessEqual(len(lines), SCREEN, case)
+            self.assertIn(re.search('title *= "(.*)"', case.read_text())[1], lines[0])
+
+    def test_it_says_what_to_expect(self):
+        text = self.ends(DONE, "check", CASE).stdout
+        for line in (r"expect +fluidised, about 346 mm high", r"fluidises at +fine .* coarse .* mixture .*; u = 30 mm/s is 21 times that",
+                     r"falls at +fine 46.5 mm/s, coarse 66.6 mm/s", r"left out +tfm: forces of .* % of the weight"):
+            self.assertRegex(text, line)
+        for velocity, state in (("1 mm/s", "packed"), ("1 m/s", "carried out")):
+            told = self.ends(DONE, "check", CASE, "--set", f"inlet.superficial_velocity={velocity}").stdout
+            self.assertRegex(told, f"expect +{state}")
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,147 @@
+#!/usr/bin/python3
+"""The texts for people: templates, explanations, the table of effects, drag. Usage: words_test.py PROGRAM"""
+import os
+import pty
+import re
+import subprocess
+import tomllib
+
+import program
+from program import CASE, DONE, ROOT, WRONG_CASE, Scratch, run_all, small_bed, strict_json
+
+TEMPLATES = ["binary-both-scales", "classifier", "gas-bed", "hopper", "liquid-bed", "sphere"]
+WIDTH = 100  # columns
+
+
+class Templates(Scratch):
+    def test_each_is_short_commented_and_a_case(self):
+        self.assertEqual(sorted(p.parent.name for p in ROOT.glob("cases/templates/*/case.toml")), TEMPLATES)
+        for name in TEMPLATES:
+            done = self.ends(DONE, "new", self.folder / name, "--from", name)
+            case = self.folder / name / "case.toml"
+            self.assertIn(f"polybed check {case}", done.stdout)
+            lines = case.read_text().splitlines()
+            self.assertLessEqual(len(lines), 40, name)
+            self.assertGreater(sum(" # " in line for line in lines), 8, f"{name} explains too little")
+            model = re.search(r"polybed (tfm|dem) ", done.stdout.split("next:")[1])[1]
+            self.assertIn(f"polybed {model}", lines[1])
+            end = "10 ms" if model == "tfm" else "1 ms"
+            words = ["--set", "bed.start=mixed"] if name == "hopper" else []  # settling takes seconds
+            self.ends(DONE, model, case, "--until", end, "--quiet", "--no-picture", "-o", self.folder / "runs" / name, *words, picture=True)
+
+    def test_the_list_names_all_with_what_they_show(self):
+        listed = strict_json(self.ends(DONE, "list", "cases", "--json").stdout)["cases"]
+        names = [case["name"] for case in listed if case["template"]]
+        self.assertEqual(names, TEMPLATES)
+        self.assertEqual({case["name"] for case in listed if not case["template"]},
+                         {p.parent.name for p in ROOT.glob("cases/*/case.toml")})
+        text = self.ends(DONE, "list", "cases").stdout
+        for case in listed:
+            self.assertTrue(case["title"] and case["takes"], case)
+            self.assertIn(case["title"], text)
+            self.assertIn(case["takes"], text)
+
+    def test_refusals(self):
+        self.assertIn("did you mean 'hopper'", self.ends(WRONG_CASE, "new", self.folder / "a", "--from", "hoper").stderr)
+        self.ends(DONE, "new", self.folder / "a", "--from", "hopper")
+        self.assertIn("exists already", self.ends(WRONG_CASE, "new", self.folder / "a", "--from", "sphere").stderr)
+        self.assertIn("--from", self.ends(WRONG_CASE, "new", self.folder / "b").stderr)
+
+
+class Explain(Scratch):
+    def explained(self, words):
+        for word, done in zip(words, run_all([["explain", word] for word in words])):
+            self.assertEqual(done.returncode, DONE, f"{word}: {done.stderr}")
+            self.assertIn(word.split(".")[-1], done.stdout)
+
+    def test_every_role_law_and_key(self):
+        listed = strict_json(self.ends(DONE, "list", "--json").stdout)["roles"]
+        keys = [key["key"] for key in strict_json(self.ends(DONE, "schema", "--json").stdout)["keys"]]
+        words = {role["role"] for role in listed} | {f"effects.{role['role']}" for role in listed}
+        words |= {law["law"] for role in listed for law in role["laws"] if "FILE" not in law["law"]}
+        self.explained(sorted(words | {keys[n].split(".")[-1] for n in range(0, len(keys), 7)}))
+
+    def test_every_word_that_runs_and_studies_print(self):
+        case = self.write("case.toml", small_bed("10 ms"))
+        words = {"0", "2", "3", "4", "5", "130"} | set(re.findall(r'"(pareto|dominated|hollow|model|predicted)"', "".join(
+            p.read_text() for p in (ROOT / "python/polybed/cost").glob("*.py"))))
+        for model in ("tfm", "dem"):
+            run = self.folder / model
+            self.ends(DONE, model, case, "--quiet", "--no-picture", "-o", run, picture=True)
+            record = strict_json((run / "run.json").read_text())
+            words |= {record["state"], *(w["name"] for w in record["invariants"])}
+            words |= {record["card"][key] for key in ("state", "layers") if record["card"][key]}
+            words |= {limit["name"].split(" of ")[0] for limit in record.get("step", {}).get("limits", [])}
+        for row in (self.folder / "tfm/steps.csv").read_text().splitlines()[1:]:
+            words.add(re.split(r" at \(|: ", row.split(",", 3)[3].strip('"'))[0])
+        self.assertIn("mass", words)
+        self.explained(sorted(words))
+
+    def test_what_is_unknown(self):
+        self.assertIn("did you mean 'cello'?", self.ends(WRONG_CASE, "explain", "celo").stderr)
+        self.assertIn("did you mean 'tfm'?", self.ends(WRONG_CASE, "tmf", CASE).stderr)
+        self.assertIn("did you mean 'check'?", self.ends(WRONG_CASE, "-n", "2", "chek", CASE).stderr)
+
+
+class Effects(Scratch):
+    def test_it_fits_and_its_lines_are_a_case(self):
+        for case in (CASE, ROOT / "cases/taghipour/case.toml", ROOT / "cases/thesis-a/case.toml"):
+            for words in ([], ["--details"]):
+                text = self.ends(DONE, "effects", case, *words).stdout
+                for line in text.splitlines():
+                    self.assertLessEqual(len(line), WIDTH, line)
+        text = self.ends(DONE, "effects", CASE).stdout
+        lines = text.split("[effects]\n")[1]
+        switched = tomllib.loads(lines)
+        self.assertTrue(switched)
+        for role in switched:
+            self.assertRegex(text, rf"(?m)^\* {role} ")
+        marked = set(re.findall(r"(?m)^\* (\w+) +off ", text))
+        self.assertEqual(marked, set(switched))
+        words = [w for role, law in switched.items() for w in ("--set", f"effects.{role}={law}")]
+        again = self.ends(DONE, "effects", CASE, *words).stdout
+        self.assertNotRegex(again, r"(?m)^\* ", "what it advises is not enough")
+
+
+class Numbers(Scratch):
+    def test_units_of_people(self):
+        given = {"µm": '"807 µm"', "micro": '"807 μm"', "mm": '"0.807 mm"'}
+        answers = {name: strict_json(self.ends(DONE, "check", CASE, "--json", "--set", f"species.fine.diameter={text}").stdout)["hash"]
+                   for name, text in given.items()}
+        self.assertEqual(len(set(answers.values())), 1, answers)
+        for text in ("15 °C", "59 degF", "59 °F", "288.15 K"):
+            case = strict_json(self.ends(DONE, "check", CASE, "--json", "--set", f"fluid.temperature={text}").stdout)["case"]
+            self.assertAlmostEqual(float(re.search(r"temperature = ([\d.]+)", case)[1]), 288.15, delta=1e-12 * 288)
+        units = strict_json(self.ends(DONE, "schema", "--json").stdout)["units"]
+        reference = (ROOT / "docs/reference/case.md").read_text()
+        for unit in units:
+            self.assertIn(f"`{unit}`", reference)
+
+    def test_drag_says_what_its_number_is(self):
+        done = self.ends(DONE, "drag", "--law", "ergun", "--voidage", "0.5", "--re", "20")
+        float(done.stdout)
+        for part in ("f = 24.444", "Stokes", "unit 1", "law ergun", "range: within", "band: "):
+            self.assertIn(part, done.stderr)
+        low, high = map(float, re.search(r"band: ([\d.]+) .* to ([\d.]+) ", done.stderr).groups())
+        self.assertTrue(low <= 24.445 and high >= 24.444)
+
+    def test_colours_only_where_the_terminal_has_them(self):
+        def on_terminal(**settings):
+            ours, theirs = pty.openpty()
+            subprocess.run([program.PROGRAM, "check", str(CASE)], stdout=theirs, env=program.environment(str(self.folder)) | settings)
+            os.close(theirs)
+            text = b""
+            try:
+                while part := os.read(ours, 65536):
+                    text += part
+            except OSError:  # the end of what a closed terminal has
+                pass
+            os.close(ours)
+            return text
+        self.assertIn(b"\033[1m", on_terminal(TERM="xterm"))
+        self.assertNotIn(b"\033", on_terminal(TERM="xterm", NO_COLOR="1"))
+        self.assertNotIn(b"\033", on_terminal(TERM="dumb"))
+
+
+if __name__ == "__main__":
+    program.main()
