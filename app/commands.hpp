@@ -53,6 +53,7 @@ void add_cost(CLI::App& app, Commands& commands);
 void add_inversion(CLI::App& app, Commands& commands);
 void add_move_table(CLI::App& app, Commands& commands);
 void add_calibrate(CLI::App& app, Commands& commands);
+void add_resolve(CLI::App& app, Commands& commands);
 void add_stability(CLI::App& app, Commands& commands);
 
 /// CASE, --set and --json.

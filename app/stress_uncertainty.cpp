@@ -1,5 +1,7 @@
 #include "app/stress_uncertainty.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "app/run_directory.hpp"
 #include "app/study_request.hpp"
 #include "core/error.hpp"
