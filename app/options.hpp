@@ -82,6 +82,12 @@ struct MoveOptions {
   double sigma = 0;  ///< standard errors
 };
 
+/// Options of drag data from resolved flow.
+struct ResolveOptions : CaseOptions {
+  std::filesystem::path output;  ///< empty: runs/<case name>-resolve
+  bool resume = false, force = false, quiet = false;
+};
+
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
@@ -95,6 +101,7 @@ void run_effects_bench(int rounds, bool json);
 core::ExitCode run_effects_audit(const std::filesystem::path& run, bool json);
 void run_estimate(const EstimateOptions& options);
 void run_drag(const DragOptions& options);
+void run_resolve(const ResolveOptions& options);
 void run_measure(const MeasureOptions& options);
 void run_inversion(const InversionOptions& options);
 /// Writes a table of the solids stress moved by a number of its standard errors; for studies.

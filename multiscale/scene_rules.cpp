@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "dem/rules.hpp"
 #include "multiscale/calibrate/plan.hpp"
+#include "multiscale/resolve/box_drag.hpp"
 #include "multiscale/roles.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "tfm/rules.hpp"
@@ -127,8 +128,8 @@ bool flows_in(const core::Scene& scene) {
 const std::vector<core::Rule>& scene_rules() {
   static const std::vector<core::Rule> all = [] {
     std::vector<core::Rule> rules = relevance::rules_of(menu());
-    for (const auto& more :
-         {dem::key_rules(), tfm::key_rules(), tfm::start_rules(), calibrate_rules(), scene_rules_of_both()})
+    for (const auto& more : {dem::key_rules(), tfm::key_rules(), tfm::start_rules(), calibrate_rules(), resolve_rules(),
+                             scene_rules_of_both()})
       rules.insert(rules.end(), more.begin(), more.end());
     return rules;
   }();

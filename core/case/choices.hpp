@@ -97,6 +97,10 @@ constexpr std::array<std::string_view, 3> names(DemIntegrator) { return {"auto",
 enum class BoxRegime { automatic, dry, wet, bed };
 constexpr std::array<std::string_view, 4> names(BoxRegime) { return {"auto", "dry", "wet", "bed"}; }
 
+/// Of the numbers of a resolved flow.
+enum class Precision { one, two };
+constexpr std::array<std::string_view, 2> names(Precision) { return {"single", "double"}; }
+
 /// A choice as a case file writes it.
 template <class Choice>
 requires std::is_enum_v<Choice>

@@ -222,6 +222,15 @@ struct Calibrate {
   double film_gap = 0.005;                                     ///< least thickness of a film, over the diameter
 };
 
+/// Boxes of fixed spheres whose drag polybed resolve finds; the species and their shares are those of the bed.
+struct Resolve {
+  std::vector<double> voidage, reynolds{0};  ///< of the Sauter diameter and the superficial velocity
+  int cells_per_diameter = 16;               ///< of the smallest spheres, on the finest grid
+  int grids = 2;                             ///< each coarser by 1.5
+  int packings = 5, spheres = 50;            ///< per row; in a box
+  Precision precision = Precision::one;
+};
+
 struct ContactPair {
   std::vector<std::string> between;  ///< two names of species, or one and "wall"
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;
@@ -261,6 +270,7 @@ struct Scene {
   Dem dem;
   std::vector<ContactPair> contact_pairs;
   Calibrate calibrate;
+  Resolve resolve;
   std::vector<SizeClasses> size_classes;
   /// What the file of the drag law said when the case was read, JSON: a record, not read again; empty without one.
   std::string drag_record;

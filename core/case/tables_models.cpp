@@ -191,8 +191,25 @@ Table calibrate_table() {
       });
 }
 
+Table resolve_table() {
+  return table(
+      "resolve", &Scene::resolve,
+      {
+          key(&Resolve::voidage, "voidage", range(0.3, 0.99), help("of the boxes of polybed resolve, one or more")),
+          key(&Resolve::reynolds, "reynolds", range(0, 300),
+              help("of the Sauter diameter and the superficial velocity, one or more; 0: Stokes flow")),
+          key(&Resolve::cells_per_diameter, "cells_per_diameter", range(6, 200),
+              help("of the smallest spheres, on the finest grid")),
+          key(&Resolve::grids, "grids", range(1, 3),
+              help("each 1.5 times coarser than the one before; from two on rows are extrapolated, of second order")),
+          key(&Resolve::packings, "packings", range(1, 1000), help("random boxes per row")),
+          key(&Resolve::spheres, "spheres", range(1, 1e5), help("in a box, all sizes together")),
+          key(&Resolve::precision, "precision", help("of the numbers of the flow: single takes half the memory")),
+      });
+}
+
 }  // namespace
 
-std::vector<Table> model_tables() { return {tfm_table(), dem_table(), calibrate_table()}; }
+std::vector<Table> model_tables() { return {tfm_table(), dem_table(), calibrate_table(), resolve_table()}; }
 
 }  // namespace polybed::core::schema

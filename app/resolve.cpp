@@ -1,0 +1,182 @@
+// polybed resolve: drag data from resolved flow through random boxes of the case's spheres.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/commands.hpp"
+#include "app/run_directory.hpp"
+#include "core/interrupt.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/output/directory.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/print.hpp"
+#include "core/progress.hpp"
+#include "multiscale/resolve/rows.hpp"
+#include "multiscale/scene_rules.hpp"
+
+namespace polybed::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class ResolveRun {
+ public:
+  explicit ResolveRun(const ResolveOptions& options)
+      : options_(options),
+        ranks_(core::Ranks::of_program()),
+        first_(core::is_first(ranks_.get())),
+        scene_(read_case(options.case_path, options.overrides)) {
+    options_.quiet = options_.quiet || !first_;
+    require_what_it_needs();
+    directory_ = options.output.empty() ? default_run_directory(options.case_path, "resolve") : options.output;
+    core::on_first(ranks_.get(), [&] { take_directory(); });
+  }
+
+  void run() {
+    core::Json rows = core::Json::array();
+    const std::size_t species = scene_.species.size();
+    if (first_ && !options_.json) core::print("{}\n", row_header(species));
+    std::string table = row_header(species) + "\n";
+    for (const double voidage : scene_.resolve.voidage)
+      for (const double reynolds : scene_.resolve.reynolds) {
+        const std::string row = row_text(scene_, voidage, reynolds, boxes_of(voidage, reynolds));
+        table += row + "\n";
+        if (!first_) continue;
+        core::write_atomically(directory_ / "rows.csv", table);
+        if (!options_.json) core::print("{}\n", row);
+      }
+    if (first_ && options_.json)
+      core::print("{}\n", core::json_text({{"rows", (directory_ / "rows.csv").string()}, {"table", table}}));
+  }
+
+ private:
+  void require_what_it_needs() const {
+    if (scene_.resolve.voidage.empty())
+      throw core::CaseError(options_.case_path.string() + ": resolve needs resolve.voidage, e.g. [0.5, 0.7]");
+    if (scene_.bed.volume_share.size() != scene_.species.size())
+      throw core::CaseError(options_.case_path.string() + ": resolve needs bed.volume_share, one for each species");
+  }
+
+  /// Boxes that a run before has finished are read; those of this one are added behind them.
+  void take_directory() {
+    lock_.emplace(directory_);
+    const fs::path path = directory_ / "boxes.csv";
+    const bool there = fs::exists(path);
+    if (there && !options_.resume && !options_.force)
+      throw core::CaseError(
+          fmt::format("{} contains boxes already: --resume goes on with them, --force replaces them, -o DIR writes "
+                      "elsewhere",
+                      directory_.string()));
+    if (options_.resume && !there)
+      throw core::FileError(
+          fmt::format("{}: no boxes to resume from; leave out --resume to begin anew", directory_.string()));
+    std::string kept = "box,cells,change,imbalance,steps,sites,seconds, then n and f of each species\n";
+    if (options_.resume) {
+      (void)core::bytes_of_file(path);
+      std::ifstream file(path);
+      for (std::string line; std::getline(file, line);) {
+        const std::size_t comma = line.find(',');
+        if (comma == std::string::npos || box_of_text(line.substr(comma + 1), scene_.species.size()).net.empty())
+          continue;
+        finished_[line.substr(0, comma)] = line.substr(comma + 1);
+        kept += line + "\n";
+      }
+    }
+    file_.emplace(path, kept);
+  }
+
+  std::vector<std::vector<BoxDrag>> boxes_of(double voidage, double reynolds) {
+    std::vector<std::vector<BoxDrag>> boxes;
+    for (int packing = 0; packing < scene_.resolve.packings; ++packing) {
+      std::optional<SpherePacking> spheres;
+      std::vector<BoxDrag>& grids = boxes.emplace_back();
+      for (int grid = 0; grid < scene_.resolve.grids; ++grid)
+        grids.push_back(box_of({voidage, reynolds, packing, grid}, spheres));
+    }
+    return boxes;
+  }
+
+  BoxDrag box_of(const ResolvePoint& point, std::optional<SpherePacking>& spheres) {
+    const std::string name = box_name(scene_, point);
+    const auto found = finished_.find(name);
+    const std::string text = core::said_by(ranks_.get(), 0, found == finished_.end() ? "" : found->second);
+    if (!text.empty()) return box_of_text(text, scene_.species.size());
+    if (!spheres)
+      core::on_all(ranks_.get(), [&] {
+        spheres = sphere_packing(scene_, point.voidage, scene_.bed.seed + (std::uint64_t(point.packing) << 32));
+      });
+    const BoxDrag box = box_drag(scene_, point, *spheres, ranks_,
+                                 [&](double steps, double change) { return say(point, steps, change); });
+    core::on_first(ranks_.get(), [&] { file_->append(name + "," + box_text(box) + "\n"); });
+    report(point, box);
+    return box;
+  }
+
+  /// At most every few seconds.
+  bool say(const ResolvePoint& point, double steps, double change) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!options_.quiet && now - said_ > std::chrono::seconds(5)) {
+      said_ = now;
+      core::print(stderr, "{}: {:.0f} steps, drag changes by {:.2g}\n", place_of(point), steps, change);
+    }
+    return !interrupt_.wanted();
+  }
+
+  void report(const ResolvePoint& point, const BoxDrag& box) {
+    if (options_.quiet) return;
+    ++done_;
+    seconds_ += box.seconds;
+    const double all = double(scene_.resolve.voidage.size() * scene_.resolve.reynolds.size()) *
+                       scene_.resolve.packings * scene_.resolve.grids;
+    core::print(stderr, "{}: {:.0f} steps, {:.1f} million sites a second; {:.0f} boxes in {}, {:.0f} in all\n",
+                place_of(point), box.steps, box.sites * box.steps / box.seconds / 1e6, done_,
+                core::duration_text(seconds_), all);
+    if (box.change > 1e-4)
+      core::print(stderr, "warning: the drag of this box still changes by {:.2g}: its flow is unsteady\n", box.change);
+  }
+
+  [[nodiscard]] std::string place_of(const ResolvePoint& point) const {
+    return fmt::format("eps {:g}, Re {:g}, packing {} of {}, {:.3g} cells per diameter", point.voidage, point.reynolds,
+                       point.packing + 1, scene_.resolve.packings, cells_of(scene_.resolve, point.grid));
+  }
+
+  core::Interrupt interrupt_;
+  ResolveOptions options_;
+  std::shared_ptr<const core::Ranks> ranks_;
+  bool first_;
+  core::Scene scene_;
+  fs::path directory_;
+  std::optional<core::OutputDirectory> lock_;
+  std::optional<core::LineFile> file_;
+  std::map<std::string, std::string> finished_;
+  std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
+  double done_ = 0, seconds_ = 0;
+};
+
+}  // namespace
+
+void run_resolve(const ResolveOptions& options) { ResolveRun(options).run(); }
+
+}  // namespace polybed::app
+
+namespace polybed::app {
+
+void add_resolve(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<multiscale::ResolveOptions>();
+  CLI::App& command =
+      *app.add_subcommand("resolve", "drag data from resolved flow through random boxes of the case's spheres");
+  take_case(command, *options);
+  command.add_option("-o,--output", options->output, "folder; default runs/<case name>-resolve");
+  command.add_flag("--resume", options->resume, "keep the boxes that are finished");
+  command.add_flag("--force", options->force, "replace them");
+  command.add_flag("--quiet", options->quiet, "no line for each box");
+  commands.push_back({&command, doing([options] { multiscale::run_resolve(*options); }), [] { return On::all_ranks; }});
+}
+
+}  // namespace polybed::app

@@ -1,0 +1,237 @@
+#include "lbm/flow.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace polybed::lbm {
+
+namespace {
+
+/// Covered sites between two of fluid in a row up to which a run goes on: cheaper than a run more.
+constexpr int bridge = 12;
+
+Sites slab_of(const std::array<int, 3>& box, const core::Ranks* ranks) {
+  const int count = ranks != nullptr ? ranks->count() : 1, rank = ranks != nullptr ? ranks->rank() : 0;
+  if (box[0] < count)
+    throw core::CaseError(fmt::format("a box of {} sites along x cannot be shared by {} ranks", box[0], count));
+  Sites sites;
+  sites.box = box;
+  sites.first = int(std::int64_t(box[0]) * rank / count);
+  sites.own = {int(std::int64_t(box[0]) * (rank + 1) / count) - sites.first, box[1], box[2]};
+  sites.row = std::size_t(box[2] + 2);
+  return sites;
+}
+
+/// Distance of two directions in memory. Nineteen streams at the same place of a page would share one set of the cache.
+template <class Real>
+std::size_t stride_of(const Sites& sites) {
+  constexpr std::size_t page = 4096 / sizeof(Real), line = 64 / sizeof(Real);
+  return (sites.count() + page - 1) / page * page + 3 * line;
+}
+
+template <class Real, bool inertia>
+void collide(std::array<Real*, directions> place, std::size_t length, const Relaxation<Real>& relaxation) {
+  collide_row<Real, inertia>(place.data(), length, relaxation);
+}
+
+}  // namespace
+
+template <class Real>
+Flow<Real>::Flow(const FlowSetup& setup, const Obstacles& obstacles, std::shared_ptr<const core::Ranks> ranks)
+    : ranks_(std::move(ranks)), setup_(setup), sites_(slab_of(setup.box, ranks_.get())) {
+  stride_ = stride_of<Real>(sites_);
+  if (stride_ * directions > std::numeric_limits<std::uint32_t>::max())
+    throw core::CaseError(fmt::format("a box of {} x {} x {} sites is too large for {} ranks", setup.box[0],
+                                      setup.box[1], setup.box[2], ranks_ ? ranks_->count() : 1));
+  owner_ = obstacles.owners(sites_);
+  on_obstacle_.resize(obstacles.count());
+  find_runs();
+  find_links(obstacles, setup.wall);
+  populations_.assign(stride_ * directions, 0);
+  halo_ = std::make_unique<Halo<Real>>(sites_, stride_, ranks_);
+  core::add_over_ranks(ranks_.get(), std::span<double>(&fluid_sites_, 1));
+}
+
+template <class Real>
+void Flow<Real>::find_runs() {
+  for (int i = 1; i <= sites_.own[0]; ++i)
+    for (int j = 1; j <= sites_.own[1]; ++j) {
+      int last = -bridge - 2;  // site of fluid before this one
+      for (int k = 1; k <= sites_.own[2]; ++k) {
+        if (owner_[sites_.at(i, j, k)] != Obstacles::none) continue;
+        ++fluid_sites_;
+        if (k - last > bridge + 1)
+          runs_.push_back({std::uint32_t(sites_.at(i, j, k)), 1});
+        else
+          runs_.back().length += std::uint32_t(k - last);
+        last = k;
+      }
+    }
+  for (const Run& run : runs_) worked_ += run.length;
+}
+
+template <class Real>
+void Flow<Real>::find_links(const Obstacles& obstacles, Wall wall) {
+  for (int i = 1; i <= sites_.own[0]; ++i)
+    for (int j = 1; j <= sites_.own[1]; ++j)
+      for (int k = 1; k <= sites_.own[2]; ++k) {
+        const std::size_t site = sites_.at(i, j, k);
+        if (owner_[site] != Obstacles::none) continue;
+        for (std::size_t w = 1; w < directions; ++w) {
+          const std::size_t step = std::size_t(sites_.step(ways[w])), covered = site + step, back = site - step;
+          const std::int32_t owner = owner_[covered];
+          if (owner == Obstacles::none) continue;
+          const std::size_t here = place(w, site), behind = place(opposite(w), back);
+          Link link{std::uint32_t(place(opposite(w), site)),
+                    std::uint32_t(place(w, covered)),
+                    {},
+                    1,
+                    0,
+                    std::int32_t(w),
+                    owner};
+          link.behind[0] = link.behind[1] = std::uint32_t(here);
+          if (wall == Wall::interpolated) {
+            const double q =
+                obstacles.fraction(owner, {double(sites_.first + i - 1), double(j - 1), double(k - 1)}, ways[w]);
+            // Nearer than half-way it takes the site behind, which has to be fluid.
+            if (q >= 0.5) {
+              link.own = Real(1 / (2 * q));
+              link.behind[1] = std::uint32_t(behind);
+            } else if (owner_[back] == Obstacles::none) {
+              link.own = Real(2 * q);
+              link.behind[0] = std::uint32_t(behind);
+            }
+            link.other = 1 - link.own;
+          }
+          links_.push_back(link);
+        }
+      }
+}
+
+template <class Real>
+void Flow<Real>::collide(bool second, const Point& force) {
+  const double even = 1 / (0.5 + 3 * setup_.viscosity);
+  const Relaxation<Real> relaxation{Real(even), Real(odd_rate(even)), {Real(force[0]), Real(force[1]), Real(force[2])}};
+  std::array<Real*, directions> origin;
+  for (std::size_t i = 0; i < directions; ++i)
+    origin[i] =
+        populations_.data() + (second ? place(opposite(i), 0) : place(i, 0)) - (second ? sites_.step(ways[i]) : 0);
+  for (const Run& run : runs_) {
+    std::array<Real*, directions> at;
+    for (std::size_t i = 0; i < directions; ++i) at[i] = origin[i] + run.begin;
+    if (setup_.inertia)
+      core::in_vectors<&lbm::collide<Real, true>>(at, run.length, relaxation);
+    else
+      core::in_vectors<&lbm::collide<Real, false>>(at, run.length, relaxation);
+  }
+}
+
+template <class Real>
+void Flow<Real>::bounce(bool second) {
+  Real* const f = populations_.data();
+  for (const Link& link : links_) {
+    const Real leaving = f[second ? link.covered : link.fluid];
+    const Real back = link.own * leaving + link.other * f[link.behind[second]];
+    f[second ? link.fluid : link.covered] = back;
+    const std::array<int, 3>& c = ways[std::size_t(link.way)];
+    const double impulse = double(leaving) + double(back);
+    Point& on = on_obstacle_[std::size_t(link.owner)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      on[k] += c[k] * impulse;
+      on_all_[k] += c[k] * impulse;
+    }
+  }
+}
+
+template <class Real>
+void Flow<Real>::advance(const Point& force) {
+  force_ = force;
+  on_all_ = {};
+  steps_ += 2;
+  collide(false, force);
+  halo_->fill(populations_.data());
+  bounce(false);
+  collide(true, force);
+  halo_->fold(populations_.data());
+  bounce(true);
+}
+
+template <class Real>
+std::vector<Point> Flow<Real>::forces() const {
+  std::vector<Point> sum = on_obstacle_;
+  for (Point& on : sum)
+    for (double& component : on) component /= double(steps_);
+  if (!sum.empty()) core::add_over_ranks(ranks_.get(), std::span<double>(sum.front().data(), 3 * sum.size()));
+  return sum;
+}
+
+template <class Real>
+void Flow<Real>::forget_forces() {
+  std::fill(on_obstacle_.begin(), on_obstacle_.end(), Point{});
+  steps_ = 0;
+}
+
+template <class Real>
+Point Flow<Real>::force() const {
+  Point sum{on_all_[0] / 2, on_all_[1] / 2, on_all_[2] / 2};
+  core::add_over_ranks(ranks_.get(), std::span<double>(sum));
+  return sum;
+}
+
+template <class Real>
+Point Flow<Real>::velocity_at(int i, int j, int k) const {
+  Point u{};
+  const std::size_t site = sites_.at(i - sites_.first + 1, j + 1, k + 1);
+  if (owner_[site] != Obstacles::none) return u;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t w = 1; w < directions; ++w) u[a] += ways[w][a] * double(populations_[place(w, site)]);
+    u[a] += force_[a] / 2;
+  }
+  return u;
+}
+
+template <class Real>
+Point Flow<Real>::velocity() const {
+  Point sum{};
+  for (int i = 0; i < sites_.own[0]; ++i)
+    for (int j = 0; j < sites_.own[1]; ++j)
+      for (int k = 0; k < sites_.own[2]; ++k) {
+        const Point u = velocity_at(sites_.first + i, j, k);
+        for (std::size_t a = 0; a < 3; ++a) sum[a] += u[a];
+      }
+  core::add_over_ranks(ranks_.get(), std::span<double>(sum));
+  for (double& component : sum) component /= double(sites_.box[0]) * sites_.box[1] * sites_.box[2];
+  return sum;
+}
+
+template <class Real>
+void Flow<Real>::level_density() {
+  double sum = 0;
+  for (std::size_t site = 0; site < owner_.size(); ++site) {
+    const std::size_t k = site % sites_.row, j = site / sites_.row % std::size_t(sites_.own[1] + 2);
+    const std::size_t i = site / (sites_.row * std::size_t(sites_.own[1] + 2));
+    const bool own = k >= 1 && k <= std::size_t(sites_.own[2]) && j >= 1 && j <= std::size_t(sites_.own[1]) && i >= 1 &&
+                     i <= std::size_t(sites_.own[0]);
+    if (!own || owner_[site] != Obstacles::none) continue;
+    for (std::size_t w = 0; w < directions; ++w) sum += double(populations_[place(w, site)]);
+  }
+  core::add_over_ranks(ranks_.get(), std::span<double>(&sum, 1));
+  for (std::size_t w = 0; w < directions; ++w)
+    for (std::size_t site = 0; site < owner_.size(); ++site)
+      populations_[place(w, site)] -= Real(weight(w) * sum / fluid_sites_);
+}
+
+template <class Real>
+std::size_t Flow<Real>::memory_bytes() const {
+  return populations_.size() * sizeof(Real) + owner_.size() * sizeof(owner_[0]) + links_.size() * sizeof(Link) +
+         runs_.size() * sizeof(Run);
+}
+
+template class Flow<float>;
+template class Flow<double>;
+
+}  // namespace polybed::lbm

@@ -1,0 +1,101 @@
+// A fluid of density 1 that flows through a periodic box of obstacles; lengths in cells, time in steps. The box is cut
+// into slabs along x, one per rank.
+//
+// One array of populations serves two steps (Bailey et al., ICPP 2009): the first collides each site in its own place
+// and leaves what departs along i in the place of the opposite direction; the second reads from the neighbours, and
+// writes to them. A covered site passes on what departs towards it, from `links`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/numerics/ranks.hpp"
+#include "lbm/collision.hpp"
+#include "lbm/halo.hpp"
+#include "lbm/obstacles.hpp"
+
+namespace polybed::lbm {
+
+enum class Wall {
+  half_way,     ///< bounce-back: momentum and mass exact
+  interpolated  ///< linearly, by where the surface cuts the link (Bouzidi et al., Phys. Fluids 13 (2001) 3452)
+};
+
+struct FlowSetup {
+  std::array<int, 3> box{};  ///< sites
+  double viscosity = 1.0 / 6;
+  bool inertia = false;  ///< else Stokes flow
+  Wall wall = Wall::half_way;
+};
+
+template <class Real>
+class Flow {
+ public:
+  /// A fluid at rest. Collective. Throws core::CaseError if the box has fewer layers along x than ranks.
+  Flow(const FlowSetup& setup, const Obstacles& obstacles, std::shared_ptr<const core::Ranks> ranks = nullptr);
+
+  /// Two steps under a force on each site of the fluid. Collective.
+  void advance(const Point& force);
+
+  /// Force on each obstacle, mean since forget_forces(), without what the pressure that drives the flow adds.
+  /// Collective.
+  [[nodiscard]] std::vector<Point> forces() const;
+  void forget_forces();
+  /// Sum over all obstacles, mean of the last two steps. Collective.
+  [[nodiscard]] Point force() const;
+  /// Mean velocity over the whole box, obstacles counted with 0: the superficial velocity. Collective.
+  [[nodiscard]] Point velocity() const;
+  /// Of a site of this slab, `first` to `first + own[0] - 1` along x.
+  [[nodiscard]] Point velocity_at(int i, int j, int k) const;
+  /// Subtracts the mean density: interpolated walls do not conserve mass to round-off. Collective.
+  void level_density();
+
+  [[nodiscard]] const Sites& sites() const { return sites_; }
+  /// Sites of fluid in the whole box; those that a step works on, in this slab; links cut in this slab.
+  [[nodiscard]] double fluid_sites() const { return fluid_sites_; }
+  [[nodiscard]] std::size_t worked_sites() const { return worked_; }
+  [[nodiscard]] std::size_t links() const { return links_.size(); }
+  /// Of this slab.
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  /// Places in the array of populations, and what of each bounces.
+  struct Link {
+    std::uint32_t fluid, covered;  ///< where what departs to the obstacle stands after the first step; after the second
+    std::uint32_t behind[2];       ///< with what it is interpolated, likewise
+    Real own, other;               ///< their weights
+    std::int32_t way, owner;
+  };
+  struct Run {
+    std::uint32_t begin, length;
+  };
+
+  [[nodiscard]] std::size_t place(std::size_t i, std::size_t site) const { return i * stride_ + site; }
+  void find_runs();
+  void find_links(const Obstacles& obstacles, Wall wall);
+  void collide(bool second, const Point& force);
+  void bounce(bool second);
+
+  std::shared_ptr<const core::Ranks> ranks_;
+  FlowSetup setup_;
+  Sites sites_;
+  std::vector<std::int32_t> owner_;
+  std::size_t stride_ = 0, worked_ = 0;
+  double fluid_sites_ = 0;
+  std::vector<Real> populations_;
+  std::vector<Run> runs_;
+  std::vector<Link> links_;
+  std::vector<Point> on_obstacle_;  ///< sums over the steps taken since
+  std::int64_t steps_ = 0;
+  Point on_all_{};  ///< of the last two steps
+  Point force_{};   ///< of the last steps, on a site
+  std::unique_ptr<Halo<Real>> halo_;
+};
+
+extern template class Flow<float>;
+extern template class Flow<double>;
+
+}  // namespace polybed::lbm

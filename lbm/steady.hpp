@@ -1,0 +1,38 @@
+// Flow through a box at a given superficial velocity, until its drag no longer changes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "lbm/flow.hpp"
+
+namespace polybed::lbm {
+
+struct SteadyPlan {
+  Point velocity{};         ///< superficial, cells per step
+  double window = 100;      ///< steps over which forces are averaged; the time in which the flow forgets its start
+  double tolerance = 1e-5;  ///< relative change of the drag from one window to the next
+  std::int64_t most_steps = 200000;
+};
+
+struct SteadyFlow {
+  Point velocity{};           ///< superficial, as measured at the end
+  Point driving{};            ///< force on each site of fluid: less the gradient of the pressure
+  std::vector<Point> forces;  ///< on each obstacle, mean of the last window
+  double change = 0;          ///< of the drag in the last window, relative
+  double imbalance = 0;       ///< of the forces on the obstacles and on the fluid, relative
+  std::int64_t steps = 0;
+};
+
+/// After each window: steps taken and relative change. Returns false to stop.
+using AfterWindow = std::function<bool(std::int64_t, double)>;
+
+/// Drives the flow by a force that keeps its mean velocity, and stops when `tolerance` is met, after `most_steps` or
+/// when `after_window` says so; `change` tells which. Collective. Throws core::NumericsError for populations that are
+/// no numbers any more.
+template <class Real>
+[[nodiscard]] SteadyFlow run_until_steady(Flow<Real>& flow, const SteadyPlan& plan,
+                                          const AfterWindow& after_window = {});
+
+}  // namespace polybed::lbm

@@ -1,0 +1,44 @@
+// Drag on the spheres of one packing from the flow resolved on one grid.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/case/rule.hpp"
+#include "core/case/scene.hpp"
+#include "core/numerics/ranks.hpp"
+#include "multiscale/resolve/packing.hpp"
+
+namespace polybed::multiscale {
+
+/// A point of the data, and one box of it.
+struct ResolvePoint {
+  double voidage = 0, reynolds = 0;
+  int packing = 0, grid = 0;  ///< from 0; grid 0 is the finest
+};
+
+/// Forces over those of Stokes at the superficial velocity, means over the spheres of each species.
+struct BoxDrag {
+  std::vector<double> net, pure;  ///< n_j, f_j
+  double cells = 0;               ///< of the smallest diameter, as the edge of the box allows
+  double change = 0, imbalance = 0;
+  double steps = 0, sites = 0, seconds = 0;  ///< of fluid and spheres in the box; wall time of the steps
+};
+
+/// What the keys of [resolve] require of each other: grids that resolve the pores and the Reynolds number, spheres of
+/// every species.
+[[nodiscard]] std::vector<core::Rule> resolve_rules();
+
+/// Cells of the smallest diameter on a grid.
+[[nodiscard]] double cells_of(const core::Resolve& resolve, int grid);
+
+/// Called now and then with the steps taken and the relative change of the drag; returns false to stop.
+using StillWanted = std::function<bool(double steps, double change)>;
+
+/// Collective. The flow stops when its drag changes by less than 1e-5 while a pore forgets its past, or after 200 such
+/// times: `change` tells what is left. Throws core::Stopped if it is not wanted any more, core::NumericsError.
+[[nodiscard]] BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
+                               std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted);
+
+}  // namespace polybed::multiscale

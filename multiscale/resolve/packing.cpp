@@ -1,0 +1,59 @@
+#include "multiscale/resolve/packing.hpp"
+
+#include <cmath>
+
+#include "closures/sphere.hpp"
+#include "dem/packing.hpp"
+#include "dem/scene.hpp"
+
+namespace polybed::multiscale {
+
+std::vector<std::int64_t> sphere_numbers(const core::Scene& scene) {
+  std::vector<double> one;
+  double sum = 0;
+  for (std::size_t j = 0; j < scene.species.size(); ++j) {
+    one.push_back(scene.bed.volume_share[j] / closures::sphere_volume(0.5 * scene.species[j].diameter));
+    sum += one.back();
+  }
+  std::vector<std::int64_t> numbers;
+  for (const double of_species : one) numbers.push_back(std::llround(scene.resolve.spheres * of_species / sum));
+  return numbers;
+}
+
+std::vector<double> shares_of(const core::Scene& scene, const std::vector<std::int64_t>& numbers) {
+  std::vector<double> share;
+  double sum = 0;
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    share.push_back(double(numbers[j]) * closures::sphere_volume(0.5 * scene.species[j].diameter));
+    sum += share.back();
+  }
+  for (double& x : share) x /= sum;
+  return share;
+}
+
+SpherePacking sphere_packing(const core::Scene& scene, double voidage, std::uint64_t seed) {
+  core::Scene box;
+  box.fluid.name = "none";
+  box.species = scene.species;
+  box.bed.particles = sphere_numbers(scene);
+  double solids = 0;
+  for (std::size_t j = 0; j < box.species.size(); ++j)
+    solids += double(box.bed.particles[j]) * closures::sphere_volume(0.5 * box.species[j].diameter);
+  SpherePacking packing;
+  packing.length = std::cbrt(solids / (1 - voidage));
+  box.column.dimensions = 3;
+  box.column.size = {packing.length, packing.length, packing.length};
+  box.column.gravity = 0;
+  box.column.sides = box.column.ends = core::Boundary::periodic;
+  box.bed.start = {core::StartKind::random};
+  box.bed.start_solids_fraction = 1 - voidage;
+  box.bed.seed = seed;
+  const dem::Materials materials(box);
+  for (const dem::Particle& p : dem::start_particles(box, materials, dem::box_of(box))) {
+    packing.centre.push_back(p.place.x);
+    packing.species.push_back(std::size_t(p.species));
+  }
+  return packing;
+}
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,29 @@
+// Random boxes of fixed spheres for resolved flow.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/case/scene.hpp"
+
+namespace polybed::multiscale {
+
+/// Spheres in a periodic cube, SI.
+struct SpherePacking {
+  double length = 0;  ///< of an edge, m
+  std::vector<std::array<double, 3>> centre;
+  std::vector<std::size_t> species;
+};
+
+/// Numbers of spheres of each species for the shares of the bed, about resolve.spheres in all; a species may get none.
+[[nodiscard]] std::vector<std::int64_t> sphere_numbers(const core::Scene& scene);
+
+/// Shares of the volume that these numbers make.
+[[nodiscard]] std::vector<double> shares_of(const core::Scene& scene, const std::vector<std::int64_t>& numbers);
+
+/// A cube of that voidage with these numbers of spheres, without overlap beyond a thousandth of a radius. Throws
+/// core::StartError for spheres that do not fit. \param seed  of this packing
+[[nodiscard]] SpherePacking sphere_packing(const core::Scene& scene, double voidage, std::uint64_t seed);
+
+}  // namespace polybed::multiscale

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""polybed resolve: rows, resume, refusals, and one and two ranks. Usage: resolve_test.py PROGRAM"""
+import csv
+import os
+import subprocess
+
+import program
+from program import DONE, FILE, TWO_SIZES, WRONG_CASE, Scratch, main, strict_json
+import open_mpi
+
+CASE = """[column]
+size = ["10 mm", "40 mm"]
+cells = [4, 24]
+[fluid]
+name = "water"
+density = 999
+viscosity = "1.14e-3 Pa s"
+""" + TWO_SIZES.replace("0.8 mm", "1 mm") + """[bed]
+volume_share = [0.5, 0.5]
+static_height = "12 mm"
+solids_fraction = 0.6
+[inlet]
+superficial_velocity = "20 mm/s"
+[run]
+until = "1 s"
+[resolve]
+voidage = [0.6]
+reynolds = [0, 5]
+cells_per_diameter = 9
+packings = 2
+spheres = 9
+"""
+
+
+class Resolve(Scratch):
+    def setUp(self):
+        super().setUp()
+        self.case = self.write("case.toml", CASE)
+        self.out = self.folder / "out"
+
+    def resolve(self, *words, code=DONE):
+        return self.ends(code, "resolve", self.case, "-o", self.out, "--quiet", *words)
+
+    def test_rows_are_those_of_the_header_and_a_drag_table(self):
+        text = self.resolve().stdout
+        rows = list(csv.DictReader(text.splitlines()))
+        self.assertEqual([row["Re"] for row in rows], ["0", "5"])
+        self.assertEqual(text, (self.out / "rows.csv").read_text())
+        for row in rows:
+            n, f = ([float(row[f"{letter}_{j}"]) for j in (1, 2)] for letter in "nf")
+            self.assertGreater(n[1], n[0])  # the coarse feel more, the sum rule holds
+            self.assertAlmostEqual(float(row["x1"]) + float(row["x2"]), 1, delta=1e-6)
+            y = [float(row[f"D{j}"]) * sum(float(row[f"x{k}"]) / float(row[f"D{k}"]) for k in (1, 2)) for j in (1, 2)]
+            mean = [sum(float(row[f"x{j + 1}"]) * v[j] / y[j] ** 2 for j in (0, 1)) for v in (n, f)]
+            self.assertAlmostEqual(mean[1] / mean[0], 0.6, delta=0.02)
+            self.assertLess(float(row["imbalance"]), 1e-4)
+        self.assertGreater(float(rows[1]["n_1"]), float(rows[0]["n_1"]))
+
+    def test_finished_boxes_are_kept(self):
+        first = self.resolve("--set", "resolve.reynolds=[0]").stdout
+        self.assertIn("--resume", self.resolve(code=WRONG_CASE).stderr)
+        boxes = (self.out / "boxes.csv").read_text()
+        again = self.resolve("--set", "resolve.reynolds=[0]", "--resume").stdout
+        self.assertEqual(again, first)
+        self.assertEqual((self.out / "boxes.csv").read_text(), boxes)
+        self.out = self.folder / "other"
+        self.resolve("--resume", code=FILE)
+
+    def test_two_ranks_find_the_same(self):
+        words = ["--set", "resolve.reynolds=[5]", "--set", 'resolve.precision="double"', "--set", "resolve.packings=1"]
+        one = next(csv.DictReader(self.resolve(*words).stdout.splitlines()))
+        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
+        for ranks in (2, 3):
+            done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "resolve", self.case, "--quiet",
+                                   "-o", self.folder / f"on-{ranks}", *words], env=settings, capture_output=True, text=True)
+            self.assertEqual(done.returncode, DONE, done.stderr[-1500:])
+            more = next(csv.DictReader(done.stdout.splitlines()))
+            for name in ("n_1", "n_2", "f_1", "f_2"):  # sums over ranks are rounded otherwise
+                self.assertAlmostEqual(float(more[name]), float(one[name]), delta=2e-6 * float(one[name]))
+
+    def test_what_cannot_be_resolved_is_refused_with_its_number(self):
+        for words, said in ((["resolve.cells_per_diameter=6", "resolve.voidage=[0.4]"], "resolve.cells_per_diameter = 6"),
+                            (["resolve.reynolds=[250]"], "resolve.reynolds = 250"),
+                            (["resolve.spheres=4"], "resolve.spheres = 4"),
+                            (["resolve.voidage=[0.1]"], "resolve.voidage")):
+            sets = [word for key in words for word in ("--set", key)]
+            self.assertIn(said, self.resolve(*sets, code=WRONG_CASE).stderr)
+        self.assertFalse(self.out.exists())
+
+    def test_json_names_the_table(self):
+        answer = strict_json(self.resolve("--json", "--set", "resolve.reynolds=[0]", "--set", "resolve.packings=1").stdout)
+        self.assertEqual(answer["table"], (self.out / "rows.csv").read_text())
+
+
+if __name__ == "__main__":
+    main()

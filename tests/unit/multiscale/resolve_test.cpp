@@ -1,0 +1,116 @@
+#include "multiscale/resolve/rows.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+using namespace polybed;
+using namespace polybed::multiscale;
+
+namespace {
+
+core::Scene two_sizes() {
+  core::Scene scene;
+  scene.species.resize(2);
+  for (std::size_t j = 0; j < 2; ++j) {
+    scene.species[j].name = j == 0 ? "fine" : "coarse";
+    scene.species[j].diameter = j == 0 ? 1e-3 : 2e-3;
+    scene.species[j].density = 2500;
+  }
+  scene.bed.volume_share = {0.5, 0.5};
+  scene.resolve.voidage = {0.5};
+  scene.resolve.spheres = 18;
+  scene.resolve.cells_per_diameter = 8;
+  scene.resolve.grids = 1;
+  return scene;
+}
+
+BoxDrag box(double cells, std::vector<double> net) {
+  BoxDrag made;
+  made.cells = cells;
+  made.net = made.pure = std::move(net);
+  return made;
+}
+
+std::string broken(const core::Scene& scene) {
+  std::string text;
+  for (const core::Rule& rule : resolve_rules())
+    for (const std::string& fault : rule.faults(scene)) text += fault + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST(Resolve, PackingHasItsVoidageAndNoOverlap) {
+  const core::Scene scene = two_sizes();
+  EXPECT_THAT(sphere_numbers(scene), testing::ElementsAre(16, 2));
+  EXPECT_THAT(shares_of(scene, sphere_numbers(scene)), testing::ElementsAre(0.5, 0.5));
+  const SpherePacking packing = sphere_packing(scene, 0.5, 1);
+  double solids = 0;
+  for (std::size_t n = 0; n < packing.centre.size(); ++n) {
+    const double d = scene.species[packing.species[n]].diameter;
+    solids += M_PI / 6 * d * d * d;
+    for (std::size_t m = 0; m < n; ++m) {
+      double square = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double r = std::remainder(packing.centre[n][k] - packing.centre[m][k], packing.length);
+        square += r * r;
+      }
+      const double touch = 0.5 * (d + scene.species[packing.species[m]].diameter);
+      EXPECT_GT(std::sqrt(square), touch - 1e-3 * 0.5e-3);
+    }
+  }
+  EXPECT_NEAR(1 - solids / std::pow(packing.length, 3), 0.5, 1e-12);
+  EXPECT_NE(sphere_packing(scene, 0.5, 2).centre, packing.centre);
+}
+
+// (3.16) of the thesis: what acts on all spheres together is the pressure gradient on the whole box.
+TEST(Resolve, NetForcesMakeTheSumRule) {
+  core::Scene scene = two_sizes();
+  scene.resolve.cells_per_diameter = 6;
+  const SpherePacking packing = sphere_packing(scene, 0.5, 1);
+  const BoxDrag drag = box_drag(scene, {0.5, 0, 0, 0}, packing, nullptr, [](double, double) { return true; });
+  // Sum of x_j n_j/y_j^2 against the sum of x_j f_j/y_j^2 over eps; the grid's own voidage differs from 0.5.
+  double net = 0, pure = 0;
+  for (std::size_t j = 0; j < 2; ++j) {
+    const double y = scene.species[j].diameter / (4e-3 / 3);
+    net += 0.5 * drag.net[j] / (y * y);
+    pure += 0.5 * drag.pure[j] / (y * y);
+  }
+  EXPECT_NEAR(net, pure / 0.5, 0.02 * net);
+  EXPECT_LT(drag.imbalance, 1e-4);
+  EXPECT_GT(drag.net[1], drag.net[0]);
+}
+
+TEST(Resolve, RowsExtrapolateAndAverage) {
+  // n = 10 + 36/cells^2 of one packing, 12 + 36/cells^2 of the other.
+  const std::vector<std::vector<BoxDrag>> boxes{{box(12, {10.25}), box(6, {11})}, {box(12, {12.25}), box(6, {13})}};
+  const std::vector<RowValue> row = row_values(boxes);
+  EXPECT_NEAR(row[0].net, 11, 1e-12);
+  EXPECT_NEAR(row[0].net_error, 1, 1e-12);
+  EXPECT_NEAR(row[0].net_grid, -0.25, 1e-12);
+}
+
+TEST(Resolve, BoxesSurviveTheirFile) {
+  const BoxDrag made{{1.5, 2.5}, {0.5, 0.25}, 12, 1e-6, 2e-7, 1000, 8000, 1.25};
+  const BoxDrag read = box_of_text(box_text(made), 2);
+  EXPECT_EQ(read.net, made.net);
+  EXPECT_EQ(read.pure, made.pure);
+  EXPECT_EQ(read.seconds, made.seconds);
+  EXPECT_TRUE(box_of_text(box_text(made), 3).net.empty());
+  EXPECT_TRUE(box_of_text("12,1e-6,2e-", 2).net.empty());
+}
+
+TEST(Resolve, RefusesGridsThatAreTooCoarse) {
+  core::Scene scene = two_sizes();
+  EXPECT_EQ(broken(scene), "");
+  scene.resolve.voidage = {0.35};
+  scene.resolve.cells_per_diameter = 6;
+  EXPECT_THAT(broken(scene), testing::HasSubstr("resolve.cells_per_diameter = 6: the pores are 2.9 cells wide"));
+  scene = two_sizes();
+  scene.resolve.reynolds = {0, 200};
+  EXPECT_THAT(broken(scene), testing::HasSubstr("resolve.reynolds = 200"));
+  scene = two_sizes();
+  scene.resolve.spheres = 4;
+  EXPECT_THAT(broken(scene), testing::HasSubstr("leaves none of species 'coarse'"));
+}
