@@ -168,7 +168,7 @@ void run_resolve(const ResolveOptions& options) { ResolveRun(options).run(); }
 namespace polybed::app {
 
 void add_resolve(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<multiscale::ResolveOptions>();
+  const auto options = std::make_shared<ResolveOptions>();
   CLI::App& command =
       *app.add_subcommand("resolve", "drag data from resolved flow through random boxes of the case's spheres");
   take_case(command, *options);
@@ -176,7 +176,7 @@ void add_resolve(CLI::App& app, Commands& commands) {
   command.add_flag("--resume", options->resume, "keep the boxes that are finished");
   command.add_flag("--force", options->force, "replace them");
   command.add_flag("--quiet", options->quiet, "no line for each box");
-  commands.push_back({&command, doing([options] { multiscale::run_resolve(*options); }), [] { return On::all_ranks; }});
+  commands.push_back({&command, doing([options] { run_resolve(*options); }), [] { return On::all_ranks; }});
 }
 
 }  // namespace polybed::app

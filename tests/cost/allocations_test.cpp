@@ -10,6 +10,8 @@
 #include <new>
 
 #include "scenes/record.hpp"
+#include "tfm/explicit_problem.hpp"
+#include "tfm/implicit_problem.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};

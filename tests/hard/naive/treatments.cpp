@@ -6,6 +6,8 @@
 
 #include "hard/naive/equations.hpp"
 #include "hard/naive/unknowns.hpp"
+#include "tfm/explicit_problem.hpp"
+#include "tfm/implicit_problem.hpp"
 
 namespace polybed::hard::naive {
 
