@@ -125,7 +125,7 @@ std::vector<std::string> split(const std::string& line) {
 
 /// What a row of a table asks: a voidage, a Reynolds number, and of a mixture its shares and diameters.
 struct Row {
-  std::string text;            ///< as the file has it
+  std::string text;            ///< the cells that ask it, as the file has them
   std::string where;           ///< file and line
   std::vector<double> values;  ///< all of them, in the order of the header
   std::vector<double> share, diameter;
@@ -180,21 +180,27 @@ double number_in(const std::string& cell, const std::string& where) {
   throw core::CaseError(where + "'" + cell + "' is no number");
 }
 
-void check_header(const std::vector<std::string>& columns, const std::string& where) {
+/// The columns of a header that say what is asked. What was measured there may follow, from n_1 on, as `polybed
+/// resolve` writes it.
+std::vector<std::string> asked_in(std::vector<std::string> columns, const std::string& where) {
+  columns.erase(std::find(columns.begin(), columns.end(), "n_1"), columns.end());
   bool fits = columns.size() >= 2 && columns.size() % 2 == 0 && columns[0] == "eps" && columns[1] == "Re";
   for (std::size_t j = 1; fits && 2 * j < columns.size(); ++j)
     fits = columns[2 * j] == fmt::format("x{}", j) && columns[2 * j + 1] == fmt::format("D{}", j);
-  if (!fits) throw core::CaseError(where + "columns must be eps,Re or eps,Re,x1,D1,x2,D2,...");
+  if (!fits) throw core::CaseError(where + "columns must be eps,Re or eps,Re,x1,D1,x2,D2,..., then none or n_1,...");
+  return columns;
 }
 
-Row row_of(const std::string& line, std::size_t columns, const std::string& where) {
-  Row row{line, where, {}, {}, {}};
-  const std::vector<std::string> cells = split(line);
+/// \param columns  of the header  \param asked  how many of them say what is asked
+Row row_of(const std::string& line, std::size_t columns, std::size_t asked, const std::string& where) {
+  std::vector<std::string> cells = split(line);
   if (cells.size() != columns)
     throw core::CaseError(fmt::format("{}{} cells, the header has {}", where, cells.size(), columns));
+  cells.resize(asked);
+  Row row{fmt::format("{}", fmt::join(cells, ",")), where, {}, {}, {}};
   for (const std::string& c : cells) row.values.push_back(number_in(c, where));
   check_point(row.values[0], row.values[1], where);
-  for (std::size_t c = 2; c < columns; c += 2) {
+  for (std::size_t c = 2; c < asked; c += 2) {
     row.share.push_back(row.values[c]);
     row.diameter.push_back(row.values[c + 1]);
     if (!(row.share.back() >= 0 && row.diameter.back() > 0))
@@ -206,24 +212,26 @@ Row row_of(const std::string& line, std::size_t columns, const std::string& wher
   return row;
 }
 
-/// Calls see(header, row) for every row of a file of points.
+/// Calls see(header, row) for every row of a file of points, with the part of the header that says what is asked.
 template <class See>
 void read_points(const std::string& path, See&& see) {
   (void)core::bytes_of_file(path, core::longest_file);
   std::ifstream file(path);
   if (!file) throw core::FileError(path + ": cannot be read");
   std::vector<std::string> header;
+  std::size_t columns = 0;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
     while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
     if (line.empty() || line.front() == '#') continue;
     const std::string where = fmt::format("{}:{}: ", path, number);
     if (header.empty()) {
-      header = split(line);
-      check_header(header, where);
+      const std::vector<std::string> all = split(line);
+      columns = all.size();
+      header = asked_in(all, where);
       see(header, std::optional<Row>());
     } else {
-      see(header, std::optional<Row>(row_of(line, header.size(), where)));
+      see(header, std::optional<Row>(row_of(line, columns, header.size(), where)));
     }
   }
   if (file.bad()) throw core::FileError(path + ": cannot be read");

@@ -55,6 +55,10 @@ class Resolve(Scratch):
             self.assertAlmostEqual(mean[1] / mean[0], 0.6, delta=0.02)
             self.assertLess(float(row["imbalance"]), 1e-4)
         self.assertGreater(float(rows[1]["n_1"]), float(rows[0]["n_1"]))
+        told = list(csv.DictReader(self.ends(DONE, "drag", "--law", "cello", "--csv", self.out / "rows.csv").stdout.splitlines()))
+        for row, by_law in zip(rows, told, strict=True):
+            for j in (1, 2):  # 9 spheres in one box: the right size, no more
+                self.assertLess(abs(float(row[f"n_{j}"]) / float(by_law[f"n_{j}"]) - 1), 0.5)
 
     def test_finished_boxes_are_kept(self):
         first = self.resolve("--set", "resolve.reynolds=[0]").stdout
