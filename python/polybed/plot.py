@@ -8,6 +8,7 @@ Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a p
 import argparse
 import json
 import sys
+import warnings
 from pathlib import Path
 
 from polybed.in_place import in_place
@@ -151,7 +152,13 @@ def parsed(arguments):
 
 
 def main(arguments=None):
-    options = parsed(arguments)
+    with warnings.catch_warnings():  # of numbers that no axis can show: the picture is missing, and one line says why
+        warnings.simplefilter("ignore", RuntimeWarning)
+        return drawn(parsed(arguments))
+
+
+def drawn(options):
+    """Draws what is asked and says where it is, or what is wrong. Returns the exit code."""
     try:
         if options.picture:
             print(at_end(options.run, options.time))

@@ -169,8 +169,8 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
     """Runs a case by a model, "tfm" or "dem", and opens the run.
 
     overrides: keys of the case file with their values, {"tfm.rtol": 1e-4, "species.fine.diameter": "1 mm"}
-    output: run directory, where another run is replaced, and reading that one raises ReplacedError from then on; default
-        runs/<case name>-<model>-<hash of the resolved case>, so that no run replaces another
+    output: run directory, where another run is replaced, and reading that one raises ReplacedError from then on; by default
+    runs/<case name>-<model>-<hash of the resolved case>, so that no run replaces another
     quiet: shows no progress; label: stands before each line of it
     """
     return made(case, model, overrides, until, ranks, label_of(quiet, label),

@@ -17,8 +17,8 @@ def measure(run: Run | Place) -> dict[str, Any]:
     """Numbers read off the stored profiles of a run, without a run: what `polybed measure RUN --json` prints.
 
     run: a run, or its directory
-    Returns a dictionary of lists over the stored times; each name ends in its unit ("bed_height_m"), None where a measure has
-    no value. Raises ProgramError.
+    Returns {"time_s": [...], "measures": {name: {"unit", "help", "values"}}}: lists over the stored times, None where a measure
+    has no value. Raises ProgramError.
     """
     found: dict[str, Any] = json.loads(call("measure", run.directory if isinstance(run, Run) else run, "--json"))
     return found

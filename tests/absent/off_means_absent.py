@@ -18,6 +18,9 @@ REGISTRIES = re.compile(r"SideForces::SideForces|ParticleForces::ParticleForces|
                         r"core::(Rule|Role|Law|refuse|law_of)|_GLOBAL__sub_I")
 CONTROL = "polybed::absent::control_kernel(int)"
 LEAST = 1000  # instructions: below it a function is no kernel
+# Share by which the counts of one function may differ: a loop over an array begins by what it lies on in memory, which moves
+# with what was allocated before. A branch in a loop of a hundred instructions is ten times as much.
+ALIGNMENT = 1e-3
 
 
 def self_counts(path):
@@ -53,7 +56,7 @@ def counted(program, folder, name):
 def differences(one, other):
     """Functions with other counts, or that only one program ran."""
     return {f: (one.get(f, 0), other.get(f, 0)) for f in set(one) | set(other)
-            if one.get(f, 0) != other.get(f, 0) and max(one.get(f, 0), other.get(f, 0)) >= LEAST}
+            if (most := max(one.get(f, 0), other.get(f, 0))) >= LEAST and abs(one.get(f, 0) - other.get(f, 0)) > ALIGNMENT * most}
 
 
 def main():

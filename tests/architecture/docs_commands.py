@@ -87,6 +87,8 @@ if __name__ == "__main__":
         with tempfile.TemporaryDirectory() as scratch:
             for name in ("cases", "docs", "python"):
                 os.symlink(ROOT / name, os.path.join(scratch, name))
+            os.makedirs(os.path.join(scratch, "tests"))
+            os.symlink(ROOT / "tests/data", os.path.join(scratch, "tests/data"))
             for mark, commands in blocks(path.read_text()):
                 if mark:
                     left += len(commands)

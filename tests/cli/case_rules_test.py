@@ -145,6 +145,12 @@ KEYS = {
     "calibrate.share: both species have to be there, above 0 and below 1": ["calibrate.share=[0, 0.5]"],
     'calibrate.share cannot act: the fluidised boxes of calibrate.regime = "bed" have one size': [
         "calibrate.share=[0.3]", "calibrate.regime=bed"],
+    "resolve.spheres = {} leaves none of species '{}': take more": [
+        *species("fine", "rare")[:1], "bed.volume_share=[0.999999, 1e-6]", "resolve.voidage=[0.6]"],
+    "resolve.reynolds = {} at a voidage of {}: the viscosity would be {} in cells and steps, stable from {}; take "
+    "resolve.cells_per_diameter = {} or more, or fewer resolve.grids": ["resolve.voidage=[0.6]", "resolve.reynolds=[300]"],
+    "resolve.cells_per_diameter = {}: the pores are {} cells wide on the coarsest grid at a voidage of {}, they need {}; take {} or more, "
+    "or fewer resolve.grids": ["resolve.voidage=[0.35]", "resolve.cells_per_diameter=6"],
     'calibrate.regime = "{}" needs a fluid: fluid.name is "none"': [DRY, "calibrate.regime=wet"],
 }
 

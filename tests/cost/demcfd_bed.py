@@ -22,7 +22,7 @@ SETTLING = ((0.05, 0.2), (1.0, 0.03))
 
 def read(program):
     """The scene as a dict of openfoam_cases.py, with the names of polybed's keys for the material."""
-    text = subprocess.run([program, "check", CASE], capture_output=True, text=True, check=True).stdout
+    text = subprocess.run([program, "check", CASE, "--resolved"], capture_output=True, text=True, check=True).stdout
     scene = tomllib.loads(text)
     (width, depth, height), (nx, nz, ny) = scene["column"]["size"], scene["column"]["cells"]
     (beads,), (pair,) = scene["species"], scene["contact_pair"]
