@@ -100,10 +100,7 @@ class ImplicitSteps : public Stepping {
  public:
   ImplicitSteps(RightHandSide& equations, const StateLayout& layout, const core::Tfm& options, Tolerances tolerances,
                 core::Timers& timers)
-      : Stepping(equations, layout),
-        timers_(timers),
-        start_tolerance_(std::min(1e-8, std::max(1e-3 * options.rtol, 1e-13))),
-        problem_(equations, layout, timers) {
+      : Stepping(equations, layout), timers_(timers), problem_(equations, layout, timers) {
     core::ImplicitOptions made;
     made.rtol = options.rtol;
     made.atol = std::move(tolerances.absolute);
@@ -126,7 +123,7 @@ class ImplicitSteps : public Stepping {
   /// the same bits.
   void find_rates(double t, std::span<double> y, std::span<double> dydt) override {
     clear_pressure(y);
-    ExplicitProblem projected(equations_, layout_, start_tolerance_, timers_);
+    ExplicitProblem projected(equations_, layout_, 1e-8, timers_);
     if (projected.rates(t, y, dydt) != core::Rate::ok)
       throw core::NumericsError("the state at the start has no rates: check the bed's solids fraction");
     for (const StateLayout::Entry& entry : layout_.entries())
@@ -135,8 +132,6 @@ class ImplicitSteps : public Stepping {
 
  private:
   core::Timers& timers_;
-  double start_tolerance_;  ///< of the first pressure: rates that it leaves wrong by more than the error test allows
-                            ///< stop it
   ImplicitProblem problem_;
 };
 
