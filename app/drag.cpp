@@ -180,7 +180,7 @@ double number_in(const std::string& cell, const std::string& where) {
   throw core::CaseError(where + "'" + cell + "' is no number");
 }
 
-/// The columns of a header that say what is asked. What was measured there may follow, from n_1 on, as `polybed
+/// The columns of a header that define the point. What was measured there may follow, from n_1 on, as `polybed
 /// resolve` writes it.
 std::vector<std::string> asked_in(std::vector<std::string> columns, const std::string& where) {
   columns.erase(std::find(columns.begin(), columns.end(), "n_1"), columns.end());
@@ -191,7 +191,7 @@ std::vector<std::string> asked_in(std::vector<std::string> columns, const std::s
   return columns;
 }
 
-/// \param columns  of the header  \param asked  how many of them say what is asked
+/// \param columns  of the header  \param asked  how many of them define the point
 Row row_of(const std::string& line, std::size_t columns, std::size_t asked, const std::string& where) {
   std::vector<std::string> cells = split(line);
   if (cells.size() != columns)

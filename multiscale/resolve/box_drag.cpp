@@ -18,11 +18,10 @@ namespace {
 using core::Broken;
 using std::numbers::pi;
 
-/// Cells that a pore needs at least. Of spheres at a voidage of 0.4 the drag on a grid just that fine is off by 15 %
-/// before it is extrapolated.
+/// Cells that a pore needs at least: chosen, not measured.
 constexpr double least_pore = 3;
-/// Mean velocity in the pores, cells per step: a third of the velocity of sound is a hundred times its square, and the
-/// fastest pores are four times faster.
+/// Mean velocity in the pores, cells per step: a Mach number of 0.05, so that the fluid stays nearly incompressible
+/// where it is faster.
 constexpr double pore_speed = 0.03;
 /// Below it the collision barely damps what the grid cannot resolve.
 constexpr double least_viscosity = 0.004;

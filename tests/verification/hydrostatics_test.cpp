@@ -128,7 +128,7 @@ double greatest_beside_solids(const tfm::Model& model) {
 }
 
 // However far the topmost cell is filled. 1e-10 m/s and 1e-6 of the weight are this project's goals; found 2e-11 and
-// 3e-11. Implicit steps in a gas keep what their error test lets through, 4e-10 m/s a step and some steps of it: 3e-9
+// 2e-10. Implicit steps in a gas keep what their error test lets through, 4e-10 m/s a step and some steps of it: 3e-9
 // found.
 TEST_P(BedAtRest, RestsUpToItsSurface) {
   for (const bool gas : {false, true})

@@ -8,6 +8,7 @@
 #include "core/start_error.hpp"
 #include "tfm/bulk_viscosity.hpp"
 #include "tfm/initial.hpp"
+#include "tfm/step_estimate.hpp"
 
 namespace polybed::tfm {
 
@@ -45,10 +46,7 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
   choose_packing(scene);
   if (law_.max_packing <= law_.onset + closures::FrictionalLaw::margin)
     throw core::StartError("tfm.max_packing must lie above tfm.frictional_onset");
-  double excess = 0;
-  for (std::size_t j = 0; j < constants.species(); ++j)
-    excess += constants.bed_share[j] * (constants.density[j] - constants.fluid.density);
-  const double heavy = alone ? excess * constants.gravity : 0;
+  const double heavy = alone ? (mean_density(constants) - constants.fluid.density) * constants.gravity : 0;
   for (std::size_t a = 0; a < 3 && heavy != 0; ++a)
     lies_towards_[a] = std::copysign(constants.down[a], heavy * constants.down[a]);
   fields.stress.pressure = core::make_field(constants.grid);
