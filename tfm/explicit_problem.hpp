@@ -24,7 +24,7 @@ class ExplicitProblem : public core::SplitProblem {
   void add_fast(double factor, std::span<const double> y, std::span<double> rates) override {
     fast_->add(factor, y, rates);
   }
-  void solve_fast(double gamma, std::span<const double> r, std::span<double> x) override { fast_->solve(gamma, r, x); }
+  void solve_fast(double gamma, std::span<double> x) override { fast_->solve(gamma, x); }
 
   /// An integration begins: what comes next depends on the state alone.
   void begin() { pressure_.forget(); }

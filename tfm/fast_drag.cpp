@@ -3,12 +3,19 @@
 #include <algorithm>
 
 #include "core/numerics/operators.hpp"
+#include "core/vectors.hpp"
 #include "fluid/momentum.hpp"
 
 namespace polybed::tfm {
 
 using core::face_mean;
 using core::Index;
+
+namespace {
+
+constexpr std::size_t block = 64;  ///< faces taken at once, so that what is summed on them stays in the first cache
+
+}  // namespace
 
 FastDrag::FastDrag(const Constants& constants, const fluid::Boundaries& boundaries, const StateLayout& layout)
     : constants_(constants), boundaries_(boundaries), layout_(layout), axes_(std::size_t(constants.grid.dimensions)) {
@@ -65,69 +72,96 @@ void FastDrag::hold(const Fields& fields) {
   }
 }
 
-void FastDrag::add(double factor, std::span<const double> y, std::span<double> rates) const {
-  const std::size_t species = constants_.species();
-  constexpr std::size_t block = 64;
-  const auto add_some = [&](const Faces& faces, std::size_t begin, std::size_t count) {
-    double fluid[block], gradient[block];
-    const double* eps = faces.voidage.data() + begin;
-    for (std::size_t f = 0; f < count; ++f) fluid[f] = y[faces.begin + begin + f];
-    for (std::size_t n = 0; n < species; ++n) {
-      const double *phi = faces.phi[n].data() + begin, *v = y.data() + faces.velocity[n] + begin;
-      for (std::size_t f = 0; f < count; ++f) fluid[f] -= phi[f] * v[f];
-    }
-    for (std::size_t f = 0; f < count; ++f) {
-      fluid[f] /= eps[f];
-      gradient[f] = 0;
-    }
-    for (std::size_t n = 0; n < species; ++n) {
-      const double *phi = faces.phi[n].data() + begin, *b = faces.b[n].data() + begin,
-                   *v = y.data() + faces.velocity[n] + begin;
-      for (std::size_t f = 0; f < count; ++f) gradient[f] += lighter_[n] * phi[f] * b[f] * (fluid[f] - v[f]);
-    }
-    for (std::size_t f = 0; f < count; ++f) gradient[f] /= faces.mobility[begin + f];
-    for (std::size_t n = 0; n < species; ++n) {
-      const double *b = faces.b[n].data() + begin, *v = y.data() + faces.velocity[n] + begin;
-      double* rate = rates.data() + faces.velocity[n] + begin;
-      const double scale = factor / constants_.density[n];
-      for (std::size_t f = 0; f < count; ++f)
-        rate[f] += b[f] > 0 ? scale * (b[f] * (fluid[f] - v[f]) - gradient[f]) : 0.0;
-    }
-  };
+template <class Kernel>
+void FastDrag::in_blocks(Kernel&& kernel) const {
   for (const Faces& faces : axes_)
     for (const auto& [first, last] : faces.runs)
-      for (std::size_t begin = first; begin < last; begin += block)
-        add_some(faces, begin, std::min(block, last - begin));
+      for (std::size_t begin = first; begin < last; begin += block) kernel(faces, begin, std::min(block, last - begin));
 }
 
-void FastDrag::solve(double gamma, std::span<const double> r, std::span<double> x) const {
-  if (x.data() != r.data()) std::copy(r.begin(), r.end(), x.begin());
+void FastDrag::add_in_block(const Faces& faces, std::size_t begin, std::size_t count, double factor, const double* y,
+                            double* rates) const {
   const std::size_t species = constants_.species();
-  for (const Faces& faces : axes_)
-    for (const auto& [first, last] : faces.runs)
-      for (std::size_t f = first; f < last; ++f) {
-        // eps u + sum phi_k x_k = r_J and B G = sum phi_k b_k (1/rho_k - 1/rho_f) (u - x_k), where
-        // x_k = (r_k + gamma (b_k u - G)/rho_k) / (1 + gamma b_k/rho_k)
-        double uu = faces.voidage[f], ug = 0, ur = r[faces.begin + f];
-        double gu = 0, gg = faces.mobility[f], gr = 0;
-        for (std::size_t n = 0; n < species; ++n) {
-          const double b = faces.b[n][f], phi = faces.phi[n][f], c = gamma / constants_.density[n];
-          const double own = 1 / (1 + c * b), value = r[faces.velocity[n] + f] * own;
-          const double pull = lighter_[n] * phi * b;
-          uu += phi * c * b * own;
-          ug -= phi * c * own;
-          ur -= phi * value;
-          gu -= pull * own;
-          gg -= pull * c * own;
-          gr -= pull * value;
-        }
-        const double det = uu * gg - ug * gu;
-        const double u = (ur * gg - ug * gr) / det, g = (uu * gr - gu * ur) / det;
-        for (std::size_t n = 0; n < species; ++n) {
-          const double b = faces.b[n][f], c = gamma / constants_.density[n];
-          if (b > 0) x[faces.velocity[n] + f] = (r[faces.velocity[n] + f] + c * (b * u - g)) / (1 + c * b);
-        }
-      }
+  double fluid[block], gradient[block];
+  const double* eps = faces.voidage.data() + begin;
+  for (std::size_t f = 0; f < count; ++f) fluid[f] = y[faces.begin + begin + f];
+  for (std::size_t n = 0; n < species; ++n) {
+    const double *phi = faces.phi[n].data() + begin, *v = y + faces.velocity[n] + begin;
+    for (std::size_t f = 0; f < count; ++f) fluid[f] -= phi[f] * v[f];
+  }
+  for (std::size_t f = 0; f < count; ++f) {
+    fluid[f] /= eps[f];
+    gradient[f] = 0;
+  }
+  for (std::size_t n = 0; n < species; ++n) {
+    const double *phi = faces.phi[n].data() + begin, *b = faces.b[n].data() + begin, *v = y + faces.velocity[n] + begin;
+    for (std::size_t f = 0; f < count; ++f) gradient[f] += lighter_[n] * phi[f] * b[f] * (fluid[f] - v[f]);
+  }
+  for (std::size_t f = 0; f < count; ++f) gradient[f] /= faces.mobility[begin + f];
+  for (std::size_t n = 0; n < species; ++n) {
+    const double *b = faces.b[n].data() + begin, *v = y + faces.velocity[n] + begin;
+    double* rate = rates + faces.velocity[n] + begin;
+    const double scale = factor / constants_.density[n];
+    for (std::size_t f = 0; f < count; ++f)
+      rate[f] += b[f] > 0 ? scale * (b[f] * (fluid[f] - v[f]) - gradient[f]) : 0.0;
+  }
 }
+
+// eps u + sum phi_k x_k = r_J and B G = sum phi_k b_k (1/rho_k - 1/rho_f) (u - x_k), where
+// x_k = (r_k + gamma (b_k u - G)/rho_k) / (1 + gamma b_k/rho_k): uu u + ug G = ur and gu u + gg G = gr.
+void FastDrag::solve_in_block(const Faces& faces, std::size_t begin, std::size_t count, double gamma, double* x) const {
+  const std::size_t species = constants_.species();
+  double uu[block], ug[block], ur[block], gu[block], gg[block], gr[block];
+  for (std::size_t f = 0; f < count; ++f) {
+    uu[f] = faces.voidage[begin + f];
+    gg[f] = faces.mobility[begin + f];
+    ur[f] = x[faces.begin + begin + f];
+    ug[f] = gu[f] = gr[f] = 0;
+  }
+  for (std::size_t n = 0; n < species; ++n) {
+    const double *b = faces.b[n].data() + begin, *phi = faces.phi[n].data() + begin, *r = x + faces.velocity[n] + begin;
+    const double c = gamma / constants_.density[n], lighter = lighter_[n];
+    for (std::size_t f = 0; f < count; ++f) {
+      const double own = 1 / (1 + c * b[f]), value = r[f] * own, pull = lighter * phi[f] * b[f];
+      uu[f] += phi[f] * c * b[f] * own;
+      ug[f] -= phi[f] * c * own;
+      ur[f] -= phi[f] * value;
+      gu[f] -= pull * own;
+      gg[f] -= pull * c * own;
+      gr[f] -= pull * value;
+    }
+  }
+  for (std::size_t f = 0; f < count; ++f) {
+    const double det = uu[f] * gg[f] - ug[f] * gu[f];
+    const double u = (ur[f] * gg[f] - ug[f] * gr[f]) / det, g = (uu[f] * gr[f] - gu[f] * ur[f]) / det;
+    ur[f] = u;
+    gr[f] = g;
+  }
+  for (std::size_t n = 0; n < species; ++n) {
+    const double* b = faces.b[n].data() + begin;
+    double* v = x + faces.velocity[n] + begin;
+    const double c = gamma / constants_.density[n];
+    for (std::size_t f = 0; f < count; ++f)
+      v[f] = b[f] > 0 ? (v[f] + c * (b[f] * ur[f] - gr[f])) / (1 + c * b[f]) : v[f];
+  }
+}
+
+void FastDrag::add_loops(const FastDrag& drag, double factor, const double* y, double* rates) {
+  drag.in_blocks([&](const Faces& faces, std::size_t begin, std::size_t count) {
+    drag.add_in_block(faces, begin, count, factor, y, rates);
+  });
+}
+
+void FastDrag::solve_loops(const FastDrag& drag, double gamma, double* x) {
+  drag.in_blocks([&](const Faces& faces, std::size_t begin, std::size_t count) {
+    drag.solve_in_block(faces, begin, count, gamma, x);
+  });
+}
+
+void FastDrag::add(double factor, std::span<const double> y, std::span<double> rates) const {
+  core::in_vectors<add_loops>(*this, factor, y.data(), rates.data());
+}
+
+void FastDrag::solve(double gamma, std::span<double> x) const { core::in_vectors<solve_loops>(*this, gamma, x.data()); }
 
 }  // namespace polybed::tfm

@@ -44,8 +44,8 @@ class FastDrag {
   void hold(const Fields& fields);
   /// Adds `factor` times the rates above, of a state y, to `rates`.
   void add(double factor, std::span<const double> y, std::span<double> rates) const;
-  /// Solves x - gamma A x = r, where A x are the rates above. r and x may be the same. \param gamma  s, >= 0
-  void solve(double gamma, std::span<const double> r, std::span<double> x) const;
+  /// Solves x - gamma A x = r, where A x are the rates above and x holds r at first. \param gamma  s, >= 0
+  void solve(double gamma, std::span<double> x) const;
 
  private:
   /// On the faces of one axis, in the order of the state.
@@ -56,6 +56,14 @@ class FastDrag {
     std::vector<double> voidage, mobility;                  ///< eps, and B in m3/kg
     std::vector<std::pair<std::size_t, std::size_t>> runs;  ///< faces where solids move, one after the other
   };
+
+  template <class Kernel>
+  void in_blocks(Kernel&& kernel) const;
+  void add_in_block(const Faces& faces, std::size_t begin, std::size_t count, double factor, const double* y,
+                    double* rates) const;
+  void solve_in_block(const Faces& faces, std::size_t begin, std::size_t count, double gamma, double* x) const;
+  static void add_loops(const FastDrag& drag, double factor, const double* y, double* rates);
+  static void solve_loops(const FastDrag& drag, double gamma, double* x);
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;

@@ -31,8 +31,8 @@ class SplitProblem : public OdeProblem {
   virtual void add_fast(double factor, std::span<const double> y, std::span<double> rates) = 0;
   /// The longest step, s, that the rest of f allows where the coefficients were taken, or longer than any.
   [[nodiscard]] virtual double longest_step() const = 0;
-  /// Solves x - gamma A x = r.
-  virtual void solve_fast(double gamma, std::span<const double> r, std::span<double> x) = 0;
+  /// Solves x - gamma A x = r, where x holds r at first.
+  virtual void solve_fast(double gamma, std::span<double> x) = 0;
 };
 
 /// 0 = F(t, y, dy/dt), with an approximate inverse of dF/dy + cj dF/d(dy/dt).

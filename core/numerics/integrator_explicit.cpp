@@ -30,7 +30,7 @@ class ExplicitIntegrator : public Integrator {
   }
   ~ExplicitIntegrator() override {
     close();
-    if (solver_ != nullptr) SUNLinSolFreeEmpty(solver_);
+    if (solver_ != nullptr) SUNNonlinSolFreeEmpty(solver_);
   }
 
   void restart(double t, std::span<const double> y, std::span<const double>, double h0) override {
@@ -121,12 +121,20 @@ class ExplicitIntegrator : public Integrator {
     return 0;
   }
 
-  static int solve_fast(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector r, double) {
+  /// A stage z = p + c, c = gamma A z + s, solved for the correction c at once: c - gamma A c = s + gamma A p.
+  static int solve_stage(SUNNonlinearSolver solver, N_Vector predicted, N_Vector correction, N_Vector, double, int,
+                         void*) {
     auto& me = *static_cast<ExplicitIntegrator*>(solver->content);
     return guarded(me.kept_, [&] {
-      double gamma = 0;
-      require_success(ARKStepGetCurrentGamma(me.memory_, &gamma), "ARKStepGetCurrentGamma");
-      me.split_->solve_fast(gamma, entries(r), entries(x));
+      double t = 0, gamma = 0;
+      N_Vector p = nullptr, z = nullptr, rates = nullptr, known = nullptr;
+      void* user = nullptr;
+      require_success(ARKStepGetNonlinearSystemData(me.memory_, &t, &p, &z, &rates, &gamma, &known, &user),
+                      "ARKStepGetNonlinearSystemData");
+      const std::span<double> c = entries(correction);
+      std::copy(entries(known).begin(), entries(known).end(), c.begin());
+      me.split_->add_fast(gamma, entries(predicted), c);
+      me.split_->solve_fast(gamma, c);
       return Rate::ok;
     });
   }
@@ -167,20 +175,20 @@ class ExplicitIntegrator : public Integrator {
       require_success(ARKStepSetInitStep(memory_, h0), "ARKStepSetInitStep");
   }
 
-  /// The pair of methods, and the problem's own solver of the implicit one: exact, so that Newton's first iteration is
-  /// its last and the rates follow from the solution.
+  /// The pair of methods, and the problem's own solver of the implicit one: exact, so that nothing is iterated and the
+  /// rates follow from the solution.
   void set_split() {
     require_success(ARKStepSetTableNum(memory_, ARKODE_ARK324L2SA_DIRK_4_2_3, ARKODE_ARK324L2SA_ERK_4_2_3),
                     "ARKStepSetTableNum");
     if (solver_ == nullptr) {
-      solver_ = SUNLinSolNewEmpty(context_);
-      if (solver_ == nullptr) throw NumericsError("SUNLinSolNewEmpty failed");
+      solver_ = SUNNonlinSolNewEmpty(context_);
+      if (solver_ == nullptr) throw NumericsError("SUNNonlinSolNewEmpty failed");
       solver_->content = this;
-      solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; };
-      solver_->ops->solve = solve_fast;
+      solver_->ops->gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_FIXEDPOINT; };
+      solver_->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return 0; };
+      solver_->ops->solve = solve_stage;
     }
-    require_success(ARKStepSetLinearSolver(memory_, solver_, nullptr), "ARKStepSetLinearSolver");
-    require_success(ARKStepSetLinear(memory_, 0), "ARKStepSetLinear");
+    require_success(ARKStepSetNonlinearSolver(memory_, solver_), "ARKStepSetNonlinearSolver");
     // A step of another length costs nothing here: no range of lengths in which the present one is kept.
     require_success(ARKStepSetFixedStepBounds(memory_, 1.0, 1.0), "ARKStepSetFixedStepBounds");
     require_success(ARKStepSetDeduceImplicitRhs(memory_, 1), "ARKStepSetDeduceImplicitRhs");
@@ -227,8 +235,8 @@ class ExplicitIntegrator : public Integrator {
   Vector y_, atol_, error_, weight_;
   static constexpr std::size_t own_vectors = 5;  // these and the tolerances of the options
   void* memory_ = nullptr;
-  SUNLinearSolver solver_ = nullptr;  ///< of the split; it owns nothing
-  std::vector<double> kept_rates_;    ///< of the split: the rates of the whole where the step begins
+  SUNNonlinearSolver solver_ = nullptr;  ///< of the split; it owns nothing
+  std::vector<double> kept_rates_;       ///< of the split: the rates of the whole where the step begins
   double longest_step_ = 0;
   double time_ = 0, last_step_ = 0;
   IntegratorStatistics closed_;  ///< of memories closed by restarts, and all steps

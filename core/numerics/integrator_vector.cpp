@@ -69,6 +69,8 @@ void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
   in_vectors<linear_sum_of>(a, entries(x).data(), b, entries(y).data(), to.data(), to.size());
 }
 
+void set_to(double c, N_Vector z) { std::fill(entries(z).begin(), entries(z).end(), c); }
+
 void scale(double c, N_Vector x, N_Vector z) {
   in_vectors<scale_of>(c, entries(x).data(), entries(z).data(), entries(z).size());
 }
@@ -143,6 +145,7 @@ N_Vector new_vector(std::size_t size, const Ranks* ranks, SUNContext context) {
 Vector::Vector(std::size_t size, const Ranks* ranks, SUNContext context) : vector_(new_vector(size, ranks, context)) {
   if (vector_ == nullptr) throw NumericsError("no memory for the state");
   vector_->ops->nvlinearsum = linear_sum;
+  vector_->ops->nvconst = set_to;
   vector_->ops->nvscale = scale;
   vector_->ops->nvlinearcombination = linear_combination;
   vector_->ops->nvprod = product;
