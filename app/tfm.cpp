@@ -10,7 +10,7 @@
 #include "app/stress_uncertainty.hpp"
 #include "core/print.hpp"
 #include "multiscale/requirements.hpp"
-#include "multiscale/run_record.hpp"
+#include "multiscale/tfm_record.hpp"
 #include "tfm/evenness.hpp"
 #include "tfm/observers.hpp"
 

@@ -11,6 +11,7 @@
 #include "dem/model.hpp"
 #include "multiscale/estimate/ways.hpp"
 #include "multiscale/particle_requirements.hpp"
+#include "multiscale/requirements.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::multiscale {

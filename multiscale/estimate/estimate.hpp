@@ -8,7 +8,10 @@
 #include "core/case/scene.hpp"
 #include "core/output/json.hpp"
 #include "multiscale/estimate/machine.hpp"
-#include "multiscale/requirements.hpp"
+
+namespace polybed::tfm {
+class Model;  // a run of particles does not see it
+}
 
 namespace polybed::multiscale {
 

@@ -105,6 +105,11 @@ def foreign_namespace(name, text):
     return [f"{name}: the namespace polybed::{opened[-1]} is not that of its folder"]
 
 
+def sees(source, folder):
+    """Headers of a folder on the path of a source: a run of one model does not pass through the other."""
+    return [f"{source} sees {header}" for header in sorted(seen_from({source})) if header.startswith(folder + "/")]
+
+
 def problems_of(name, text):
     found = foreign_keys(name, text) + foreign_namespace(name, text)
     layer = name.split("/")[0]
@@ -141,6 +146,7 @@ def self_test():
     assert problems_of("app/a.cpp", "namespace polybed::multiscale {\n")
     assert not problems_of("app/a.cpp", "namespace polybed::tfm {\n}\nnamespace polybed::app {\n")
     assert not_included("core/a.cpp", "std::vector<int> a;", {"map"})
+    assert sees("app/dem.cpp", "dem") and not sees("dem/model.cpp", "tfm")
     assert not not_included("core/a.cpp", "std::vector<int> a;  // no std::map", {"core/case/scene.hpp"})
 
 
@@ -152,4 +158,4 @@ if __name__ == "__main__":
         problems += problems_of(name, text)
         if name.split("/")[0] in MAY_USE:
             problems += not_included(name, text, includes(name))
-    sys.exit(report(problems, "includes"))
+    sys.exit(report(problems + sees("app/tfm.cpp", "dem") + sees("app/dem.cpp", "tfm"), "includes"))

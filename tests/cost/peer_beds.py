@@ -54,14 +54,14 @@ def polybed(rtol, effects, integrator, **tfm):
 SAME = {"drag": "ergun", "fluid_stress": "newtonian"}
 OWN = {"drag": "cello", "solids_stress": "frictional", "species_exchange": "syamlal"}
 # Both programs on cells of half the size, with the smaller step or tolerance: what the errors are measured from.
-FINEST_LIQUID = {"polybed finest": polybed(1e-4, SAME, "explicit") | {"refine": 2},
+FINEST_LIQUID = {"polybed finest": polybed(1e-4, SAME, "auto") | {"refine": 2},
                  "OpenFOAM finest": openfoam_liquid(2.5e-3, 3) | {"refine": 2}}
 
 
 def liquid_runs(steps, iterated_steps):
     """Runs by name; iterated: three outer iterations in a time step, as in OpenFOAM's tutorial of a bubble column."""
-    runs = {"polybed": polybed(1e-3, SAME, "explicit"), "polybed, rtol 1e-5": polybed(1e-5, SAME, "explicit"),
-            "polybed, own models": polybed(1e-3, OWN, "explicit")}
+    runs = {"polybed": polybed(1e-3, SAME, "auto"), "polybed, rtol 1e-5": polybed(1e-5, SAME, "auto"),
+            "polybed, own models": polybed(1e-3, OWN, "auto")}
     runs |= {f"OpenFOAM, {1000 * step:g} ms": openfoam_liquid(step) for step in steps}
     return runs | {f"OpenFOAM, {1000 * step:g} ms, 3 outer": openfoam_liquid(step, 3) for step in iterated_steps}
 
@@ -70,12 +70,12 @@ def gas_runs(stress):
     effects = {"drag": "gidaspow", "fluid_stress": "newtonian", "solids_stress": stress}
     effects |= {"granular_temperature": "algebraic"} if stress == "kinetic" else {}
     tfm = {"solids_wall": '"no_slip"', "max_packing": 0.62, "frictional_pressure": 0.05, "frictional_onset": 0.5}
-    runs = {"polybed": polybed(1e-3, effects, "implicit", **tfm),
-            "polybed, rtol 1e-4": polybed(1e-4, effects, "implicit", **tfm),
+    runs = {"polybed": polybed(1e-3, effects, "auto", **tfm),
+            "polybed, rtol 1e-4": polybed(1e-4, effects, "auto", **tfm),
             "OpenFOAM, 0.2 ms": openfoam_gas(2e-4), "OpenFOAM, 0.1 ms": openfoam_gas(1e-4),
             "OpenFOAM, 0.5 ms": openfoam_gas(5e-4), "OpenFOAM, 1 ms": openfoam_gas(1e-3),
             "OpenFOAM, 0.2 ms, perfect gas": openfoam_gas(2e-4, gas="perfect")}
-    finest = {"polybed finest": polybed(1e-4, effects, "implicit", **tfm) | {"refine": 2},
+    finest = {"polybed finest": polybed(1e-4, effects, "auto", **tfm) | {"refine": 2},
               "OpenFOAM finest": openfoam_gas(1e-4) | {"refine": 2}}
     return runs, finest
 

@@ -1,0 +1,147 @@
+#include "multiscale/tfm_record.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/numerics/ranks.hpp"
+#include "multiscale/run_record.hpp"
+#include "multiscale/scene_rules.hpp"
+
+namespace polybed::multiscale {
+
+using core::Json;
+
+namespace {
+
+Json work_of(const tfm::Work& work) {
+  return {{"steps", work.steps},
+          {"rejected_steps", work.rejected_steps},
+          {"rhs_evaluations", work.right_hand_sides},
+          {"pressure_solves", work.pressure_solves},
+          {"linear_iterations", work.pressure_iterations + work.krylov_iterations},
+          {"newton_iterations", work.newton_iterations},
+          {"first_order_cells", work.first_order_cells}};
+}
+
+/// Of a run that has failed: the steps before, with what limited each.
+Json last_steps_of(const std::deque<tfm::StepLine>& steps) {
+  Json json = Json::array();
+  for (const tfm::StepLine& step : steps)
+    json.push_back({{"time_s", step.time}, {"dt_s", step.step}, {"limited_by", step.limited_by}});
+  return json;
+}
+
+/// How often closures were asked outside their range.
+Json guards_of(const std::vector<tfm::ClosureUse>& closures) {
+  Json json = Json::array();
+  for (const tfm::ClosureUse& use : closures)
+    json.push_back({{"closure", use.name}, {"evaluations", use.evaluations}, {"outside_range", use.guarded}});
+  return json;
+}
+
+/// The smallest G/G_crit of the run with its place; null if nothing ever slipped.
+Json well_posedness_of(const tfm::LeastWellPosed& least, int dimensions) {
+  if (!std::isfinite(least.cell.least)) return nullptr;
+  const auto place = least.cell.place.begin();
+  return {{"least", least.cell.least},
+          {"critical_slope_Pa", least.cell.critical_slope},
+          {"time_s", least.time},
+          {"place_m", std::vector<double>(place, place + dimensions)},
+          {"share_below_1", least.share_below_now}};
+}
+
+Json drift_of(const measures::Drifts& drifts) {
+  Json measures = Json::array();
+  for (const measures::DriftOfMeasure& d : drifts.judge())
+    measures.push_back(
+        {{"name", d.name}, {"rate_m_per_s", d.drift.rate}, {"error_m_per_s", d.drift.error}, {"steady", d.steady}});
+  return {{"window_s", drifts.window()}, {"measures", measures}};
+}
+
+/// Mass of each species at the start, in, out and in the column, and how well they add up.
+Json ledger_of(const tfm::Constants& constants, const RunTotals& totals, const measures::Invariants& invariants) {
+  Json ledger = Json::array();
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    const double start = invariants.initial_mass()[j], in = totals.passed[j].in * constants.density[j],
+                 out = totals.passed[j].out * constants.density[j], now = totals.masses[j];
+    ledger.push_back({{"species", constants.name[j]},
+                      {"start_kg", start},
+                      {"in_kg", in},
+                      {"out_kg", out},
+                      {"stored_kg", now},
+                      {"relative_error", measures::ledger_error(start, in, out, now)}});
+  }
+  return ledger;
+}
+
+}  // namespace
+
+std::vector<std::string> drift_lines(const measures::Drifts& drifts) {
+  std::vector<std::string> lines;
+  for (const measures::DriftOfMeasure& d : drifts.judge())
+    if (!d.steady)
+      lines.push_back(fmt::format("not steady: drift of {} {:.3g} mm/s, within {:.2g}, over the last {:.3g} s", d.name,
+                                  1e3 * d.drift.rate, 1e3 * d.drift.error, drifts.window()));
+  return lines;
+}
+
+RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds) {
+  const core::Grid& grid = model.constants().grid;
+  RunTotals totals;
+  totals.ranks = grid.ranks ? grid.ranks->count() : 1;
+  totals.cpu_seconds = core::sum_of_ranks(grid, cpu_seconds);
+  totals.wall_seconds = wall_seconds;
+  totals.masses = tfm::masses(model);
+  if (model.constants().openings.present()) totals.passed = model.passed();
+  const tfm::Effects& effects = model.effects();
+  if (effects.drag) totals.closures.push_back(effects.drag->use());
+  if (effects.solids_stress)
+    if (const auto use = effects.solids_stress->use()) totals.closures.push_back(*use);
+  if (effects.collisions)
+    if (const auto use = effects.collisions->use()) totals.closures.push_back(*use);
+  if (effects.species_exchange)
+    if (const auto use = effects.species_exchange->use()) totals.closures.push_back(*use);
+  for (tfm::ClosureUse& use : totals.closures) {
+    use.evaluations = std::uint64_t(core::sum_of_ranks(grid, double(use.evaluations)));
+    use.guarded = std::uint64_t(core::sum_of_ranks(grid, double(use.guarded)));
+  }
+  return totals;
+}
+
+std::string run_record_text(const RunRecord& record) {
+  const tfm::Model& model = record.model;
+  const double simulated = model.time() - record.begin;
+  Json json;
+  begin_record(json, record.scene, "tfm", record.state, record.totals.ranks);
+  json.update({{"integrator", core::name_of(model.integrator_kind())},
+               {"integrator_reason", model.integrator_reason()},
+               {"momentum", core::name_of(model.momentum().form)},
+               {"momentum_reason", model.momentum().reason},
+               {"unknowns", model.unknowns()},
+               {"time_s", model.time()},
+               {"cpu_s", record.totals.cpu_seconds},
+               {"wall_s", record.totals.wall_seconds},
+               {"cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0}});
+  record.write_prediction(json);
+  json["work"] = work_of(model.work());
+  if (record.state.starts_with("failed")) json["last_steps"] = last_steps_of(record.observers.last_steps());
+  write_timers(json, record.timers);
+  write_invariants(json, record.observers.invariants().worst());
+  if (model.constants().openings.present())
+    json["ledger"] = ledger_of(model.constants(), record.totals, record.observers.invariants());
+  json["pressure_drop_over_weight"] = core::or_null(record.observers.force_balance());
+  json["well_posedness"] = well_posedness_of(record.observers.least_well_posed(), model.constants().grid.dimensions);
+  json["drift"] = drift_of(record.observers.drifts());
+  json["guards"] = guards_of(record.totals.closures);
+  write_left_out(json, record.left_out);
+  if (record.promise != nullptr) write_neglected(json, *record.promise);
+  Json& warnings = json["warnings"] = exceeded_lines(record.observers.invariants().worst());
+  for (const auto& lines : {drift_lines(record.observers.drifts()), model.effects().warnings,
+                            scene_warnings(record.scene), record.warnings})
+    for (const std::string& line : lines) warnings.push_back(line);
+  return core::json_text(json);
+}
+
+}  // namespace polybed::multiscale
