@@ -2,6 +2,7 @@
 
 import matplotlib.pyplot as plt
 
+from polybed.cost.words import REFERENCE
 from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, shortened
 from polybed.record import title_of_case
 
@@ -90,7 +91,7 @@ def draw(sweep):
             axes.legend(fontsize=7)
     all_axes[0][0].set_ylabel(f"computing time for a simulated second (s, {CLOCKS[sweep['clock']]})")
     figure.suptitle(f"{shortened(title_of(sweep))}   {NAMES.get(sweep['model'], sweep['model'])}   "
-                    f"reference: {sweep['reference']['kind'] or 'none'}", fontsize=9)
+                    f"reference: {REFERENCE[sweep['reference']['kind']]}", fontsize=9)
     return figure
 
 
