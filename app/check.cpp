@@ -118,7 +118,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
     derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] / constants.fluid.viscosity);
     for (const Inflow& inflow : inflows)
       if (inflow.velocity > derived.terminal[j])
-        derived.notes.push_back(fmt::format("{}'s {:.4g} m/s is above the terminal velocity of {}, {:.4g} m/s: {}",
+        derived.notes.push_back(fmt::format("{}'s {:.4g} m/s is above the terminal velocity of {}, {:.3g} m/s: {}",
                                             inflow.name, inflow.velocity, constants.name[j], derived.terminal[j],
                                             inflow.fate));
   }
@@ -218,10 +218,10 @@ void add_continuum(const core::Scene& scene, const Requirements& need, std::vect
 }
 
 void add_particles(const core::Scene& scene, const ParticleRequirements& need, std::vector<std::string>& lines) {
-  lines.push_back(
-      card_line("polybed dem", fmt::format("{:.4g} s of {} particles: about {} of computing, {} to {}; {}",
-                                           scene.run.until, need.count(), short_time(need.expected),
-                                           short_time(need.least), short_time(need.most), memory_text(need.memory()))));
+  lines.push_back(card_line(
+      "polybed dem", fmt::format("{:.4g} s of {} particle{}: about {} of computing, {} to {}; {}", scene.run.until,
+                                 need.count(), need.count() == 1 ? "" : "s", short_time(need.expected),
+                                 short_time(need.least), short_time(need.most), memory_text(need.memory()))));
   lines.push_back(card_line("", fmt::format("step {:.2g} s, limited by {}", need.limits.dt, need.limits.limited_by)));
 }
 
