@@ -72,8 +72,8 @@ void note_drag(const core::Scene& scene, Derived& derived) {
   for (const closures::DragLawInfo& law : closures::drag_laws())
     if (law.name == named->second && !law.obeys_sum_rule && scene.species.size() > 1)
       derived.notes.push_back("drag = \"" + law.name +
-                              "\" acts on each species by itself and breaks the sum rule of mixtures, "
-                              "T(3.45): the pressure drop is not exact");
+                              "\" acts on each species by itself: in a mixture the sum of the drags is not "
+                              "that of the pressure drop, which is therefore not exact");
 }
 
 /// What flows in: its greatest speed, m/s, and what becomes of particles that fall more slowly.
