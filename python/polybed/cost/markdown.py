@@ -31,7 +31,7 @@ def status_of(sweep, number):
         return STATUS.get(row.status, row.status)
     error = row.quantities[sweep.ranking].error
     least = min([row.rate, *(r.rate for r in sweep.rows if r.status == "pareto" and r.quantities[sweep.ranking].error <= error)])
-    return f"as accurate is possible at 1/{row.rate / least:.2g} of the cost" if 0 < least < row.rate else STATUS["dominated"]
+    return f"{row.rate / least:.2g} times as dear as another as accurate" if 0 < least < row.rate else STATUS["dominated"]
 
 
 def table_of(sweep):

@@ -13,6 +13,7 @@ from polybed.files import contents_of, read_json
 from polybed.in_place import in_place
 from polybed.page import escaped, file_name, page, picture, section, source, table, warnings
 
+STORED = ("output.every=", "output.history_every=", "output.checkpoint_every=")  # that every study sets by itself
 OUTCOMES = {"done": "", "refused": "No recommendation: ", "failed": "The sweep failed: "}
 
 
@@ -63,8 +64,10 @@ def runs(sweep):
                      *(percent(error.get("error"), error.get("error_ci")) for error in errors), state])
     left = sum(run["status"] == "not run" for run in sweep["runs"])
     told = "".join(f"{quantity_words(q['id'])}: {escaped(q['definition'])}. " for q in shown)
-    return table(["settings", "for a simulated second", *(f"error of the {quantity_words(q['id'])} (%)" for q in shown), ""], rows) + source(
-        f"An error is the distance from the reference ({escaped(REFERENCE[sweep['reference']['kind']])}). {told}"
+    kind = sweep["reference"]["kind"]
+    head = ["settings", "for a simulated second", *(f"error of the {quantity_words(q['id'])} (%)" for q in shown), ""]
+    return table(head, rows, "last") + source(
+        f"An error is the distance from the reference ({escaped(REFERENCE.get(kind, kind))}). {told}"
         + (f"{left} more were not run: the budget was {text(sweep['budget_s'], 's')}." if left else ""))
 
 
@@ -72,7 +75,7 @@ def shares(title, rows):
     """What an error is made of; nothing without a number."""
     known = [[escaped(part(row["row"])), percent(row["value"]), escaped(row["note"])] for row in rows if row["value"] is not None]
     missing = ", ".join(escaped(part(row["row"])) for row in rows if row["value"] is None)
-    return table([title, "%", ""], known) + (source(f"not measured: {missing}") if missing else "") if known else ""
+    return table([title, "%", ""], known, "last") + (source(f"not measured: {missing}") if missing else "") if known else ""
 
 
 def text_of(sweep, path):
@@ -80,8 +83,11 @@ def text_of(sweep, path):
     measured = any(q["id"] in run["qoi"] for run in sweep["runs"] for q in sweep["qoi"] if q["shown"])
     with plt.rc_context(STYLE):
         drawn = picture(cost.draw(sweep) if measured else None, f"all runs; {file_name(path)}", "error against computing time")
-    words = ["polybed", "cost", sweep["case_path"], *(w for o in sweep["overrides"] for w in ("--set", o)), "--model", sweep["model"],
-             "--budget", f"{sweep['budget_s']:g}s", "--target", f"{100 * sweep['target']:g}%", "-o", str(path.parent), "--force"]
+    overrides = [override for override in sweep["overrides"] if not override.startswith(STORED)]
+    axes = next((run["settings"] for run in sweep["runs"] if run["settings"]), {})
+    words = ["polybed", "cost", sweep["case_path"], *(w for o in overrides for w in ("--set", o)), "--model", sweep["model"],
+             *(["--axes", ",".join(axes)] if axes else []),
+             "--clock", sweep["clock"], "--budget", f"{sweep['budget_s']:g}s", "--target", f"{100 * sweep['target']:g}%", "-o", str(path.parent), "--force"]
     body = [section("use", "What to use", recommendation(sweep)), section("picture", "Error against computing time", drawn),
             section("runs", "Runs", runs(sweep)),
             section("made", "What the error is made of", shares("part", sweep["attribution"]) + shares("datum, changed by its usual uncertainty",
