@@ -69,6 +69,7 @@ class Results(Scratch):
 
     def test_measures_are_those_of_the_command(self):
         run = self.run_short()
+        self.assertEqual(repr(run), f"Run in {run.directory} by tfm, 0.01 s, done")
         told = strict_json(program.run("measure", run.directory, "--json").stdout)
         self.assertEqual((polybed.measure(run), polybed.measure(run.directory)), (told, told))
         with self.assertRaisesRegex(polybed.ProgramError, "no-such-run"):
