@@ -55,7 +55,9 @@ def recorded(card):
         rows.append([f"{escaped(name)} that left", text(1e3 * mass, "g") + ("" if share is None else f" ({100 * share:.3g} %)")])
     if card["discharge_kg_s"] is not None:
         rows.append(["discharge", text(1e3 * card["discharge_kg_s"], "g/s")])
-    rows.append(["steady", {True: "yes", False: "no: the bed still changes; the numbers above are not final",
+    moving = "the bed still changes; the numbers above are not final" if card["discharge_kg_s"] is None else \
+        "particles still left, or what remains still moves"
+    rows.append(["steady", {True: "yes", False: f"no: {moving}",
                             None: "not known: too few rows in history.csv"}[card["steady"]]])
     if card["limited_by"]:
         rows.append(["step", "limited by " + escaped(card["limited_by"])])

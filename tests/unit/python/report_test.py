@@ -286,7 +286,7 @@ class Written(unittest.TestCase):
         shown = "".join(Page(card.recorded(entries)).text)
         for words in ("fluidised, mixed, 271 \u00b1 4.4 mm high, pressure drop 1 \u00b1 0.0001 of the weight",
                       "fine <b> 1.05 mm/s, coarse 2.68 mm/s, mixture 1.44 mm/s; the inlet's velocity is 21 times that", "12.3 g (25 %)",
-                      "65 g/s", "no: the bed still changes", "6.5 s of computing"):
+                      "65 g/s", "no: particles still left", "6.5 s of computing"):
             self.assertIn(words, shown)
         dry = dict.fromkeys(entries) | {"left_out": "nothing", "time_s": {"taken": 1.0, "predicted": 2.0}}
         self.assertNotIn("None", "".join(Page(card.recorded(dry)).text))
