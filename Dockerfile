@@ -5,7 +5,7 @@ COPY . /polybed
 WORKDIR /polybed
 # Debian's packages to compile, and those of the documentation, which the package contains.
 RUN apt-get update \
-    && apt-get install -y --no-install-recommends $(cat cmake/packages.txt) dpkg-dev python3-sphinx python3-myst-parser furo libjs-mathjax \
+    && apt-get install -y --no-install-recommends $(cat cmake/packages.txt) dpkg-dev file python3-sphinx python3-myst-parser furo libjs-mathjax \
     && cmake --preset release -DPOLYBED_TESTS=OFF \
     && cd build && cpack
 

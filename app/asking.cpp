@@ -78,7 +78,7 @@ void add_new(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("new", "write a case to start from: NAME/case.toml");
   command.add_option("NAME", options->name, "folder of the new case")->required();
-  command.add_option("--from", options->from, "a template or a shipped case: polybed list cases")->required();
+  command.add_option("--from", options->from, "a template or a shipped case: polybed list cases");
   commands.push_back({&command, doing([options] { run_new(options->name, options->from); })});
 }
 

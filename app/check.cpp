@@ -72,8 +72,8 @@ void note_drag(const core::Scene& scene, Derived& derived) {
   for (const closures::DragLawInfo& law : closures::drag_laws())
     if (law.name == named->second && !law.obeys_sum_rule && scene.species.size() > 1)
       derived.notes.push_back("drag = \"" + law.name +
-                              "\" acts on each species by itself and breaks the sum rule of mixtures, "
-                              "T(3.45): the pressure drop is not exact");
+                              "\" acts on each species by itself: in a mixture the sum of the drags is not "
+                              "that of the pressure drop, which is therefore not exact");
 }
 
 /// What flows in: its greatest speed, m/s, and what becomes of particles that fall more slowly.
@@ -118,7 +118,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
     derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] / constants.fluid.viscosity);
     for (const Inflow& inflow : inflows)
       if (inflow.velocity > derived.terminal[j])
-        derived.notes.push_back(fmt::format("{}'s {:.4g} m/s is above the terminal velocity of {}, {:.4g} m/s: {}",
+        derived.notes.push_back(fmt::format("{}'s {:.4g} m/s is above the terminal velocity of {}, {:.3g} m/s: {}",
                                             inflow.name, inflow.velocity, constants.name[j], derived.terminal[j],
                                             inflow.fate));
   }
@@ -218,10 +218,10 @@ void add_continuum(const core::Scene& scene, const Requirements& need, std::vect
 }
 
 void add_particles(const core::Scene& scene, const ParticleRequirements& need, std::vector<std::string>& lines) {
-  lines.push_back(
-      card_line("polybed dem", fmt::format("{:.4g} s of {} particles: about {} of computing, {} to {}; {}",
-                                           scene.run.until, need.count(), short_time(need.expected),
-                                           short_time(need.least), short_time(need.most), memory_text(need.memory()))));
+  lines.push_back(card_line(
+      "polybed dem", fmt::format("{:.4g} s of {} particle{}: about {} of computing, {} to {}; {}", scene.run.until,
+                                 need.count(), need.count() == 1 ? "" : "s", short_time(need.expected),
+                                 short_time(need.least), short_time(need.most), memory_text(need.memory()))));
   lines.push_back(card_line("", fmt::format("step {:.2g} s, limited by {}", need.limits.dt, need.limits.limited_by)));
 }
 

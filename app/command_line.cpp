@@ -76,6 +76,11 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
   app.add_option("-n", ranks, "before the command: the number of ranks that share it, by mpirun")
       ->check(CLI::Range(1, 1000000));
   const Commands commands = add_commands(app);
+  if (argc == 1) {  // who types the name alone wants to see what there is
+    core::print(stderr, "{}\npolybed list cases: cases to start from; polybed COMMAND --help: its options\n",
+                app.help());
+    return core::ExitCode::wrong_case;
+  }
   if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty()) throw core::CaseError(unknown);
   try {
     app.parse(argc, argv);

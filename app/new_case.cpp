@@ -71,13 +71,20 @@ std::vector<KnownCase> known_cases() {
 
 KnownCase case_named(const std::string& name) {
   const std::vector<KnownCase> all = known_cases();
+  std::string templates;
+  for (const KnownCase& one : all)
+    if (one.is_template) templates += (templates.empty() ? "; there are " : ", ") + one.name;
+  templates += " (polybed list cases says what they are)";
+  if (name.empty()) throw core::CaseError("--from TEMPLATE is missing" + templates);
   const auto found = std::find_if(all.begin(), all.end(), [&](const KnownCase& one) { return one.name == name; });
   if (found != all.end()) return *found;
   std::vector<std::string> names;
   for (const KnownCase& one : all) names.push_back(one.name);
-  const std::string near = core::nearest_name(name, names);
-  throw core::CaseError(fmt::format("--from {}: no such template{}", name,
-                                    near.empty() ? "; see polybed list cases" : "; did you mean '" + near + "'?"));
+  std::string near = core::nearest_name(name, names);
+  for (const std::string& one : names)
+    if (near.empty() && one.find(name) != std::string::npos) near = one;  // "liquid" of "liquid-bed"
+  throw core::CaseError(
+      fmt::format("--from {}: no such template{}", name, near.empty() ? templates : "; did you mean '" + near + "'?"));
 }
 
 /// Files that a case reads; what describes or evaluates it stays where it is.

@@ -1,6 +1,7 @@
 #include "core/progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +16,22 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double terminal_interval = 0.25;  ///< s
 constexpr int lines_in_pipe = 20, bar_width = 24;
+
+/// Columns of the terminal on standard error; 0 where it does not say.
+std::size_t terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+/// A line that is renewed in place must not wrap: its first columns, without a part of a letter. 0 columns: all of it.
+std::string cut(const std::string& line, std::size_t columns) {
+  std::size_t end = 0, shown = 0;
+  for (const std::size_t most = columns > 1 ? columns - 1 : line.size(); end < line.size(); ++end) {
+    const bool begins_letter = (static_cast<unsigned char>(line[end]) & 0xC0U) != 0x80U;
+    if (begins_letter && ++shown > most) break;
+  }
+  return line.substr(0, end);
+}
 
 double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -52,18 +69,18 @@ void Progress::show(const ProgressLine& line) {
   const double rate = done > 0 ? since(begin_) / done : 0;
   constexpr double enough_to_tell = 1e-3;  // share of the run below which its speed says nothing yet
   const std::string speed =
-      share < enough_to_tell ? ""
-                             : fmt::format("  {:.2f} s/s  left {}", rate, duration_text(rate * (until_ - line.time)));
+      share < enough_to_tell ? "" : fmt::format(", {} left", duration_text(rate * (until_ - line.time)));
   const std::string bed = line.bed_height ? fmt::format("  bed {:.1f} mm", 1e3 * *line.bed_height) : "";
-  const std::string text = fmt::format("t {:.3f}/{:g} s  dt {:.2g} s ({}){}  {}{}", line.time, line.until, line.step,
-                                       line.limited_by, bed, line.worst_invariant, speed);
+  const std::string text = fmt::format("t {:.3f}/{:g} s{}{}  dt {:.2g} s ({})  {}", line.time, line.until, speed, bed,
+                                       line.step, line.limited_by, line.worst_invariant);
   if (!terminal_) {
     print(stderr, "{}\n", text);
     return;
   }
   const int full = int(share * bar_width);
-  print(stderr, "\r\033[K[{}{}] {}", std::string(std::size_t(full), '#'),
-        std::string(std::size_t(bar_width - full), '.'), text);
+  const std::string bar = fmt::format("[{}{}] {}", std::string(std::size_t(full), '#'),
+                                      std::string(std::size_t(bar_width - full), '.'), text);
+  print(stderr, "\r\033[K{}", cut(bar, terminal_columns()));
   std::fflush(stderr);
 }
 

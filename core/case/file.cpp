@@ -80,11 +80,17 @@ void CaseReader::wrong_key(const toml::key& key, std::string_view table) {
   if (table.empty())
     for (const Table& t : tables()) names.emplace_back(t.name);
   const std::string near = nearest_name(key.str(), names);
+  constexpr std::size_t few = 8;  // names that fit on a line
+  std::string hint;
+  if (!near.empty())
+    hint = fmt::format("; did you mean '{}'?", near);
+  else if (!names.empty() && names.size() <= few)
+    hint = fmt::format("; there {} {}", names.size() == 1 ? "is" : "are", fmt::join(names, ", "));
   values_.add(
       key.source(),
       fmt::format("unknown key '{}'{}{}", key.str(),
                   table.empty() ? "" : " in " + (known == nullptr ? fmt::format("[{}]", table) : header(*known)),
-                  near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+                  hint));
 }
 
 void CaseReader::read_table(const toml::table& table, const Table& known, std::size_t index) {

@@ -114,6 +114,8 @@ std::string bed_text(const BedOfRun& bed) {
 std::string steady_text(const BedOfRun& bed) {
   if (!bed.steady) return "not known: too few rows in history.csv";
   if (*bed.steady) return fmt::format("yes, over the last {:.3g} s", bed.window);
+  if (bed.discharge)
+    return fmt::format("no: particles still left in the last {:.3g} s, or what remains still moves", bed.window);
   return fmt::format("no: {} still drift{} over the last {:.3g} s; the numbers above are not final", each(bed.drifting),
                      bed.drifting.size() == 1 ? "s" : "", bed.window);
 }

@@ -38,7 +38,8 @@ constexpr double shipped_factor = 3;
 double factor_of(double own, const Machine& machine) { return machine.measured ? own : std::max(own, shipped_factor); }
 
 const char* basis_of(const Machine& machine) {
-  return machine.measured ? "what this machine was measured to do" : "shipped constants: polybed estimate --machine";
+  return machine.measured ? "measurements of this machine"
+                          : "another machine's speed: polybed estimate --machine measures yours in half a minute";
 }
 
 /// Ranks share the work but for what each waits: parallel.md.
@@ -79,6 +80,14 @@ TimeBand with_start(const TimeBand& steps, const core::Scene& scene, const Machi
   return beyond(steps, before + output(scene, machine), before);
 }
 
+/// Bytes of report.html: text, curves, and for each stored time a map of every field and the places of the particles,
+/// each part within its limit (python/polybed/report/beds.py). As measured on the templates, within a factor of 2.
+double report_of(double stored, double cells, double particles, double species) {
+  constexpr double text = 50e3, curves = 15e3, map_cell = 0.5, place = 8, most = 4e6;
+  return text + curves * species + std::min(most, map_cell * stored * cells * (2 * species + 2)) +
+         std::min(most, place * stored * particles);
+}
+
 /// Bytes of a run's files, as counted from what they hold: docs/reference/files.md.
 double disk_of(const core::Scene& scene, double cells, double particles, double state, double steps) {
   const auto species = double(scene.species.size());
@@ -90,6 +99,7 @@ double disk_of(const core::Scene& scene, double cells, double particles, double 
   double bytes = stored * (file + cells * of_cell + scene.column.cells[1] * of_slab);
   if (particles > 0) bytes += stored * (file + particle * particles);
   bytes += rows(scene.run.until, *scene.output.history_every) * history_row + 2 * state + picture;
+  bytes += report_of(stored, cells, particles, species);
   return bytes + (particles > 0 ? 0 : steps * step_row);
 }
 
@@ -152,7 +162,7 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
   if (need.time) {
     e.time = with_start(band_of(need.time->expected, tfm_middle(need.integrator), tfm_factor), scene, machine);
     e.steps = need.time->steps;
-    e.basis = "time scales of the bed; the cost of a step measured on a part of it";
+    e.basis = "time scales of the bed, and a few steps timed on a part of it";
   } else {
     e.time = tfm_time(scene, *part, machine);
     e.steps = expected_of(scene, *part, 0).time->steps;

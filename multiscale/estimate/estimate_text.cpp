@@ -42,14 +42,14 @@ void write_estimate(core::Json& json, const CostEstimate& e) {
 
 void print_estimate(const core::Scene& scene, const CostEstimate& e) {
   constexpr std::string_view continuum = "tfm";
-  core::print("{:.4g} s by the {} on {} rank{}: about {} of computing; 80 % of runs take {} to {}\n", scene.run.until,
-              e.model == continuum ? "two-fluid model" : "particle model", e.ranks, e.ranks > 1 ? "s" : "",
-              time_text(e.time.expected), time_text(e.time.least), time_text(e.time.most));
+  core::print("{:.4g} s by the {} on {} rank{}: about {} of computing, with 80 % confidence {} to {}\n",
+              scene.run.until, e.model == continuum ? "two-fluid model" : "particle model", e.ranks,
+              e.ranks > 1 ? "s" : "", time_text(e.time.expected), time_text(e.time.least), time_text(e.time.most));
   core::print("  based on  {}\n", e.basis);
   if (e.ranks > 1) core::print("  wall time {}\n", time_text(e.wall));
-  core::print("  steps     {:.3g} of {:.2g} s, limited by {}\n", e.steps, e.step, e.limited_by);
+  core::print("  steps     {:.0f} of {:.2g} s, limited by {}\n", e.steps, e.step, e.limited_by);
   core::print("  memory    {}\n  disk      {}\n", bytes_text(e.memory), bytes_text(e.disk));
-  core::print("ways to a shorter time, and what each costs:\n");
+  core::print("to shorten it, and what each way costs:\n");
   for (const Way& way : e.ways)
     core::print("  {}: {:.0f} % of the time\n      {} ({})\n", way.change, 100 * way.time, way.loss, way.evidence);
 }

@@ -12,6 +12,7 @@ from polybed.version import __version__
 
 # Packages of the name of a function below: imported first, they do not take its place when one of their modules is imported.
 importlib.import_module("polybed.cost")
+importlib.import_module("polybed.fit")
 
 with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it still looks for
     from polybed.files import FormatError, ReplacedError
@@ -20,7 +21,7 @@ with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it stil
     from polybed.quantities import Quantity
     from polybed.read import Run, read
     from polybed.solids_table import SolidsTable, read_table
-    from polybed.studies import cost, measure, scan
+    from polybed.studies import cost, fit, measure, scan
 
 __all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "__version__", "calibrate",
-           "case", "compare", "cost", "inversion", "measure", "read", "read_table", "run", "scan", "sweep"]
+           "case", "compare", "cost", "fit", "inversion", "measure", "read", "read_table", "run", "scan", "sweep"]

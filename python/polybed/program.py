@@ -78,11 +78,13 @@ def show(label: str | None, line: str) -> None:
 
 
 def said_by(child: subprocess.Popen[str], label: str | None) -> str:
-    """What a program says on standard error, as text; shown as it comes, behind a label, unless that is None."""
+    """What a program says on standard error, as text; shown as it comes, behind a label, unless that is None. Of a run among others, which
+    has a label, only progress and warnings are shown."""
     lines: list[str] = []
     for line in child.stderr or ():
         lines.append(line)
-        show(label, line)
+        if not label or line.startswith(("t ", "warning")):
+            show(label, line)
     return "".join(lines)
 
 

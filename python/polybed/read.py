@@ -67,6 +67,11 @@ class Run:
         self.fields = self._field_names()
         self.particles = Particles(self._folder)
 
+    def __repr__(self) -> str:
+        record = self.record
+        done = f" by {record['model']}, {record['time_s']:g} s, {record['state']}" if {"model", "time_s", "state"} <= record.keys() else ""
+        return f"Run in {self.directory}{done}"
+
     def _open_step(self, step):
         return open_hdf5(self._folder.file("fields", f"{step + 1:06d}.h5"), "polybed fields step")
 

@@ -4,6 +4,8 @@ polybed.program."""
 from __future__ import annotations
 
 import json
+import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -52,4 +54,22 @@ def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), targ
         options += [] if value is None else [option, plain(value, option)]
     call(*options, *(["--resume"] if (folder / "cost.json").exists() else []), label=label_of(quiet))
     found: dict[str, Any] = read_json(folder / "cost.json", "polybed cost")
+    return found
+
+
+def fit(rows: Place | Sequence[Place], form: str = "brinkman_oseen", output: Place | None = None, bootstrap: int = 100, seed: int = 1,
+        force: bool = False, picture: bool = False, quiet: bool = False) -> dict[str, Any]:
+    """Fits a drag law to rows of resolved flow and writes its law file: what `polybed fit ROWS` finds.
+
+    rows: one table or several, of `polybed resolve` or of tests/data/lbm; of a folder its tab_A_*.csv
+    form: "cello" or "brinkman_oseen"; bootstrap: draws for the intervals of the constants, from the number seed
+    output: default runs/<name of the rows>-fit; a fit that stands there is replaced only with force
+    Returns fit.json as a dictionary: "law" is the path of the law file, for {"effects.drag": "file:<law>"}; "constants" without unit,
+    "interval" their 95 % intervals, "errors" in per cent of the force, "band" relative. Raises ProgramError, with code 3 if the law
+    that was written breaks a constraint.
+    """
+    tables = [rows] if isinstance(rows, str | os.PathLike) else list(rows)
+    options: list[object] = ["--form", form, "--bootstrap", bootstrap, "--seed", seed, *(["-o", output] if output else []),
+                             *(["--force"] if force else []), *([] if picture else ["--no-picture"]), *(["--quiet"] if quiet else [])]
+    found: dict[str, Any] = json.loads(call("fit", *tables, *options, "--json", label=label_of(quiet)))
     return found

@@ -10,7 +10,7 @@ namespace polybed::relevance::effects {
 inline std::vector<core::Law> laws_of_drag() {
   std::vector<core::Law> laws;
   for (const closures::DragLawInfo& law : closures::drag_laws())
-    laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [of a mixture: breaks the sum rule]")});
+    laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [in mixtures drag and pressure drop disagree]")});
   laws.push_back({"file:FILE", "a law file of polybed fit: a form with its constants"});
   return laws;
 }

@@ -12,7 +12,7 @@ namespace polybed::relevance::effects {
 inline std::vector<core::Law> laws_of_partition() {
   std::vector<core::Law> laws;
   for (const closures::DragLawInfo& law : closures::partitions())
-    laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [breaks the sum rule]")});
+    laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [drag and pressure drop disagree]")});
   return laws;
 }
 

@@ -92,8 +92,8 @@ class Cost(Scratch):
                 if run["qoi"]["bed_height"]["error"] + run["qoi"]["bed_height"]["error_ci"] <= sweep["target"]:
                     self.assertGreaterEqual(run["s_per_sim_s"], chosen["s_per_sim_s"])
         text = (self.sweep_folder / "cost.md").read_text()
-        self.assertIn("For 1 % of bed_height take", text)
-        self.assertIn("Not measured, so in none of these errors: space, closure spread, level. --axes grid,drag,effects,level", text)
+        self.assertIn("For an error of at most 1 % in bed_height use", text)
+        self.assertIn("To measure them: --axes grid,drag,effects,level.", text)
         self.assertNotIn("that is what to improve", text)
         with open(self.sweep_folder / "cost.csv") as file:
             rows = list(csv.reader(file))

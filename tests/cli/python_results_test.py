@@ -13,6 +13,7 @@ from program import ROOT, WRONG_CASE, Scratch, strict_json
 sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
 import polybed.cost.picture  # noqa: E402, F401  the functions keep their names
+import polybed.fit.errors  # noqa: E402, F401
 
 CASE = ROOT / "cases/small-binary/case.toml"
 SHORT = {"output.every": "1 ms", "output.history_every": "0.1 ms"}
@@ -68,6 +69,7 @@ class Results(Scratch):
 
     def test_measures_are_those_of_the_command(self):
         run = self.run_short()
+        self.assertEqual(repr(run), f"Run in {run.directory} by tfm, 0.01 s, done")
         told = strict_json(program.run("measure", run.directory, "--json").stdout)
         self.assertEqual((polybed.measure(run), polybed.measure(run.directory)), (told, told))
         with self.assertRaisesRegex(polybed.ProgramError, "no-such-run"):
@@ -87,6 +89,16 @@ class Results(Scratch):
         with self.assertRaisesRegex(polybed.ProgramError, "nonsense") as caught:
             polybed.cost(CASE, axes=("nonsense",), output=self.folder / "other", until="30 ms", quiet=True)
         self.assertEqual(caught.exception.code, WRONG_CASE)
+
+    def test_a_fit_is_what_the_command_writes(self):
+        rows, law = ROOT / "tests/data/lbm/tab_A_v.csv", self.folder / "fit"
+        found = polybed.fit(rows, output=law, bootstrap=0, quiet=True)
+        self.assertEqual(found, strict_json((law / "fit.json").read_text()))
+        self.assertEqual((found["form"], found["law"]), ("brinkman_oseen", str(law / "law.json")))
+        with self.assertRaisesRegex(polybed.ProgramError, "--force") as caught:
+            polybed.fit([rows], output=law, quiet=True)
+        self.assertEqual(caught.exception.code, WRONG_CASE)
+        self.assertEqual(polybed.fit([rows], "cello", law, 0, force=True, quiet=True)["form"], "cello")
 
     def test_shipped_cases_are_found_by_name(self):
         self.assertEqual(polybed.case("small-binary"), CASE)

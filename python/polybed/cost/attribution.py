@@ -13,9 +13,9 @@ def run_solver(sweeper):
     scene = sweeper.scene
     if sweeper.sweep.options.model == "tfm":
         given = scene.of("tfm.pressure_tolerance", min(1e-4, 0.1 * scene.of("tfm.rtol")))
-        sweeper.run_with(SOLVER, "pressure to a hundredth", setting("tfm.pressure_tolerance", given / 100))
+        sweeper.run_with(SOLVER, "pressure solved 100 times as exactly", setting("tfm.pressure_tolerance", given / 100))
     elif scene.has_fluid:
-        sweeper.run_with(SOLVER, "fluid 8 times as often", f"dem.fluid_every={max(1, scene.of('dem.fluid_every') // 8)}")
+        sweeper.run_with(SOLVER, "fluid solved 8 times as often", f"dem.fluid_every={max(1, scene.of('dem.fluid_every') // 8)}")
 
 
 def run_inputs(sweeper):

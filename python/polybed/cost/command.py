@@ -7,6 +7,7 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
+from polybed.cost.axes import MAKERS
 from polybed.cost.check import check_recommendation, print_difference
 from polybed.cost.course import run_sweep
 from polybed.cost.markdown import sweep_markdown
@@ -56,23 +57,30 @@ def listed(text):
 
 
 def parser():
-    options = argparse.ArgumentParser(prog="polybed cost", description="Error against time for a case, and the settings that follow.",
-                                      allow_abbrev=False)
-    options.add_argument("words", nargs="+", metavar="WORDS", help="CASE; check DIR; diff OLD NEW; selftest")
+    options = argparse.ArgumentParser(prog="polybed cost", allow_abbrev=False,
+                                      description="Runs a case at several settings, measures how far each is from a reference and what "
+                                                  "it costs, and recommends the cheapest within an error.")
+    options.add_argument("words", nargs="+", metavar="WORDS",
+                         help="CASE: the study; check DIR: run its recommendation again; diff OLD.json NEW.json: what became dearer; "
+                              "selftest: problems with known answers")
     options.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="in place of what the file says")
     options.add_argument("-o", "--output", type=Path, help="folder; default runs/<case name>-cost")
     options.add_argument("--until", help='simulated time, e.g. "20 s"')
-    options.add_argument("--model", choices=("tfm", "dem"))
-    options.add_argument("--qoi", type=listed, default=[], help="quantities by commas; the first ranks")
-    options.add_argument("--axes", type=listed, default=[], help="axes by commas")
-    options.add_argument("--target", default="1%", help="error, e.g. 1%%")
-    options.add_argument("--budget", default="20min", help="wall time, e.g. 20min")
-    options.add_argument("--repeat", type=between(3, 100), default=5, help="runs for a CPU time")
-    options.add_argument("--clock", choices=("work", "cpu", "wall"), default="work")
-    options.add_argument("--reference", default="auto", help="auto | exact | DIR of a run")
-    options.add_argument("--seed", type=between(0, 2**64 - 1), default=1, help="of the order of repetitions")
+    options.add_argument("--model", choices=("tfm", "dem"), help="default: tfm where it runs the case")
+    options.add_argument("--qoi", type=listed, default=[],
+                         help="measured quantities, separated by commas; the first decides (default: bed_height)")
+    options.add_argument("--axes", type=listed, default=[],
+                         help=f"what is varied, separated by commas: {', '.join(MAKERS)} (default: "
+                              f"{', '.join(name for name, (_, usual, _) in MAKERS.items() if usual)}, where they act)")
+    options.add_argument("--target", default="1%", help="largest error allowed (default: 1%%)")
+    options.add_argument("--budget", default="20min", help="wall time of the whole study (default: 20min)")
+    options.add_argument("--repeat", type=between(3, 100), default=5, help="runs of which a CPU time is the median (default: 5)")
+    options.add_argument("--clock", choices=("work", "cpu", "wall"), default="work",
+                         help="time that counts: work (counted operations, the same every time), cpu or wall (default: work)")
+    options.add_argument("--reference", default="auto", help="auto, exact (force balance, one species), or the directory of a run")
+    options.add_argument("--seed", type=between(0, 2**64 - 1), default=1, help="of the random order of repetitions")
     options.add_argument("--resume", action="store_true", help="go on with the runs in the folder")
-    options.add_argument("--force", action="store_true", help="replace a sweep that exists")
+    options.add_argument("--force", action="store_true", help="replace a study that exists")
     options.add_argument("--quiet", action="store_true", help="no progress")
     options.add_argument("--json", action="store_true", help="cost.json on standard output")
     options.add_argument("--no-picture", dest="picture", action="store_false", help="no cost.png, cost.svg and cost.html")
@@ -106,7 +114,7 @@ def sweep(given):
     scene = Scene(case, overrides_of(given))
     folder = given.output or Path("runs") / f"{name_of(case)}-cost"
     if (folder / "cost.json").exists() and not given.resume and not given.force:
-        raise StudyError(WRONG_CASE, f"{folder} holds a sweep already: --resume goes on with it, --force replaces it")
+        raise StudyError(WRONG_CASE, f"{folder} contains a study already: --resume continues it, --force replaces it")
     if given.reference not in ("auto", "exact") and not (Path(given.reference) / "profiles.h5").exists():
         raise StudyError(FILE, f"--reference {given.reference}: no run directory")
     options, overrides = sweep_options(given, scene), [*scene.overrides, *common_overrides(scene)]

@@ -6,6 +6,7 @@ from polybed.cost.axes import NUMERICS
 from polybed.cost.fit import Priced, pareto_front
 from polybed.cost.quantities import LENGTH, SHARE
 from polybed.cost.sweep import CANDIDATE, REFERENCE, Recommendation, RowQuantity
+from polybed.cost.words import part
 from polybed.study.measured import measures_of
 
 FLOOR_FACTOR = 10  # of the disagreement of two references
@@ -138,14 +139,15 @@ def given_row(sweep):
 def recommendation_text(sweep):
     name, target = sweep.ranking, percent(sweep.options.target)
     if not sweep.recommendation:
-        return f"No setting that was run has an error of {name} within {target}, interval included."
+        return f"No run has an error of at most {target} in {name}, its interval included."
     row = sweep.rows[sweep.recommendation.row]
     quantity = row.quantities[name]
-    text = (f"For {target} of {name} take {settings_text(sweep, row)}: error {percent(quantity.error)} +- "
-            f"{percent(quantity.error_interval or 0)}, {row.rate:.3g} s for a simulated second ({sweep.options.clock})")
+    within = f" +- {percent(quantity.error_interval)}" if quantity.error_interval else ""
+    text = (f"For an error of at most {target} in {name} use {settings_text(sweep, row)}: its error is {percent(quantity.error)}{within}, "
+            f"it takes {row.rate:.3g} s of computing for a simulated second")
     given = given_row(sweep)
     if given is not None and given.done and given is not row and given.rate > 0:
-        text += f"; the case as given takes {given.rate / row.rate:.3g} times that"
+        text += f", the case as given {given.rate / row.rate:.3g} times that"
     return text + "."
 
 
@@ -158,10 +160,10 @@ def advice(sweep):
     unknown = [share for share in sweep.attribution if share.axes]
     largest = max(known, key=lambda share: share.value, default=None)
     if largest is not None and largest.value > 0:
-        lines.append(f"The largest row {'of those measured is' if unknown else 'is'} {largest.row} ({percent(largest.value)})"
+        lines.append(f"The largest part of the error{' of those measured' if unknown else ''}: {part(largest.row)} ({percent(largest.value)})"
                      f"{'' if unknown else ': that is what to improve'}.")
     if unknown:
-        lines.append(f"Not measured, so in none of these errors: {', '.join(share.row for share in unknown)}. "
-                     f"--axes {','.join(axis for share in unknown for axis in share.axes)} measures them.")
-    loose = [share.row for share in known if largest.value > 0 and 10 * share.value < largest.value]
-    return lines + ([f"Ten times smaller, so to be loosened: {', '.join(loose)}."] if loose else [])
+        lines.append(f"Not measured, and not part of these errors: {'; '.join(part(share.row) for share in unknown)}. "
+                     f"To measure them: --axes {','.join(axis for share in unknown for axis in share.axes)}.")
+    loose = [part(share.row) for share in known if largest.value > 0 and 10 * share.value < largest.value]
+    return lines + ([f"At least ten times smaller, so it may be loosened to save time: {'; '.join(loose)}."] if loose else [])

@@ -3,7 +3,9 @@
 from pathlib import Path
 
 from polybed.cost.judge import advice, settings_text
+from polybed.cost.sweep import REFERENCE as KIND_REFERENCE
 from polybed.cost.timing import timing_of
+from polybed.cost.words import CLOCKS, REFERENCE, STATUS, part
 from polybed.cost.work import weighed
 
 
@@ -13,24 +15,28 @@ def percent(share):
 
 def cell_of(row, name):
     quantity = row.quantities.get(name)
-    return "-" if quantity is None else f"{100 * quantity.error:.2g} +- {percent(quantity.error_interval)}"
+    if quantity is None:
+        return "-"
+    return percent(quantity.error) + (f" +- {percent(quantity.error_interval)}" if quantity.error_interval else "")
 
 
 def status_of(sweep, number):
     """How much dearer a dominated row is than the cheapest that is at least as accurate; whether a row is recommended."""
     row = sweep.rows[number]
     if sweep.recommendation and sweep.recommendation.row == number:
-        return f"{row.status} <- {100 * sweep.options.target:.2g} % on {sweep.ranking}"
+        return f"**recommended** for {100 * sweep.options.target:.2g} % in {sweep.ranking}"
+    if row.kind == KIND_REFERENCE and row.done:
+        return "reference"
     if row.status != "dominated":
-        return row.status
+        return STATUS.get(row.status, row.status)
     error = row.quantities[sweep.ranking].error
     least = min([row.rate, *(r.rate for r in sweep.rows if r.status == "pareto" and r.quantities[sweep.ranking].error <= error)])
-    return f"dominated: {row.rate / least:.2g} x dearer" if 0 < least < row.rate else row.status
+    return f"{row.rate / least:.2g} times as dear as another as accurate" if 0 < least < row.rate else STATUS["dominated"]
 
 
 def table_of(sweep):
     names = sweep.options.quantities
-    lines = ["| # | settings | s/sim-s | work, s | CPU, s |" + "".join(f" {name} % |" for name in names) + " status |",
+    lines = ["| # | settings | s for a simulated s | work, s | CPU, s |" + "".join(f" error of {name}, % |" for name in names) + " |",
              "| ---: | --- | ---: | ---: | ---: |" + " ---: |" * len(names) + " --- |"]
     for n, row in enumerate(sweep.rows):
         seconds = timing_of(row.cpu).median if row.cpu else 0.0
@@ -41,7 +47,7 @@ def table_of(sweep):
 
 
 def shares_of(title, shares):
-    rows = [f"| {share.row} | {percent(share.value)} | {share.note} |" for share in shares]
+    rows = [f"| {part(share.row)} | {percent(share.value)} | {share.note} |" for share in shares]
     return ["", f"| {title} | % | |", "| --- | ---: | --- |", *rows] if rows else []
 
 
@@ -50,13 +56,14 @@ def sweep_markdown(sweep, of):
     path = Path(of.path)
     name, reference = path.parent.name if path.name == "case.toml" else path.name, sweep.reference
     note = f" ({reference.note})" if reference.note else ""
-    lines = [f"case {name}   model {sweep.options.model}   {'chaotic' if sweep.chaotic else 'not chaotic'}   "
-             f"reference: {reference.kind or 'none'}{note}",
-             f"clock {sweep.options.clock}   outcome {sweep.outcome}   commit {of.commit}", "", *advice(sweep), "", *table_of(sweep),
-             *shares_of(f"error of {sweep.ranking}", sweep.attribution),
-             *shares_of("input, changed by what it is usually known to", sweep.inputs)]
+    lines = [f"{name} by polybed {sweep.options.model}; the bed is {'chaotic' if sweep.chaotic else 'not chaotic'}; computing times are "
+             f"{CLOCKS[sweep.options.clock]}",
+             f"an error is the distance from the reference: {REFERENCE[reference.kind]}{note}", "", *advice(sweep), "", *table_of(sweep),
+             *shares_of(f"what the error of {sweep.ranking} is made of", sweep.attribution),
+             *shares_of(f"change of {sweep.ranking} where a datum is off by its usual uncertainty", sweep.inputs)]
     if sweep.additive_off is not None:
-        lines += ["", f"additive model off by {100 * sweep.additive_off:.2g} %"]
+        lines += ["", f"errors of the parts added in squares are off by {100 * sweep.additive_off:.2g} %"]
     for warning in sweep.warnings:
         lines += ["", f"warning: {warning}"]
+    lines += ["", f"outcome {sweep.outcome}, commit {of.commit}"]
     return "\n".join(lines) + "\n"

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
+from polybed.cost.words import REFERENCE, STATUS, part
 from polybed.drawing import cost
 from polybed.drawing.style import NAMES, STYLE
 from polybed.drawing.units import text
@@ -12,16 +13,14 @@ from polybed.files import contents_of, read_json
 from polybed.in_place import in_place
 from polybed.page import escaped, file_name, page, picture, section, source, table, warnings
 
-STATUS = {"pareto": "nothing cheaper is as accurate", "dominated": "another is cheaper and as accurate",
-          "hollow": "too near the reference to be ranked", "model": "another model or other data: not ranked",
-          "predicted": "predicted, not run", "not run": "not run", "failed": "failed", "refused": "refused"}
+STORED = ("output.every=", "output.history_every=", "output.checkpoint_every=")  # that every study sets by itself
 OUTCOMES = {"done": "", "refused": "No recommendation: ", "failed": "The sweep failed: "}
 
 
 def percent(value, error=None):
     if value is None:
         return "&ndash;"
-    return f"{100 * value:.2g}" + ("" if error is None else f" &plusmn; {100 * error:.1g}")
+    return f"{100 * value:.2g}" + ("" if not error else f" &plusmn; {100 * error:.1g}")
 
 
 def quantity_words(name):
@@ -59,21 +58,24 @@ def runs(sweep):
             continue
         errors = [run["qoi"].get(q["id"], {}) for q in shown]
         status = "not ranked: there is no reference" if run["status"] == "hollow" and not sweep["reference"]["kind"] else run["status"]
-        state = "<b>recommended</b>" if n in advised else escaped(STATUS.get(status, status))
+        state = "<b>recommended</b>" if n in advised else escaped(run["kind"] if run["kind"] == "reference" and status == "hollow" else
+                                                                  STATUS.get(status, status))
         rows.append([settings_words(run), text(run["s_per_sim_s"], "s") if run["s_per_sim_s"] > 0 else "&ndash;",
                      *(percent(error.get("error"), error.get("error_ci")) for error in errors), state])
     left = sum(run["status"] == "not run" for run in sweep["runs"])
     told = "".join(f"{quantity_words(q['id'])}: {escaped(q['definition'])}. " for q in shown)
-    return table(["settings", "for a simulated second", *(f"error of the {quantity_words(q['id'])} (%)" for q in shown), ""], rows) + source(
-        f"An error is the distance from the reference ({escaped(sweep['reference']['kind'] or 'there is none')}). {told}"
+    kind = sweep["reference"]["kind"]
+    head = ["settings", "for a simulated second", *(f"error of the {quantity_words(q['id'])} (%)" for q in shown), ""]
+    return table(head, rows, "last") + source(
+        f"An error is the distance from the reference ({escaped(REFERENCE.get(kind, kind))}). {told}"
         + (f"{left} more were not run: the budget was {text(sweep['budget_s'], 's')}." if left else ""))
 
 
 def shares(title, rows):
     """What an error is made of; nothing without a number."""
-    known = [[escaped(row["row"]), percent(row["value"]), escaped(row["note"])] for row in rows if row["value"] is not None]
-    missing = ", ".join(escaped(row["row"]) for row in rows if row["value"] is None)
-    return table([title, "%", ""], known) + (source(f"not measured: {missing}") if missing else "") if known else ""
+    known = [[escaped(part(row["row"])), percent(row["value"]), escaped(row["note"])] for row in rows if row["value"] is not None]
+    missing = ", ".join(escaped(part(row["row"])) for row in rows if row["value"] is None)
+    return table([title, "%", ""], known, "last") + (source(f"not measured: {missing}") if missing else "") if known else ""
 
 
 def text_of(sweep, path):
@@ -81,11 +83,14 @@ def text_of(sweep, path):
     measured = any(q["id"] in run["qoi"] for run in sweep["runs"] for q in sweep["qoi"] if q["shown"])
     with plt.rc_context(STYLE):
         drawn = picture(cost.draw(sweep) if measured else None, f"all runs; {file_name(path)}", "error against computing time")
-    words = ["polybed", "cost", sweep["case_path"], *(w for o in sweep["overrides"] for w in ("--set", o)), "--model", sweep["model"],
-             "--budget", f"{sweep['budget_s']:g}s", "--target", f"{100 * sweep['target']:g}%", "-o", str(path.parent), "--force"]
+    overrides = [override for override in sweep["overrides"] if not override.startswith(STORED)]
+    axes = next((run["settings"] for run in sweep["runs"] if run["settings"]), {})
+    words = ["polybed", "cost", sweep["case_path"], *(w for o in overrides for w in ("--set", o)), "--model", sweep["model"],
+             *(["--axes", ",".join(axes)] if axes else []),
+             "--clock", sweep["clock"], "--budget", f"{sweep['budget_s']:g}s", "--target", f"{100 * sweep['target']:g}%", "-o", str(path.parent), "--force"]
     body = [section("use", "What to use", recommendation(sweep)), section("picture", "Error against computing time", drawn),
             section("runs", "Runs", runs(sweep)),
-            section("made", "What the error is made of", shares("part", sweep["attribution"]) + shares("input, changed by what it is usually known to",
+            section("made", "What the error is made of", shares("part", sweep["attribution"]) + shares("datum, changed by its usual uncertainty",
                                                                                              sweep["inputs"])),
             warnings(sweep["warnings"]), section("commands", "How to make it again", f"<pre>{escaped(shlex.join(words))}</pre>")]
     under = f"accuracy and computing time, {escaped(NAMES.get(sweep['model'], sweep['model']))} &middot; {file_name(sweep['case_path'])}"

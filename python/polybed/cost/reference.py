@@ -81,14 +81,14 @@ def additive_reference(sweeper):
     """Time by a run two levels beyond and one of another family, on the coarsest grid, whose errors in time are those of the others as far
     as errors add up; space by Richardson's value of the line of grids."""
     sweep = sweeper.sweep
-    one = sweep.rows[sweeper.run(Row(sweeper.tight(), REFERENCE, note="reference: two levels beyond"))]
+    one = sweep.rows[sweeper.run(Row(sweeper.tight(), REFERENCE, note="reference: tolerances tighter than all"))]
     if not one.done:
         return
-    family = Row(sweeper.tight((other_family(sweeper, one),)), REFERENCE, note="reference: of another family")
+    family = Row(sweeper.tight((other_family(sweeper, one),)), REFERENCE, note="reference by another integrator")
     two = sweep.rows[sweeper.run(family)]
     if not two.done:
-        return sweep.refuse(f"no second family to check the reference by: {two.outcome.reason}")
-    note = "two levels beyond the finest, and another family of integrators"
+        return sweep.refuse(f"no second integrator to check the reference by: {two.outcome.reason}")
+    note = "tolerances two levels tighter than the tightest, checked by another kind of integrator"
     sweep.reference = reference = Reference("self", note, means_of(one), profile=one.measured.profile)
     for name, mean in two.measured.values.items():
         if name in reference.value:
@@ -102,7 +102,7 @@ def additive_reference(sweeper):
         measure_errors(sweep, row)
     errors = [row.quantities[sweep.ranking].error for row in sweep.rows if row.kind == CANDIDATE and sweep.ranking in row.quantities]
     if not carries(disagreement, errors, sweep.options.target):
-        sweep.refuse(f"no trustworthy reference: two families of integrators differ by {100 * disagreement:.2g} % in {sweep.ranking}")
+        sweep.refuse(f"no trustworthy reference: two kinds of integrator differ by {100 * disagreement:.2g} % in {sweep.ranking}")
 
 
 def line_of_grids(sweeper, grid):
@@ -147,6 +147,6 @@ def tell_of_refinement(sweep, refined, grids):
     if refined.note:
         sweep.warnings.append(f"grids: {refined.note}")
     if refined.order is not None:
-        sweep.reference.note += f"; Richardson's value of {grids} grids, order {refined.order:.2f}"
+        sweep.reference.note += f"; limit of {grids} grids by Richardson's extrapolation, order {refined.order:.2f}"
     elif refined.band > 0:
-        sweep.reference.note += "; grids not in the asymptotic range: the finest, within three times half of their range"
+        sweep.reference.note += "; the grids do not converge evenly: the value of the finest, within three times half of their range"

@@ -159,7 +159,7 @@ class Sweeper:
         order = self.order_of(self.centre, (setting("column.gravity", self.scene.of("column.gravity") * (1 + 1e-10)),))
         second = self.runner.run(order, self.left())
         twin = second.measured.history if second.done else None
-        self.run(Row(order, TWIN, self.centre, "twin: gravity (1 + 1e-10)"))
+        self.run(Row(order, TWIN, self.centre, "again with gravity (1 + 1e-10)"))
         if not second.done:
             sweep.warnings.append("taken to be steady: the run that would tell, with gravity (1 + 1e-10), was not done")
             return True

@@ -2,11 +2,11 @@
 
 import matplotlib.pyplot as plt
 
-from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, shortened
+from polybed.cost.words import CLOCKS
+from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, fitted, shortened
 from polybed.record import title_of_case
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
-CLOCKS = {"work": "by counted work", "cpu": "CPU", "wall": "by the clock"}
 LEAST = 1e-7  # an error of 0 is drawn here
 
 
@@ -88,9 +88,8 @@ def draw(sweep):
         axes.set(xscale="log", yscale="log", xlabel=f"error of the {words}", title=words)
         if axes.get_legend_handles_labels()[1]:
             axes.legend(fontsize=7)
-    all_axes[0][0].set_ylabel(f"computing time for a simulated second (s, {CLOCKS[sweep['clock']]})")
-    figure.suptitle(f"{shortened(title_of(sweep))}   {NAMES.get(sweep['model'], sweep['model'])}   "
-                    f"reference: {sweep['reference']['kind'] or 'none'}", fontsize=9)
+    all_axes[0][0].set_ylabel(f"{CLOCKS[sweep['clock']]} for a simulated second (s)")
+    figure.suptitle(fitted(f"{shortened(title_of(sweep))}   {NAMES.get(sweep['model'], sweep['model'])}", figure, 9), fontsize=9)
     return figure
 
 

@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import COLOURS, GREY, PALE, length_unit, levels, species_line, title_of
+from polybed.drawing.style import COLOURS, GREY, PALE, fitted, length_unit, levels, species_line, title_of
 from polybed.drawing.units import fitting
 from polybed.outflow import discharge_rate, mass_out, recovery
 
@@ -187,5 +187,5 @@ def draw(run, time=None):
         draw_invariants(figure.add_subplot(grid[1:, 1]), run)
     else:
         first.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
-    figure.suptitle(title_of(run), fontsize=10)
+    figure.suptitle(fitted(title_of(run), figure, 10), fontsize=10)
     return figure

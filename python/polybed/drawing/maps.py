@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import EMPTY, length_unit
+from polybed.drawing.style import EMPTY, fitted, length_unit
 
 HEIGHT, HEIGHT_IN_ROWS = 5.0, 3.4  # inches, the most, of maps in one row and in several
 WIDEST = 12.0  # inches, a row of maps
@@ -111,5 +111,5 @@ def draw_maps(run, groups, title, top):
             draw_bar(figure, meshes[-1][0], place(begin, base - 0.6, x - GAP - begin, 0.1), group)
             x += GROUP_GAP - GAP
         base -= BARS + 0.35
-    figure.suptitle(title, y=1 - 0.22 / height, fontsize=10)
+    figure.suptitle(fitted(title, figure, 10), y=1 - 0.12 / height, fontsize=10)
     return figure, meshes

@@ -6,7 +6,7 @@ import numpy as np
 from polybed.drawing import particles
 from polybed.drawing.fields import fractions, voidages
 from polybed.drawing.maps import draw_map, frame
-from polybed.drawing.style import GREY, PALE, length_unit, shown_height, species_line, title_of
+from polybed.drawing.style import GREY, PALE, fitted, length_unit, shown_height, species_line, title_of
 from polybed.read import nearest
 
 MAP_HEIGHT = 5.2  # inches
@@ -130,5 +130,5 @@ def draw(run, step):
     profile.set_ylim(0, top * length_unit(run)[0])
     draw_history(layout.history(), run, time)
     title = title_of(run, time, maps=draw_bed is draw_fields)
-    layout.figure.suptitle(title, y=1 - 0.22 / layout.height, fontsize=11)
+    layout.figure.suptitle(fitted(title, layout.figure, 11), y=1 - 0.22 / layout.height, fontsize=11)
     return layout.figure

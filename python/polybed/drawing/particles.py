@@ -7,7 +7,7 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 
 from polybed.drawing.maps import BARS, GAP, HEAD, HEIGHT, LEFT, RIGHT, frame, map_size
-from polybed.drawing.style import COLOURS, length_unit, title_of
+from polybed.drawing.style import COLOURS, fitted, length_unit, title_of
 from polybed.drawing.units import fitting
 
 MOST = 50_000  # circles in a picture; more take long and hide each other
@@ -141,7 +141,7 @@ class Views:
         colours = species_colours(self.run, step), speed_colours(step, self.end)
         self.drawn = [circles(axes, self.run, step, of) for axes, of in zip(self.views, colours)]
         self.note.set_text(thinned(self.run, step))
-        self.title.set_text(title_of(self.run, step.time, digits=digits))
+        self.title.set_text(fitted(title_of(self.run, step.time, digits=digits), self.figure, 10))
 
 
 def draw(run, step):

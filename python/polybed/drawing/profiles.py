@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import EMPTY, FEW_SOLIDS, GREY, PALE, length_unit, levels, species_line, title_of
+from polybed.drawing.style import EMPTY, FEW_SOLIDS, GREY, PALE, fitted, length_unit, levels, species_line, title_of
 from polybed.drawing.units import fitting
 from polybed.read import nearest
 
@@ -151,5 +151,5 @@ def draw(run, time):
     below[0].set_ylabel(f"height y ({unit})")
     below[0].set_ylim(0, shown_top(run) * factor)
     lower.colorbar(mesh, ax=list(below), pad=0.01).set_label("solids fraction")
-    figure.suptitle(title_of(run, time) + "   lateral means", fontsize=10)
+    figure.suptitle(fitted(title_of(run, time) + "   lateral means", figure, 10), fontsize=10)
     return figure

@@ -19,7 +19,7 @@ NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each o
 LINES = ["-", "--", "-."]  # beyond six species the colours come again, in another line
 LEVEL_LINES = ["--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))]  # of levels in the bed
 INTERFACE = "interface_m"  # between two species; of three there is more than one
-TITLE = 70  # characters of a title in a picture
+TITLE = 90  # characters of a title in a picture
 GREY = "#555555"
 PALE = "#bbbbbb"
 EMPTY = "#eeeeee"  # of a map where there is nothing to show
@@ -91,6 +91,16 @@ def shortened(text):
     """A title that fits above a picture, as plain text: no mark of it is read as mathematics."""
     plain = " ".join(text.split()).replace("$", r"\$")
     return plain if len(plain) <= TITLE else plain[: TITLE - 1].rstrip() + "\u2026"
+
+
+def fitted(title, figure, size):
+    """A title as it fits above a figure, in letters of a size in points: what follows the name of the case goes below it where one line
+    is too long, and the name is cut where it is too long itself."""
+    letters = int(figure.get_figwidth() * 72 / (0.56 * size))  # of the mean width of DejaVu Sans
+    name, gap, rest = title.partition("   ")
+    if len(title) <= letters or not gap:
+        return title
+    return (name if len(name) <= letters else name[: letters - 1].rstrip() + "\u2026") + "\n" + rest
 
 
 def title_of(run, time=None, maps=False, digits=".4g"):

@@ -50,7 +50,8 @@ def scale_of(kind, arrays):
     if kind == "voidage":
         least = min(float(np.nanmin(a)) for a in arrays)
         return min(np.floor(least * 10) / 10, 0.9), 1.0, "fluid", 1.0, "voidage (volume fraction of the fluid)"
-    return 0.0, max(0.1, most), "solids", 1.0, "solids fraction"
+    later = max(float(np.nanmax(a[len(a) // 2:])) for a in arrays)  # a packed bed at the start would darken the expanded one
+    return 0.0, max(0.1, later), "solids", 1.0, "solids fraction"
 
 
 def rows_shown(run, maps):
@@ -89,6 +90,8 @@ def maps_of(run):
     notes = [f"{len(chosen)} of {len(run.time)} stored times"] if len(chosen) < len(run.time) else []
     notes += [f"each pixel is the mean of {share} x {share} cells"] if share > 1 else []
     notes += ["the plane at half depth"] if run.dimensions == 3 else []
+    if "solids" in scales and any(np.nanmax(values) > 1.1 * scales["solids"][1] for name, values in maps.items() if name.startswith("phi_")):
+        notes.append("the scale of the solids fraction is that of the later half")
     return {"time": plain_numbers(run.time[chosen]), "nx": nx, "ny": rows, "size": size, "maps": found, "note": "; ".join(notes),
             "empty": EMPTY}
 

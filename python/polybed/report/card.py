@@ -4,7 +4,7 @@ import numpy as np
 
 from polybed.drawing.units import mean_text, text
 from polybed.outflow import discharge_rate, mass_out, recovery
-from polybed.page import escaped, table
+from polybed.page import escaped, source, table
 from polybed.record import case_of, velocity_of
 
 LAST = 0.25  # of the time: what a mean is over
@@ -14,35 +14,59 @@ def words_of(key):
     return escaped(str(key).replace("_", " "))
 
 
-def value_of(value):
-    """An entry of a card as HTML: a number, a text, a list, or a number with unit and interval."""
-    if isinstance(value, bool) or value is None:
-        return {True: "yes", False: "no", None: "&ndash;"}[value]
-    if isinstance(value, (int, float)):
-        return f"{value:.4g}"
-    if isinstance(value, list):
-        return "<br>".join(map(value_of, value))
-    if isinstance(value, dict) and "value" in value:
-        spread = next((value[key] for key in ("interval", "error", "plus_minus") if value.get(key) is not None), None)
-        shown = value_of(value["value"])
-        shown += "" if spread is None else f" &plusmn; {value_of(spread)}" if not isinstance(spread, list) else f" ({value_of(spread)})"
-        return f"{shown} {escaped(value.get('unit') or '')}".strip()
-    if isinstance(value, dict):
-        return "<br>".join(f"{words_of(key)}: {value_of(entry)}" for key, entry in value.items())
-    return escaped(value)
+def listed(values, unit):
+    """Values of the species, each with the unit that fits; one alone without its name. "mixture" is that of all."""
+    known = {name: value for name, value in values.items() if value is not None}
+    if len({name for name in values if name != "mixture"}) == 1:
+        return text(next(iter(known.values())), unit) if known else ""
+    return ", ".join(f"{escaped(name)} {text(value, unit)}" for name, value in known.items())
+
+
+def mean_of(entry, unit):
+    """A mean with its 95 % interval as the card has both."""
+    value, interval = entry["value"], entry.get("interval")
+    return text(value, unit, 4) if interval is None else mean_text(value, interval, unit)
+
+
+def bed_of(card):
+    words = [{"carried_out": "carried out"}.get(card["state"], card["state"]), card["layers"]]
+    if card["bed_height_m"] and card["state"] != "carried_out":
+        words.append(mean_of(card["bed_height_m"], "m") + " high")
+    if card["pressure_drop_over_weight"] and card["state"]:
+        words.append(f"pressure drop {mean_of(card['pressure_drop_over_weight'], '1')} of the weight")
+    return ", ".join(filter(None, words))
 
 
 def recorded(card):
-    """The card of the record as HTML: its lines as they are, or its entries."""
-    if isinstance(card, dict) and isinstance(card.get("lines"), list):
-        card = card["lines"]
-    if isinstance(card, list) and all(isinstance(line, str) for line in card):
-        return "<pre>" + "\n".join(map(escaped, card)) + "</pre>"
-    if isinstance(card, list):
-        card = {entry.get("name", n) if isinstance(entry, dict) else n: entry for n, entry in enumerate(card)}
-    if isinstance(card, dict):
-        return table([], [[words_of(key), value_of(value)] for key, value in card.items()], "words")
-    return f"<p>{value_of(card)}</p>"
+    """The card of the record as HTML, with the words of the card on the screen."""
+    rows = [["bed", bed_of(card)]]
+    if card["u_mf_m_s"]:
+        ratio = card["u_over_u_mf"]
+        inlet = f"; the inlet's velocity is {ratio:.2g} times that" if ratio else ""
+        rows.append(["fluidises at", listed(card["u_mf_m_s"], "m/s") + inlet])
+    if card["terminal_m_s"]:
+        rows.append(["falls at", listed(card["terminal_m_s"], "m/s")])
+    if card["geldart"]:
+        rows.append(["Geldart class", ", ".join(f"{escaped(name)} {kind}" for name, kind in card["geldart"].items())])
+    if card["mixing"] is not None:
+        rows.append(["mixing", f"{card['mixing']:.2f} (1 mixed, 0 separated)"])
+    for name, mass in (card["out_kg"] or {}).items():
+        share = (card["recovery"] or {}).get(name)
+        rows.append([f"{escaped(name)} that left", text(1e3 * mass, "g") + ("" if share is None else f" ({100 * share:.3g} %)")])
+    if card["discharge_kg_s"] is not None:
+        rows.append(["discharge", text(1e3 * card["discharge_kg_s"], "g/s")])
+    moving = "the bed still changes; the numbers above are not final" if card["discharge_kg_s"] is None else \
+        "particles still left, or what remains still moves"
+    rows.append(["steady", {True: "yes", False: f"no: {moving}",
+                            None: "not known: too few rows in history.csv"}[card["steady"]]])
+    if card["limited_by"]:
+        rows.append(["step", "limited by " + escaped(card["limited_by"])])
+    rows.append(["left out", escaped(card["left_out"])])
+    taken, predicted = card["time_s"]["taken"], card["time_s"]["predicted"]
+    if taken is not None:
+        rows.append(["time", f"{text(taken, 's')} of computing, predicted {text(predicted, 's')}"])
+    told = source("means over the last quarter of the time with their 95 % intervals; polybed explain WORD says what a word means")
+    return table([], [row for row in rows if row[1]], "words") + told
 
 
 def mean_row(run, column, unit):

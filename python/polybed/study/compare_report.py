@@ -71,8 +71,11 @@ def top_text(top):
     return "-" if top is None else top["species"] + ("" if top["certain"] else " (within the uncertainty)")
 
 
+SCORES = {"e_H": "e_H  bed height", "e_b": "e_b  distance of centres", "D1": "D1   layering", "u_inv": "u_inv  inversion velocity"}
+
+
 def score_line(name, score):
-    line = f"{name:26} {with_error(score['value'], score['error']):>20}"
+    line = f"{SCORES.get(name, name):26} {with_error(score['value'], score['error']):>20}"
     if score["goal"] is None:
         return line
     return line + f"   goal {score['goal']:.2g}" + {True: ": reached", False: ": missed", None: ""}[score["reached"]]
@@ -93,7 +96,8 @@ def table(record):
     for name, of in record["measures"].items():
         cells = [with_error(of[what], of[f"{what}_error"]) for what in (*MODELS, "difference")]
         lines.append(" ".join([f"{name:26}", *(f"{cell:>20}" for cell in cells)]))
-    lines += [f"{'on top':26} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}", ""]
+    lines += [f"{'on top':26} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}", "",
+              "scores: 0 where the models agree (polybed explain e_H)"]
     lines += [score_line(name, score) for name, score in record["scores"].items() if name != "order"]
     lines += ["", *(work_line(model, run) for model, run in record["models"].items())]
     return "\n".join([*lines, *(f"warning: {line}" for line in record["warnings"])])

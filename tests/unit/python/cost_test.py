@@ -151,21 +151,22 @@ class Judgement(unittest.TestCase):
 
     def test_advice_names_the_largest_row_to_improve_where_all_were_measured(self):
         lines = self.advised(Share("time integration", 1e-6, "rtol"), Share("space", 0.02, "grid"))
-        self.assertIn("The largest row is space (2 %): that is what to improve.", lines)
-        self.assertIn("Ten times smaller, so to be loosened: time integration.", lines)
+        self.assertIn("The largest part of the error: size of the cells (2 %): that is what to improve.", lines)
+        self.assertIn("At least ten times smaller, so it may be loosened to save time: time integration.", lines)
         self.assertNotIn("Not measured", "".join(lines))
 
     def test_advice_speaks_only_of_what_was_measured(self):
         lines = self.advised(Share("time integration", 1.2e-6, "rtol"), Share("space", None, "not run", ["grid"]),
                              Share("statistics", None, "steady"), Share("level", None, "not run", ["level"]))
-        self.assertIn("The largest row of those measured is time integration (0.00012 %).", lines)
-        self.assertIn("Not measured, so in none of these errors: space, level. --axes grid,level measures them.", lines)
+        self.assertIn("The largest part of the error of those measured: time integration (0.00012 %).", lines)
+        self.assertIn("Not measured, and not part of these errors: size of the cells; choice of the model: force balance, 1-D, 2-D, particles. "
+                      "To measure them: --axes grid,level.", lines)
         self.assertNotIn("to improve", "".join(lines))
 
     def test_advice_names_the_missing_axes_where_nothing_has_an_error(self):
         lines = self.advised(Share("time integration", 0.0, "rtol"), Share("space", None, "not run", ["grid"]))
         self.assertNotIn("largest", "".join(lines))
-        self.assertIn("--axes grid measures", "".join(lines))
+        self.assertIn("To measure them: --axes grid.", "".join(lines))
 
     def test_the_table_has_the_median_of_the_times(self):
         """Of repetitions the middle one is told, as in cost.csv: the first also reads the program from the disk."""

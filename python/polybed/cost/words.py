@@ -1,0 +1,20 @@
+"""What names in cost.json are called on the screen and on the page."""
+
+# status of a run
+STATUS = {"pareto": "nothing cheaper is as accurate", "dominated": "another is cheaper and as accurate",
+          "hollow": "too near the reference to be ranked", "model": "not ranked: model, data or solver differ",
+          "predicted": "predicted, not run", "not run": "not run", "failed": "failed", "refused": "refused"}
+# kind of the reference
+REFERENCE = {"exact": "the force balance of a uniform bed", "self": "the same model, solved more exactly",
+             "extrapolated": "the same model, solved more exactly, extrapolated to infinitely fine cells",
+             "statistical": "the longest run on the finest grid", "directory": "a run that was given", "": "there is none"}
+# parts of the error
+PARTS = {"space": "size of the cells", "solver and coupling tolerance": "tolerance of the pressure solver or of the coupling to the fluid",
+         "statistics": "fluctuations of the bed", "closure spread": "choice of drag law, stress or stiffness",
+         "level": "choice of the model: force balance, 1-D, 2-D, particles"}
+CLOCKS = {"work": "counted work", "cpu": "CPU time", "wall": "wall time"}
+
+
+def part(row):
+    """The name of a part of the error."""
+    return PARTS.get(row, row)
