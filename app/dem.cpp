@@ -83,11 +83,13 @@ class DemRun final : public CaseRun {
   }
 
   core::Checkpoint checkpoint() override {
-    core::Checkpoint checkpoint = model_.checkpoint();
+    core::Checkpoint checkpoint = model_.checkpoint_but_rows();
     dem::write(observers_->invariants().start(), checkpoint);
     if (observers_->fluid() != nullptr) dem::write(observers_->fluid()->totals(), checkpoint);
     return checkpoint;
   }
+
+  std::vector<core::BlockData> checkpoint_rows() override { return model_.rows(); }
 
   std::string advice() override {
     if (monitor_ && monitor_->has_stopped()) return advice_of(*monitor_);

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "dem/packing.hpp"
+#include "dem/parallel/ordered_rows.hpp"
 #include "dem/scene.hpp"
 #include "dem/trouble.hpp"
 
@@ -335,9 +336,20 @@ Work Model::work() const {
 }
 
 core::Checkpoint Model::checkpoint() const {
+  core::Checkpoint checkpoint = checkpoint_but_rows();
+  checkpoint.arrays["particles"] = on_first(particle_rows(particles_, ranks_), ranks_);
+  checkpoint.arrays["contacts"] = on_first(contact_rows(pairs_, walls_, particles_, ranks_), ranks_);
+  return checkpoint;
+}
+
+std::vector<core::BlockData> Model::rows() const {
+  std::vector<core::BlockData> rows = particle_rows(particles_, ranks_);
+  for (core::BlockData& block : contact_rows(pairs_, walls_, particles_, ranks_)) rows.push_back(std::move(block));
+  return rows;
+}
+
+core::Checkpoint Model::checkpoint_but_rows() const {
   core::Checkpoint checkpoint;
-  write_particles(checkpoint, particles_, ranks_);
-  write_contacts(checkpoint, pairs_, walls_, particles_, ranks_);
   checkpoint.integers["memory_size"] = pairs_.memory_size;
   write_clock({double(steps_), limits_.dt, reported_, began_, double(began_at_), limits_.greatest_speed,
                core::greatest_of_ranks(ranks_.get(), met_)},
