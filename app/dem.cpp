@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case_run.hpp"
+#include "core/memory.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "dem/continuum_scene.hpp"
@@ -242,6 +243,7 @@ void run_dem(const RunOptions& options) {
   dem::refuse_continuum_scene(scene);
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  core::give_back_what_is_freed();
   std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
   core::on_first(ranks.get(), [&] { taken = take_directory(directory, options); });
   // Refuse a checkpoint of another case before its model is built, which may fail for other reasons.

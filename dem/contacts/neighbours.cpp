@@ -215,6 +215,16 @@ void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std
   if (2 * near > narrowest_) images.each_other(d, nearest, add);
 }
 
+/// Between two searches a run needs the memory for contacts.
+void NeighbourSearch::release() {
+  std::vector<Vector>().swap(near_);
+  for (Level& level : levels_) {
+    std::vector<std::int32_t>().swap(level.start);
+    std::vector<std::int32_t>().swap(level.member);
+    std::vector<Place>().swap(level.place_of_member);
+  }
+}
+
 void NeighbourSearch::find_pairs(const Particles& particles, double time, const Vector& centre,
                                  const std::array<bool, 3>& whole, Contacts& contacts) {
   std::vector<Contacts::Pair>& pairs = contacts.pairs;
@@ -232,6 +242,7 @@ void NeighbourSearch::find_pairs(const Particles& particles, double time, const 
   for (std::size_t i = 0; i < particles.size(); ++i)
     for (std::size_t l = level_of(particles.place[i].radius); l < levels_.size(); ++l)
       search(particles, i, l, images, pairs);
+  release();
   contacts.inner = pairs.size();
   if (particles.size() == particles.owned) return;  // the sort needs as much memory again
   const auto here = std::int32_t(particles.owned);
