@@ -155,12 +155,15 @@ void NeighbourSearch::search(const Particles& particles, std::size_t i, std::siz
   const int at_y = level.place(x[1], 1);
   const Span depth = around(level.place(x[2], 2), level.count[2], level.wraps[2]);
   const Span height = around(at_y, level.count[1], level.wraps[1]);
+  const Span beside = around(level.place(x[0], 0), level.count[0], level.wraps[0]);
   for (int row = 0; row < height.count; ++row) {
     const int cy = height.cell[std::size_t(row)], oy = height.offset[std::size_t(row)];
     // Across the joined faces of a sheared box the cells beside are those beside the image.
     const int boxes = cy - at_y > 1 ? -1 : (cy - at_y < -1 ? 1 : 0);
-    const double shifted = box_.shear_rate == 0 ? x[0] : x[0] - boxes * images.shift[Images::here + 3][0];
-    const Span width = around(level.place(shifted, 0), level.count[0], level.wraps[0]);
+    const Span width =
+        unsheared || boxes == 0
+            ? beside
+            : around(level.place(x[0] - boxes * images.shift[Images::here + 3][0], 0), level.count[0], level.wraps[0]);
     for (int k = 0; k < depth.count; ++k)
       for (int n = 0; n < width.count; ++n) {
         const int oz = depth.offset[std::size_t(k)], ox = width.offset[std::size_t(n)];
