@@ -169,7 +169,7 @@ void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
   add_case(state, scene_);
-  core::write_checkpoint(checkpoint_path(directory_), std::move(state), ranks_.get());
+  core::write_checkpoint(checkpoint_path(directory_), std::move(state), ranks_.get(), checkpoint_rows());
   (void)record("running");
 }
 

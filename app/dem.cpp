@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case_run.hpp"
+#include "core/memory.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "dem/continuum_scene.hpp"
@@ -83,11 +84,13 @@ class DemRun final : public CaseRun {
   }
 
   core::Checkpoint checkpoint() override {
-    core::Checkpoint checkpoint = model_.checkpoint();
+    core::Checkpoint checkpoint = model_.checkpoint_but_rows();
     dem::write(observers_->invariants().start(), checkpoint);
     if (observers_->fluid() != nullptr) dem::write(observers_->fluid()->totals(), checkpoint);
     return checkpoint;
   }
+
+  std::vector<core::BlockData> checkpoint_rows() override { return model_.rows(); }
 
   std::string advice() override {
     if (monitor_ && monitor_->has_stopped()) return advice_of(*monitor_);
@@ -240,6 +243,7 @@ void run_dem(const RunOptions& options) {
   dem::refuse_continuum_scene(scene);
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  core::give_back_what_is_freed();
   std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
   core::on_first(ranks.get(), [&] { taken = take_directory(directory, options); });
   // Refuse a checkpoint of another case before its model is built, which may fail for other reasons.

@@ -7,6 +7,9 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace polybed::core {
 
@@ -88,6 +91,15 @@ AvailableMemory available_memory() {
 ProcessMemory process_memory() {
   const std::string status = content("/proc/self/status");
   return {std::max(number_of_line(status, "VmRSS"), 0.0), std::max(number_of_line(status, "VmHWM"), 0.0)};
+}
+
+void give_back_what_is_freed() {
+#ifdef __GLIBC__
+  constexpr int large = 1 << 22, many = 1 << 16;  // bytes; arrays at once
+  mallopt(M_MMAP_THRESHOLD, large);
+  mallopt(M_MMAP_MAX, many);
+  mallopt(M_TRIM_THRESHOLD, large);
+#endif
 }
 
 }  // namespace polybed::core

@@ -26,4 +26,8 @@ struct ProcessMemory {
 };
 [[nodiscard]] ProcessMemory process_memory();
 
+/// From here on the system gets large arrays back as they are freed. Libraries for fast networks, which Open MPI loads,
+/// switch that off, and a run then keeps what it needed for a moment only.
+void give_back_what_is_freed();
+
 }  // namespace polybed::core

@@ -11,7 +11,7 @@
 #include <unordered_set>
 
 #include "core/error.hpp"
-#include "dem/parallel/gathered.hpp"
+#include "dem/parallel/ordered_rows.hpp"
 
 namespace polybed::dem {
 
@@ -20,9 +20,10 @@ namespace {
 constexpr std::size_t particle_width = 2 + 9 + 12, contact_head = 2;
 
 /// Numbers as doubles: ids and counts below 2^53 are exact; sums in whole units are kept as two halves.
-void store(std::vector<double>& out, std::int64_t units) {
-  out.push_back(double(units >> 32));
-  out.push_back(double(units & 0xffffffff));
+double* store(std::int64_t units, double* out) {
+  *out++ = double(units >> 32);
+  *out++ = double(units & 0xffffffff);
+  return out;
 }
 std::int64_t recalled(const double* in) { return (std::int64_t(in[0]) << 32) + std::int64_t(in[1]); }
 
@@ -92,40 +93,54 @@ double number_of(const core::Checkpoint& checkpoint, const std::string& key, dou
   return found == checkpoint.numbers.end() ? without : found->second;
 }
 
-void add_contacts(const Contacts& contacts, const Particles& particles, bool walls, std::vector<double>& rows) {
-  for (const std::int32_t p : contacts.touching) {
-    const auto [low, high] = ids_of(contacts.pairs[std::size_t(p)], particles, walls);
-    rows.push_back(double(low));
-    rows.push_back(double(high));
-    rows.insert(rows.end(), contacts.memory_of(p), contacts.memory_of(p) + contacts.memory_size);
-  }
+void store_particle(const Particles& particles, std::size_t i, double* out) {
+  const Motion& m = particles.motion[i];
+  *out++ = double(particles.id[i]);
+  *out++ = particles.species[i];
+  for (const Vector* v : {&particles.place[i].x, &m.v, &m.w}) out = std::copy(v->begin(), v->end(), out);
+  for (const std::int64_t f : particles.load[i].force) out = store(f, out);
+  for (const std::int64_t t : particles.load[i].torque) out = store(t, out);
+}
+
+void store_contact(const Contacts& contacts, std::int32_t pair, const Particles& particles, bool walls, double* out) {
+  const auto [low, high] = ids_of(contacts.pairs[std::size_t(pair)], particles, walls);
+  *out++ = double(low);
+  *out++ = double(high);
+  std::copy_n(contacts.memory_of(pair), contacts.memory_size, out);
 }
 
 }  // namespace
 
-void write_particles(core::Checkpoint& checkpoint, const Particles& particles,
-                     const std::shared_ptr<const core::Ranks>& ranks) {
-  std::vector<double> rows;
-  rows.reserve(particles.owned * particle_width);
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    const Motion& m = particles.motion[i];
-    rows.push_back(double(particles.id[i]));
-    rows.push_back(particles.species[i]);
-    for (const Vector* v : {&particles.place[i].x, &m.v, &m.w}) rows.insert(rows.end(), v->begin(), v->end());
-    for (const std::int64_t f : particles.load[i].force) store(rows, f);
-    for (const std::int64_t t : particles.load[i].torque) store(rows, t);
-  }
-  checkpoint.arrays["particles"] = gathered_rows(std::move(rows), particle_width, 1, ranks);
+std::vector<core::BlockData> particle_rows(const Particles& particles,
+                                           const std::shared_ptr<const core::Ranks>& ranks) {
+  std::vector<RowName> own;
+  own.reserve(particles.owned);
+  for (std::size_t i = 0; i < particles.owned; ++i) own.push_back({particles.id[i], 0, std::int32_t(i)});
+  return OrderedRows(std::move(own), ranks)
+      .blocks("particles", particle_width, true,
+              [&particles](std::int32_t i, double* row) { store_particle(particles, std::size_t(i), row); });
 }
 
-void write_contacts(core::Checkpoint& checkpoint, const Contacts& pairs, const Contacts& walls,
-                    const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks) {
-  const std::size_t width = contact_head + std::size_t(pairs.memory_size);
-  std::vector<double> rows;
-  rows.reserve((pairs.touching.size() + walls.touching.size()) * width);
-  add_contacts(pairs, particles, false, rows);
-  add_contacts(walls, particles, true, rows);
-  checkpoint.arrays["contacts"] = gathered_rows(std::move(rows), width, contact_head, ranks);
+/// A contact across ranks, which both have, is written by the one that has its first particle. Walls are named by the
+/// complements of their places.
+std::vector<core::BlockData> contact_rows(const Contacts& pairs, const Contacts& walls, const Particles& particles,
+                                          const std::shared_ptr<const core::Ranks>& ranks) {
+  std::vector<RowName> own;
+  own.reserve(pairs.touching.size() + walls.touching.size());
+  for (const std::int32_t p : pairs.touching) {
+    const auto [low, high] = ids_of(pairs.pairs[std::size_t(p)], particles, false);
+    if (std::size_t(pairs.pairs[std::size_t(p)].first) < particles.owned) own.push_back({low, high, p});
+  }
+  for (const std::int32_t p : walls.touching) {
+    const auto [low, high] = ids_of(walls.pairs[std::size_t(p)], particles, true);
+    own.push_back({low, high, ~p});
+  }
+  return OrderedRows(std::move(own), ranks)
+      .blocks("contacts", contact_head + std::size_t(pairs.memory_size), true,
+              [&pairs, &walls, &particles](std::int32_t at, double* row) {
+                const bool wall = at < 0;
+                store_contact(wall ? walls : pairs, wall ? ~at : at, particles, wall, row);
+              });
 }
 
 void write_clock(const Clock& clock, core::Checkpoint& checkpoint) {

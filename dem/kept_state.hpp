@@ -14,11 +14,13 @@
 
 namespace polybed::dem {
 
-/// Rows of all ranks, on the first. Collective.
-void write_particles(core::Checkpoint& checkpoint, const Particles& particles,
-                     const std::shared_ptr<const core::Ranks>& ranks);
-void write_contacts(core::Checkpoint& checkpoint, const Contacts& pairs, const Contacts& walls,
-                    const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks);
+/// Rows of particles and of contacts of all ranks, by the names of their arrays; as the state is when they are asked
+/// for, which must stay. Collective.
+[[nodiscard]] std::vector<core::BlockData> particle_rows(const Particles& particles,
+                                                         const std::shared_ptr<const core::Ranks>& ranks);
+[[nodiscard]] std::vector<core::BlockData> contact_rows(const Contacts& pairs, const Contacts& walls,
+                                                        const Particles& particles,
+                                                        const std::shared_ptr<const core::Ranks>& ranks);
 
 /// Steps of one length: the number and the time of the last one, and where they began.
 struct Clock {

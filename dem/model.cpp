@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "dem/packing.hpp"
+#include "dem/parallel/ordered_rows.hpp"
 #include "dem/scene.hpp"
 #include "dem/trouble.hpp"
 
@@ -50,10 +51,9 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   require_room_for_images(box_, materials_.greatest_diameter(), laws_.reach(), skin_);
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
   if (laws_.film) laws_.film->set_step(limits_.dt);
-  const std::vector<Particle> all = std::move(start_);
-  measure(all);
-  place(all, std::vector<std::int32_t>(all.size(), 1));
-  make_parts(all);
+  measure(start_);
+  place(start_, std::vector<std::int32_t>(start_.size(), 1));
+  make_parts(std::vector<Particle>(std::move(start_)));  // which frees them
   rebuild();
   find_forces(0);
   for (const auto& part : parts_) part->begin(particles_);
@@ -118,16 +118,17 @@ void Model::measure(const std::vector<Particle>& all) {
 /// Every rank knows all particles and keeps its own: the start is the same on any number of ranks.
 void Model::place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work) {
   count_ = std::int64_t(all.size());
-  particles_.resize(0);
   if (ranks_) {
     std::vector<Place> places;
     if (core::is_first(ranks_.get()))
       for (const Particle& p : all) places.push_back(p.place);
     exchange_.decomposition().balance(places, std::span(work).first(places.size()));
   }
+  std::vector<const Particle*> own;
   for (const Particle& p : all)
-    if (!ranks_ || exchange_.decomposition().owner(p.place.x) == ranks_->rank()) particles_.add(p);
-  particles_.owned = particles_.size();
+    if (!ranks_ || exchange_.decomposition().owner(p.place.x) == ranks_->rank()) own.push_back(&p);
+  particles_.resize(particles_.owned = own.size());
+  for (std::size_t i = 0; i < own.size(); ++i) particles_.set(i, *own[i]);
 }
 
 void Model::step(double stop) {
@@ -273,7 +274,7 @@ void Model::rebuild() {
 
 /// Moves particles to their owners and finds anew who is near whom; contacts go with their particles.
 void Model::list_pairs(KeptContacts kept) {
-  pairs_.memory = {};  // room for what is made meanwhile
+  std::vector<double>().swap(pairs_.memory);  // room for what is made meanwhile
   particles_.resize(particles_.owned);
   for (const auto& part : parts_) part->send_ahead(exchange_, particles_);
   exchange_.migrate(particles_, kept);
@@ -335,9 +336,20 @@ Work Model::work() const {
 }
 
 core::Checkpoint Model::checkpoint() const {
+  core::Checkpoint checkpoint = checkpoint_but_rows();
+  checkpoint.arrays["particles"] = on_first(particle_rows(particles_, ranks_), ranks_);
+  checkpoint.arrays["contacts"] = on_first(contact_rows(pairs_, walls_, particles_, ranks_), ranks_);
+  return checkpoint;
+}
+
+std::vector<core::BlockData> Model::rows() const {
+  std::vector<core::BlockData> rows = particle_rows(particles_, ranks_);
+  for (core::BlockData& block : contact_rows(pairs_, walls_, particles_, ranks_)) rows.push_back(std::move(block));
+  return rows;
+}
+
+core::Checkpoint Model::checkpoint_but_rows() const {
   core::Checkpoint checkpoint;
-  write_particles(checkpoint, particles_, ranks_);
-  write_contacts(checkpoint, pairs_, walls_, particles_, ranks_);
   checkpoint.integers["memory_size"] = pairs_.memory_size;
   write_clock({double(steps_), limits_.dt, reported_, began_, double(began_at_), limits_.greatest_speed,
                core::greatest_of_ranks(ranks_.get(), met_)},

@@ -61,6 +61,10 @@ class Model : public core::Simulation {
 
   /// All particles and contacts, to the bit, on the first rank; it does not depend on how many ranks there are.
   [[nodiscard]] core::Checkpoint checkpoint() const;
+  /// The same for a file: without the rows of particles and contacts, and these, of the state as it is when they are
+  /// asked for.
+  [[nodiscard]] core::Checkpoint checkpoint_but_rows() const;
+  [[nodiscard]] std::vector<core::BlockData> rows() const;
   /// Changes the velocities of each species, between steps, as a body force on it for a while would: what drives
   /// species
   /// apart in a box. Collective. \param dv  by species, m/s

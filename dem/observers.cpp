@@ -57,18 +57,17 @@ Observers::Observers(const Model& model, const core::Scene& scene, const std::fi
     : model_(model),
       slabs_{model.box().size[0] * model.box().size[2], model.box().size[1], std::size_t(scene.column.cells[1])},
       history_(measures::bed_table(), history_table(parts_of(model, scene.dem.ledger)), names_of(model)),
+      particles_(directory, {model.box().size, model.box().periodic, names_of(model)}, resume_time, model.share()),
       totals_(totals_of(model)),
       invariants_(model, start ? std::move(*start) : RunStart{totals_.sum(), numbers_of(model)}, scene.dem.ledger) {
   const Coupling* coupling = model.coupling();
   if (coupling != nullptr) fluid_.emplace(*coupling, model.ranks(), fluid);
   core::on_first(model.ranks(), [&] {
-    const core::ParticleScene particles{model.box().size, model.box().periodic, names_of(model)};
     files_.reset(new Files{{directory, history_.columns(), resume_time},
                            {directory, slab_centres(slabs_), profile_names(model), resume_time},
-                           {directory, particles, resume_time},
                            nullptr});
     if (coupling != nullptr)
-      files_->fluid = std::make_unique<FluidOutput>(*coupling, particles.species, directory, resume_time);
+      files_->fluid = std::make_unique<FluidOutput>(*coupling, names_of(model), directory, resume_time);
   });
 }
 
@@ -104,9 +103,23 @@ Told Observers::told(double most_solids) const {
   return told;
 }
 
+/// Each rank its share, piece by piece.
+void Observers::write_all_particles(double time) {
+  const Particles& particles = model_.particles();
+  core::on_all(model_.ranks(), [&] {
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      const std::int64_t id = particles.id[i];
+      core::require_finite("position", id, particles.place[i].x, time);
+      core::require_finite("velocity", id, particles.motion[i].v, time);
+      core::require_finite("spin", id, particles.motion[i].w, time);
+    }
+  });
+  const ShownRows shown = shown_rows(particles, model_.share());
+  particles_.write_step(time, shown.head, shown.vectors);
+}
+
 void Observers::write_particles(double time) {
   const measures::ParticleProfile profile = bed_sums(model_, slabs_).profile;
-  const Snapshot snapshot = gathered_snapshot(model_.particles(), model_.share());
   std::optional<Coupling::Column> column;
   if (model_.coupling() != nullptr) column = model_.coupling()->column();
   core::on_first(model_.ranks(), [&] {
@@ -120,9 +133,11 @@ void Observers::write_particles(double time) {
     if (column)
       for (std::vector<double>& row : FluidOutput::profiles(*column)) rows.push_back(std::move(row));
     files_->profiles.write_row(time, rows);
-    files_->particles.write_step(time, snapshot.view());
-    if (column) files_->fluid->write(time, *column, snapshot.view());
   });
+  write_all_particles(time);
+  if (!column) return;
+  const Snapshot snapshot = gathered_snapshot(model_.particles(), model_.share());
+  core::on_first(model_.ranks(), [&] { files_->fluid->write(time, *column, snapshot.view()); });
 }
 
 }  // namespace polybed::dem

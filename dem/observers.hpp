@@ -50,17 +50,18 @@ class Observers {
   struct Files {
     core::HistoryWriter history;
     core::ProfileWriter profiles;
-    core::ParticleWriter particles;
     std::unique_ptr<FluidOutput> fluid;  ///< null without one
   };
   /// On the first rank.
   [[nodiscard]] Told told(double most_solids) const;
+  void write_all_particles(double time);
 
   const Model& model_;
   measures::Slabs slabs_;
   measures::History<Told> history_;
   std::optional<FluidRecord> fluid_;  ///< absent: there is no fluid
   std::unique_ptr<Files> files_;
+  core::ParticleWriter particles_;
   Totals totals_;
   Invariants invariants_;
   std::optional<double> bed_height_;

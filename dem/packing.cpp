@@ -37,6 +37,7 @@ Particle particle(const Materials& materials, std::int32_t species, std::int64_t
 std::vector<Particle> listed(const core::Scene& scene, const Materials& materials) {
   const core::ParticleList list = core::read_particle_list(scene);
   std::vector<Particle> particles;
+  particles.reserve(list.species.size());
   for (std::size_t n = 0; n < list.species.size(); ++n) {
     Particle p = particle(materials, list.species[n], std::int64_t(n));
     p.place.x = list.position[n];
@@ -169,6 +170,7 @@ std::vector<Particle> start_particles(const core::Scene& scene, const Materials&
   const std::vector<Layer> layer = layers(scene, materials, box, numbers);
   const std::uint64_t seed = scene.bed.seed;
   std::vector<Particle> particles;
+  particles.reserve(std::size_t(std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0))));
   for (std::size_t j = 0; j < numbers.size(); ++j)
     for (std::int64_t n = 0; n < numbers[j]; ++n)
       particles.push_back(particle(materials, std::int32_t(j), std::int64_t(particles.size())));

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
+#include "core/case/particle_list.hpp"
 #include "core/memory.hpp"
 #include "core/numerics/blocks.hpp"
 #include "core/print.hpp"
@@ -22,8 +24,9 @@ namespace polybed::multiscale {
 namespace {
 
 constexpr double band = 4;
-/// Memory that the peak of a run grows by with each particle of a dense bed, and what output takes at any size; bytes.
-constexpr double bytes_per_particle = 1600, output = 12e6;
+/// Memory that the peak of a run grows by with each particle of a dense bed, with its ledger of energy
+/// (docs/record/cost.md), and what output takes at any size; bytes.
+constexpr double bytes_per_particle = 1000, output = 12e6;
 
 /// Memory that the peak of a run grows by with each cell of the fluid.
 constexpr double bytes_per_cell = 1100;
@@ -34,30 +37,54 @@ double fastest_of(double speed, std::int64_t n) {
   return speed * std::sqrt(3 + 2 * std::log(double(std::max<std::int64_t>(n, 1))));
 }
 
-/// Particles that stand for those at the start in what depends on the fastest: the list itself, or one of each species.
-std::vector<dem::Particle> fastest_at_start(const core::Scene& scene, const dem::Materials& materials,
-                                            const dem::Box& box, std::int64_t count) {
-  if (scene.bed.start.kind == core::StartKind::list) return dem::start_particles(scene, materials, box);
-  std::vector<dem::Particle> particles;
-  for (const dem::Species& species : materials.species()) {
-    dem::Particle particle{};
-    particle.place.radius = species.radius;
-    particle.motion.v[0] = fastest_of(scene.dem.start_speed, count);
-    particles.push_back(particle);
-  }
-  return particles;
-}
-
-std::vector<std::int64_t> numbers_of(const core::Scene& scene, const dem::Materials& materials, const dem::Box& box) {
-  if (scene.bed.start.kind != core::StartKind::list) return dem::particle_numbers(scene, materials, box);
-  std::vector<std::int64_t> numbers(materials.species().size(), 0);
-  for (const dem::Particle& particle : dem::start_particles(scene, materials, box))
-    ++numbers[std::size_t(particle.species)];
-  return numbers;
-}
-
 std::int64_t sum_of(const std::vector<std::int64_t>& numbers) {
   return std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0));
+}
+
+/// The start as far as time and memory depend on it.
+struct Start {
+  std::vector<std::int64_t> numbers;  ///< of each species
+  /// That stand for all in what depends on the fastest and the highest: one or two of each species.
+  std::vector<dem::Particle> foremost;
+};
+
+dem::Particle particle(const dem::Materials& materials, std::size_t species, const dem::Vector& x,
+                       const dem::Vector& v) {
+  dem::Particle particle{};
+  particle.species = std::int32_t(species);
+  particle.place = {x, materials.species()[species].radius};
+  particle.motion.v = v;
+  return particle;
+}
+
+/// Not by start_particles(): a run asks for it while its own particles fill the memory.
+Start listed_start(const core::Scene& scene, const dem::Materials& materials) {
+  const core::ParticleList list = core::read_particle_list(scene);
+  const auto speed = [&](std::size_t n) {
+    const dem::Vector& v = list.velocity[n];
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  };
+  Start start{std::vector<std::int64_t>(materials.species().size(), 0), {}};
+  std::vector<std::size_t> fastest(start.numbers.size()), highest(start.numbers.size());
+  for (std::size_t n = 0; n < list.species.size(); ++n) {
+    const auto j = std::size_t(list.species[n]);
+    if (start.numbers[j]++ == 0) fastest[j] = highest[j] = n;
+    if (speed(n) > speed(fastest[j])) fastest[j] = n;
+    if (list.position[n][1] > list.position[highest[j]][1]) highest[j] = n;
+  }
+  for (std::size_t j = 0; j < start.numbers.size(); ++j)
+    for (const std::size_t n : {fastest[j], highest[j]})
+      if (start.numbers[j] > 0) start.foremost.push_back(particle(materials, j, list.position[n], list.velocity[n]));
+  return start;
+}
+
+Start start_of(const core::Scene& scene, const dem::Materials& materials, const dem::Box& box) {
+  if (scene.bed.start.kind == core::StartKind::list) return listed_start(scene, materials);
+  Start start{dem::particle_numbers(scene, materials, box), {}};
+  const std::int64_t count = sum_of(start.numbers);
+  for (std::size_t j = 0; j < start.numbers.size(); ++j)
+    start.foremost.push_back(particle(materials, j, {}, {fastest_of(scene.dem.start_speed, count), 0, 0}));
+  return start;
 }
 
 constexpr double mega = 1e-6;
@@ -112,9 +139,9 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   const dem::PairLaws laws = dem::make_pair_laws(scene, materials);
   dem::require_room_for_images(box, materials.greatest_diameter(), laws.reach(), dem::skin_of(scene, materials));
   ParticleRequirements need;
-  need.numbers = numbers_of(scene, materials, box);
-  const std::vector<dem::Particle> fastest = fastest_at_start(scene, materials, box, need.count());
-  const dem::Speeds speeds = dem::expected_speeds(scene, materials, box, fastest);
+  Start start = start_of(scene, materials, box);
+  need.numbers = std::move(start.numbers);
+  const dem::Speeds speeds = dem::expected_speeds(scene, materials, box, start.foremost);
   need.limits = dem::step_limits(scene, materials, laws, speeds.greatest);
   need.overlap = dem::overlap_forecast(scene, materials, *laws.normal, speeds.impact);
   need.program = core::process_memory().now + output;
@@ -138,9 +165,7 @@ void choose_stiffness(core::Scene& scene) {
     return;
   const dem::Box box = dem::box_of(scene);
   const dem::Materials materials(scene);
-  const std::int64_t count =
-      scene.bed.start.kind == core::StartKind::list ? 0 : sum_of(dem::particle_numbers(scene, materials, box));
-  const dem::Speeds speeds = dem::known_speeds(scene, materials, box, fastest_at_start(scene, materials, box, count));
+  const dem::Speeds speeds = dem::known_speeds(scene, materials, box, start_of(scene, materials, box).foremost);
   const dem::HertzContact hertz(materials, scene.dem.tail);
   const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, hertz, speeds.impact);
   scene.dem.youngs_modulus = dem::rounded_up(core::least_modulus * std::max(1.0, overlap.stiffening));

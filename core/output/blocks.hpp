@@ -1,4 +1,5 @@
-// Files that the ranks of a column write together: each its block of every field, none with memory for the column.
+// Files that are written block by block, by one rank or by several together: each its block of every dataset, none with
+// memory for the whole.
 //
 // The first rank builds the file without these numbers, in memory, and claims room for them on the disk; then all open
 // it through MPI-IO and write their blocks with collective calls. Room is claimed because HDF5's collective calls wait
@@ -18,7 +19,7 @@ namespace polybed::core {
 struct Grid;
 class Ranks;
 
-/// A dataset of the column, and what this rank owns of it.
+/// A dataset, and what this rank has of it. One that is written in pieces stands in a list once for each of them.
 struct BlockData {
   std::string name;
   Slab slab;
@@ -30,10 +31,11 @@ struct BlockData {
 /// A column on one rank: the datasets are written into the file in memory.
 void write_blocks(OutputFile& file, std::span<const BlockData> data);
 
-/// A column on several ranks: `path` is written, closed and flushed. All ranks give the same names and shapes; the file
-/// is the first rank's alone. Collective; throws FileError on all ranks, and then `path` is removed.
+/// `path` is written and closed, without memory for its content. All ranks give the same names and shapes; the file is
+/// the first rank's alone. Collective; throws FileError on all ranks, and then `path` is removed.
+/// \param ranks  null: one
 void write_blocks(const std::filesystem::path& path, OutputFile* file, std::span<const BlockData> data,
-                  const Ranks& ranks);
+                  const Ranks* ranks);
 
 /// Extents of a box of the grid's blocks, slowest axis first: at most this many cells along each axis are in a block.
 [[nodiscard]] std::vector<std::size_t> greatest_block(const Grid& grid);

@@ -140,19 +140,26 @@ std::vector<BlockData> block_data(const Checkpoint& checkpoint) {
   return data;
 }
 
-/// Writes a whole checkpoint under a name: in one go from one rank, together from several.
-void write_fresh(const fs::path& fresh, Checkpoint& checkpoint, const Ranks* ranks) {
-  const std::vector<BlockData> data = block_data(checkpoint);
+/// Writes a whole checkpoint under a name: in one go from one rank, block by block from several or where not all of it
+/// is in memory.
+void write_fresh(const fs::path& fresh, Checkpoint& checkpoint, const Ranks* ranks, std::vector<BlockData> more) {
+  const bool in_memory = ranks == nullptr && more.empty();
+  std::vector<BlockData> data = block_data(checkpoint);
+  for (BlockData& d : more) {
+    refuse_slash(d.name);
+    d.name = "arrays/" + d.name;
+    data.push_back(std::move(d));
+  }
   std::optional<OutputFile> file;
   on_first(ranks, [&] { file.emplace(built(checkpoint)); });
-  if (ranks == nullptr) {
+  if (in_memory) {
     write_blocks(*file, data);
     const std::span<const std::byte> bytes = file->view();
     write_atomically(fresh, bytes, seal_of(bytes.size(), crc64(bytes)));
     return;
   }
   const fs::path temporary = fresh.string() + ".temporary";
-  write_blocks(temporary, file ? &*file : nullptr, data, *ranks);
+  write_blocks(temporary, file ? &*file : nullptr, data, ranks);
   on_first(ranks, [&] {
     append_to_file(temporary, seal_of(temporary, bytes_of_file(temporary)));
     put_in_place(temporary, fresh);
@@ -218,9 +225,9 @@ fs::path previous_checkpoint(const fs::path& path) {
   return path.parent_path() / (path.stem().string() + ".previous" + path.extension().string());
 }
 
-void write_checkpoint(const fs::path& path, Checkpoint checkpoint, const Ranks* ranks) {
+void write_checkpoint(const fs::path& path, Checkpoint checkpoint, const Ranks* ranks, std::vector<BlockData> more) {
   const fs::path fresh = path.string() + ".new";
-  write_fresh(fresh, checkpoint, ranks);
+  write_fresh(fresh, checkpoint, ranks, std::move(more));
   on_first(ranks, [&] {
     keep_previous(path);
     if (std::rename(fresh.c_str(), path.c_str()) != 0)

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/output/blocks.hpp"
 #include "core/output/file.hpp"
 
 namespace polybed::core {
@@ -61,7 +62,9 @@ void require_numbers(const Checkpoint& checkpoint);
 /// Writes a checkpoint: temporary name, flushed, renamed; the one before stays as previous_checkpoint(path).
 /// At no moment is there no whole checkpoint. Throws FileError (disk full, no permission; a name with '/').
 /// \param ranks  that share the column; what is in no part is taken from the first. Collective.
-void write_checkpoint(const std::filesystem::path& path, Checkpoint checkpoint, const Ranks* ranks = nullptr);
+/// \param more  arrays beside those of the checkpoint, by their names in it, made while they are written
+void write_checkpoint(const std::filesystem::path& path, Checkpoint checkpoint, const Ranks* ranks = nullptr,
+                      std::vector<BlockData> more = {});
 
 /// Reads a checkpoint without what is in parts, to the bit. Throws FileError if the file is missing, cut short, damaged
 /// or of another version; the message names the previous checkpoint if that one is whole.

@@ -188,7 +188,7 @@ void FieldWriter::write_file(const fs::path& path, double time_s, std::span<cons
     return;
   }
   const fs::path temporary = path.string() + ".temporary";
-  write_blocks(temporary, file ? &*file : nullptr, data, *grid_.ranks);
+  write_blocks(temporary, file ? &*file : nullptr, data, grid_.ranks.get());
   on_first(grid_.ranks.get(), [&] { put_in_place(temporary, path); });
 }
 

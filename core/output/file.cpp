@@ -26,20 +26,6 @@ void require_room_for_a_file() {
   ::munmap(address, room);
 }
 
-/// Whether numbers repeat themselves: of a sample less than half are new.
-template <class Number>
-bool repeats(std::span<const Number> values) {
-  constexpr std::size_t runs = 32, length = 64;
-  std::vector<Number> sample;
-  for (std::size_t run = 0; run < runs; ++run) {
-    const std::size_t begin = values.size() / runs * run;
-    const auto piece = values.subspan(begin, std::min(length, values.size() - begin));
-    sample.insert(sample.end(), piece.begin(), piece.end());
-  }
-  std::sort(sample.begin(), sample.end());
-  return 2 * (std::unique(sample.begin(), sample.end()) - sample.begin()) < std::ptrdiff_t(sample.size());
-}
-
 template <class Number>
 bool is_packed(Packing packing, std::span<const Number> values) {
   return packing != Packing::plain && !values.empty() && (packing != Packing::if_small || repeats(values));

@@ -1,5 +1,5 @@
 // What wraps HDF5's C interface: identifiers that release themselves, one check of every return value, and
-// the property lists in use. Only core/output/file.cpp and core/output/blocks.cpp include it.
+// the property lists in use. Only core/output/file.cpp, blocks.cpp and disk.cpp include it.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,6 +104,20 @@ inline void set_packing(hid_t properties, const std::vector<std::size_t>& shape)
   checked("the chunks", [&] { return H5Pset_chunk(properties, int(chunk.size()), chunk.data()); });
   checked("shuffle", [&] { return H5Pset_shuffle(properties); });
   checked("deflate", [&] { return H5Pset_deflate(properties, 4); });
+}
+
+/// Whether numbers repeat themselves: of a sample less than half are new.
+template <class Number>
+bool repeats(std::span<const Number> values) {
+  constexpr std::size_t runs = 32, length = 64;
+  std::vector<Number> sample;
+  for (std::size_t run = 0; run < runs; ++run) {
+    const std::size_t begin = values.size() / runs * run;
+    const auto piece = values.subspan(begin, std::min(length, values.size() - begin));
+    sample.insert(sample.end(), piece.begin(), piece.end());
+  }
+  std::sort(sample.begin(), sample.end());
+  return 2 * (std::unique(sample.begin(), sample.end()) - sample.begin()) < std::ptrdiff_t(sample.size());
 }
 
 /// Chunks of at most this many numbers (8 MB): HDF5 wants less than 4 GB, caches 1 MB.

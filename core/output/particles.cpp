@@ -39,9 +39,10 @@ ParticleScene read_scene(const OutputFile& file) {
   return scene;
 }
 
-void check_shape(const ParticleSnapshot& p, std::size_t species) {
+template <class Shown>
+void check_shape(const Shown& p, std::size_t species, std::initializer_list<std::size_t> lengths) {
   const std::size_t n = p.id.size();
-  for (std::size_t length : {p.species.size(), p.radius.size(), p.position.size(), p.velocity.size(), p.spin.size()})
+  for (const std::size_t length : lengths)
     if (length != n)
       throw std::invalid_argument(fmt::format("{} particles, but {} entries of another kind", n, length));
   for (std::size_t i = 1; i < n; ++i)
@@ -58,15 +59,11 @@ void check_shape(const ParticleSnapshot& p, std::size_t species) {
 }
 
 void check_finite(const ParticleSnapshot& p, double time) {
-  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
   const std::array<std::pair<const char*, Vectors>, 3> vectors{
       {{"position", p.position}, {"velocity", p.velocity}, {"spin", p.spin}}};
   for (std::size_t i = 0; i < p.id.size(); ++i) {
     if (!std::isfinite(p.radius[i])) refuse("radius", p.id[i], p.radius[i], time);
-    for (const auto& [name, values] : vectors)
-      for (std::size_t a = 0; a < 3; ++a)
-        if (!std::isfinite(values[i][a]))
-          refuse(fmt::format("{} {}", name, axes[a]).c_str(), p.id[i], values[i][a], time);
+    for (const auto& [name, values] : vectors) require_finite(name, p.id[i], values[i], time);
   }
 }
 
@@ -82,7 +79,9 @@ void write_connectivity(OutputFile& file, std::size_t count) {
   file.write("paraview/connectivity", {count}, numbers, Packing::small);
 }
 
-OutputFile step_content(const ParticleScene& scene, const ParticleSnapshot& p, double time) {
+/// All but the vectors.
+template <class Shown>
+OutputFile step_head(const ParticleScene& scene, const Shown& p, double time) {
   OutputFile file(particles_step_kind);
   file.make_group("step");
   file.set_attribute("step", "time_s", time);
@@ -91,9 +90,6 @@ OutputFile step_content(const ParticleScene& scene, const ParticleSnapshot& p, d
   file.write("step/id", shape, p.id, Packing::small);
   file.write("step/species", shape, p.species, Packing::small);
   file.write("step/radius", shape, p.radius, Packing::small);
-  write_vectors(file, "step/position", p.position);
-  write_vectors(file, "step/velocity", p.velocity);
-  write_vectors(file, "step/spin", p.spin);
   write_connectivity(file, p.id.size());
   return file;
 }
@@ -158,13 +154,50 @@ std::vector<std::array<double, 3>> read_vectors(const OutputFile& file, const st
 
 }  // namespace
 
-ParticleWriter::ParticleWriter(const fs::path& run_directory, ParticleScene scene, std::optional<double> resume_time)
-    : scene_(std::move(scene)), steps_(run_directory, particles_series(scene_), resume_time) {}
+void require_finite(const char* quantity, std::int64_t id, const std::array<double, 3>& value, double time_s) {
+  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!std::isfinite(value[a])) refuse(fmt::format("{} {}", quantity, axes[a]).c_str(), id, value[a], time_s);
+}
 
-void ParticleWriter::write_step(double time_s, const ParticleSnapshot& particles) {
-  check_shape(particles, scene_.species.size());
-  check_finite(particles, time_s);
-  steps_.add(step_content(scene_, particles, time_s), time_s, particles.id.size());
+ParticleWriter::ParticleWriter(const fs::path& run_directory, ParticleScene scene, std::optional<double> resume_time,
+                               std::shared_ptr<const Ranks> ranks)
+    : directory_(run_directory), scene_(std::move(scene)), ranks_(std::move(ranks)) {
+  on_first(ranks_.get(), [&] { steps_.emplace(run_directory, particles_series(scene_), resume_time); });
+}
+
+void ParticleWriter::write_step(double time_s, const ParticleSnapshot& p) {
+  check_shape(p, scene_.species.size(),
+              {p.species.size(), p.radius.size(), p.position.size(), p.velocity.size(), p.spin.size()});
+  check_finite(p, time_s);
+  OutputFile file = step_head(scene_, p, time_s);
+  write_vectors(file, "step/position", p.position);
+  write_vectors(file, "step/velocity", p.velocity);
+  write_vectors(file, "step/spin", p.spin);
+  steps_->add(file, time_s, p.id.size());
+}
+
+void ParticleWriter::write_step(double time_s, const ParticleHead& head, std::vector<BlockData> vectors) {
+  for (BlockData& block : vectors) {
+    block.name = "step/" + block.name;
+    block.packing = Packing::if_small;
+  }
+  double number = 0;
+  std::optional<OutputFile> file;
+  on_first(ranks_.get(), [&] {
+    check_shape(head, scene_.species.size(), {head.species.size(), head.radius.size()});
+    for (std::size_t i = 0; i < head.id.size(); ++i)
+      if (!std::isfinite(head.radius[i])) refuse("radius", head.id[i], head.radius[i], time_s);
+    file.emplace(step_head(scene_, head, time_s));
+    number = double(times().size());
+  });
+  take_from_first(ranks_.get(), std::span(&number, 1));
+  const fs::path path = step_path(directory_, "particles", std::size_t(number)), fresh = path.string() + ".temporary";
+  write_blocks(fresh, file ? &*file : nullptr, vectors, ranks_.get());
+  on_first(ranks_.get(), [&] {
+    put_in_place(fresh, path);
+    steps_->add_written(time_s, head.id.size());
+  });
 }
 
 ParticleReader::ParticleReader(fs::path run_directory) : directory_(std::move(run_directory)) {

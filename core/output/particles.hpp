@@ -5,11 +5,14 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/numerics/ranks.hpp"
+#include "core/output/blocks.hpp"
 #include "core/output/file.hpp"
 #include "core/output/steps.hpp"
 
@@ -41,24 +44,41 @@ struct ParticleScene {
   bool operator==(const ParticleScene&) const = default;
 };
 
+/// What the first rank writes of all particles while each writes its share of their vectors.
+struct ParticleHead {
+  std::vector<std::int64_t> id;  ///< rising
+  std::vector<std::int32_t> species;
+  std::vector<double> radius;
+};
+
+/// Throws NumericsError if a vector of a particle is not finite. \param quantity  as in "velocity"
+void require_finite(const char* quantity, std::int64_t id, const std::array<double, 3>& value, double time_s);
+
 class ParticleWriter {
  public:
   /// Starts particles.h5 in a run directory that exists, or goes on with it.
   /// \param resume_time  empty: what an earlier run left is removed. Else s: steps later than that are
   /// removed. Throws FileError, also if the file that it goes on with has another scene.
+  /// \param ranks  that write together; null: one. Collective.
   ParticleWriter(const std::filesystem::path& run_directory, ParticleScene scene,
-                 std::optional<double> resume_time = std::nullopt);
+                 std::optional<double> resume_time = std::nullopt, std::shared_ptr<const Ranks> ranks = nullptr);
 
   /// Stores the particles at a time, any number of them; complete on the disk when it returns.
   /// Throws NumericsError, and writes nothing, if a value is not finite: quantity and id are in the text.
   /// Throws std::invalid_argument if lengths differ, ids do not rise, or a species has no name.
   void write_step(double time_s, const ParticleSnapshot& particles);
+  /// The same of particles that no rank has memory for, known to be finite. Collective.
+  /// \param head  on the first rank   \param vectors  "position", "velocity" and "spin" of all, in pieces
+  void write_step(double time_s, const ParticleHead& head, std::vector<BlockData> vectors);
 
-  [[nodiscard]] const std::vector<double>& times() const { return steps_.times(); }
+  /// On the first rank.
+  [[nodiscard]] const std::vector<double>& times() const { return steps_->times(); }
 
  private:
+  std::filesystem::path directory_;
   ParticleScene scene_;
-  StepWriter steps_;
+  std::shared_ptr<const Ranks> ranks_;
+  std::optional<StepWriter> steps_;  ///< on the first rank
 };
 
 /// Reads particles.h5 back.

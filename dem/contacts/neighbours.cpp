@@ -155,12 +155,15 @@ void NeighbourSearch::search(const Particles& particles, std::size_t i, std::siz
   const int at_y = level.place(x[1], 1);
   const Span depth = around(level.place(x[2], 2), level.count[2], level.wraps[2]);
   const Span height = around(at_y, level.count[1], level.wraps[1]);
+  const Span beside = around(level.place(x[0], 0), level.count[0], level.wraps[0]);
   for (int row = 0; row < height.count; ++row) {
     const int cy = height.cell[std::size_t(row)], oy = height.offset[std::size_t(row)];
     // Across the joined faces of a sheared box the cells beside are those beside the image.
     const int boxes = cy - at_y > 1 ? -1 : (cy - at_y < -1 ? 1 : 0);
-    const double shifted = box_.shear_rate == 0 ? x[0] : x[0] - boxes * images.shift[Images::here + 3][0];
-    const Span width = around(level.place(shifted, 0), level.count[0], level.wraps[0]);
+    const Span width =
+        unsheared || boxes == 0
+            ? beside
+            : around(level.place(x[0] - boxes * images.shift[Images::here + 3][0], 0), level.count[0], level.wraps[0]);
     for (int k = 0; k < depth.count; ++k)
       for (int n = 0; n < width.count; ++n) {
         const int oz = depth.offset[std::size_t(k)], ox = width.offset[std::size_t(n)];
@@ -215,6 +218,16 @@ void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std
   if (2 * near > narrowest_) images.each_other(d, nearest, add);
 }
 
+/// Between two searches a run needs the memory for contacts.
+void NeighbourSearch::release() {
+  std::vector<Vector>().swap(near_);
+  for (Level& level : levels_) {
+    std::vector<std::int32_t>().swap(level.start);
+    std::vector<std::int32_t>().swap(level.member);
+    std::vector<Place>().swap(level.place_of_member);
+  }
+}
+
 void NeighbourSearch::find_pairs(const Particles& particles, double time, const Vector& centre,
                                  const std::array<bool, 3>& whole, Contacts& contacts) {
   std::vector<Contacts::Pair>& pairs = contacts.pairs;
@@ -232,6 +245,7 @@ void NeighbourSearch::find_pairs(const Particles& particles, double time, const 
   for (std::size_t i = 0; i < particles.size(); ++i)
     for (std::size_t l = level_of(particles.place[i].radius); l < levels_.size(); ++l)
       search(particles, i, l, images, pairs);
+  release();
   contacts.inner = pairs.size();
   if (particles.size() == particles.owned) return;  // the sort needs as much memory again
   const auto here = std::int32_t(particles.owned);

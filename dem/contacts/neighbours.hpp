@@ -54,6 +54,7 @@ class NeighbourSearch {
   [[nodiscard]] std::size_t level_of(double radius) const;
   void lay_out(const std::array<bool, 3>& whole);
   void sort_in(const Particles& particles);
+  void release();
   void search(const Particles& particles, std::size_t i, std::size_t level, const Images& images,
               std::vector<Contacts::Pair>& pairs);
 

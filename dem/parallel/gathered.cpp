@@ -4,13 +4,14 @@
 #include <utility>
 
 #include "core/numerics/messages.hpp"
+#include "dem/parallel/ordered_rows.hpp"
 
 namespace polybed::dem {
 
 namespace {
 
 template <class Item>
-std::vector<Item> on_first(const std::vector<Item>& own, const std::shared_ptr<const core::Ranks>& ranks) {
+std::vector<Item> all_on_first(const std::vector<Item>& own, const std::shared_ptr<const core::Ranks>& ranks) {
   if (!ranks) return own;
   std::vector<int> to(std::size_t(ranks->count()), 0);
   to[0] = int(own.size());
@@ -106,20 +107,48 @@ Snapshot gathered_snapshot(const Particles& particles, const std::shared_ptr<con
   std::vector<Shown> own;
   own.reserve(particles.owned);
   for (std::size_t i = 0; i < particles.owned; ++i) own.push_back(shown(particles, i));
-  const std::vector<Shown> all = on_first(own, ranks);
+  const std::vector<Shown> all = all_on_first(own, ranks);
   return snapshot_of(all.size(), [&](std::size_t i) -> const Shown& { return all[i]; });
+}
+
+ShownRows shown_rows(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks) {
+  std::vector<RowName> own;
+  own.reserve(particles.owned);
+  for (std::size_t i = 0; i < particles.owned; ++i) own.push_back({particles.id[i], 0, std::int32_t(i)});
+  const OrderedRows rows(std::move(own), ranks);
+  ShownRows shown;
+  const auto number = [&](auto&& of) {
+    return on_first(rows.blocks("", 1, true, [&](std::int32_t i, double* row) { *row = double(of(std::size_t(i))); }),
+                    ranks);
+  };
+  for (const double id : number([&](std::size_t i) { return particles.id[i]; }))
+    shown.head.id.push_back(std::int64_t(id));
+  for (const double species : number([&](std::size_t i) { return particles.species[i]; }))
+    shown.head.species.push_back(std::int32_t(species));
+  shown.head.radius = number([&](std::size_t i) { return particles.place[i].radius; });
+  const auto add = [&](const char* name, auto&& of) {
+    const auto fill = [of](std::int32_t i, double* row) {
+      const Vector& v = of(std::size_t(i));
+      std::copy(v.begin(), v.end(), row);
+    };
+    for (core::BlockData& block : rows.blocks(name, 3, false, fill)) shown.vectors.push_back(std::move(block));
+  };
+  add("position", [&particles](std::size_t i) -> const Vector& { return particles.place[i].x; });
+  add("velocity", [&particles](std::size_t i) -> const Vector& { return particles.motion[i].v; });
+  add("spin", [&particles](std::size_t i) -> const Vector& { return particles.motion[i].w; });
+  return shown;
 }
 
 std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
                                      const std::shared_ptr<const core::Ranks>& ranks) {
-  std::vector<KeptLoad> all = on_first(loads, ranks);
+  std::vector<KeptLoad> all = all_on_first(loads, ranks);
   std::sort(all.begin(), all.end(), [](const KeptLoad& a, const KeptLoad& b) { return a.id < b.id; });
   return all;
 }
 
 std::vector<double> gathered_rows(std::vector<double> own, std::size_t width, std::size_t ids,
                                   const std::shared_ptr<const core::Ranks>& ranks) {
-  std::vector<double> rows = ranks ? on_first(own, ranks) : std::move(own);
+  std::vector<double> rows = ranks ? all_on_first(own, ranks) : std::move(own);
   std::vector<double>().swap(own);
   put_in_order(rows, width, ids);
   return rows;

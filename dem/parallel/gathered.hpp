@@ -25,6 +25,12 @@ struct Snapshot {
   [[nodiscard]] core::ParticleSnapshot view() const { return {id, species, radius, position, velocity, spin}; }
 };
 [[nodiscard]] Snapshot gathered_snapshot(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks);
+/// The same for particles.h5: the head, and vectors in pieces. The particles must stay.
+struct ShownRows {
+  core::ParticleHead head;
+  std::vector<core::BlockData> vectors;
+};
+[[nodiscard]] ShownRows shown_rows(const Particles& particles, const std::shared_ptr<const core::Ranks>& ranks);
 /// What the fluid does to them, by id.
 [[nodiscard]] std::vector<KeptLoad> gathered_loads(const std::vector<KeptLoad>& loads,
                                                    const std::shared_ptr<const core::Ranks>& ranks);

@@ -80,7 +80,7 @@ def write(directory, bed, settings):
 
 
 def command(settings):
-    return [settings["program"], "dem", "case.toml", "-o", "run", "--quiet", "--json"]
+    return [settings["program"], "dem", "case.toml", "-o", "run", "--quiet", "--json", "--no-picture"]
 
 
 def read(directory, settings):

@@ -9,8 +9,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import open_mpi  # noqa: E402
 
-# One thread each. polybed draws no picture when its Python does not start; that of the others is not in the way.
-SETTINGS = open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES | {"OMP_NUM_THREADS": "1", "PYTHONHOME": "/nowhere"}
+# One thread each.
+SETTINGS = open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES | {"OMP_NUM_THREADS": "1"}
 
 
 class Failed(Exception):

@@ -70,7 +70,7 @@ def packed(bed, program, directory, limit):
     for stage, (softness, until) in enumerate(SETTLING):
         name = f"settling-{stage}"
         (directory / f"{name}.toml").write_text(dry_case(bed, start, softness * bed["youngs_modulus"], until))
-        dem_process.run([program, "dem", f"{name}.toml", "-o", name, "--quiet"], directory, 1, limit)
+        dem_process.run([program, "dem", f"{name}.toml", "-o", name, "--quiet", "--no-picture"], directory, 1, limit)
         places = stored(directory / name)
         write_places(directory / f"{name}.csv", bed, places)
         start = {"start": f"list:{name}.csv"}

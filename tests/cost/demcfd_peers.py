@@ -56,8 +56,8 @@ def on_polybed(bed, arguments, directory):
     for name, until in (("short", arguments.begin), ("long", arguments.end)):
         keys = {"output.every": f"{until} s", "output.history_every": f"{until} s"}
         words = [word for key, value in keys.items() for word in ("--set", f'{key}="{value}"')]
-        cost = dem_process.run([arguments.program, "dem", case, "--quiet", "-o", name, "--until", f"{until} s", *words],
-                               directory, 1, arguments.limit)
+        cost = dem_process.run([arguments.program, "dem", case, "--quiet", "--no-picture", "-o", name, "--until",
+                                f"{until} s", *words], directory, 1, arguments.limit)
         runs[name] = cost | json.loads((directory / name / "run.json").read_text())["work"]
     if dry(directory / "long"):
         raise WithoutGas("this polybed runs the case without its gas")

@@ -16,6 +16,7 @@
 #include "dem/model.hpp"
 #include "dem/parallel/exchange.hpp"
 #include "dem/parallel/gathered.hpp"
+#include "dem/parallel/ordered_rows.hpp"
 #include "dem/stress.hpp"
 #include "scenes/dem_gas.hpp"
 
@@ -253,6 +254,29 @@ TEST(Exchange, ParticlesAndTheirContactsGoToTheirOwners) {
       EXPECT_EQ(gathered.id[n], std::int64_t(n));
       EXPECT_EQ(gathered.position[n], particle(box, std::int64_t(n), 1, 2).place.x);
     }
+  }
+}
+
+/// Whatever rank has a row, it comes out in its place, and every rank writes some.
+TEST(OrderedRows, AreWrittenByAllRanks) {
+  constexpr std::int32_t many = 40000;
+  std::vector<RowName> own;
+  for (std::int32_t n = 0; n < many; ++n)
+    if ((std::int64_t(n) * 7919) % count() == rank()) own.push_back({n / 2, n % 2 == 0 ? -1 : n, n});
+  const OrderedRows rows(own, ranks());
+  EXPECT_EQ(rows.count(), many);
+  const auto blocks = rows.blocks("a", 2, true, [](std::int32_t at, double* row) {
+    row[0] = at;
+    row[1] = -at;
+  });
+  std::size_t mine = 0;
+  for (const core::BlockData& block : blocks) mine += block.slab.count[0];
+  EXPECT_NEAR(double(mine), 2.0 * many / count(), 8.0 * double(blocks.size()));  // ids are cut, not rows
+  const std::vector<double> all = on_first(blocks, ranks());
+  ASSERT_EQ(all.size(), core::is_first(ranks().get()) ? 2 * std::size_t(many) : 0);
+  for (std::size_t n = 0; n < all.size(); n += 2) {
+    ASSERT_EQ(all[n], double(n / 2));
+    ASSERT_EQ(all[n + 1], -double(n / 2));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "dem/contacts/neighbours.hpp"
 #include "dem/parallel/exchange.hpp"
 #include "dem/parallel/gathered.hpp"
+#include "dem/parallel/ordered_rows.hpp"
 #include "dem/verlet.hpp"
 
 namespace polybed::dem {
@@ -83,6 +84,39 @@ TEST(OneRank, GathersById) {
   EXPECT_EQ(gathered_rows({3, 30, 1, 10, 2, 20, 0, 0}, 2, 1, nullptr),
             (std::vector<double>{0, 0, 1, 10, 2, 20, 3, 30}));
   EXPECT_TRUE(gathered_rows({}, 2, 1, nullptr).empty());
+}
+
+TEST(OneRank, OrdersRowsByTheirIds) {
+  const OrderedRows rows({{2, 5, 0}, {1, -3, 1}, {1, 4, 2}, {0, 9, 3}}, nullptr);
+  EXPECT_EQ(rows.count(), 4);
+  const auto fill = [](std::int32_t at, double* row) {
+    row[0] = at;
+    row[1] = 10 * at;
+  };
+  EXPECT_EQ(on_first(rows.blocks("a", 2, true, fill), nullptr), (std::vector<double>{3, 30, 1, 10, 2, 20, 0, 0}));
+  const OrderedRows none({}, nullptr);
+  EXPECT_TRUE(on_first(none.blocks("a", 2, true, fill), nullptr).empty());
+}
+
+/// More than one piece, and ids with holes.
+TEST(OneRank, OrdersManyRowsInPieces) {
+  std::vector<RowName> own;
+  constexpr std::int32_t many = 50000;
+  for (std::int32_t n = 0; n < many; ++n) own.push_back({3 * ((std::int64_t(n) * 7919) % many), 0, n});
+  const OrderedRows rows(own, nullptr);
+  const auto blocks =
+      rows.blocks("a", 1, false, [&](std::int32_t at, double* row) { *row = double(own[std::size_t(at)].low); });
+  EXPECT_GT(blocks.size(), 2);
+  std::size_t next = 0;
+  for (const core::BlockData& block : blocks) {
+    EXPECT_EQ(block.slab.shape, (std::vector<std::size_t>{many, 1}));
+    EXPECT_EQ(block.slab.start[0], next);
+    next += block.slab.count[0];
+  }
+  EXPECT_EQ(next, many);
+  const std::vector<double> all = on_first(blocks, nullptr);
+  ASSERT_EQ(all.size(), many);
+  for (std::size_t n = 0; n < all.size(); ++n) ASSERT_EQ(all[n], 3.0 * double(n));
 }
 
 /// The list is made again if a place is not a number, also where particles behind it in the order are fine.
