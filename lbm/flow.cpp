@@ -85,27 +85,19 @@ void Flow<Real>::find_links(const Obstacles& obstacles, Wall wall) {
           const std::size_t step = std::size_t(sites_.step(ways[w])), covered = site + step, back = site - step;
           const std::int32_t owner = owner_[covered];
           if (owner == Obstacles::none) continue;
-          const std::size_t here = place(w, site), behind = place(opposite(w), back);
           Link link{std::uint32_t(place(opposite(w), site)),
                     std::uint32_t(place(w, covered)),
-                    {},
-                    1,
+                    std::uint32_t(place(w, site)),
+                    std::uint32_t(place(w, site)),
                     0,
                     std::int32_t(w),
                     owner};
-          link.behind[0] = link.behind[1] = std::uint32_t(here);
-          if (wall == Wall::interpolated) {
+          // Between two walls, a site apart, both equations together give the plain bounce.
+          if (wall == Wall::interpolated && owner_[back] == Obstacles::none) {
             const double q =
                 obstacles.fraction(owner, {double(sites_.first + i - 1), double(j - 1), double(k - 1)}, ways[w]);
-            // Nearer than half-way it takes the site behind, which has to be fluid.
-            if (q >= 0.5) {
-              link.own = Real(1 / (2 * q));
-              link.behind[1] = std::uint32_t(behind);
-            } else if (owner_[back] == Obstacles::none) {
-              link.own = Real(2 * q);
-              link.behind[0] = std::uint32_t(behind);
-            }
-            link.other = 1 - link.own;
+            link.behind = std::uint32_t(place(opposite(w), back));
+            link.part = Real((1 - 2 * q) / (1 + 2 * q));
           }
           links_.push_back(link);
         }
@@ -135,7 +127,8 @@ void Flow<Real>::bounce(bool second) {
   Real* const f = populations_.data();
   for (const Link& link : links_) {
     const Real leaving = f[second ? link.covered : link.fluid];
-    const Real back = link.own * leaving + link.other * f[link.behind[second]];
+    const Real difference = f[link.behind] - f[link.here];
+    const Real back = leaving + (second ? -link.part : link.part) * difference;
     f[second ? link.fluid : link.covered] = back;
     const std::array<int, 3>& c = ways[std::size_t(link.way)];
     const double impulse = double(leaving) + double(back);

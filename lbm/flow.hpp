@@ -21,7 +21,8 @@ namespace polybed::lbm {
 
 enum class Wall {
   half_way,     ///< bounce-back: momentum and mass exact
-  interpolated  ///< linearly, by where the surface cuts the link (Bouzidi et al., Phys. Fluids 13 (2001) 3452)
+  interpolated  ///< central and linear, by where the surface cuts the link (CLI of Ginzburg et al., Commun. Comput.
+                ///< Phys. 3 (2008) 427): in a steady state independent of the viscosity, as half_way is
 };
 
 struct FlowSetup {
@@ -65,8 +66,8 @@ class Flow {
   /// Places in the array of populations, and what of each bounces.
   struct Link {
     std::uint32_t fluid, covered;  ///< where what departs to the obstacle stands after the first step; after the second
-    std::uint32_t behind[2];       ///< with what it is interpolated, likewise
-    Real own, other;               ///< their weights
+    std::uint32_t here, behind;    ///< between what it is interpolated
+    Real part;                     ///< of their difference
     std::int32_t way, owner;
   };
   struct Run {

@@ -25,7 +25,10 @@ constexpr double least_pore = 3;
 constexpr double pore_speed = 0.03;
 /// Below it the collision barely damps what the grid cannot resolve.
 constexpr double least_viscosity = 0.004;
-constexpr double stokes_viscosity = 1.0 / 6, stokes_speed = 1e-3;
+/// Of Stokes flow: the drag does not depend on it, and the greater it is the sooner the flow is steady.
+constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
+/// Most at a Reynolds number above 0.
+constexpr double most_viscosity = 1.0 / 6;
 
 double least_diameter(const core::Scene& scene) {
   double least = scene.species.front().diameter;
@@ -74,8 +77,8 @@ struct Units {
 Units units_of(double voidage, double reynolds, double sauter_in_cells) {
   if (reynolds == 0) return {};
   const double speed = pore_speed * voidage, viscosity = speed * sauter_in_cells / reynolds;
-  if (viscosity <= stokes_viscosity) return {viscosity, speed};
-  return {stokes_viscosity, stokes_viscosity * reynolds / sauter_in_cells};
+  if (viscosity <= most_viscosity) return {viscosity, speed};
+  return {most_viscosity, most_viscosity * reynolds / sauter_in_cells};
 }
 
 Broken reynolds_beyond_grid(const core::Scene& scene) {
