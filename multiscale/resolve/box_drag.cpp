@@ -121,8 +121,9 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   const double pore = std::min(1.0, pore_of(point.voidage)) * mean;
   lbm::SteadyPlan plan;
   plan.velocity = {units.speed, 0, 0};
-  plan.window = std::max(
-      {100.0, pore * pore / (3 * units.viscosity), point.reynolds > 0 ? mean * point.voidage / units.speed : 0});
+  // By friction a pore forgets its past, or by the fluid that passes two diameters, whichever is sooner.
+  plan.window = std::max(100.0, pore * pore / (3 * units.viscosity));
+  if (point.reynolds > 0) plan.window = std::max(100.0, std::min(plan.window, 2 * mean * point.voidage / units.speed));
   plan.most_steps = std::llround(200 * plan.window);
   const lbm::FlowSetup setup{{edge, edge, edge}, units.viscosity, point.reynolds > 0, lbm::Wall::interpolated};
   lbm::Flow<Real> flow(setup, lbm::Spheres(spheres, setup.box), ranks);
