@@ -94,7 +94,7 @@ class Service {
                              scene_.column.gravity * mean.diameter;
     json["ranks"] = ranks_ ? ranks_->count() : 1;
     json["git_commit"] = core::git_commit();
-    json["case_hash"] = core::text_hash(core::resolved_case(scene_));
+    json["case_hash"] = core::case_hash(scene_);
     return json;
   }
 

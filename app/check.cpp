@@ -253,7 +253,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
   if (options.json) {
     const std::string text = core::resolved_case(scene);
-    core::Json json = {{"case", text}, {"hash", core::text_hash(text)}};
+    core::Json json = {{"case", text}, {"hash", core::case_hash(scene)}};
     write_particle_requirements(json, scene, need);
     write_size_classes(json, scene);
     json["notes"] = notes;
@@ -324,7 +324,7 @@ void run_check(const RunOptions& options) {
   if (options.json) {
     const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text},
-                       {"hash", core::text_hash(text)},
+                       {"hash", core::case_hash(scene)},
                        {"fluid_density_kg_m3", derived.fluid.density},
                        {"fluid_viscosity_Pa_s", derived.fluid.viscosity}};
     if (derived.sound > 0) json["speed_of_sound_m_s"] = derived.sound;

@@ -177,6 +177,9 @@ void run_inversion(const InversionOptions& options) {
   if (!options.partition.empty()) chosen.overrides.push_back("effects.partition=\"" + options.partition + "\"");
   if (options.closure_uncertainty) {
     if (!options.scan.empty()) throw core::CaseError("--closure-uncertainty is of the force balance: leave out --scan");
+    if (options.stress_uncertainty)
+      throw core::CaseError(
+          "--closure-uncertainty and --stress-uncertainty are two studies: give one of them at a time");
     if (options.method == "all") throw core::CaseError("--closure-uncertainty is of one method, not of all");
     run_closure_uncertainty(chosen, "inversion", options.method);
   }

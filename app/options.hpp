@@ -85,7 +85,7 @@ struct MoveOptions {
 /// Options of drag data from resolved flow.
 struct ResolveOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-resolve
-  bool resume = false, force = false, quiet = false;
+  bool resume = false, force = false, quiet = false, estimate = false;
 };
 
 /// Each command writes its answer to standard output; errors are thrown.

@@ -25,6 +25,45 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void require_what_resolve_needs(const ResolveOptions& options, const core::Scene& scene) {
+  if (scene.resolve.voidage.empty())
+    throw core::CaseError(options.case_path.string() + ": resolve needs resolve.voidage, e.g. [0.5, 0.7]");
+  if (scene.bed.volume_share.size() != scene.species.size())
+    throw core::CaseError(options.case_path.string() + ": resolve needs bed.volume_share, one for each species");
+}
+
+/// Rows of the points, from the rate that the coarsest box of the first one reaches on one core.
+void estimate_resolve(const ResolveOptions& options) {
+  const core::Scene scene = read_case(options.case_path, options.overrides);
+  require_what_resolve_needs(options, scene);
+  const core::Resolve& plan = scene.resolve;
+  const ResolvePoint first{plan.voidage[0], plan.reynolds[0], 0, plan.grids - 1};
+  const double rate = measured_rate(scene, first, sphere_packing(scene, first.voidage, scene.bed.seed));
+  core::Json points = core::Json::array();
+  double all = 0, most = 0;
+  for (const double voidage : plan.voidage)
+    for (const double reynolds : plan.reynolds) {
+      double seconds = 0, bytes = 0;
+      for (int grid = 0; grid < plan.grids; ++grid) {
+        const BoxNeed need = box_need(scene, {voidage, reynolds, 0, grid});
+        seconds += plan.packings * need.sites * need.steps / rate;
+        bytes = std::max(bytes, need.bytes);
+      }
+      points.push_back({{"eps", voidage}, {"Re", reynolds}, {"time_s", seconds}, {"memory_bytes", bytes}});
+      if (!options.json)
+        core::print("eps {:g}, Re {:g}: {}, {:.3g} MB\n", voidage, reynolds, core::duration_text(seconds),
+                    1e-6 * bytes);
+      all += seconds;
+      most = std::max(most, bytes);
+    }
+  if (options.json)
+    return core::print(
+        "{}\n",
+        core::json_text({{"points", points}, {"time_s", all}, {"memory_bytes", most}, {"sites_per_second", rate}}));
+  core::print("all: {} on one core at {:.0f} million sites a second, within a factor of 2 if the flow is steady\n",
+              core::duration_text(all), 1e-6 * rate);
+}
+
 class ResolveRun {
  public:
   explicit ResolveRun(const ResolveOptions& options)
@@ -33,7 +72,7 @@ class ResolveRun {
         first_(core::is_first(ranks_.get())),
         scene_(read_case(options.case_path, options.overrides)) {
     options_.quiet = options_.quiet || !first_;
-    require_what_it_needs();
+    require_what_resolve_needs(options_, scene_);
     directory_ = options.output.empty() ? default_run_directory(options.case_path, "resolve") : options.output;
     core::on_first(ranks_.get(), [&] { take_directory(); });
   }
@@ -56,13 +95,6 @@ class ResolveRun {
   }
 
  private:
-  void require_what_it_needs() const {
-    if (scene_.resolve.voidage.empty())
-      throw core::CaseError(options_.case_path.string() + ": resolve needs resolve.voidage, e.g. [0.5, 0.7]");
-    if (scene_.bed.volume_share.size() != scene_.species.size())
-      throw core::CaseError(options_.case_path.string() + ": resolve needs bed.volume_share, one for each species");
-  }
-
   /// Boxes that a run before has finished are read; those of this one are added behind them.
   void take_directory() {
     lock_.emplace(directory_);
@@ -161,7 +193,9 @@ class ResolveRun {
 
 }  // namespace
 
-void run_resolve(const ResolveOptions& options) { ResolveRun(options).run(); }
+void run_resolve(const ResolveOptions& options) {
+  options.estimate ? estimate_resolve(options) : ResolveRun(options).run();
+}
 
 }  // namespace polybed::app
 
@@ -176,6 +210,7 @@ void add_resolve(CLI::App& app, Commands& commands) {
   command.add_flag("--resume", options->resume, "keep the boxes that are finished");
   command.add_flag("--force", options->force, "replace them");
   command.add_flag("--quiet", options->quiet, "no line for each box");
+  command.add_flag("--estimate", options->estimate, "time and memory of each point, and nothing is run");
   commands.push_back({&command, doing([options] { run_resolve(*options); }), [] { return On::all_ranks; }});
 }
 

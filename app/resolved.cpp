@@ -21,7 +21,7 @@ std::string hash_of_scanned(core::Scene scene) {
   scene.bed.start = {};
   scene.run.until = 1;
   scene.output = {};
-  return core::text_hash(core::resolved_case(scene));
+  return core::case_hash(scene);
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ void print_resolved(const RunOptions& options) {
   const core::Json refused = {{"tfm", tfm::only_for_particles(scene)}, {"dem", dem::only_for_continuum(scene)}};
   core::print("{}\n", core::json_text({{"git_commit", core::git_commit()},
                                        {"case", text},
-                                       {"hash", core::text_hash(text)},
+                                       {"hash", core::case_hash(scene)},
                                        {"scan_hash", hash_of_scanned(scene)},
                                        {"overrides", scene.overrides},
                                        {"refused", refused}}));

@@ -36,7 +36,7 @@ core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
 std::string physics_hash(core::Scene scene) {
   scene.run.until = 1;
   scene.output = {};
-  return core::text_hash(core::resolved_case(scene));
+  return core::case_hash(scene);
 }
 
 /// A scene without the effects that the case of a checkpoint has not and that may be added to its run.

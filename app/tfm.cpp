@@ -189,6 +189,8 @@ class TfmRun final : public CaseRun {
 }  // namespace
 
 void run_tfm(const RunOptions& options) {
+  if (options.closure_uncertainty && options.stress_uncertainty)
+    throw core::CaseError("--closure-uncertainty and --stress-uncertainty are two studies: give one of them at a time");
   if (options.closure_uncertainty) run_closure_uncertainty(options, "tfm");
   if (options.stress_uncertainty) run_stress_uncertainty(options);
   const core::Scene scene = read_scene(options);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "core/error.hpp"
 
@@ -38,6 +39,22 @@ void collide(std::array<Real*, directions> place, std::size_t length, const Rela
   collide_row<Real, inertia>(place.data(), length, relaxation);
 }
 
+/// Sends back what departs along links, and returns the impulse. No link reads what another writes.
+template <bool second, class Link, class Real>
+double bounced(Real* f, const Link* links, std::size_t count) {
+  double sum[2] = {0, 0};  // two, as each addition waits for the one before
+#pragma GCC ivdep
+  for (std::size_t n = 0; n < count; ++n) {
+    const Link& link = links[n];
+    const Real leaving = f[second ? link.covered : link.fluid];
+    const Real difference = f[second ? link.here : link.behind] - f[second ? link.behind : link.here];
+    const Real back = leaving + link.part * difference;
+    f[second ? link.fluid : link.covered] = back;
+    sum[n % 2] += double(leaving) + double(back);
+  }
+  return sum[0] + sum[1];
+}
+
 }  // namespace
 
 template <class Real>
@@ -58,7 +75,10 @@ Flow<Real>::Flow(const FlowSetup& setup, const Obstacles& obstacles, std::shared
 
 template <class Real>
 void Flow<Real>::find_runs() {
-  for (int i = 1; i <= sites_.own[0]; ++i)
+  layers_.resize(std::size_t(sites_.own[0]));
+  for (int i = 1; i <= sites_.own[0]; ++i) {
+    Span& runs = layers_[std::size_t(i - 1)].runs;
+    runs.begin = runs_.size();
     for (int j = 1; j <= sites_.own[1]; ++j) {
       int last = -bridge - 2;  // site of fluid before this one
       for (int k = 1; k <= sites_.own[2]; ++k) {
@@ -71,56 +91,77 @@ void Flow<Real>::find_runs() {
         last = k;
       }
     }
+    runs.end = runs_.size();
+  }
   for (const Run& run : runs_) worked_ += run.length;
 }
 
 template <class Real>
 void Flow<Real>::find_links(const Obstacles& obstacles, Wall wall) {
+  struct Found {
+    int layer;  // from 0; behind all, the rim
+    std::int32_t owner, way;
+    std::array<int, 3> at;
+    [[nodiscard]] auto place() const { return std::tuple(layer, owner, way); }
+  };
+  const auto layer_of = [&](const std::array<int, 3>& at, std::size_t way) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (ways[way][k] != 0 && (at[k] == 1 || at[k] == sites_.own[k])) return sites_.own[0];
+    return at[0] - 1;
+  };
+  std::vector<Found> found;
   for (int i = 1; i <= sites_.own[0]; ++i)
     for (int j = 1; j <= sites_.own[1]; ++j)
       for (int k = 1; k <= sites_.own[2]; ++k) {
         const std::size_t site = sites_.at(i, j, k);
         if (owner_[site] != Obstacles::none) continue;
         for (std::size_t w = 1; w < directions; ++w) {
-          const std::size_t step = std::size_t(sites_.step(ways[w])), covered = site + step, back = site - step;
-          const std::int32_t owner = owner_[covered];
-          if (owner == Obstacles::none) continue;
-          const std::size_t here = place(w, site), behind = place(opposite(w), back);
-          Link link{std::uint32_t(place(opposite(w), site)),
-                    std::uint32_t(place(w, covered)),
-                    {},
-                    1,
-                    0,
-                    std::int32_t(w),
-                    owner};
-          link.behind[0] = link.behind[1] = std::uint32_t(here);
-          if (wall == Wall::interpolated) {
-            const double q =
-                obstacles.fraction(owner, {double(sites_.first + i - 1), double(j - 1), double(k - 1)}, ways[w]);
-            // Nearer than half-way it takes the site behind, which has to be fluid.
-            if (q >= 0.5) {
-              link.own = Real(1 / (2 * q));
-              link.behind[1] = std::uint32_t(behind);
-            } else if (owner_[back] == Obstacles::none) {
-              link.own = Real(2 * q);
-              link.behind[0] = std::uint32_t(behind);
-            }
-            link.other = 1 - link.own;
-          }
-          links_.push_back(link);
+          const std::int32_t owner = owner_[site + std::size_t(sites_.step(ways[w]))];
+          if (owner != Obstacles::none) found.push_back({layer_of({i, j, k}, w), owner, std::int32_t(w), {i, j, k}});
         }
       }
+  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.place() < b.place(); });
+  links_.reserve(found.size());
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    const Found& one = found[n];
+    Span& bundles = one.layer == sites_.own[0] ? rim_ : layers_[std::size_t(one.layer)].bundles;
+    if (n == 0 || found[n - 1].place() != one.place()) {
+      if (n == 0 || found[n - 1].layer != one.layer) bundles.begin = bundles_.size();
+      bundles_.push_back({std::uint32_t(n), 0, one.way, one.owner});
+      bundles.end = bundles_.size();
+    }
+    links_.push_back(link_of(obstacles, wall, one.at, std::size_t(one.way)));
+    bundles_.back().end = std::uint32_t(n + 1);
+  }
 }
 
 template <class Real>
-void Flow<Real>::collide(bool second, const Point& force) {
+auto Flow<Real>::link_of(const Obstacles& obstacles, Wall wall, const std::array<int, 3>& at, std::size_t way) const
+    -> Link {
+  const std::size_t site = sites_.at(at[0], at[1], at[2]), step = std::size_t(sites_.step(ways[way]));
+  const std::size_t covered = site + step, back = site - step, here = place(way, site);
+  Link link{std::uint32_t(place(opposite(way), site)), std::uint32_t(place(way, covered)), std::uint32_t(here),
+            std::uint32_t(here), 0};
+  // Between two walls, a site apart, both equations together give the plain bounce.
+  if (wall == Wall::half_way || owner_[back] != Obstacles::none) return link;
+  const Point fluid{double(sites_.first + at[0] - 1), double(at[1] - 1), double(at[2] - 1)};
+  const double q = obstacles.fraction(owner_[covered], fluid, ways[way]);
+  link.behind = std::uint32_t(place(opposite(way), back));
+  link.part = Real((1 - 2 * q) / (1 + 2 * q));
+  return link;
+}
+
+template <class Real>
+void Flow<Real>::collide(bool second, const Span& runs) {
   const double even = 1 / (0.5 + 3 * setup_.viscosity);
-  const Relaxation<Real> relaxation{Real(even), Real(odd_rate(even)), {Real(force[0]), Real(force[1]), Real(force[2])}};
+  const Relaxation<Real> relaxation{
+      Real(even), Real(odd_rate(even)), {Real(force_[0]), Real(force_[1]), Real(force_[2])}};
   std::array<Real*, directions> origin;
   for (std::size_t i = 0; i < directions; ++i)
     origin[i] =
         populations_.data() + (second ? place(opposite(i), 0) : place(i, 0)) - (second ? sites_.step(ways[i]) : 0);
-  for (const Run& run : runs_) {
+  for (std::size_t n = runs.begin; n < runs.end; ++n) {
+    const Run& run = runs_[n];
     std::array<Real*, directions> at;
     for (std::size_t i = 0; i < directions; ++i) at[i] = origin[i] + run.begin;
     if (setup_.inertia)
@@ -130,16 +171,27 @@ void Flow<Real>::collide(bool second, const Point& force) {
   }
 }
 
+/// Links of a layer follow as soon as the layer behind it is done, while both are in the cache: they reach one layer
+/// far, and a covered site, which is collided with its run, must not disturb what they leave there.
 template <class Real>
-void Flow<Real>::bounce(bool second) {
+void Flow<Real>::collide_and_bounce(bool second) {
+  for (std::size_t n = 0; n < layers_.size(); ++n) {
+    collide(second, layers_[n].runs);
+    if (n > 0) bounce(second, layers_[n - 1].bundles);
+  }
+  bounce(second, layers_.back().bundles);
+}
+
+template <class Real>
+void Flow<Real>::bounce(bool second, const Span& bundles) {
   Real* const f = populations_.data();
-  for (const Link& link : links_) {
-    const Real leaving = f[second ? link.covered : link.fluid];
-    const Real back = link.own * leaving + link.other * f[link.behind[second]];
-    f[second ? link.fluid : link.covered] = back;
-    const std::array<int, 3>& c = ways[std::size_t(link.way)];
-    const double impulse = double(leaving) + double(back);
-    Point& on = on_obstacle_[std::size_t(link.owner)];
+  for (std::size_t n = bundles.begin; n < bundles.end; ++n) {
+    const Bundle& bundle = bundles_[n];
+    const Link* const begin = links_.data() + bundle.begin;
+    const std::size_t count = bundle.end - bundle.begin;
+    const double impulse = second ? bounced<true>(f, begin, count) : bounced<false>(f, begin, count);
+    const std::array<int, 3>& c = ways[std::size_t(bundle.way)];
+    Point& on = on_obstacle_[std::size_t(bundle.owner)];
     for (std::size_t k = 0; k < 3; ++k) {
       on[k] += c[k] * impulse;
       on_all_[k] += c[k] * impulse;
@@ -152,12 +204,12 @@ void Flow<Real>::advance(const Point& force) {
   force_ = force;
   on_all_ = {};
   steps_ += 2;
-  collide(false, force);
+  collide_and_bounce(false);
   halo_->fill(populations_.data());
-  bounce(false);
-  collide(true, force);
+  bounce(false, rim_);
+  collide_and_bounce(true);
   halo_->fold(populations_.data());
-  bounce(true);
+  bounce(true, rim_);
 }
 
 template <class Real>
@@ -228,7 +280,7 @@ void Flow<Real>::level_density() {
 template <class Real>
 std::size_t Flow<Real>::memory_bytes() const {
   return populations_.size() * sizeof(Real) + owner_.size() * sizeof(owner_[0]) + links_.size() * sizeof(Link) +
-         runs_.size() * sizeof(Run);
+         bundles_.size() * sizeof(Bundle) + runs_.size() * sizeof(Run);
 }
 
 template class Flow<float>;

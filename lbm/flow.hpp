@@ -21,7 +21,8 @@ namespace polybed::lbm {
 
 enum class Wall {
   half_way,     ///< bounce-back: momentum and mass exact
-  interpolated  ///< linearly, by where the surface cuts the link (Bouzidi et al., Phys. Fluids 13 (2001) 3452)
+  interpolated  ///< central and linear, by where the surface cuts the link (CLI of Ginzburg et al., Commun. Comput.
+                ///< Phys. 3 (2008) 427): in a steady state independent of the viscosity, as half_way is
 };
 
 struct FlowSetup {
@@ -65,9 +66,20 @@ class Flow {
   /// Places in the array of populations, and what of each bounces.
   struct Link {
     std::uint32_t fluid, covered;  ///< where what departs to the obstacle stands after the first step; after the second
-    std::uint32_t behind[2];       ///< with what it is interpolated, likewise
-    Real own, other;               ///< their weights
+    std::uint32_t here, behind;    ///< between what it is interpolated
+    Real part;                     ///< of their difference
+  };
+  /// Links of one obstacle along one way, one after the other: their impulses have one direction and one sum.
+  struct Bundle {
+    std::uint32_t begin, end;
     std::int32_t way, owner;
+  };
+  struct Span {
+    std::size_t begin = 0, end = 0;
+  };
+  /// Of the sites at one x: runs, and bundles of links that stay clear of the layer round the slab.
+  struct Layer {
+    Span runs, bundles;
   };
   struct Run {
     std::uint32_t begin, length;
@@ -76,8 +88,11 @@ class Flow {
   [[nodiscard]] std::size_t place(std::size_t i, std::size_t site) const { return i * stride_ + site; }
   void find_runs();
   void find_links(const Obstacles& obstacles, Wall wall);
-  void collide(bool second, const Point& force);
-  void bounce(bool second);
+  [[nodiscard]] Link link_of(const Obstacles& obstacles, Wall wall, const std::array<int, 3>& at,
+                             std::size_t way) const;
+  void collide(bool second, const Span& runs);
+  void collide_and_bounce(bool second);
+  void bounce(bool second, const Span& bundles);
 
   std::shared_ptr<const core::Ranks> ranks_;
   FlowSetup setup_;
@@ -88,6 +103,9 @@ class Flow {
   std::vector<Real> populations_;
   std::vector<Run> runs_;
   std::vector<Link> links_;
+  std::vector<Bundle> bundles_;
+  std::vector<Layer> layers_;       ///< by x, from 0
+  Span rim_;                        ///< the other bundles
   std::vector<Point> on_obstacle_;  ///< sums over the steps taken since
   std::int64_t steps_ = 0;
   Point on_all_{};  ///< of the last two steps

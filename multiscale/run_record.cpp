@@ -56,7 +56,7 @@ void write_size_classes(Json& json, const core::Scene& scene) {
 void begin_record(Json& json, const core::Scene& scene, const std::string& model, const std::string& state, int ranks) {
   const std::string text = core::resolved_case(scene);
   json = {{"filetype", "polybed run"},        {"version", 1},   {"model", model}, {"program", core::version()},
-          {"git_commit", core::git_commit()}, {"state", state}, {"case", text},   {"case_hash", core::text_hash(text)},
+          {"git_commit", core::git_commit()}, {"state", state}, {"case", text},   {"case_hash", core::case_hash(scene)},
           {"overrides", scene.overrides},     {"ranks", ranks}};
   write_size_classes(json, scene);
   if (!scene.drag_record.empty()) json["drag_law"] = core::parse_json(scene.drag_record);

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::string_view prefix = "file:", filetype = "polybed drag law";
 constexpr std::size_t longest_law_file = 10'000'000;
-constexpr std::array known_keys{"filetype", "version", "form", "constants",  "law",    "common",
-                                "tilt",     "band",    "fit",  "git_commit", "created"};
+constexpr std::array known_keys{"filetype", "version", "form", "constants",       "law",        "common",
+                                "tilt",     "band",    "fit",  "partition_bands", "git_commit", "created"};
 
 /// Reads a law file and keeps all that is wrong with it, each at its line and column.
 class DragFileReader {

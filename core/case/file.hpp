@@ -38,4 +38,7 @@ namespace polybed::core {
 /// FNV-1a hash of a text, 64 bits, as 16 hexadecimal digits.
 [[nodiscard]] std::string text_hash(std::string_view text);
 
+/// Of the case written out whole and of the law file that it names, by content.
+[[nodiscard]] std::string case_hash(const Scene& scene);
+
 }  // namespace polybed::core

@@ -92,4 +92,6 @@ std::string text_hash(std::string_view text) {
   return fmt::format("{:016x}", hash);
 }
 
+std::string case_hash(const Scene& scene) { return text_hash(resolved_case(scene) + scene.drag_record); }
+
 }  // namespace polybed::core

@@ -25,7 +25,13 @@ constexpr double least_pore = 3;
 constexpr double pore_speed = 0.03;
 /// Below it the collision barely damps what the grid cannot resolve.
 constexpr double least_viscosity = 0.004;
-constexpr double stokes_viscosity = 1.0 / 6, stokes_speed = 1e-3;
+/// Of Stokes flow: the drag does not depend on it, and the greater it is the sooner the flow is steady.
+constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
+/// Windows after which a flow that is still changing ends, and those that most boxes took: 9 to 15, and 8 to 28 of
+/// flows with inertia, up to a Reynolds number of 40.
+constexpr double most_windows = 200, usual_stokes = 10, usual_inertia = 20;
+/// Most at a Reynolds number above 0.
+constexpr double most_viscosity = 1.0 / 6;
 
 double least_diameter(const core::Scene& scene) {
   double least = scene.species.front().diameter;
@@ -74,8 +80,8 @@ struct Units {
 Units units_of(double voidage, double reynolds, double sauter_in_cells) {
   if (reynolds == 0) return {};
   const double speed = pore_speed * voidage, viscosity = speed * sauter_in_cells / reynolds;
-  if (viscosity <= stokes_viscosity) return {viscosity, speed};
-  return {stokes_viscosity, stokes_viscosity * reynolds / sauter_in_cells};
+  if (viscosity <= most_viscosity) return {viscosity, speed};
+  return {most_viscosity, most_viscosity * reynolds / sauter_in_cells};
 }
 
 Broken reynolds_beyond_grid(const core::Scene& scene) {
@@ -101,27 +107,69 @@ Broken species_without_spheres(const core::Scene& scene) {
   return broken;
 }
 
-template <class Real>
-BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
-                 std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted) {
-  const double per_metre = cells_of(scene.resolve, point.grid) / least_diameter(scene);
-  const int edge = std::max(int(std::llround(packing.length * per_metre)), 3);
-  const double scale = edge / packing.length;  // cells per m
+/// Lengths in cells, times in steps.
+struct BoxPlan {
+  int edge = 0;
+  double scale = 0;  ///< cells per m
+  double sauter = 0;
+  Units units;
+  double window = 0;
+};
+
+BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
+  const double length = box_length(scene, point.voidage);
+  BoxPlan plan;
+  plan.edge = std::max(int(std::llround(length * cells_of(scene.resolve, point.grid) / least_diameter(scene))), 3);
+  plan.scale = plan.edge / length;
+  plan.sauter = sauter(scene, shares_of(scene, sphere_numbers(scene))) * plan.scale;
+  plan.units = units_of(point.voidage, point.reynolds, plan.sauter);
+  const double pore = std::min(1.0, pore_of(point.voidage)) * plan.sauter;
+  // By friction a pore forgets its past, or by the fluid that passes two diameters, whichever is sooner.
+  plan.window = std::max(100.0, pore * pore / (3 * plan.units.viscosity));
+  if (point.reynolds > 0)
+    plan.window = std::max(100.0, std::min(plan.window, 2 * plan.sauter * point.voidage / plan.units.speed));
+  return plan;
+}
+
+std::vector<lbm::Sphere> spheres_of(const core::Scene& scene, const SpherePacking& packing, double scale) {
   std::vector<lbm::Sphere> spheres;
   for (std::size_t n = 0; n < packing.centre.size(); ++n) {
     lbm::Point centre = packing.centre[n];
     for (double& x : centre) x *= scale;
     spheres.push_back({centre, 0.5 * scene.species[packing.species[n]].diameter * scale});
   }
-  const double mean = sauter(scene, shares_of(scene, sphere_numbers(scene))) * scale;
-  const Units units = units_of(point.voidage, point.reynolds, mean);
-  const double pore = std::min(1.0, pore_of(point.voidage)) * mean;
+  return spheres;
+}
+
+lbm::FlowSetup setup_of(const BoxPlan& box, double reynolds) {
+  return {{box.edge, box.edge, box.edge}, box.units.viscosity, reynolds > 0, lbm::Wall::interpolated};
+}
+
+template <class Real>
+double rate_of(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing) {
+  const BoxPlan box = plan_of(scene, point);
+  const lbm::FlowSetup setup = setup_of(box, point.reynolds);
+  lbm::Flow<Real> flow(setup, lbm::Spheres(spheres_of(scene, packing, box.scale), setup.box));
+  const auto begin = std::chrono::steady_clock::now();
+  double steps = 0, seconds = 0;
+  for (; seconds < 1; steps += 2) {
+    flow.advance({0, 0, 0});
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  return steps * std::pow(box.edge, 3) / seconds;
+}
+
+template <class Real>
+BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
+                 std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted) {
+  const BoxPlan box = plan_of(scene, point);
+  const Units& units = box.units;
+  const std::vector<lbm::Sphere> spheres = spheres_of(scene, packing, box.scale);
   lbm::SteadyPlan plan;
   plan.velocity = {units.speed, 0, 0};
-  plan.window = std::max(
-      {100.0, pore * pore / (3 * units.viscosity), point.reynolds > 0 ? mean * point.voidage / units.speed : 0});
-  plan.most_steps = std::llround(200 * plan.window);
-  const lbm::FlowSetup setup{{edge, edge, edge}, units.viscosity, point.reynolds > 0, lbm::Wall::interpolated};
+  plan.window = box.window;
+  plan.most_steps = std::llround(most_windows * plan.window);
+  const lbm::FlowSetup setup = setup_of(box, point.reynolds);
   lbm::Flow<Real> flow(setup, lbm::Spheres(spheres, setup.box), ranks);
   bool stopped = false;
   const auto begin = std::chrono::steady_clock::now();
@@ -133,8 +181,8 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   BoxDrag drag;
   drag.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   drag.steps = double(steady.steps);
-  drag.sites = double(edge) * edge * edge;
-  drag.cells = least_diameter(scene) * scale;
+  drag.sites = std::pow(box.edge, 3);
+  drag.cells = least_diameter(scene) * box.scale;
   drag.change = steady.change;
   drag.imbalance = steady.imbalance;
   const double speed = steady.velocity[0];
@@ -148,7 +196,7 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   for (std::size_t j = 0; j < count.size(); ++j) {
     drag.pure[j] /= count[j];
     // The pressure that drives the flow acts on the spheres as well, as buoyancy does.
-    const double diameter = scene.species[j].diameter * scale;
+    const double diameter = scene.species[j].diameter * box.scale;
     drag.net.push_back(drag.pure[j] + steady.driving[0] * diameter * diameter / (18 * units.viscosity * speed));
   }
   return drag;
@@ -173,6 +221,25 @@ std::vector<core::Rule> resolve_rules() {
 }
 
 double cells_of(const core::Resolve& resolve, int grid) { return resolve.cells_per_diameter / std::pow(1.5, grid); }
+
+BoxNeed box_need(const core::Scene& scene, const ResolvePoint& point) {
+  // Links of a lattice of 18 ways to a plane, mean over its directions: a quarter of the sum of their lengths.
+  constexpr double links_of_area = (6 + 12 * std::numbers::sqrt2) / 4;
+  constexpr double site_bytes = 4, link_bytes = 44;  // whose a site is; a link, and what it was found from
+  const BoxPlan box = plan_of(scene, point);
+  const double real = scene.resolve.precision == core::Precision::one ? sizeof(float) : sizeof(double);
+  BoxNeed need;
+  need.sites = std::pow(box.edge, 3);
+  need.steps = std::ceil((point.reynolds > 0 ? usual_inertia : usual_stokes) * box.window);
+  const double links = links_of_area * 6 * (1 - point.voidage) / box.sauter * need.sites;
+  need.bytes = std::pow(box.edge + 2, 3) * (lbm::directions * real + site_bytes) + links * link_bytes;
+  return need;
+}
+
+double measured_rate(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing) {
+  return scene.resolve.precision == core::Precision::one ? rate_of<float>(scene, point, packing)
+                                                         : rate_of<double>(scene, point, packing);
+}
 
 BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                  std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted) {

@@ -33,6 +33,13 @@ struct BoxDrag {
 /// Cells of the smallest diameter on a grid.
 [[nodiscard]] double cells_of(const core::Resolve& resolve, int grid);
 
+/// What a box will need. Steps as most boxes took that were measured, within a factor of 2; unsteady flow takes up to
+/// twenty times as many.
+struct BoxNeed {
+  double sites = 0, steps = 0, bytes = 0;
+};
+[[nodiscard]] BoxNeed box_need(const core::Scene& scene, const ResolvePoint& point);
+
 /// Called now and then with the steps taken and the relative change of the drag; returns false to stop.
 using StillWanted = std::function<bool(double steps, double change)>;
 
@@ -40,5 +47,8 @@ using StillWanted = std::function<bool(double steps, double change)>;
 /// times: `change` tells what is left. Throws core::Stopped if it is not wanted any more, core::NumericsError.
 [[nodiscard]] BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                                std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted);
+
+/// Sites a second of this machine in the box of a point, measured for about a second.
+[[nodiscard]] double measured_rate(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing);
 
 }  // namespace polybed::multiscale

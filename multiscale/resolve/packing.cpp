@@ -31,16 +31,21 @@ std::vector<double> shares_of(const core::Scene& scene, const std::vector<std::i
   return share;
 }
 
+double box_length(const core::Scene& scene, double voidage) {
+  const std::vector<std::int64_t> numbers = sphere_numbers(scene);
+  double solids = 0;
+  for (std::size_t j = 0; j < numbers.size(); ++j)
+    solids += double(numbers[j]) * closures::sphere_volume(0.5 * scene.species[j].diameter);
+  return std::cbrt(solids / (1 - voidage));
+}
+
 SpherePacking sphere_packing(const core::Scene& scene, double voidage, std::uint64_t seed) {
   core::Scene box;
   box.fluid.name = "none";
   box.species = scene.species;
   box.bed.particles = sphere_numbers(scene);
-  double solids = 0;
-  for (std::size_t j = 0; j < box.species.size(); ++j)
-    solids += double(box.bed.particles[j]) * closures::sphere_volume(0.5 * box.species[j].diameter);
   SpherePacking packing;
-  packing.length = std::cbrt(solids / (1 - voidage));
+  packing.length = box_length(scene, voidage);
   box.column.dimensions = 3;
   box.column.size = {packing.length, packing.length, packing.length};
   box.column.gravity = 0;

@@ -22,6 +22,9 @@ struct SpherePacking {
 /// Shares of the volume that these numbers make.
 [[nodiscard]] std::vector<double> shares_of(const core::Scene& scene, const std::vector<std::int64_t>& numbers);
 
+/// Edge of a cube of that voidage with these numbers of spheres, m.
+[[nodiscard]] double box_length(const core::Scene& scene, double voidage);
+
 /// A cube of that voidage with these numbers of spheres, without overlap beyond a thousandth of a radius. Throws
 /// core::StartError for spheres that do not fit. \param seed  of this packing
 [[nodiscard]] SpherePacking sphere_packing(const core::Scene& scene, double voidage, std::uint64_t seed);

@@ -18,31 +18,21 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.6g}", value); }
 
-/// Errors fall with the square of the cells.
-double extrapolated(double fine, double coarse, double ratio) { return fine + (fine - coarse) / (ratio * ratio - 1); }
-
-/// To no cell size, of one packing; on one grid its value.
-double without_cells(const std::vector<BoxDrag>& grids, std::vector<double> BoxDrag::*value, std::size_t j) {
-  const double fine = (grids[0].*value)[j];
-  return grids.size() == 1 ? fine : extrapolated(fine, (grids[1].*value)[j], grids[0].cells / grids[1].cells);
-}
-
 }  // namespace
 
 std::vector<RowValue> row_values(const std::vector<std::vector<BoxDrag>>& boxes) {
   const auto count = double(boxes.size());
   std::vector<RowValue> row(boxes[0][0].net.size());
   for (std::size_t j = 0; j < row.size(); ++j) {
-    double squares = 0, finest = 0;
+    double squares = 0, coarser = 0;
     for (const std::vector<BoxDrag>& grids : boxes) {
-      row[j].net += without_cells(grids, &BoxDrag::net, j) / count;
-      row[j].pure += without_cells(grids, &BoxDrag::pure, j) / count;
-      finest += grids[0].net[j] / count;
+      row[j].net += grids[0].net[j] / count;
+      row[j].pure += grids[0].pure[j] / count;
+      if (grids.size() > 1) coarser += grids[1].net[j] / count;
     }
-    for (const std::vector<BoxDrag>& grids : boxes)
-      squares += std::pow(without_cells(grids, &BoxDrag::net, j) - row[j].net, 2);
+    for (const std::vector<BoxDrag>& grids : boxes) squares += std::pow(grids[0].net[j] - row[j].net, 2);
     row[j].net_error = boxes.size() > 1 ? std::sqrt(squares / (count * (count - 1))) : unknown;
-    row[j].net_grid = boxes[0].size() > 1 ? row[j].net - finest : unknown;
+    row[j].net_grid = boxes[0].size() > 1 ? row[j].net - coarser : unknown;
   }
   return row;
 }

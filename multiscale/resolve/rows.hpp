@@ -10,9 +10,12 @@ namespace polybed::multiscale {
 
 /// Of one species.
 struct RowValue {
-  double net = 0, pure = 0;  ///< extrapolated to no cell size from the two finest grids, means over the packings
-  double net_error = 0;      ///< standard error over the packings; NaN of one packing
-  double net_grid = 0;       ///< what the extrapolation adds to the finest grid; NaN of one grid
+  /// On the finest grid, means over the packings. Not extrapolated: the error of these walls changes its sign before it
+  /// falls with the square of the cells, and the extrapolated value was farther from the limit (record of resolved
+  /// flow).
+  double net = 0, pure = 0;
+  double net_error = 0;  ///< standard error over the packings; NaN of one packing
+  double net_grid = 0;   ///< less the next coarser grid; NaN of one grid
 };
 
 /// \param boxes  [packing][grid]

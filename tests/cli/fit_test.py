@@ -129,6 +129,11 @@ class LawFile(Fitted):
         record = strict_json((self.folder / "run/run.json").read_text())["drag_law"]
         self.assertEqual((record["law"], record["common"], record["tilt"]), ("cello", 1.1, 0))
         self.assertEqual(len(record["hash"]), 16)
+        before = strict_json((self.folder / "run/run.json").read_text())["case_hash"]
+        self.law(law="cello", common=1.2)  # the case still names the same file
+        self.assertIn("case", self.ends(WRONG_CASE, *words, "--resume").stderr)
+        self.ends(DONE, *words, "--force")
+        self.assertNotEqual(strict_json((self.folder / "run/run.json").read_text())["case_hash"], before)
         self.law(law="cello", common=20)
         self.assertIn("law.json:1:", self.ends(WRONG_CASE, *words, "--force").stderr)
         path.unlink()
@@ -197,7 +202,10 @@ class ClosureUncertainty(Fitted):
                                1 + record["band"]["common"], delta=1e-12)
 
     def test_refusals(self):
+        both = self.ends(WRONG_CASE, "tfm", CASE, "--closure-uncertainty", "--stress-uncertainty", "-o", self.folder / "run")
+        self.assertIn("one of them at a time", both.stderr)
         for words, what in ((["--law", "stokes"], "take a law within"), (["--scan", "tfm"], "leave out --scan"),
+                            (["--stress-uncertainty"], "one of them at a time"),
                             (["--method", "all"], "one method")):
             self.assertIn(what, self.ends(WRONG_CASE, "inversion", SYSTEM_B, *words, "--closure-uncertainty").stderr)
         path = self.folder / "law.json"

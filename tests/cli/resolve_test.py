@@ -91,6 +91,18 @@ class Resolve(Scratch):
             self.assertIn(said, self.resolve(*sets, code=WRONG_CASE).stderr)
         self.assertFalse(self.out.exists())
 
+    def test_estimate_runs_nothing(self):
+        told = strict_json(self.resolve("--estimate", "--json").stdout)
+        self.assertFalse(self.out.exists())
+        self.assertEqual([(p["eps"], p["Re"]) for p in told["points"]], [(0.6, 0), (0.6, 5)])
+        self.assertAlmostEqual(sum(p["time_s"] for p in told["points"]), told["time_s"], delta=1e-9 * told["time_s"])
+        # 25 sites an edge and one layer round them, 80 bytes each, and what the links take, less than as much again.
+        sites = 27**3 * 80
+        self.assertTrue(sites < told["memory_bytes"] < 2 * sites, told["memory_bytes"])
+        more = strict_json(self.resolve("--estimate", "--json", "--set", "resolve.packings=4").stdout)
+        part = lambda found: found["time_s"] * found["sites_per_second"]
+        self.assertAlmostEqual(part(more) / part(told), 2, delta=1e-9)
+
     def test_json_names_the_table(self):
         answer = strict_json(self.resolve("--json", "--set", "resolve.reynolds=[0]", "--set", "resolve.packings=1").stdout)
         self.assertEqual(answer["table"], (self.out / "rows.csv").read_text())

@@ -68,9 +68,19 @@ def band_of_draws(problem, drawn):
     return float(np.nanmax(np.nanstd(logs[:, problem.known], axis=0)))
 
 
-def law_file(form, constants, band=None, about=None):
-    law = {"filetype": "polybed drag law", "version": 1, "form": form, "constants": constants}
-    return law | ({"band": band, "fit": about} if band else {})
+def law_file(form, constants, **members):
+    return {"filetype": "polybed drag law", "version": 1, "form": form, "constants": constants} | members
+
+
+def partition_bands(points, law):
+    """The band of the law with each partition, on points with more than one size; empty without any."""
+    mixtures = [p for p in points if len(p.net) > 1]
+    roles = {role["role"]: [one["law"] for one in role["laws"]] for role in json.loads(call("list", "--json"))["roles"]}
+    one_size = errors.band_of(points, errors.net_by_program(points, law))["one_size"]
+    bands = {}
+    for partition in roles["partition"] if mixtures else ():
+        bands[partition] = errors.band_of(mixtures, errors.net_by_program(mixtures, law, partition)) | {"one_size": one_size}
+    return bands
 
 
 def by_source(points, arrays):
@@ -114,7 +124,8 @@ def fit(given, folder):
               "published": problem.published, "interval": interval_of(problem, drawn), "errors": summaries, "band": band,
               "from_constants": band_of_draws(problem, drawn), "guard_answers_by": float(off),
               "constraints": {"greatest_violation": broken, "sum_rule": sum_rule(points, nets, given.form)}}
-    write_law(folder / "law.json", law_file(given.form, constants, band, about))
+    bands = partition_bands(points, f"file:{folder / 'law.json'}")
+    write_law(folder / "law.json", law_file(given.form, constants, band=band, partition_bands=bands, fit=about))
     (folder / "accuracy.md").write_text(page(record), encoding="utf-8")
     write_errors(folder / "errors.csv", points, arrays)
     return record

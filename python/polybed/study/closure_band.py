@@ -38,9 +38,10 @@ def band_of(law, partition):
     content = content_of(law)
     path, name = file_of(law), content.get("law")
     if path and not name:
-        band = content.get("band")
-        if not band or partition != "none":
-            raise StudyError(FILE, f"{path} has no band{' with a partition' if band else ''}: polybed fit writes one of the law alone")
+        band = content.get("band") if partition == "none" else content.get("partition_bands", {}).get(partition)
+        if not band:
+            beside = "" if partition == "none" else f" with the partition {partition}: polybed fit writes it where its rows have mixtures"
+            raise StudyError(FILE, f"{path} has no band{beside}")
         return band
     try:
         return json.loads(BANDS.read_text(encoding="utf-8"))["bands"][name][partition]

@@ -81,11 +81,14 @@ TEST(Flow, ForcesBalanceThePressureGradient) {
   }
 }
 
-TEST(Flow, HalfWayDragDoesNotDependOnViscosity) {
-  const std::vector<Sphere> spheres = cubic_array(Cubic::simple, 0.3, 10);
-  const double one = flow_through(spheres, {{10, 10, 10}, 0.1, false, Wall::half_way}, {1e-3, 0, 0}, 1e-8).net;
-  const double two = flow_through(spheres, {{10, 10, 10}, 0.8, false, Wall::half_way}, {1e-3, 0, 0}, 1e-8).net;
-  EXPECT_NEAR(one, two, 1e-5 * one);
+// Narrow gaps between the spheres are what a wall whose place depends on the viscosity gets most wrong.
+TEST(Flow, DragDoesNotDependOnViscosity) {
+  const std::vector<Sphere> spheres = cubic_array(Cubic::simple, 0.5, 10);
+  for (const Wall wall : {Wall::half_way, Wall::interpolated}) {
+    const double one = flow_through(spheres, {{10, 10, 10}, 0.1, false, wall}, {1e-3, 0, 0}, 1e-8).net;
+    const double two = flow_through(spheres, {{10, 10, 10}, 0.8, false, wall}, {1e-3, 0, 0}, 1e-8).net;
+    EXPECT_NEAR(one, two, 1e-4 * one);  // what is left of the start, 1e-5
+  }
 }
 
 TEST(Flow, SinglePrecisionAgrees) {

@@ -82,13 +82,12 @@ TEST(Resolve, NetForcesMakeTheSumRule) {
   EXPECT_GT(drag.net[1], drag.net[0]);
 }
 
-TEST(Resolve, RowsExtrapolateAndAverage) {
-  // n = 10 + 36/cells^2 of one packing, 12 + 36/cells^2 of the other.
-  const std::vector<std::vector<BoxDrag>> boxes{{box(12, {10.25}), box(6, {11})}, {box(12, {12.25}), box(6, {13})}};
+TEST(Resolve, RowsAverageTheFinestGrid) {
+  const std::vector<std::vector<BoxDrag>> boxes{{box(12, {10.25}), box(6, {11})}, {box(12, {12.25}), box(6, {13.5})}};
   const std::vector<RowValue> row = row_values(boxes);
-  EXPECT_NEAR(row[0].net, 11, 1e-12);
+  EXPECT_NEAR(row[0].net, 11.25, 1e-12);
   EXPECT_NEAR(row[0].net_error, 1, 1e-12);
-  EXPECT_NEAR(row[0].net_grid, -0.25, 1e-12);
+  EXPECT_NEAR(row[0].net_grid, -1, 1e-12);
 }
 
 TEST(Resolve, BoxesSurviveTheirFile) {
