@@ -128,6 +128,7 @@ class TfmRun final : public CaseRun {
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     evenness_ = tfm::warning_of_an_even_bed(model_.constants().grid, model_.fields());
     std::vector<std::string> warnings = evenness_;
+    if (std::string line = called_for_line(left_out_); !line.empty()) warnings.push_back(std::move(line));
     if (monitor_) warnings.insert(warnings.end(), monitor_->warnings().begin(), monitor_->warnings().end());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
                             promise ? &*promise : nullptr, std::move(warnings), [&](core::Json& json) {

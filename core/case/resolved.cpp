@@ -70,6 +70,7 @@ std::string resolved_case(const Scene& scene) {
                                 "run", "output", "tfm", "dem", "inversion", "calibrate", "resolve", "contact_pair"}) {
     if (name == "effects") {
       out += "\n[effects]\n";
+      out += fmt::format("{} = \"none\"\n", other_roles);
       for (const auto& [role, law] : scene.effects) out += fmt::format("{} = \"{}\"\n", role, law);
       continue;
     }
