@@ -31,6 +31,7 @@ with needed(__name__ == "__main__"):
     from polybed.study.time_mean import time_mean
 
 RAMP_SHARE = 0.02  # of a run, in which the velocity goes from that of the run before to its own: far from the window, the last quarter
+SURFACES = ("hamaker_constant", "cohesion_gap", "asperity_radius")  # keys that a choice of cohesion sets
 DIGITS = 10  # of a hash in the name of a folder
 
 
@@ -122,6 +123,15 @@ def interface_of(found, species, window):
     return interface / height if interface is not None and height else None
 
 
+def choice_of(keys):
+    """What was chosen for a case that leaves effects to the program, as overrides: every run of a scan has the same, though the choice
+    follows from the velocity. keys: of the resolved case"""
+    laws, chosen = keys["effects"], keys.get("chooser", {}).get("chosen", [])
+    surfaces = SURFACES if "cohesion" in chosen and "cohesion" in laws else ()  # what cohesion was weighed with
+    return ([f'effects.{role}="{laws.get(role, "none")}"' for role in chosen]
+            + [f"dem.{key}={keys['dem'][key]!r}" for key in surfaces if key in keys["dem"]])
+
+
 def scan_of(request, table, model):
     """The scan by a model; with the stress uncertainty those of the two-fluid model again, its table moved both ways."""
     digest = hash_of(Path(table).read_bytes()) if table else ""
@@ -147,6 +157,7 @@ def make(request):
     directory = Path(request["directory"])
     case = Case(request["case"], request["overrides"], request["until"])
     request["until_s"] = case.keys["run"]["until"]
+    request["overrides"] = [*request["overrides"], *choice_of(case.keys)]
     with taken(directory):
         if speaks(request):
             say(report.head())

@@ -8,12 +8,22 @@ import unittest
 sys.path.insert(0, sys.argv.pop(1))
 
 from polybed.study import inversion_report as report  # noqa: E402
+from polybed.study.inversion import choice_of  # noqa: E402
 from polybed.study.inversion_search import WIDTH, Found, Mean, Step, search  # noqa: E402
 
 
 def answers(g, error):
     """Runs that answer with a function of the velocity, each with the same interval."""
     return lambda velocity, source: Mean(g(velocity), error)
+
+
+class Choice(unittest.TestCase):
+    def test_every_run_has_the_effects_that_were_chosen_for_the_case(self):
+        keys = {"effects": {"others": "none", "drag": "cello", "cohesion": "van_der_waals"},
+                "dem": {"hamaker_constant": 1e-19, "friction": 0.3}, "chooser": {"chosen": ["cohesion", "lift"]}}
+        self.assertEqual(choice_of(keys), ['effects.cohesion="van_der_waals"', 'effects.lift="none"', "dem.hamaker_constant=1e-19"])
+        self.assertEqual(choice_of(keys | {"chooser": {"chosen": ["lift"]}}), ['effects.lift="none"'])
+        self.assertEqual(choice_of({"effects": {"drag": "cello"}, "dem": {}}), [])
 
 
 class Search(unittest.TestCase):
