@@ -32,6 +32,8 @@ CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::
     expected_ = bed_of_case(scene_);
   });
   for (const std::string& line : scene_warnings(scene_)) say({"warning: " + line});
+  if (const std::string line = chosen_line(scene_); !line.empty()) say({line});
+  if (const std::string line = called_for_line(left_out_); !line.empty()) say({"warning: " + line});
 }
 
 void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& resume,

@@ -94,6 +94,8 @@ class CaseRun {
   [[nodiscard]] std::optional<Neglected> promise_of(const Monitor* monitor);
   /// What the run leaves out by its case, and of a monitor the table of bounds against what was seen.
   void print_promise() const;
+  /// Prints lines on standard error, on the first rank, unless the run is quiet.
+  void say(const std::vector<std::string>& lines) const;
   /// Time by the clock since this process took up the run, s.
   [[nodiscard]] double wall_seconds() const;
 
@@ -109,7 +111,6 @@ class CaseRun {
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
 
  private:
-  void say(const std::vector<std::string>& lines) const;
   std::optional<Neglected> promise_;
   std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
   [[nodiscard]] TimeBand prediction_of(double end) const;

@@ -244,6 +244,14 @@ void add_left_out(const core::Scene& scene, const std::string& model, std::vecto
   lines.push_back(card_line("left out", model + ": " + left_out_text(left_out(scene, model))));
 }
 
+/// What was chosen for the case, and what it has off but needs, by each model that runs it.
+void note_choice(const core::Scene& scene, const std::vector<std::string>& models, std::vector<std::string>& notes) {
+  if (std::string line = chosen_line(scene); !line.empty()) notes.push_back(std::move(line));
+  for (const std::string& model : models)
+    if (const std::string line = called_for_line(left_out(scene, model)); !line.empty())
+      notes.push_back(model + ": " + line);
+}
+
 /// A case that only the particle model runs: what it will need there, and what keeps it from the continuum.
 void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons,
                           const RunOptions& options) {
@@ -251,6 +259,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   std::vector<std::string> notes = need.warnings();
   notes.insert(notes.end(), reasons.begin(), reasons.end());
   for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
+  note_choice(scene, {"dem"}, notes);
   if (options.json) {
     const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text}, {"hash", core::case_hash(scene)}};
@@ -321,6 +330,8 @@ void run_check(const RunOptions& options) {
   if (particles)
     for (const std::string& warning : particles->warnings()) derived.notes.push_back(warning);
   derived.notes.insert(derived.notes.end(), hindrances.begin(), hindrances.end());
+  note_choice(scene, particles ? std::vector<std::string>{"tfm", "dem"} : std::vector<std::string>{"tfm"},
+              derived.notes);
   if (options.json) {
     const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text},

@@ -139,6 +139,7 @@ class DemRun final : public CaseRun {
     core::Json& warnings = json["warnings"] = exceeded_lines(watched);
     for (const std::string& line : warnings_before()) warnings.push_back(line);
     for (const std::string& line : scene_warnings(scene_)) warnings.push_back(line);
+    if (const std::string line = called_for_line(left_out_); !line.empty()) warnings.push_back(line);
     if (monitor_)
       for (const std::string& line : monitor_->warnings()) warnings.push_back(line);
     return core::json_text(json);

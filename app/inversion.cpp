@@ -1,4 +1,6 @@
 // polybed inversion: the inversion point of a binary case, with the bands of its inputs.
+#include <fmt/format.h>
+
 #include "core/print.hpp"
 #include "multiscale/inversion/models.hpp"
 
@@ -7,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/closure_uncertainty.hpp"
+#include "app/inversion_beside.hpp"
 #include "app/options.hpp"
 #include "core/case/file.hpp"
 #include "core/output/json.hpp"
@@ -65,7 +68,7 @@ core::Json json_of(const std::vector<InversionPoint>& points) {
 }
 
 void print_json(const core::Scene& scene, const std::string& method, const std::vector<InversionPoint>& points,
-                const std::vector<Band>& band) {
+                const std::vector<Band>& band, const InversionBeside& beside) {
   core::Json json = {
       {"law", core::law_of(scene, "drag")},
       {"partition", name_or_null(scene.effects.contains("partition") ? core::law_of(scene, "partition") : "")},
@@ -76,6 +79,7 @@ void print_json(const core::Scene& scene, const std::string& method, const std::
   json["method"] = method;
   core::Json& bands = json["bands"] = core::Json::array();
   for (const Band& b : band) bands.push_back({{"input", b.input}, {"low_m_s", b.low}, {"high_m_s", b.high}});
+  json.update(json_of(beside));
   core::print("{}\n", core::json_text(json));
 }
 
@@ -146,6 +150,40 @@ void print_deviation(const BinaryBed& bed, const closures::DragLaw& law, const I
     core::print("  drag of all species together: {:+.2f} % of the mean law\n", 100 * deviation);
 }
 
+/// Over the share of the second species, T fig. 5-VIII: the point by a method, and the mixed interval.
+void print_composition(const core::Scene& scene, const closures::DragLaw& law, const InversionOptions& options) {
+  constexpr int parts = 20;  // of the way from one species alone to the other, neither of which has a point
+  core::Json rows = core::Json::array();
+  core::Scene varied = scene;
+  varied.bed.particles.clear();
+  if (!options.json) core::print("{:>6} {:>8} {:>8} {:>17}\n", "share", "mm/s", "voidage", "mixed, mm/s");
+  for (int n = 1; n < parts; ++n) {
+    const double share = double(n) / parts;
+    varied.bed.volume_share = {1 - share, share};
+    const auto points = inversion_points(binary_bed(varied), law, options.method);
+    const auto mixed = inversion_beside(varied, law, false).mixed;
+    if (options.json) {
+      core::Json row = {
+          {"share", share}, {"velocity_m_s", nullptr}, {"voidage", nullptr}, {"mixed_interval_m_s", nullptr}};
+      if (!points.empty()) row.update(json_of(points).back());
+      if (mixed) row["mixed_interval_m_s"] = {(*mixed)[0].velocity, (*mixed)[1].velocity};
+      rows.push_back(row);
+      continue;
+    }
+    const std::string point = points.empty()
+                                  ? fmt::format("{:>8} {:>8}", "-", "-")
+                                  : fmt::format("{:8.2f} {:8.4f}", 1e3 * points.back().velocity, points.back().voidage);
+    const std::string interval =
+        mixed ? fmt::format("{:.2f} to {:.2f}", 1e3 * (*mixed)[0].velocity, 1e3 * (*mixed)[1].velocity) : "-";
+    core::print("{:6.2f} {} {:>17}\n", share, point, interval);
+  }
+  if (options.json)
+    core::print("{}\n", core::json_text({{"law", core::law_of(scene, "drag")},
+                                         {"method", options.method},
+                                         {"species", scene.species[1].name},
+                                         {"composition", rows}}));
+}
+
 void run_without_a_run(const InversionOptions& options) {
   const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
   if (options.method == "all") {
@@ -156,16 +194,19 @@ void run_without_a_run(const InversionOptions& options) {
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
   const closures::DragLaw law = relevance::drag_law_of(scene);
   const std::string name = relevance::drag_name_of(scene);
+  if (options.composition) return print_composition(scene, law, options);
   const auto points = inversion_points(binary_bed(scene), law, options.method);
   const std::vector<Band> band =
       points.empty() ? std::vector<Band>{} : bands(scene, law, options.method, points.back().voidage);
-  if (options.json) return print_json(scene, options.method, points, band);
+  const InversionBeside beside = inversion_beside(scene, law, options.seen);
+  if (options.json) return print_json(scene, options.method, points, band, beside);
   if (points.empty()) core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, name);
   for (const InversionPoint& p : points)
     core::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
                 name);
   if (law.partition && !points.empty()) print_deviation(binary_bed(scene), law, points.back());
   for (const Band& b : band) core::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
+  core::print("{}", lines_of(beside));
 }
 
 }  // namespace
@@ -175,6 +216,12 @@ void run_inversion(const InversionOptions& options) {
   if (!options.temperature.empty()) chosen.overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
   if (!options.law.empty()) chosen.overrides.push_back("effects.drag=\"" + options.law + "\"");
   if (!options.partition.empty()) chosen.overrides.push_back("effects.partition=\"" + options.partition + "\"");
+  if (options.composition &&
+      (options.method == "all" || options.seen || options.closure_uncertainty || !options.scan.empty()))
+    throw core::CaseError(
+        "--composition is of one method: leave out --method all, --seen, --scan and --closure-uncertainty");
+  if (options.seen && (options.closure_uncertainty || options.method == "all"))
+    throw core::CaseError("--seen is of the force balance: leave out --closure-uncertainty and --method all");
   if (options.closure_uncertainty) {
     if (!options.scan.empty()) throw core::CaseError("--closure-uncertainty is of the force balance: leave out --scan");
     if (options.stress_uncertainty)

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/inversion_beside.hpp"
 #include "app/run_directory.hpp"
 #include "app/stress_uncertainty.hpp"
 #include "app/study_request.hpp"
@@ -58,13 +59,14 @@ void refuse_what_a_model_cannot_run(const InversionOptions& options, const core:
 
 /// The request to the study, as JSON.
 std::string request_of(const InversionOptions& options, const ScanRange& range,
-                       const std::optional<InversionPoint>& balance) {
+                       const std::optional<InversionPoint>& balance, const core::Json& beside) {
   core::Json json = common_request(options, "inversion");
   json["scan"] = options.scan;
   json["from_m_s"] = range.low;
   json["to_m_s"] = range.high;
   json["force_balance"] = nullptr;
   if (balance) json["force_balance"] = {{"velocity_m_s", balance->velocity}, {"voidage", balance->voidage}};
+  json["beside"] = beside;
   return core::json_text(json);
 }
 
@@ -74,7 +76,9 @@ void run_inversion_scan(const InversionOptions& options) {
   const core::Scene scene = read_scene(options);
   const std::optional<InversionPoint> balance = force_balance(scene);
   refuse_what_a_model_cannot_run(options, scene);
-  become_python("polybed.study.inversion", {request_of(options, range_of(options, balance), balance)});
+  core::Json beside;
+  if (balance) beside = json_of(inversion_beside(scene, relevance::drag_law_of(scene), options.seen));
+  become_python("polybed.study.inversion", {request_of(options, range_of(options, balance), balance, beside)});
 }
 
 }  // namespace polybed::app

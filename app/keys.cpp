@@ -88,7 +88,9 @@ void print_markdown() {
                   key.equation.empty() ? "" : fmt::format("; `{}`", key.equation));
   }
   core::print(
-      "\n## `[effects]`\n\nrole = law; a role left out is off.\n\n| role | acts in | laws |\n| --- | --- | "
+      "\n## `[effects]`\n\nrole = law; `none`: off; `auto`: chosen by `polybed effects`. `others = \"auto\"` (the "
+      "default) or `\"none\"` says what becomes of roles that a case does not name.\n\n| role | acts in | laws |\n| "
+      "--- | --- | "
       "--- |\n");
   for (const core::Role& role : all_roles()) {
     std::string laws;

@@ -73,8 +73,10 @@ struct DragOptions {
 /// Options of the inversion point; those of a run are for the runs of a scan.
 struct InversionOptions : RunOptions {
   std::string law, partition, temperature, method = "force_balance";
-  std::string scan;      ///< tfm | dem | both; empty: without a run
-  std::string from, to;  ///< velocities to begin the scan at; empty: about the force balance
+  std::string scan;          ///< tfm | dem | both; empty: without a run
+  bool seen = false;         ///< also with what particles see
+  bool composition = false;  ///< a table over the share of the second species
+  std::string from, to;      ///< velocities to begin the scan at; empty: about the force balance
 };
 
 struct MoveOptions {

@@ -36,6 +36,7 @@ core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
 std::string physics_hash(core::Scene scene) {
   scene.run.until = 1;
   scene.output = {};
+  scene.inversion = {};
   return core::case_hash(scene);
 }
 

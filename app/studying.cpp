@@ -31,6 +31,9 @@ void add_inversion(CLI::App& app, Commands& commands) {
                      "what shares it among the species in place of the case's; none");
   command.add_option("--temperature", options->temperature, "in place of the case's, e.g. \"20 degC\"");
   command.add_option("--method", options->method, "force_balance | bulk_density | expansion | density_maximum | all");
+  command.add_flag("--composition", options->composition, "a table over the share of the second species");
+  command.add_flag("--seen", options->seen,
+                   "the force balance also with the averages that particles see, dem.own_share = kept");
   command.add_option("--scan", options->scan, "by runs instead: tfm | dem | both")
       ->check(CLI::IsMember({"tfm", "dem", "both"}));
   command.add_option("--from", options->from, "lowest velocity of the first bracket, e.g. \"30 mm/s\"");

@@ -20,6 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of the superficial velocity of the inlet, m/s.
+double greatest_inlet(const core::Scene& scene) {
+  double greatest = 0;
+  for (const auto& [time, velocity] : scene.inlet.superficial_velocity) greatest = std::max(greatest, velocity);
+  return greatest;
+}
+
 class TfmRun final : public CaseRun {
  public:
   TfmRun(const RunOptions& options, core::Scene scene, fs::path directory, std::shared_ptr<const core::Ranks> ranks)
@@ -66,15 +73,18 @@ class TfmRun final : public CaseRun {
   void keep_last_state() override { model_.keep_last_state(); }
 
   std::vector<core::Observer> observers() override {
-    return {{"history", *scene_.output.history_every,
-             [&](double t) {
-               observers_->write_history(t);
-               judge(observers_->invariants().worst());
-             }},
-            {"fields", *scene_.output.every, [&](double t) {
-               const auto scope = timers_.scope("output");
-               observers_->write_fields(t);
-             }}};
+    return {
+        {"history", *scene_.output.history_every,
+         [&](double t) {
+           observers_->write_history(t);
+           if (even_)
+             say(even_->look(t, observers_->bed_height().value_or(HUGE_VAL), model_.constants().grid, model_.fields()));
+           judge(observers_->invariants().worst());
+         }},
+        {"fields", *scene_.output.every, [&](double t) {
+           const auto scope = timers_.scope("output");
+           observers_->write_fields(t);
+         }}};
   }
 
   bool after_step() override {
@@ -118,6 +128,7 @@ class TfmRun final : public CaseRun {
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     evenness_ = tfm::warning_of_an_even_bed(model_.constants().grid, model_.fields());
     std::vector<std::string> warnings = evenness_;
+    if (std::string line = called_for_line(left_out_); !line.empty()) warnings.push_back(std::move(line));
     if (monitor_) warnings.insert(warnings.end(), monitor_->warnings().begin(), monitor_->warnings().end());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
                             promise ? &*promise : nullptr, std::move(warnings), [&](core::Json& json) {
@@ -178,6 +189,7 @@ class TfmRun final : public CaseRun {
   }
 
   tfm::Model model_;
+  std::optional<tfm::EvennessWatch> even_ = tfm::EvennessWatch::of(model_.constants().grid, greatest_inlet(scene_));
   std::vector<std::string> evenness_;                              ///< warning of the last record
   std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: nothing is watched
   std::vector<double> initial_mass_;

@@ -162,7 +162,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
 }
 
 core::Scene read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return core::read_case(path, overrides, all_roles(), size_classes, scene_rules());
+  return core::read_case(path, overrides, all_roles(), size_classes, scene_rules(), core::OtherRoles::chosen);
 }
 
 }  // namespace polybed::multiscale

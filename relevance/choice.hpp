@@ -23,7 +23,8 @@ struct DecisionRule {
 ///   R > tolerance is on; of the remaining forces the largest goes on while their sum exceeds the tolerance.
 void decide(std::vector<EffectRow>& rows, const DecisionRule& rule);
 
-/// Sum of what is left out of the forces on particles, bands apart; what is called for and not built counts.
+/// Sum of what is left out, as a share of the weight: of forces on particles their bounds, bands apart; of drag, stress
+/// and exchange the part that is missing. What is called for and not built counts.
 [[nodiscard]] double neglected_sum(const std::vector<EffectRow>& rows);
 
 /// The same on the scales that a run may reach, within the ranges of the laws: no less.

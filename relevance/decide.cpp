@@ -62,8 +62,13 @@ std::optional<double> bound_of(const EffectRow& row, bool always, bool transient
   return known ? row.value : std::nullopt;
 }
 
+/// What leaving a row out adds to the sum: of a force its bound; else what is missing of drag or weight.
+double counted(const EffectRow& row, const std::optional<double>& bound) {
+  return row.summed ? bound.value_or(0) : row.share_off.value_or(0);
+}
+
 /// Whether leaving a row out counts in the sum.
-bool counts(const EffectRow& row) { return row.summed && row.state == State::off && row.neglected.value_or(0) > 0; }
+bool counts(const EffectRow& row) { return row.state == State::off && counted(row, row.neglected) > 0; }
 
 /// A row as the case has it.
 void take_from_case(EffectRow& row, bool on, bool transient) {
@@ -78,14 +83,17 @@ void take_from_case(EffectRow& row, bool on, bool transient) {
 
 void limit_sum(std::vector<EffectRow>& rows, const DecisionRule& rule) {
   for (;;) {
-    double sum = 0;
+    double sum = 0, held = 0;
     EffectRow* largest = nullptr;
     for (EffectRow& row : rows) {
       if (!counts(row)) continue;
-      sum += *row.neglected;
+      const double share = counted(row, row.neglected);
       const bool free = !rule.off.contains(row.effect) && row.not_built.empty();
-      if (free && (largest == nullptr || *row.neglected > *largest->neglected)) largest = &row;
+      (free ? sum : held) += share;
+      if (free && (largest == nullptr || share > counted(*largest, largest->neglected))) largest = &row;
     }
+    // Where the case itself leaves out too much, no other effect makes up for it.
+    if (held <= rule.tolerance) sum += held;
     if (sum <= rule.tolerance || largest == nullptr) return;
     largest->state = State::on;
     largest->neglected.reset();
@@ -123,7 +131,7 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule) {
 double neglected_sum(const std::vector<EffectRow>& rows) {
   double sum = 0;
   for (const EffectRow& row : rows)
-    if (row.summed && (row.state == State::off || !row.not_built.empty())) sum += row.neglected.value_or(0);
+    if (row.state == State::off || !row.not_built.empty()) sum += counted(row, row.neglected);
   return sum;
 }
 
@@ -135,22 +143,22 @@ bool is_left_out(const EffectRow& row, const std::string& model) {
 double neglected_sum(const std::vector<EffectRow>& rows, const std::string& model) {
   double sum = 0;
   for (const EffectRow& row : rows)
-    if (row.summed && is_left_out(row, model)) sum += row.bound.value_or(0);
+    if (is_left_out(row, model)) sum += counted(row, row.bound);
   return sum;
 }
 
 double neglected_up_to(const std::vector<EffectRow>& rows, const std::string& model) {
   double sum = 0;
   for (const EffectRow& row : rows)
-    if (row.summed && is_left_out(row, model)) sum += std::max(row.bound.value_or(0), row.up_to.value_or(0));
+    if (is_left_out(row, model)) sum += std::max(counted(row, row.bound), row.summed ? row.up_to.value_or(0) : 0);
   return sum;
 }
 
 double neglected_up_to(const std::vector<EffectRow>& rows) {
   double sum = 0;
   for (const EffectRow& row : rows)
-    if (row.summed && (row.state == State::off || !row.not_built.empty()))
-      sum += std::max(row.neglected.value_or(0), row.up_to.value_or(0));
+    if (row.state == State::off || !row.not_built.empty())
+      sum += std::max(counted(row, row.neglected), row.summed ? row.up_to.value_or(0) : 0);
   return sum;
 }
 

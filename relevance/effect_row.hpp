@@ -37,6 +37,7 @@ struct EffectRow {
   State state = State::off;
   Kind kind = Kind::role;
   bool summed = false;              ///< a force on particles that counts in what is left out
+  std::optional<double> share_off;  ///< of what is no force: part of drag or weight that is missing where it is off
   bool on_particles = false;        ///< acts on particles: a model that has no law of it leaves it out
   bool of_acceleration = false;     ///< vanishes in the mean of what is steady
   bool is_force = false;            ///< of what is not modelled: its value is a share of the weight

@@ -34,4 +34,16 @@ std::vector<std::string> warning_of_an_even_bed(const core::Grid& grid, const Fi
       difference)};
 }
 
+std::optional<EvennessWatch> EvennessWatch::of(const core::Grid& grid, double velocity) {
+  if (grid.column_cells(0) * grid.column_cells(2) == 1 || !(velocity > 0)) return std::nullopt;
+  return EvennessWatch(velocity);
+}
+
+std::vector<std::string> EvennessWatch::look(double time, double bed_height, const core::Grid& grid,
+                                             const Fields& fields) {
+  if (looked_ || time * velocity_ < bed_height) return {};
+  looked_ = true;
+  return warning_of_an_even_bed(grid, fields);
+}
+
 }  // namespace polybed::tfm

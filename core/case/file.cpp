@@ -20,8 +20,9 @@ namespace {
 /// One reading of a case: the scene as it grows, and the problems found so far.
 class CaseReader {
  public:
-  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules)
-      : name_(std::move(name)), roles_(roles), classes_(classes), rules_(rules), values_(name_) {}
+  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules,
+             OtherRoles others)
+      : name_(std::move(name)), roles_(roles), classes_(classes), rules_(rules), others_(others), values_(name_) {}
 
   void read(toml::table& root, std::span<const std::string> overrides);
   Scene finish();
@@ -31,6 +32,8 @@ class CaseReader {
   void read_entry(std::string_view table, const toml::key& name, const toml::node& node);
   void spell_out_effects(toml::table& root) const;
   void read_effects(const toml::node& node);
+  void read_others(const toml::node& value);
+  void leave_others_to_chooser();
   void read_key(const Key& key, std::size_t index, const toml::node& node);
   void check_amount();
   void check_fluid();
@@ -44,6 +47,7 @@ class CaseReader {
   std::span<const Role> roles_;
   const ClassRule& classes_;
   std::span<const Rule> rules_;
+  OtherRoles others_;
   CaseValues values_;
   Scene scene_;
   std::map<std::string, toml::source_region> given_;  ///< the keys that the case sets, by path, and where
@@ -157,6 +161,10 @@ void CaseReader::read_effects(const toml::node& node) {
     return;
   }
   for (const auto& [name, value] : *table) {
+    if (name.str() == other_roles) {
+      read_others(value);
+      continue;
+    }
     given_.emplace(fmt::format("effects.{}", name.str()), name.source());
     const auto role = std::find_if(roles_.begin(), roles_.end(), [&](const Role& r) { return r.name == name.str(); });
     if (role == roles_.end()) {
@@ -176,6 +184,22 @@ void CaseReader::read_effects(const toml::node& node) {
     }
     if (*law != "none") scene_.effects[role->name] = *law;
   }
+}
+
+void CaseReader::read_others(const toml::node& value) {
+  const auto word = value.value_exact<std::string>();
+  if (word != automatic && word != "none")
+    values_.add(value.source(),
+                fmt::format("effects.{} = {}: allowed are auto | none: what becomes of the roles that the case does "
+                            "not name",
+                            other_roles, shown(value)));
+  others_ = word == "none" ? OtherRoles::off : OtherRoles::chosen;
+}
+
+void CaseReader::leave_others_to_chooser() {
+  if (others_ == OtherRoles::off) return;
+  for (const Role& role : roles_)
+    if (!given_.contains("effects." + role.name)) scene_.effects.emplace(role.name, automatic);
 }
 
 void CaseReader::read_entry(std::string_view table, const toml::key& name, const toml::node& node) {
@@ -206,6 +230,7 @@ void CaseReader::read(toml::table& root, std::span<const std::string> overrides)
     else
       read_entry(name.str(), name, node);
   }
+  leave_others_to_chooser();
   for (std::string_view table : {"column", "fluid", "species", "bed", "run"})
     if (!root.contains(table)) wrong_table(table, {}, fmt::format("{} is missing", header(*find_table(table))));
 }
@@ -287,7 +312,8 @@ Scene CaseReader::finish() {
 }  // namespace
 
 Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                 std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules) {
+                 std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules,
+                 OtherRoles others) {
   if (const auto problem = too_deep(text, name)) throw CaseError(std::vector{*problem});
   toml::table root;
   try {
@@ -298,17 +324,17 @@ Scene parse_case(std::string_view text, const std::string& name, std::span<const
     problem.push_back({name, int(at.line), int(at.column), std::string(error.description())});
     throw CaseError(problem);
   }
-  CaseReader reader(name, roles, classes, rules);
+  CaseReader reader(name, roles, classes, rules, others);
   reader.read(root, overrides);
   return reader.finish();
 }
 
 Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides, std::span<const Role> roles,
-                const ClassRule& classes, std::span<const Rule> rules) {
+                const ClassRule& classes, std::span<const Rule> rules, OtherRoles others) {
   constexpr std::size_t largest = 10'000'000;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw FileError(path.string() + " is a folder: name its case.toml");
-  return parse_case(read_text(path, largest), path.string(), overrides, roles, classes, rules);
+  return parse_case(read_text(path, largest), path.string(), overrides, roles, classes, rules, others);
 }
 
 }  // namespace polybed::core

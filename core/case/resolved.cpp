@@ -67,15 +67,16 @@ std::string resolved_case(const Scene& scene) {
   const Scene untouched;
   std::string out;
   for (std::string_view name : {"", "column", "fluid", "species", "bed", "inlet", "jet", "feed", "effects", "chooser",
-                                "run", "output", "tfm", "dem", "calibrate", "resolve", "contact_pair"}) {
+                                "run", "output", "tfm", "dem", "inversion", "calibrate", "resolve", "contact_pair"}) {
     if (name == "effects") {
       out += "\n[effects]\n";
+      out += fmt::format("{} = \"none\"\n", other_roles);
       for (const auto& [role, law] : scene.effects) out += fmt::format("{} = \"{}\"\n", role, law);
       continue;
     }
     const Table& table = *find_table(name);
     // What is left alone of these has no line.
-    const bool may_be_absent = name == "chooser" || name == "calibrate" || name == "resolve";
+    const bool may_be_absent = name == "chooser" || name == "inversion" || name == "calibrate" || name == "resolve";
     for (std::size_t n = 0; n < table.count(scene); ++n) {
       const std::string text = entries(scene, table, n);
       if (may_be_absent && text == entries(untouched, table, n)) continue;

@@ -87,6 +87,16 @@ Rule is_a_range(const std::string& key, std::vector<double> Chooser::*range) {
       }};
 }
 
+/// One of them, or two from the least to the greatest.
+Rule is_a_bracket(const std::string& key, std::vector<double> Inversion::*bracket) {
+  return {{"inversion." + key},
+          "inversion." + key + ": one value, or two, the least and the greatest",
+          [bracket](const Scene& scene) {
+            const std::vector<double>& values = scene.inversion.*bracket;
+            return broken_if(values.size() > 2 || (values.size() == 2 && values[0] > values[1]));
+          }};
+}
+
 std::vector<Rule> of_the_fluid() {
   return {{{"inlet.superficial_velocity", "fluid.name", "column.closed", "dem.shear_rate"},
            "inlet.superficial_velocity is missing (or set column.closed = true)",
@@ -110,7 +120,9 @@ std::vector<Rule> of_the_fluid() {
            "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"",
            [](const Scene& scene) { return broken_if(scene.bed.held && !scene.fluid.present()); }},
           is_a_range("velocity_range", &Chooser::velocity_range),
-          is_a_range("temperature_range", &Chooser::temperature_range)};
+          is_a_range("temperature_range", &Chooser::temperature_range),
+          is_a_bracket("measured", &Inversion::measured),
+          is_a_bracket("simulated", &Inversion::simulated)};
 }
 
 }  // namespace

@@ -210,6 +210,12 @@ struct Dem {
   std::optional<double> asperity_radius;   ///< R* of the van der Waals force, m; else that of the spheres
 };
 
+/// Between which superficial velocities others have found the two species of the bed to change places, m/s; one value
+/// or two, empty: not known.
+struct Inversion {
+  std::vector<double> measured, simulated;
+};
+
 /// Boxes of particles that are run for a table of the solids stress; what is empty has a default of the plan.
 struct Calibrate {
   BoxRegime regime = BoxRegime::automatic;
@@ -269,6 +275,7 @@ struct Scene {
   Tfm tfm;
   Dem dem;
   std::vector<ContactPair> contact_pairs;
+  Inversion inversion;
   Calibrate calibrate;
   Resolve resolve;
   std::vector<SizeClasses> size_classes;

@@ -157,6 +157,17 @@ Table dem_table() {
       });
 }
 
+Table inversion_table() {
+  return table("inversion", &Scene::inversion,
+               {
+                   key(&Inversion::measured, "measured", dimension::velocity, range(0, 1e3),
+                       help("superficial velocity at which an experiment had the two species change places, or the two "
+                            "that enclose it; printed by polybed inversion, no run reads it")),
+                   key(&Inversion::simulated, "simulated", dimension::velocity, range(0, 1e3),
+                       help("the same of a published simulation")),
+               });
+}
+
 Table calibrate_table() {
   return table(
       "calibrate", &Scene::calibrate,
@@ -210,6 +221,8 @@ Table resolve_table() {
 
 }  // namespace
 
-std::vector<Table> model_tables() { return {tfm_table(), dem_table(), calibrate_table(), resolve_table()}; }
+std::vector<Table> model_tables() {
+  return {tfm_table(), dem_table(), inversion_table(), calibrate_table(), resolve_table()};
+}
 
 }  // namespace polybed::core::schema

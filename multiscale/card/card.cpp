@@ -136,7 +136,7 @@ std::string left_out_text(const LeftOut& left_out) {
   if (!matters(left_out)) return text + ", within the " + percent(left_out.promise) + " allowed: does not matter";
   std::vector<const LeftOutEffect*> forces;
   for (const LeftOutEffect& one : left_out.effects)
-    if (one.row.summed && one.bound && *one.bound > 0) forces.push_back(&one);
+    if ((one.row.summed || one.row.share_off) && one.bound && *one.bound > 0) forces.push_back(&one);
   std::sort(forces.begin(), forces.end(), [](const auto* a, const auto* b) { return *a->bound > *b->bound; });
   constexpr std::size_t most_named = 2;
   std::vector<std::string> names;

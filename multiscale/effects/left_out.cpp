@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/case/laws.hpp"
 #include "multiscale/effects/choice.hpp"
 
 namespace polybed::multiscale {
@@ -73,7 +74,16 @@ LeftOut left_out(const core::Scene& scene, const std::string& model) {
   all.sum = relevance::neglected_sum(choice.of_case, model);
   all.up_to = relevance::neglected_up_to(choice.of_case, model);
   for (const relevance::EffectRow& row : choice.of_case)
-    if (const std::string why = why_left_out(row, model); !why.empty()) all.effects.push_back({row, why, row.bound});
+    if (const std::string why = why_left_out(row, model); !why.empty())
+      all.effects.push_back({row, why, row.summed ? row.bound : row.share_off ? row.share_off : row.bound});
+  for (const LeftOutEffect& one : all.effects) {
+    const relevance::EffectRow* free = relevance::find_row(choice.rows, one.row.effect);
+    const bool wanted = one.row.kind == Kind::role && free != nullptr && free->state == State::on;
+    if (wanted && free->not_built.empty() && one.row.models.find(model) != std::string::npos)
+      all.called_for.push_back(one);
+  }
+  std::stable_sort(all.called_for.begin(), all.called_for.end(),
+                   [](const auto& a, const auto& b) { return a.bound.value_or(0) > b.bound.value_or(0); });
   return all;
 }
 
@@ -85,16 +95,32 @@ void write_left_out(core::Json& json, const LeftOut& left_out) {
                                                    {"why", one.why},
                                                    {"number", one.row.number},
                                                    {"bound", core::or_null(one.bound)},
-                                                   {"summed", one.row.summed}});
+                                                   {"summed", one.row.summed || one.row.share_off}});
     if (one.row.band) row["band"] = {one.row.band->least, one.row.band->most};
     if (one.row.up_to) row["up_to"] = *one.row.up_to;
     row["reason"] = one.row.reason;
   }
-  json["neglected"] = {{"sum", left_out.sum},
-                       {"promise", left_out.promise},
-                       {"up_to", left_out.up_to},
-                       {"purpose", left_out.purpose},
-                       {"rows", rows}};
+  core::Json called_for = core::Json::array();
+  for (const LeftOutEffect& one : left_out.called_for) called_for.push_back(one.row.effect);
+  json["neglected"] = {{"called_for", called_for}, {"sum", left_out.sum},         {"promise", left_out.promise},
+                       {"up_to", left_out.up_to},  {"purpose", left_out.purpose}, {"rows", rows}};
+}
+
+std::string called_for_line(const LeftOut& left_out) {
+  if (left_out.called_for.empty()) return "";
+  std::vector<std::string> named;
+  for (const LeftOutEffect& one : left_out.called_for) named.push_back(one.bound ? with_bound(one) : one.row.effect);
+  return fmt::format("off in the case, but needed: {}; see polybed effects", fmt::join(named, ", "));
+}
+
+std::string chosen_line(const core::Scene& scene) {
+  if (scene.chooser.chosen.empty()) return "";
+  std::vector<std::string> on;
+  for (const std::string& role : scene.chooser.chosen)
+    if (core::acts(scene, role)) on.push_back(fmt::format("{} = {}", role, core::law_of(scene, role)));
+  return fmt::format("effects that the case does not name: {}{} of {} off, chosen by polybed effects",
+                     on.empty() ? "" : fmt::format("{}; ", fmt::join(on, ", ")),
+                     scene.chooser.chosen.size() - on.size(), scene.chooser.chosen.size());
 }
 
 std::vector<std::string> left_out_lines(const LeftOut& left_out) {
@@ -104,7 +130,7 @@ std::vector<std::string> left_out_lines(const LeftOut& left_out) {
     if (!one.bound)
       unknown.push_back(one.row.effect);
     else if (*one.bound > 0)
-      (one.row.summed ? forces : others).push_back(one);
+      (one.row.summed || one.row.share_off ? forces : others).push_back(one);
   }
   std::vector<std::string> lines{sum_text(left_out) + (forces.empty() ? "" : ": " + largest_of(forces))};
   if (!others.empty()) lines.push_back("beside them, each by its own number (polybed effects): " + largest_of(others));

@@ -23,9 +23,11 @@ struct LeftOut {
   std::string model;    ///< "tfm" or "dem"
   std::string purpose;  ///< "steady" or "transient": whether what goes with acceleration counts
   double promise = 0;   ///< chooser.tolerance
-  double sum = 0;       ///< of the bounds of forces on particles, as a share of the buoyant weight
+  double sum = 0;       ///< of the bounds of forces, drag, stress and exchange, as a share of the buoyant weight
   double up_to = 0;     ///< the same on the scales that a run may reach
   std::vector<LeftOutEffect> effects;
+  /// Of them those that the scene calls for, though this model has laws of them: off by the case, largest share first.
+  std::vector<LeftOutEffect> called_for;
 };
 
 /// What a run of a scene leaves out, by the rules of docs/reference/effects.md; nothing is run, it takes some
@@ -37,8 +39,15 @@ struct LeftOut {
 /// The member "neglected" of an open object.
 void write_left_out(core::Json& json, const LeftOut& left_out);
 
-/// The same in at most three lines: forces and their sum against the promise, what has a number of its own, what is
-/// not known.
+/// A line that names what the scene calls for and the case has off; empty without any.
+[[nodiscard]] std::string called_for_line(const LeftOut& left_out);
+
+/// A line that names what was chosen where the case left it to the chooser, and counts what was left out; empty where
+/// it left nothing.
+[[nodiscard]] std::string chosen_line(const core::Scene& scene);
+
+/// The same as write_left_out in at most three lines: forces and their sum against the promise, what has a number of
+/// its own, what is not known.
 [[nodiscard]] std::vector<std::string> left_out_lines(const LeftOut& left_out);
 
 }  // namespace polybed::multiscale

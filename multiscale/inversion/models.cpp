@@ -9,6 +9,7 @@
 
 #include "closures/terminal_velocity.hpp"
 #include "core/error.hpp"
+#include "multiscale/inversion/balance.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -16,75 +17,14 @@ namespace polybed::multiscale {
 namespace {
 
 using closures::DragLaw;
-using Residual = std::function<std::optional<double>(double)>;
-
-constexpr double least_voidage = 0.2;
 constexpr int scan = 4000;          ///< intervals of the scan for roots
 constexpr int scan_of_pairs = 400;  ///< the same of a mean law with a partition: there are 75 of them to list
 
-/// Roots of a residual that may be undefined in places, in (low, high): sign changes of a scan, refined by bisection.
-std::vector<double> roots(const Residual& residual, double low, double high, int intervals = scan) {
-  std::vector<double> found;
-  std::optional<double> last;
-  double last_at = low;
-  for (int n = 1; n < intervals; ++n) {
-    const double at = low + (high - low) * n / intervals;
-    const std::optional<double> here = residual(at);
-    if (last && here && *last * *here <= 0 && *last != 0) {
-      double a = last_at, b = at;
-      for (int k = 0; k < 100; ++k) {
-        const double middle = 0.5 * (a + b);
-        const std::optional<double> value = residual(middle);
-        if (!value) break;
-        (*value * *last > 0 ? a : b) = middle;
-      }
-      found.push_back(0.5 * (a + b));
-    }
-    last = here;
-    last_at = at;
-  }
-  return found;
-}
-
-/// u > 0 with load(u) = target, for a load that grows with u; bisection in the logarithm.
-double velocity_of(const std::function<double(double)>& load, double target) {
-  double low = 1e-12, high = 1e3;
-  for (int n = 0; n < 200 && high / low > 1 + 1e-15; ++n) {
-    const double middle = std::sqrt(low * high);
-    (load(middle) < target ? low : high) = middle;
-  }
-  return std::sqrt(low * high);
-}
-
-double bulk_density(const BinaryBed& bed, double voidage) {
-  return (1 - voidage) * (bed.share[0] * bed.density[0] + bed.share[1] * bed.density[1]) + voidage * bed.fluid.density;
-}
-
-/// Drag of species j per volume, Pa/m, at a superficial velocity through particles at rest: 18 mu u f_j / D_j^2.
-double drag_per_volume(const BinaryBed& bed, const DragLaw& law, double voidage, double u, std::size_t j) {
-  std::array<double, 2> f{}, slope{};
-  const std::array<double, 2> slip{u, u};
-  closures::drag_of_mixture(law, voidage, bed.share, bed.diameter, slip, bed.fluid.density, bed.fluid.viscosity, f,
-                            slope);
-  return 18 * bed.fluid.viscosity * u * f[j] / (bed.diameter[j] * bed.diameter[j]);
-}
-
-/// Velocity at which species j rests in the mixture; none where it floats in the bulk.
-std::optional<double> resting_velocity(const BinaryBed& bed, const DragLaw& law, double voidage, std::size_t j) {
-  const double weight = (bed.density[j] - bulk_density(bed, voidage)) * bed.gravity;
-  if (!(weight > 0)) return std::nullopt;
-  return velocity_of([&](double u) { return drag_per_volume(bed, law, voidage, u, j); }, weight);
-}
-
 std::vector<InversionPoint> by_force_balance(const BinaryBed& bed, const DragLaw& law) {
-  const Residual residual = [&](double voidage) -> std::optional<double> {
-    const auto u1 = resting_velocity(bed, law, voidage, 0), u2 = resting_velocity(bed, law, voidage, 1);
-    return u1 && u2 ? std::optional(std::log(*u1 / *u2)) : std::nullopt;
-  };
-  std::vector<InversionPoint> points;
-  for (double voidage : roots(residual, least_voidage, 1, law.partition ? scan_of_pairs : scan))
-    points.push_back({*resting_velocity(bed, law, voidage, 1), voidage});
-  return points;
+  return balanced(bed, law, law.partition ? scan_of_pairs : scan, [&](double voidage) {
+    const Around mean{voidage, bed.share};
+    return std::optional(std::array{mean, mean});
+  });
 }
 
 /// Voidage of a uniform bed of species j alone at u: f(eps, Re) 18 mu u / (eps D^2) = (rho_j - rho_f) g.
@@ -114,7 +54,7 @@ std::vector<InversionPoint> by_bulk_density(const BinaryBed& bed, const DragLaw&
     return (1 - *e1) * (bed.density[0] - bed.fluid.density) - (1 - *e2) * (bed.density[1] - bed.fluid.density);
   };
   std::vector<InversionPoint> points;
-  for (double log_u : roots(residual, std::log(1e-6), std::log(10.0))) {
+  for (double log_u : roots(residual, std::log(1e-6), std::log(10.0), scan)) {
     const auto [e1, e2] = voidages(log_u);
     points.push_back({std::exp(log_u), 1 - 1 / (bed.share[0] / (1 - *e1) + bed.share[1] / (1 - *e2))});
   }
@@ -142,7 +82,8 @@ std::vector<InversionPoint> by_expansion(const BinaryBed& bed) {
     return a > 0 && b > 0 ? std::optional(std::log(a / b)) : std::nullopt;
   };
   std::vector<InversionPoint> points;
-  for (double voidage : roots(residual, least_voidage, 1)) points.push_back({voidage * slip(voidage, 1), voidage});
+  for (double voidage : roots(residual, least_voidage, 1, scan))
+    points.push_back({voidage * slip(voidage, 1), voidage});
   return points;
 }
 
@@ -179,7 +120,8 @@ std::vector<InversionPoint> by_density_maximum(const BinaryBed& bed) {
     return (density(bed.share[0] + step) - density(bed.share[0] - step)) / (2 * step);
   };
   std::vector<InversionPoint> points;
-  for (double voidage : roots(slope_of_density, least_voidage, 1)) points.push_back({velocity_at(voidage), voidage});
+  for (double voidage : roots(slope_of_density, least_voidage, 1, scan))
+    points.push_back({velocity_at(voidage), voidage});
   return points;
 }
 

@@ -22,6 +22,7 @@ inline std::optional<EffectRow> weigh_drag(const Weighing& by, EffectRow row) {
   row.state = EffectRow::State::on;
   row.value = by.survey.mixture_part;
   row.threshold = tolerance;
+  row.share_off = 1;
   row.reason = by.survey.mixture_part > tolerance ? "always on; a law with a mixture part"
                                                   : "always on; its mixture part hardly matters";
   return row;

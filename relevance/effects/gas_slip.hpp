@@ -16,7 +16,7 @@ namespace polybed::relevance::effects {
 
 inline std::optional<EffectRow> weigh_gas_slip(const Weighing& by, EffectRow row) {
   row = as_force(row, by.scene);
-  row.summed = false;  // it changes the drag, whose error is reported apart
+  row.summed = false;  // it changes the drag: share_off
   if (!by.survey.is_gas) {
     row.neglected = 0;
     row.reason = "a liquid does not slip";
@@ -27,6 +27,7 @@ inline std::optional<EffectRow> weigh_gas_slip(const Weighing& by, EffectRow row
     greatest.add(s, closures::gas_slip_relevance(
                         mean_free_path_at(by.scene.fluid.outlet_pressure, s.fluid_density, s.viscosity), s.diameter));
   greatest.fill(row);
+  row.share_off = row.value;
   return row;
 }
 

@@ -30,6 +30,7 @@ inline std::optional<double> inertia_of_shear(const Weighing& by, EffectRow& row
 inline std::optional<EffectRow> weigh_solids_stress(const Weighing& by, EffectRow row) {
   row.state = EffectRow::State::on;  // without any the model is ill-posed
   row.threshold = 1;
+  if (by.survey.solids_fraction > 0.5) row.share_off = 1;  // what carries a packed bed; friction acts from there
   row.value = inertia_of_shear(by, row);
   if (!row.value) {
     row.reason = "too dilute to shear as a bed; friction acts from solids fraction 0.5";

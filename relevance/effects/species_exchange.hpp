@@ -49,6 +49,7 @@ inline std::optional<EffectRow> weigh_species_exchange(const Weighing& by, Effec
     }
   }
   row.value = greatest;
+  row.share_off = greatest;
   return row;
 }
 

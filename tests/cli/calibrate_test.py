@@ -44,6 +44,7 @@ density = 2500
 particles = [100]
 start = "random"
 [effects]
+others = "none"
 contact = "linear"
 [dem]
 friction = 0
@@ -64,6 +65,7 @@ start_solids_fraction = 0.4
 [inlet]
 superficial_velocity = "20 mm/s"
 [effects]
+others = "none"
 drag = "cello"
 solids_stress = "frictional"
 lubrication = "film"
@@ -99,6 +101,7 @@ start_solids_fraction = 0.45
 [inlet]
 superficial_velocity = "1.2 m/s"
 [effects]
+others = "none"
 drag = "gidaspow"
 [dem]
 friction = 0

@@ -22,6 +22,7 @@ solids_fraction = 0.6
 [inlet]
 superficial_velocity = "10 mm/s"
 [effects]
+others = "none"
 drag = "cello"
 solids_stress = "frictional"
 [run]
@@ -103,6 +104,8 @@ KEYS = {
     "[[species]]: {} species, at most 15": species(*(f"s{n}" for n in range(16))),
     'species.name = "{}" stands twice, or is "wall" or "fluid"': species("fine", "fine"),
     'species.name = "{}" names columns and datasets: not empty, without , / < > & " \\ and line ends': species("a/b"),
+    "inversion.measured: one value, or two, the least and the greatest": ["inversion.measured=[0.03, 0.02]"],
+    "inversion.simulated: one value, or two, the least and the greatest": ["inversion.simulated=[0.02, 0.03, 0.04]"],
     "contact_pair.between takes two names": [pairs(["fine"])],
     "contact_pair.between: no species '{}'": [pairs(["fine", "fluid"])],
     "contact_pair.between: a wall touches no wall; name a species": [pairs(["wall", "wall"])],
@@ -329,7 +332,7 @@ evry = 1
     def test_a_conflict_of_roles_has_its_lines(self):
         text = BED.replace("[run]", 'magnus = "rubinow_keller"\ncontact = "hertz"\n[run]')
         lines = [re.match(r"/case.toml:(\d+):", line) for line in self.refused(text)]
-        self.assertEqual([int(m.group(1)) for m in lines], [20, 21])
+        self.assertEqual([int(m.group(1)) for m in lines], [21, 22])
 
     def test_a_missing_fluid_asks_for_nothing_else(self):
         self.assertEqual(self.refused(without(FLUID, INLET)), ["/case.toml: [fluid] is missing"])

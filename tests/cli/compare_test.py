@@ -34,6 +34,7 @@ start_solids_fraction = 0.4
 [inlet]
 superficial_velocity = "20 mm/s"
 [effects]
+others = "none"
 drag = "cello"
 solids_stress = "frictional"
 contact = "hertz_mindlin"

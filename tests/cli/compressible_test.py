@@ -27,6 +27,7 @@ solids_fraction = 0.6
 [inlet]
 superficial_velocity = [[0, 1], ["2 ms", 1], ["2 ms", 2]]
 [effects]
+others = "none"
 drag = "gidaspow"
 [run]
 until = "20 ms"

@@ -34,6 +34,7 @@ solids_fraction = 0.6
 start = "mixed"
 start_solids_fraction = 0.3
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 friction = 0.4
@@ -67,6 +68,7 @@ start_solids_fraction = 0.4
 [inlet]
 superficial_velocity = "0.5 m/s"
 [effects]
+others = "none"
 drag = "gidaspow"
 contact = "hertz_mindlin"
 [dem]

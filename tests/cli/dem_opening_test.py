@@ -26,6 +26,7 @@ solids_fraction = 0.6
 start = "mixed"
 start_solids_fraction = 0.4
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 opening = "5 mm"

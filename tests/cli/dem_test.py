@@ -32,6 +32,7 @@ solids_fraction = 0.6
 start = "mixed"
 start_solids_fraction = 0.4
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 friction = 0.4
@@ -55,6 +56,7 @@ density = 2500
 [bed]
 start = "list:pair.csv"
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 greatest_speed = "0.1 m/s"

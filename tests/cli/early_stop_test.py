@@ -21,6 +21,7 @@ density = 2500
 [bed]
 %s
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [run]
 until = "1 s"

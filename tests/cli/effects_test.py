@@ -118,11 +118,30 @@ class Auto(Scratch):
             self.assertEqual(record["case"], strict_json((second / "run.json").read_text())["case"])
 
     def test_one_role_can_be_left_to_it(self):
-        case = self.write("one.toml", BEADS + '[effects]\ndrag = "ergun"\nlubrication = "auto"\ncontact = "hertz_mindlin"\n')
+        case = self.write("one.toml", BEADS + '[effects]\nothers = "none"\n'
+                          'drag = "ergun"\nlubrication = "auto"\ncontact = "hertz_mindlin"\n')
         shown = self.ends(DONE, "check", case, "--resolved").stdout
         self.assertIn('lubrication = "wet_restitution"', shown)
         self.assertIn('drag = "ergun"', shown)
         self.assertIn('chosen = ["lubrication"]', shown)
+
+    def test_roles_left_out_are_chosen_told_and_recorded_unless_the_case_says_none(self):
+        case = self.write("bare.toml", BEADS + '[effects]\ndrag = "cello"\nfluid_stress = "none"\n')
+        told = self.ends(DONE, "tfm", case, "-o", self.folder / "bare", "--no-picture").stderr
+        self.assertRegex(told, "effects that the case does not name: .*solids_stress = .* off, chosen by polybed effects")
+        self.assertEqual(told.count("off in the case, but needed: fluid_stress"), 2)  # at start and end
+        record = strict_json((self.folder / "bare/run.json").read_text())
+        self.assertIn('solids_stress = "', record["case"])
+        self.assertNotIn('fluid_stress = "', record["case"])
+        self.assertEqual(record["neglected"]["called_for"], ["fluid_stress"])
+        chosen = re.search(r"chosen = \[(.*)\]", record["case"])[1]
+        self.assertIn("solids_stress", chosen)
+        self.assertNotIn("drag", chosen)
+        self.assertIn("but needed: fluid_stress", self.ends(DONE, "check", case).stdout)
+        alone = self.write("alone.toml", BEADS + '[effects]\nothers = "none"\ndrag = "cello"\nfluid_stress = "newtonian"\n')
+        told = self.ends(DONE, "tfm", alone, "-o", self.folder / "alone", "--no-picture").stderr
+        self.assertNotIn("does not name", told)
+        self.assertIn("but needed: solids_stress", told)
 
     def test_the_time_of_an_auto_run_is_told(self):
         told = strict_json(self.ends(DONE, "estimate", self.write("auto.toml", 'effects = "auto"\n' + BEADS), "--json").stdout)
@@ -147,6 +166,7 @@ class Auto(Scratch):
 
 # What the bed of beads has by hand; the spin of particles and the lift are left out.
 BY_HAND = BEADS + """[effects]
+others = "none"
 drag = "cello"
 solids_stress = "frictional"
 contact = "hertz_mindlin"

@@ -27,6 +27,10 @@ class Scan(Scratch):
         scan = found["models"]["tfm"]
         self.assertEqual([found[name] for name in ("scan", "from_m_s", "to_m_s", "until_s", "ranks")], ["tfm", 0.03, 0.04, 0.8, 1])
         lines = re.findall(r"(?m)^tfm +[0-9.]+ .*$", told)
+        self.assertIn("interface_over_height", scan["runs"][0])
+        self.assertEqual(found["beside"]["mixed_interval_m_s"][1], found["force_balance"]["velocity_m_s"])
+        for line in ("tfm: mixed (interface at the bed's height, x* = 5 %) ", "mixed by force balance: "):
+            self.assertIn(line, told)
         self.assertEqual(len(lines), len(scan["runs"]))
         first, second = scan["runs"][:2]
         self.assertEqual((first["velocity_m_s"], first["from"], second["velocity_m_s"], second["from"]), (0.03, None, 0.04, 0))
@@ -108,6 +112,38 @@ class Scan(Scratch):
 
 class WithoutARun(Scratch):
     SYSTEM_B = ROOT / "cases/thesis-b/case.toml"
+
+    def test_the_point_over_the_share_of_the_second_species(self):
+        """Of system B at its own share, 0.431: between the rows 0.40 and 0.45."""
+        rows = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--composition", "--json").stdout)["composition"]
+        self.assertEqual([row["share"] for row in rows], [n / 20 for n in range(1, 20)])
+        by_share = {row["share"]: row for row in rows}
+        own = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--json").stdout)
+        low, high = sorted(by_share[share]["velocity_m_s"] for share in (0.4, 0.45))
+        self.assertLess(low, own["velocity_m_s"])
+        self.assertLess(own["velocity_m_s"], high)
+        # equal pure bulk densities do not depend on the shares
+        self.assertEqual(len({round(bound, 12) for row in rows if row["mixed_interval_m_s"] for bound in row["mixed_interval_m_s"]
+                              if abs(bound - own["mixed_interval_m_s"][0]) < 1e-9}), 1)
+        self.assertIn("--composition", self.ends(WRONG_CASE, "inversion", self.SYSTEM_B, "--composition", "--seen").stderr)
+
+    def test_the_mixed_interval_what_is_seen_and_what_others_found(self):
+        found = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--seen", "--json").stdout)
+        low, high = found["mixed_interval_m_s"]
+        self.assertEqual(high, found["velocity_m_s"])
+        self.assertEqual(low, strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "bulk_density",
+                                                    "--json").stdout)["velocity_m_s"])
+        self.assertAlmostEqual(1e3 * low, 28.2, delta=0.05)  # as printed
+        self.assertAlmostEqual(1e3 * found["seen"]["velocity_m_s"], 31.3, delta=0.05)
+        self.assertAlmostEqual(1e3 * found["seen_percus_yevick"]["velocity_m_s"], 31.8, delta=0.05)
+        self.assertEqual((found["measured_m_s"], found["simulated_m_s"]), ([0.03], [0.025, 0.035]))
+        self.assertIsNone(strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--json").stdout)["seen"])
+        text = self.ends(DONE, "inversion", self.SYSTEM_B, "--seen").stdout
+        for line in ("28.19 to 34.27 mm/s", "31.33 mm/s", "measured: 30.00 mm/s", "simulated by others: 25.00 to 35.00 mm/s"):
+            self.assertIn(line, text)
+        self.assertIn("--seen", self.ends(WRONG_CASE, "inversion", self.SYSTEM_B, "--seen", "--method", "all").stderr)
+        self.assertIn("inversion.measured", self.ends(WRONG_CASE, "inversion", self.SYSTEM_B, "--set",
+                                                      "inversion.measured=[0.03, 0.02]").stderr)
 
     def test_all_methods_are_what_each_says_alone(self):
         rows = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all", "--json").stdout)["methods"]

@@ -14,6 +14,7 @@ start = "list:beads.csv"
 [run]
 until = 1
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 """
 

@@ -28,6 +28,7 @@ particles = [200, 300]
 start = "random"
 solids_fraction = 0.55
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 rolling = "epsd"
 [dem]

@@ -32,6 +32,7 @@ particles = [4000]
 start = "random"
 solids_fraction = 0.6
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 start_speed = "0.2 m/s"

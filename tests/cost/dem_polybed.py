@@ -50,6 +50,7 @@ density = {dem_bed.DENSITY!r}
 [bed]
 start = "list:particles.csv"
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 youngs_modulus = {dem_bed.YOUNG!r}

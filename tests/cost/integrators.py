@@ -58,6 +58,7 @@ start_solids_fraction = {start}
 [inlet]
 superficial_velocity = {velocity}
 [effects]
+others = "none"
 {roles}[run]
 until = {until}
 [output]

@@ -18,7 +18,8 @@ def text(bed, settings):
     settled = bed.get("settled", total)
     tables += [("[bed]",), ("volume_share", [s / total for s in share]), ("solids_fraction", settled),
                ("static_height", bed["height"] * total / settled), ("start_solids_fraction", total),
-               ("[inlet]",), ("superficial_velocity", bed["velocity"]), ("[effects]",)]
+               ("[inlet]",), ("superficial_velocity", bed["velocity"]), ("[effects]",),
+               ("others", quoted("none"))]
     tables += [(role, quoted(law)) for role, law in settings["effects"].items()]
     tables += [("[run]",), ("until", settings["until"]), ("[output]",), ("every", settings["until"]),
                ("history_every", settings["every"]), ("checkpoint_every", settings["until"])]

@@ -41,6 +41,7 @@ particles = [{many}, {few}]
 start = "random"
 solids_fraction = 0.6
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 youngs_modulus = "100 MPa"

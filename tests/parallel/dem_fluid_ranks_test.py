@@ -29,6 +29,7 @@ start_solids_fraction = 0.45
 [inlet]
 superficial_velocity = "20 mm/s"
 [effects]
+others = "none"
 drag = "cello"
 contact = "hertz_mindlin"
 [dem]

@@ -168,6 +168,7 @@ COMMON = """
 [fluid]
 name = "none"
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [run]
 until = "8 ms"

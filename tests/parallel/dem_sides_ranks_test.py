@@ -28,6 +28,7 @@ density = 1800
 [bed]
 start = "list:particles.csv"
 [effects]
+others = "none"
 drag = "cello"
 fluid_stress = "newtonian"
 contact = "hertz_mindlin"

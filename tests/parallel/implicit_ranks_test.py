@@ -37,7 +37,8 @@ def scene(cells, size, fluid, species, height, until, inlet=None, start=None, mo
     loose = f"start_solids_fraction = {start}\n" if start else ""
     flow = f'[inlet]\nsuperficial_velocity = "{inlet}"\n' if inlet else ""
     return (f'[column]\nsize = {json.dumps(size)}\ncells = {cells}\n{closed}{outlet}[fluid]\nname = "{fluid}"\ntemperature = "20 degC"\n{species}[bed]\n'
-            f'volume_share = {shares}\nperturbation = 0\nstatic_height = "{height}"\nsolids_fraction = 0.6\n{loose}[effects]\ndrag = "gidaspow"\n'
+            f'volume_share = {shares}\nperturbation = 0\nstatic_height = "{height}"\nsolids_fraction = 0.6\n{loose}'
+            '[effects]\nothers = "none"\ndrag = "gidaspow"\n'
             f'solids_stress = "frictional"\n{flow}{more}[run]\nuntil = "{until}"\n[output]\nevery = "{until}"\n'
             f'checkpoint_every = "{until}"\n[tfm]\nintegrator = "implicit"\n')
 

@@ -43,6 +43,7 @@ solids_fraction = 0.6
 [inlet]
 superficial_velocity = "10 mm/s"
 [effects]
+others = "none"
 drag = "cello"
 solids_stress = "frictional"
 [run]

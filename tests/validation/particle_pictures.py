@@ -38,6 +38,7 @@ youngs_modulus = "380 GPa"
 [bed]
 start = "list:beads.csv"
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 youngs_modulus = 1e13
@@ -67,6 +68,7 @@ particles = [400]
 start = "random"
 solids_fraction = 0.6
 [effects]
+others = "none"
 contact = "hertz_mindlin"
 [dem]
 start_speed = 0.05

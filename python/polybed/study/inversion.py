@@ -22,7 +22,8 @@ with needed(__name__ == "__main__"):
     from polybed.study.cases import Case, hash_of, words_of
     from polybed.study.ending import DONE, WRONG_CASE, StudyError, answer, guarded
     from polybed.study.inversion_search import Mean, search
-    from polybed.study.measured import centre_difference, drifts_in, history_of, species_of, window_of, within
+    from polybed.study.measured import Columns, WindowProfiles, centre_difference, drifts_in, history_of, measures_of, species_of, \
+        window_of, within
     from polybed.study.output_folder import taken
     from polybed.study.record import draw, write_record
     from polybed.study.runs import flags, has_checkpoint, ranks, run
@@ -30,6 +31,7 @@ with needed(__name__ == "__main__"):
     from polybed.study.time_mean import time_mean
 
 RAMP_SHARE = 0.02  # of a run, in which the velocity goes from that of the run before to its own: far from the window, the last quarter
+SURFACES = ("hamaker_constant", "cohesion_gap", "asperity_radius")  # keys that a choice of cohesion sets
 DIGITS = 10  # of a hash in the name of a folder
 
 
@@ -107,7 +109,27 @@ def measure(directory):
     height = mean_of(directory, history, history["bed_height_m"], window)
     with contents_of(found.directory / "run.json"):
         return report.RunOfScan(b.mean, b.error, height.mean, height.error, window.begin, window.end, record["cpu_s"], directory,
-                                record["git_commit"], drifts_in(history, species, window), record["integrator"])
+                                record["git_commit"], drifts_in(history, species, window), interface_of(found, species, window),
+                                record["integrator"])
+
+
+def interface_of(found, species, window):
+    """Height of the interface over that of the bed, of the mean profile in the window; None where there is none."""
+    profiles = WindowProfiles(Columns(found.directory / "profiles.h5", found.profiles), species, window)
+    if not profiles.count():
+        return None
+    measures = measures_of([profiles.mean()], species)["measures"]
+    [interface], [height] = measures["interface"]["values"], measures["bed_height"]["values"]
+    return interface / height if interface is not None and height else None
+
+
+def choice_of(keys):
+    """What was chosen for a case that leaves effects to the program, as overrides: every run of a scan has the same, though the choice
+    follows from the velocity. keys: of the resolved case"""
+    laws, chosen = keys["effects"], keys.get("chooser", {}).get("chosen", [])
+    surfaces = SURFACES if "cohesion" in chosen and "cohesion" in laws else ()  # what cohesion was weighed with
+    return ([f'effects.{role}="{laws.get(role, "none")}"' for role in chosen]
+            + [f"dem.{key}={keys['dem'][key]!r}" for key in surfaces if key in keys["dem"]])
 
 
 def scan_of(request, table, model):
@@ -126,7 +148,7 @@ def record_of(request, case, scans):
     return {"filetype": "polybed inversion", "version": 1, "git_commit": case.git_commit, "case": request["case"],
             "case_hash": case.scan_hash, "directory": request["directory"], "overrides": request["overrides"], "scan": request["scan"],
             "from_m_s": request["from_m_s"], "to_m_s": request["to_m_s"], "until_s": request["until_s"], "ranks": ranks(),
-            "species": case.species, "force_balance": request["force_balance"],
+            "species": case.species, "force_balance": request["force_balance"], "beside": request["beside"],
             "models": {scan.model: scan.plain() for scan in scans}, "agreement": report.agreement_of(scans)}
 
 
@@ -135,6 +157,7 @@ def make(request):
     directory = Path(request["directory"])
     case = Case(request["case"], request["overrides"], request["until"])
     request["until_s"] = case.keys["run"]["until"]
+    request["overrides"] = [*request["overrides"], *choice_of(case.keys)]
     with taken(directory):
         if speaks(request):
             say(report.head())
@@ -142,7 +165,7 @@ def make(request):
         scans = [scan_of(request, case.table, model) for model in models]
         path = directory / "inversion.json"
         text = write_record(path, record_of(request, case, scans))
-        answer(text if request["json"] else f"{report.findings(scans, request['force_balance'])}{path}")
+        answer(text if request["json"] else f"{report.findings(scans, request['force_balance'], request['beside'])}{path}")
         if request["picture"]:
             draw("polybed.drawing.inversion_scan", "drawn", directory, "picture", not speaks(request))
     return DONE

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass, field
 
 from polybed.study.inversion_search import Found
 
+AT_HEIGHT = 0.98  # interface over bed height of a mixed bed: within one of the 50 slices that the interface is found on
 GOAL = 0.05  # relative difference of the models' velocities (docs/calibration.md, section 8)
 
 
@@ -21,6 +22,7 @@ class RunOfScan:
     directory: str
     git_commit: str
     warnings: list  # what is not steady
+    interface_over_height: float | None = None  # of the mean profile of the window; None without one or without an interface
     integrator: str = ""
     reused: bool = False  # finished before
 
@@ -44,13 +46,31 @@ class ScanOfModel:
         steps = [{"velocity_m_s": step.velocity, "from": step.source} | run.plain()
                  for step, run in zip(found.steps, self.runs, strict=True)]
         plain = {"outcome": found.outcome, "velocity_m_s": found.velocity, "error_m_s": found.error, "low_m_s": found.low,
-                 "high_m_s": found.high, "slope_s_m": found.slope, "cpu_s": sum(run.cpu_s for run in self.runs), "runs": steps}
+                 "high_m_s": found.high, "slope_s_m": found.slope, "mixed": mixed_interval(self),
+                 "cpu_s": sum(run.cpu_s for run in self.runs), "runs": steps}
         if self.moved:
             low, high = stress_band(self) or (None, None)
             minus, plus = self.moved
             plain["stress_uncertainty"] = {"standard_errors": 1, "low_m_s": low, "high_m_s": high, "minus": minus.plain(),
                                            "plus": plus.plain()}
         return plain
+
+
+def mixed_interval(scan):
+    """Between which velocities a scan's beds are mixed: their interface, x* = 5 %, is at their height. Of the least and the greatest such
+    velocity, m/s: "least_m_s" and "greatest_m_s", and the nearest that are not mixed, "below_m_s" and "above_m_s", None where there is
+    none. None if no bed is mixed. A velocity with several runs counts as mixed if all of them are."""
+    mixed = {}
+    for step, run in zip(scan.found.steps, scan.runs, strict=True):
+        at_height = run.interface_over_height is not None and run.interface_over_height >= AT_HEIGHT
+        mixed[step.velocity] = mixed.get(step.velocity, True) and at_height
+    inside = [velocity for velocity, is_mixed in mixed.items() if is_mixed]
+    if not inside:
+        return None
+    least, greatest = min(inside), max(inside)
+    others = [velocity for velocity, is_mixed in mixed.items() if not is_mixed]
+    return {"least_m_s": least, "greatest_m_s": greatest, "below_m_s": max((u for u in others if u < least), default=None),
+            "above_m_s": min((u for u in others if u > greatest), default=None)}
 
 
 def stress_band(scan):
@@ -102,11 +122,37 @@ def band_line(scan):
     return f"{scan.model}: no band of the table: not every scan has found one\n" if scan.moved else ""
 
 
-def findings(scans, balance):
+def mixed_line(scan):
+    """The mixed interval of a scan; nothing of one without runs."""
+    if not scan.runs:
+        return ""
+    mixed = mixed_interval(scan)
+    if not mixed:
+        return f"{scan.model}: mixed (interface at the bed's height, x* = 5 %) in no run\n"
+    ends = [f" (not at {1e3 * mixed[name]:.4g})" if mixed[name] else "" for name in ("below_m_s", "above_m_s")]
+    return (f"{scan.model}: mixed (interface at the bed's height, x* = 5 %) from {1e3 * mixed['least_m_s']:.4g}{ends[0]} to "
+            f"{1e3 * mixed['greatest_m_s']:.4g}{ends[1]} mm/s\n")
+
+
+def beside_lines(beside):
+    """What stands beside the scans: from the force balance and from others. beside: as `polybed inversion --json` has it, or None"""
+    def between(what, values):
+        return f"{what}: {' to '.join(f'{1e3 * value:.4g}' for value in values)} mm/s\n" if values else ""
+
+    if not beside:
+        return ""
+    seen = beside.get("seen")
+    return (between("mixed by force balance", beside["mixed_interval_m_s"])
+            + between("force balance as particles see it", [seen["velocity_m_s"]] if seen else None)
+            + between("measured", beside["measured_m_s"]) + between("simulated by others", beside["simulated_m_s"]))
+
+
+def findings(scans, balance, beside=None):
     """What the scans have found, as lines. balance: the point by force balance, or None"""
-    text = "\n" + "".join(finding(scan) + band_line(scan) for scan in scans)
+    text = "\n" + "".join(finding(scan) + band_line(scan) + mixed_line(scan) for scan in scans)
     if balance:
         text += f"force balance: {1e3 * balance['velocity_m_s']:.4g} mm/s\n"
+    text += beside_lines(beside)
     agreement = agreement_of(scans)
     if agreement:
         text += (f"tfm/dem - 1: {agreement['value']:.3f} +-{agreement['error']:.1g}, goal {agreement['goal']:.3f}: "

@@ -72,11 +72,48 @@ TEST(LeftOut, SumsTheBoundsOfForces) {
   const LeftOut all = left_out(scene_of({"chooser.purpose=transient"}), "dem");
   double sum = 0;
   for (const LeftOutEffect& one : all.effects)
-    if (one.row.summed) sum += one.bound.value_or(0);
+    if (one.row.summed || one.row.share_off) sum += one.bound.value_or(0);
   EXPECT_DOUBLE_EQ(all.sum, sum);
   EXPECT_GT(*find(all, "added_mass")->bound, 0.02);  // of s = 0.4: C_m s/(1 + C_m s) with C_m of 0.5 at least
   EXPECT_EQ(*find(left_out(scene_of(), "dem"), "added_mass")->bound, 0);
   EXPECT_GE(all.up_to, all.sum);
+}
+
+// Stress of the fluid over min(20 mm/10, 10 x 1 mm) = 2 mm, 2 sqrt(mu/beta)/(2 mm): a share that counts, whatever its
+// kind; and a scene that calls for it is said to.
+TEST(LeftOut, CountsStressAndWarnsOfWhatTheSceneCallsFor) {
+  const LeftOut off = left_out(scene_of(), "tfm"), on = left_out(scene_of({"effects.fluid_stress=newtonian"}), "tfm");
+  const LeftOutEffect* stress = find(off, "fluid_stress");
+  ASSERT_TRUE(stress != nullptr && stress->bound);
+  EXPECT_GT(*stress->bound, 0.02);
+  EXPECT_NEAR(off.sum - on.sum, *stress->bound, 1e-15);
+  EXPECT_NE(called_for_line(off).find("fluid_stress"), std::string::npos);
+  EXPECT_EQ(called_for_line(on).find("fluid_stress"), std::string::npos);
+  EXPECT_EQ(called_for_line(off).find("lubrication"), std::string::npos);  // of particles alone
+  EXPECT_NE(called_for_line(left_out(scene_of(), "dem")).find("lubrication"), std::string::npos);
+}
+
+// Without drag nothing carries the bed: its whole weight. What a second species gives by contact counts in the model of
+// averaged solids alone.
+TEST(LeftOut, CountsDragAndExchange) {
+  EXPECT_NEAR(left_out(scene_of({"effects.drag=none"}), "tfm").sum - left_out(scene_of(), "tfm").sum, 1, 1e-12);
+  std::string two = beads;
+  two.replace(two.find("volume_share = [1]"), 18, "volume_share = [0.5, 0.5]");
+  two.insert(two.find("[effects]"), "[[species]]\nname = \"large\"\ndiameter = \"2 mm\"\ndensity = 2500\n");
+  const core::Scene scene = core::parse_case(two, "case.toml", {}, all_roles(), size_classes);
+  const LeftOut continuum = left_out(scene, "tfm");
+  const LeftOutEffect* exchange = find(continuum, "species_exchange");
+  ASSERT_TRUE(exchange != nullptr && exchange->bound);
+  EXPECT_GT(*exchange->bound, 0);
+  EXPECT_NEAR(continuum.sum - left_out(scene, "dem").sum, *exchange->bound, 1e-15);
+}
+
+TEST(LeftOut, SaysWhatWasChosen) {
+  core::Scene scene = scene_of();
+  EXPECT_EQ(chosen_line(scene), "");
+  scene.chooser.chosen = {"drag", "lift"};
+  EXPECT_EQ(chosen_line(scene),
+            "effects that the case does not name: drag = cello; 1 of 2 off, chosen by polybed effects");
 }
 
 TEST(LeftOut, SaysWhatIsNotKnown) {

@@ -8,12 +8,22 @@ import unittest
 sys.path.insert(0, sys.argv.pop(1))
 
 from polybed.study import inversion_report as report  # noqa: E402
-from polybed.study.inversion_search import WIDTH, Found, Mean, search  # noqa: E402
+from polybed.study.inversion import choice_of  # noqa: E402
+from polybed.study.inversion_search import WIDTH, Found, Mean, Step, search  # noqa: E402
 
 
 def answers(g, error):
     """Runs that answer with a function of the velocity, each with the same interval."""
     return lambda velocity, source: Mean(g(velocity), error)
+
+
+class Choice(unittest.TestCase):
+    def test_every_run_has_the_effects_that_were_chosen_for_the_case(self):
+        keys = {"effects": {"others": "none", "drag": "cello", "cohesion": "van_der_waals"},
+                "dem": {"hamaker_constant": 1e-19, "friction": 0.3}, "chooser": {"chosen": ["cohesion", "lift"]}}
+        self.assertEqual(choice_of(keys), ['effects.cohesion="van_der_waals"', 'effects.lift="none"', "dem.hamaker_constant=1e-19"])
+        self.assertEqual(choice_of(keys | {"chooser": {"chosen": ["lift"]}}), ['effects.lift="none"'])
+        self.assertEqual(choice_of({"effects": {"drag": "cello"}, "dem": {}}), [])
 
 
 class Search(unittest.TestCase):
@@ -102,6 +112,24 @@ class Report(unittest.TestCase):
         self.assertAlmostEqual(report.agreement_of([one, noisy])["goal"], 0.5 * (0.1 + 0.06 / 1.05), delta=1e-12)
         self.assertIsNone(report.agreement_of([one]))
         self.assertIsNone(report.agreement_of([one, scan(None, model="dem")]))
+
+    def test_the_mixed_interval_is_where_the_interface_is_at_the_beds_height(self):
+        # interface over height by velocity; at 34 two runs, of which one is not mixed
+        runs = [(25, 0.45), (28, 0.99), (31, 1.0), (34, 1.0), (34, 0.9), (36, None)]
+        found = scan(30.0, 0.1, 28, 31)
+        found.found.steps = [Step(u, None, Mean(0, 1)) for u, _ in runs]
+        found.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", [], interface) for _, interface in runs]
+        self.assertEqual(report.mixed_interval(found), {"least_m_s": 28, "greatest_m_s": 31, "below_m_s": 25, "above_m_s": 34})
+        self.assertIn("from 2.8e+04 (not at 2.5e+04) to 3.1e+04 (not at 3.4e+04) mm/s", report.findings([found], None))
+        found.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", [], 0.97) for _ in runs]
+        self.assertIsNone(report.mixed_interval(found))
+
+    def test_what_others_found_stands_beside(self):
+        told = report.findings([], None, {"mixed_interval_m_s": [0.0282, 0.0343], "seen": {"velocity_m_s": 0.0313, "voidage": 0.9},
+                                          "measured_m_s": [0.03], "simulated_m_s": None})
+        for line in ("mixed by force balance: 28.2 to 34.3 mm/s", "as particles see it: 31.3 mm/s", "measured: 30 mm/s"):
+            self.assertIn(line, told)
+        self.assertNotIn("simulated", told)
 
 
 if __name__ == "__main__":

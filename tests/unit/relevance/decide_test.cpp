@@ -31,8 +31,26 @@ TEST(Decision, LeavesWhatTheCaseDecidesAndCountsIt) {
   std::vector<EffectRow> rows{force("a", 0.5), force("b", 0.012), force("c", 0.001)};
   decide(rows, {0.02, false, {"c"}, {"a"}});
   EXPECT_FALSE(on(rows[0]));
-  EXPECT_TRUE(on(rows[1]) && on(rows[2]));  // the sum is too great whatever b does: b is all that can be had
-  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.5);
+  EXPECT_TRUE(!on(rows[1]) && on(rows[2]));  // the sum is too great whatever b does: it is judged by itself
+  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.512);
+  rows = {force("a", 0.015), force("b", 0.012), force("c", 0.001)};
+  decide(rows, {0.02, false, {}, {"a"}});
+  EXPECT_TRUE(!on(rows[0]) && on(rows[1]) && !on(rows[2]));  // here b makes up for a
+  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.016);
+}
+
+// Drag, stress and exchange count by the share that is missing, in the models that have laws of them.
+TEST(Decision, CountsSharesOfWhatIsNoForce) {
+  std::vector<EffectRow> rows{force("stress", 0.015), force("b", 0.012), force("drag", 0.3)};
+  for (const std::size_t n : {0, 2}) rows[n].summed = false;
+  rows[0].share_off = 0.015;
+  rows[2].share_off = 1;
+  rows[2].models = "tfm";
+  decide(rows, {0.02, false, {}, {}});
+  EXPECT_TRUE(on(rows[0]) && !on(rows[1]) && on(rows[2]));  // the first by the sum, the last by its number
+  decide(rows = {rows[0], force("b", 0.012), rows[2]}, {0.02, false, {}, {"stress", "drag"}});
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "tfm"), 0.015 + 0.012 + 1);
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "dem"), 0.015 + 0.012);
 }
 
 TEST(Decision, SwitchesNothingByABand) {

@@ -1,0 +1,74 @@
+#include "multiscale/inversion/balance.hpp"
+
+#include <cmath>
+
+namespace polybed::multiscale {
+
+std::vector<double> roots(const Residual& residual, double low, double high, int intervals) {
+  std::vector<double> found;
+  std::optional<double> last;
+  double last_at = low;
+  for (int n = 1; n < intervals; ++n) {
+    const double at = low + (high - low) * n / intervals;
+    const std::optional<double> here = residual(at);
+    if (last && here && *last * *here <= 0 && *last != 0) {
+      double a = last_at, b = at;
+      for (int k = 0; k < 100; ++k) {
+        const double middle = 0.5 * (a + b);
+        const std::optional<double> value = residual(middle);
+        if (!value) break;
+        (*value * *last > 0 ? a : b) = middle;
+      }
+      found.push_back(0.5 * (a + b));
+    }
+    last = here;
+    last_at = at;
+  }
+  return found;
+}
+
+double velocity_of(const std::function<double(double)>& load, double target) {
+  double low = 1e-12, high = 1e3;
+  for (int n = 0; n < 200 && high / low > 1 + 1e-15; ++n) {
+    const double middle = std::sqrt(low * high);
+    (load(middle) < target ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+double bulk_density(const BinaryBed& bed, double voidage) {
+  return (1 - voidage) * (bed.share[0] * bed.density[0] + bed.share[1] * bed.density[1]) + voidage * bed.fluid.density;
+}
+
+std::optional<double> resting_velocity(const BinaryBed& bed, const closures::DragLaw& law, double voidage,
+                                       const Around& around, std::size_t j) {
+  const double weight = (bed.density[j] - bulk_density(bed, voidage)) * bed.gravity;
+  if (!(weight > 0)) return std::nullopt;
+  // Drag per volume of the species, Pa/m: 18 mu u f_j / D_j^2.
+  const auto drag = [&](double u) {
+    std::array<double, 2> f{}, slope{};
+    const double slip = u * around.voidage / voidage;
+    closures::drag_of_mixture(law, around.voidage, around.share, bed.diameter, std::array{slip, slip},
+                              bed.fluid.density, bed.fluid.viscosity, f, slope);
+    return 18 * bed.fluid.viscosity * slip * f[j] / (bed.diameter[j] * bed.diameter[j]);
+  };
+  return velocity_of(drag, weight);
+}
+
+std::vector<InversionPoint> balanced(
+    const BinaryBed& bed, const closures::DragLaw& law, int intervals,
+    const std::function<std::optional<std::array<Around, 2>>(double voidage)>& around) {
+  const Residual residual = [&](double voidage) -> std::optional<double> {
+    const auto seen = around(voidage);
+    if (!seen) return std::nullopt;
+    const auto u1 = resting_velocity(bed, law, voidage, (*seen)[0], 0),
+               u2 = resting_velocity(bed, law, voidage, (*seen)[1], 1);
+    return u1 && u2 ? std::optional(std::log(*u1 / *u2)) : std::nullopt;
+  };
+  std::vector<InversionPoint> points;
+  for (const double voidage : roots(residual, least_voidage, 1, intervals))
+    points.push_back({*resting_velocity(bed, law, voidage, (*around(voidage))[1], 1), voidage});
+  return points;
+}
+
+}  // namespace polybed::multiscale
