@@ -1,8 +1,6 @@
 #include "core/numerics/layer_solver.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "core/vectors.hpp"
 
@@ -44,23 +42,16 @@ void invert(double* matrix, std::size_t n, std::size_t pitch) {
   }
 }
 
-/// Rounds a matrix; what is below any number that matters becomes 0, as arithmetic with the least numbers is slow.
-void keep(const double* matrix, std::size_t size, float* kept) {
-  constexpr double least = 1e-30;
-  for (std::size_t i = 0; i < size; ++i) kept[i] = std::abs(matrix[i]) > least ? float(matrix[i]) : 0.0f;
-}
-
 /// y += A x, A symmetric, four columns at a time.
-void add_product(const float* matrix, const double* x, std::size_t n, std::size_t pitch, double* y) {
+void add_product(const double* matrix, const double* x, std::size_t n, std::size_t pitch, double* y) {
   std::size_t k = 0;
   for (; k + 4 <= n; k += 4) {
-    const float *a = matrix + k * pitch, *b = a + pitch, *c = b + pitch, *d = c + pitch;
-    const double of_a = x[k], of_b = x[k + 1], of_c = x[k + 2], of_d = x[k + 3];
+    const double *a = matrix + k * pitch, *b = a + pitch, *c = b + pitch, *d = c + pitch;
     for (std::size_t i = 0; i < pitch; ++i)
-      y[i] += (double(a[i]) * of_a + double(b[i]) * of_b) + (double(c[i]) * of_c + double(d[i]) * of_d);
+      y[i] += (a[i] * x[k] + b[i] * x[k + 1]) + (c[i] * x[k + 2] + d[i] * x[k + 3]);
   }
   for (; k < n; ++k)
-    for (std::size_t i = 0; i < pitch; ++i) y[i] += double(matrix[k * pitch + i]) * x[k];
+    for (std::size_t i = 0; i < pitch; ++i) y[i] += matrix[k * pitch + i] * x[k];
 }
 
 }  // namespace
@@ -74,8 +65,6 @@ LayerSolver::LayerSolver(const Grid& grid)
       width_(cells_across(grid)),
       pitch_((width_ + 7) / 8 * 8),
       inverse_(count_ * width_ * pitch_),
-      matrix_(width_ * pitch_),
-      before_(width_ * pitch_),
       joint_(count_ * pitch_),
       value_(count_ * pitch_),
       work_(pitch_) {
@@ -87,9 +76,9 @@ LayerSolver::LayerSolver(const Grid& grid)
 }
 
 /// The matrix of one layer, its neighbours left out.
-void LayerSolver::set_layer(std::size_t layer, const FaceSpans& coefficient, std::span<const double> shift) {
-  double* matrix = matrix_.data();
-  std::fill(matrix_.begin(), matrix_.end(), 0.0);
+void LayerSolver::add_layer(std::size_t layer, const FaceSpans& coefficient, std::span<const double> shift) {
+  double* matrix = inverse_of(layer);
+  std::fill_n(matrix, width_ * pitch_, 0.0);
   const Index above = Index(layer) * grid_.stride(axis_);
   for (std::size_t i = 0; i < width_; ++i) {
     const auto cell = std::size_t(cell_[i] + above);
@@ -118,16 +107,14 @@ void LayerSolver::set_layer(std::size_t layer, const FaceSpans& coefficient, std
 
 void LayerSolver::setup(const FaceSpans& coefficient, std::span<const double> shift) {
   for (std::size_t layer = 0; layer < count_; ++layer) {
-    set_layer(layer, coefficient, shift);
+    add_layer(layer, coefficient, shift);
+    double* matrix = inverse_of(layer);
     if (layer > 0) {
-      const double* joint = joint_.data() + layer * pitch_;
+      const double *before = inverse_of(layer - 1), *joint = joint_.data() + layer * pitch_;
       for (std::size_t i = 0; i < width_; ++i)
-        for (std::size_t k = 0; k < pitch_; ++k)
-          matrix_[i * pitch_ + k] -= joint[i] * before_[i * pitch_ + k] * joint[k];
+        for (std::size_t k = 0; k < pitch_; ++k) matrix[i * pitch_ + k] -= joint[i] * before[i * pitch_ + k] * joint[k];
     }
-    in_vectors<invert>(matrix_.data(), width_, pitch_);
-    in_vectors<keep>(matrix_.data(), matrix_.size(), inverse_.data() + layer * matrix_.size());
-    std::swap(matrix_, before_);
+    in_vectors<invert>(matrix, width_, pitch_);
   }
 }
 
@@ -139,14 +126,14 @@ void LayerSolver::solve(const Field& source, Field& p) {
     const double* joint = joint_.data() + layer * pitch_;
     for (std::size_t i = 0; i < width_; ++i)
       work_[i] = source[std::size_t(cell_[i] + Index(layer) * step)] + (layer > 0 ? joint[i] * (value - pitch_)[i] : 0);
-    in_vectors<add_product>(inverse_.data() + layer * matrix_.size(), work_.data(), width_, pitch_, value);
+    in_vectors<add_product>(inverse_of(layer), work_.data(), width_, pitch_, value);
   }
   for (std::size_t layer = count_; layer-- > 0;) {
     double* value = value_.data() + layer * pitch_;
     if (layer + 1 < count_) {
       for (std::size_t i = 0; i < width_; ++i)
         work_[i] = (joint_.data() + (layer + 1) * pitch_)[i] * (value + pitch_)[i];
-      in_vectors<add_product>(inverse_.data() + layer * matrix_.size(), work_.data(), width_, pitch_, value);
+      in_vectors<add_product>(inverse_of(layer), work_.data(), width_, pitch_, value);
     }
     for (std::size_t i = 0; i < width_; ++i) p[std::size_t(cell_[i] + Index(layer) * step)] = value[i];
   }
