@@ -138,7 +138,7 @@ void Model::begin_integration() {
   prepare(y_);
   stepping_->find_rates(time_, y_, dydt_);
   for (const auto& part : parts_) part->begin(time_);
-  integrator().restart(time_, y_, dydt_, step_);
+  integrator().restart(time_, y_, dydt_, step_ > 0 ? step_ : stepping_->first_step(y_, dydt_));
 }
 
 void Model::prepare(std::span<const double> y) {

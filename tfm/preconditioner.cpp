@@ -17,7 +17,7 @@ using Kind = StateLayout::Entry::Kind;
 
 namespace {
 
-/// Cycles of multigrid per application; two were found to pay.
+/// Cycles of multigrid per application, where it serves; two were found to pay.
 constexpr int cycles = 2;
 
 std::vector<Field> rows_of_fields(const core::Grid& grid, std::size_t rows) {
@@ -38,7 +38,6 @@ Preconditioner::Preconditioner(const Constants& constants, const fluid::Boundari
       source_p_(core::make_field(constants.grid)),
       source_s_(core::make_field(constants.grid)),
       dp_(core::make_field(constants.grid)),
-      s_(core::make_field(constants.grid)),
       work_(core::make_field(constants.grid)),
       flux_(core::make_face_field(constants.grid)),
       solver_(constants.grid) {
@@ -57,7 +56,7 @@ void Preconditioner::apply(const StateLayout& layout, std::span<const double> r,
   unpack(layout, r);
   solve_faces();
   elliptic_sources();
-  solver_.apply(source_p_, source_s_, dp_, s_, cycles);
+  solver_.apply(source_p_, source_s_, dp_, work_, cycles);
   correct_faces();
   pack(layout, z);
 }
@@ -151,11 +150,10 @@ void Preconditioner::elliptic_sources() {
   });
 }
 
-/// Step 3: v -= R_q grad dp + R_g grad(L s).
+/// Step 3: v -= R_q grad dp + R_g grad q, q in the work space.
 void Preconditioner::correct_faces() {
   const core::Grid& grid = constants_.grid;
   fluid::set_outlet_pressure(grid, boundaries_, dp_);
-  for (std::size_t c = 0; c < work_.size(); ++c) work_[c] = slope_[c] * s_[c];
   boundaries_.open() ? fluid::set_outlet_pressure(grid, boundaries_, work_) : boundaries_.fill_cells(work_);
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);

@@ -6,11 +6,11 @@
 //                 c dU_j where the species is held
 //          row J: c dJ + sum phi_j b_j (1/rho_f - 1/rho_j)(dU_f - dU_j)
 //          R_q = S^-1 (1/rho_j.., B),   R_g = S^-1 (1/(phi rho_j).., sum phi_j/(phi rho_j))
-//   cell:  A (dp, s) = (kappa c dp, c s) - div( C grad(dp, L s) ),  s = sum dphi_j,  L = p_s' + lambda c
-//          (kappa = 0 if the fluid is incompressible)
+//   cell:  A (dp, q) = (kappa c dp, c q/L) - div( C grad(dp, q) ),  q = L sum dphi_j,  L = p_s' + lambda c
+//          (kappa = 0 if the fluid is incompressible); inverted approximately by core::BlockSolver
 //   apply: 1. v = S^-1 r on faces
-//          2. A (dp, s) = ( r_p - div v_J , sum r_phi_j - div sum phi_j v_j )
-//          3. v -= R_q grad dp + R_g grad(L s)
+//          2. A (dp, q) = ( r_p - div v_J , sum r_phi_j - div sum phi_j v_j )
+//          3. v -= R_q grad dp + R_g grad q
 //          4. dphi_j = (r_phi_j - div(phi_j v_j))/c, and (r + phi_j v_j)/c for what crosses an open end,
 //             dtheta_j = r_theta_j/(c + decay), where theta_j is an unknown
 //
@@ -71,7 +71,7 @@ class Preconditioner {
   std::array<std::vector<core::Field>, 3> face_value_;         ///< residuals, then corrections, by row
   std::vector<core::Field> fraction_residual_, passed_residual_;
   std::vector<core::Field> temperature_residual_, temperature_row_;  ///< c + decay of theta_j; empty without
-  core::Field pressure_residual_, source_p_, source_s_, dp_, s_, work_;
+  core::Field pressure_residual_, source_p_, source_s_, dp_, work_;
   core::FaceField flux_;
   core::BlockSolver solver_;
 };

@@ -1,9 +1,12 @@
 #include "tfm/stepping.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/numerics/ranks.hpp"
 #include "tfm/compressible_problem.hpp"
 #include "tfm/explicit_problem.hpp"
 #include "tfm/implicit_problem.hpp"
@@ -100,7 +103,11 @@ class ImplicitSteps : public Stepping {
  public:
   ImplicitSteps(RightHandSide& equations, const StateLayout& layout, const core::Tfm& options, Tolerances tolerances,
                 core::Timers& timers)
-      : Stepping(equations, layout), timers_(timers), problem_(equations, layout, timers) {
+      : Stepping(equations, layout),
+        timers_(timers),
+        rtol_(options.rtol),
+        atol_(tolerances.absolute),
+        problem_(equations, layout, timers) {
     core::ImplicitOptions made;
     made.rtol = options.rtol;
     made.atol = std::move(tolerances.absolute);
@@ -119,6 +126,35 @@ class ImplicitSteps : public Stepping {
     Stepping::count(work);
     work.right_hand_sides += problem_.residuals();
   }
+  /// Longer than the integrator's own first step, 0.5/|dydt| in the norm of the error test, where round-off of the
+  /// fluxes over that would exceed the tolerance of the pressure: Newton then never converges, and shorter steps are
+  /// worse.
+  [[nodiscard]] double first_step(std::span<const double> y, std::span<const double> dydt) const override {
+    const core::Grid& grid = equations_.constants().grid;
+    using Kind = StateLayout::Entry::Kind;
+    double sum = 0, of_pressure = 0, of_flux = 0;
+    for (const StateLayout::Entry& entry : layout_.entries()) {
+      if (entry.kind == Kind::pressure || entry.kind == Kind::passed) {
+        if (entry.kind == Kind::pressure) of_pressure = atol_[entry.begin];
+        continue;
+      }
+      if (entry.kind == Kind::flux) of_flux = atol_[entry.begin];
+      for (std::size_t n = entry.begin; n < entry.begin + entry.size; ++n) {
+        const double weighted = dydt[n] / (rtol_ * std::abs(y[n]) + atol_[n]);
+        sum += weighted * weighted;
+      }
+    }
+    const double size = core::sum_of_ranks(grid, double(layout_.size()));
+    const double own = 0.5 / std::sqrt(core::sum_of_ranks(grid, sum) / size);
+    constexpr double margin = 100;  // a safe distance from where round-off alone fills the tolerance
+    const std::vector<double>& density = equations_.constants().density;
+    const double heaviest =
+        std::max(equations_.constants().fluid.density, *std::max_element(density.begin(), density.end()));
+    const double height = grid.column_cells(1) * grid.spacing[1];
+    const double round_off = std::numeric_limits<double>::epsilon() * heaviest * height * of_flux / rtol_;
+    const double least = margin * round_off / of_pressure;
+    return own < least ? least : 0;
+  }
   /// The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed run gives
   /// the same bits.
   void find_rates(double t, std::span<double> y, std::span<double> dydt) override {
@@ -135,6 +171,8 @@ class ImplicitSteps : public Stepping {
 
  private:
   core::Timers& timers_;
+  double rtol_;
+  std::vector<double> atol_;
   ImplicitProblem problem_;
 };
 
@@ -147,6 +185,8 @@ class ImplicitSoundSteps : public ImplicitSteps {
     find_rates_with_sound({equations_, layout_}, equations_, layout_, t, y, dydt);
     clear_pressure(dydt);
   }
+  /// The pressure has a rate, and its round-off does not grow as steps shrink.
+  [[nodiscard]] double first_step(std::span<const double>, std::span<const double>) const override { return 0; }
 };
 
 }  // namespace

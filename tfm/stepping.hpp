@@ -24,6 +24,10 @@ class Stepping {
 
   /// Where an integration begins at (t, y): completes what y lacks, and finds its rates if the integrator needs them.
   virtual void find_rates(double t, std::span<double> y, std::span<double> dydt) = 0;
+  /// The length of the first step, s, from what find_rates() left; 0: the integrator chooses. Collective.
+  [[nodiscard]] virtual double first_step(std::span<const double> /*y*/, std::span<const double> /*dydt*/) const {
+    return 0;
+  }
   /// Called before an integration begins and before each step, with the expected length, s.
   virtual void begin_step(double /*length*/) {}
   /// Time scales of the processes that may limit a step, from the fields of a finished evaluation.

@@ -18,8 +18,7 @@ HYPRE_ParVector vector(HYPRE_IJVector v) {
 
 }  // namespace
 
-HypreRows::HypreRows(const Grid& grid, int unknowns)
-    : all_(communicator(grid)), unknowns_(unknowns), rows_(HYPRE_Int(grid.cell_count()) * unknowns) {
+HypreRows::HypreRows(const Grid& grid) : all_(communicator(grid)), rows_(HYPRE_Int(grid.cell_count())) {
   open_linear_solvers();
   numbers_ = cell_numbers(grid);
   row_.resize(std::size_t(rows_));
@@ -60,7 +59,7 @@ void HypreRows::add(HYPRE_Int column, double value) {
   value_.push_back(value);
 }
 
-void HypreRows::assemble(int functions, bool symmetric) {
+void HypreRows::assemble() {
   clear();
   HYPRE_IJMatrixCreate(all_, row_.front(), row_.back(), row_.front(), row_.back(), &matrix_);
   HYPRE_IJMatrixSetObjectType(matrix_, HYPRE_PARCSR);
@@ -70,15 +69,12 @@ void HypreRows::assemble(int functions, bool symmetric) {
   HYPRE_IJMatrixAssemble(matrix_);
   HYPRE_BoomerAMGCreate(&multigrid_);
   HYPRE_BoomerAMGSetPrintLevel(multigrid_, 0);
-  HYPRE_BoomerAMGSetNumFunctions(multigrid_, functions);
   HYPRE_BoomerAMGSetCoarsenType(multigrid_, 10);  // HMIS
   HYPRE_BoomerAMGSetInterpType(multigrid_, 6);    // extended+i
   HYPRE_BoomerAMGSetPMaxElmts(multigrid_, 4);
   HYPRE_BoomerAMGSetStrongThreshold(multigrid_, 0.25);
-  // hypre's default, l1 Gauss-Seidel, adds to the diagonal what couples a row to other ranks. Here that contains the
-  // other unknown of the cell beyond, which may exceed the diagonal by far: such rows then hardly move.
-  constexpr HYPRE_Int hybrid = 3, hybrid_symmetric = 6;  // Gauss-Seidel on each rank, Jacobi between ranks
-  HYPRE_BoomerAMGSetRelaxType(multigrid_, symmetric ? hybrid_symmetric : hybrid);
+  constexpr HYPRE_Int hybrid_symmetric = 6;  // Gauss-Seidel on each rank, Jacobi between ranks
+  HYPRE_BoomerAMGSetRelaxType(multigrid_, hybrid_symmetric);
   HYPRE_BoomerAMGSetTol(multigrid_, 0);
   HYPRE_BoomerAMGSetMaxIter(multigrid_, 1);
   HYPRE_BoomerAMGSetup(multigrid_, parcsr(), vector(right_), vector(solution_));

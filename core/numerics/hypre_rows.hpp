@@ -15,8 +15,7 @@ namespace polybed::core {
 /// Rows are filled in order, then assembled; vectors are of the same length. Each rank fills those of its cells.
 class HypreRows {
  public:
-  /// \param unknowns  rows for each owned cell; the rows of cell n (core/numerics/blocks.hpp) are n unknowns, n unknowns + 1 ...
-  HypreRows(const Grid& grid, int unknowns);
+  explicit HypreRows(const Grid& grid);
   ~HypreRows();
   HypreRows(const HypreRows&) = delete;
   HypreRows& operator=(const HypreRows&) = delete;
@@ -27,13 +26,11 @@ class HypreRows {
   void add(HYPRE_Int column, double value);
   void end_row() { row_size_.push_back(HYPRE_Int(value_.size() - first_)); }
 
-  /// First row of a cell, owned or next to an owned one; below 0 beyond the column's ends.
-  [[nodiscard]] HYPRE_Int row_of(Index cell) const { return HYPRE_Int(numbers_[std::size_t(cell)]) * unknowns_; }
+  /// Row of a cell (core/numerics/blocks.hpp), owned or next to an owned one; below 0 beyond the column's ends.
+  [[nodiscard]] HYPRE_Int row_of(Index cell) const { return HYPRE_Int(numbers_[std::size_t(cell)]); }
 
   /// The matrix, and its hierarchy of BoomerAMG: HMIS coarsening, extended+i interpolation.
-  /// \param functions  unknowns that take turns in the rows
-  /// \param symmetric  a smoother that conjugate gradients may use
-  void assemble(int functions, bool symmetric);
+  void assemble();
 
   /// Right-hand side and solution, in the order of the rows.
   void set_right(std::span<const double> values);
@@ -50,7 +47,7 @@ class HypreRows {
   [[nodiscard]] HYPRE_ParCSRMatrix parcsr() const;
 
   MPI_Comm all_;
-  HYPRE_Int unknowns_, rows_;
+  HYPRE_Int rows_;
   Field numbers_;  ///< of the cells
   HYPRE_IJMatrix matrix_ = nullptr;
   HYPRE_IJVector right_ = nullptr, solution_ = nullptr;

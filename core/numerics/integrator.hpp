@@ -92,7 +92,7 @@ struct ImplicitOptions {
   std::vector<double> id;                        ///< 1: differential, 0: algebraic (left out of the error test)
   std::shared_ptr<const Ranks> ranks = nullptr;  ///< that hold parts of the state; null: it is all here
   int max_order = 2;
-  double linear_tolerance = 0.02;  ///< of the linear solve, relative to that of Newton
+  double linear_tolerance = 0.05;  ///< of the linear solve, relative to that of Newton; as IDA has it
   int krylov_vectors = 30;
   TolerancesAt atol_at = {};  ///< in place of atol, which gives the size alone; empty: atol
 };

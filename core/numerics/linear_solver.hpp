@@ -53,9 +53,13 @@ class PoissonSolver {
   Field pinned_;                         ///< and the diagonal that holds it
 };
 
-/// A fixed number of multigrid cycles for two coupled unknowns per cell,
-///   diagonal_p p - div(C11 grad p + C12 grad(L s)) = r1,    c s - div(C21 grad p + C22 grad(L s)) = r2.
-/// Boundary faces: p as in PoissonSolver by C11; no flux of s.
+/// An approximate inverse for two coupled unknowns per cell, with q = L s,
+///   diagonal_p p - div(C11 grad p + C12 grad q) = r1,    c q/L - div(C21 grad p + C22 grad q) = r2.
+/// The first equation is solved for C11 grad p on each face and put into the second, which leaves
+///   c q/L - div((C22 - C21 C12/C11) grad q) = r2 - (C21/C11) r1,
+/// exact where C21/C11 is even and diagonal_p 0. Both are symmetric, so each is
+/// solved by a method for one unknown.
+/// Boundary faces: p as in PoissonSolver by C11, q likewise by C12 and C22.
 class BlockSolver {
  public:
   explicit BlockSolver(const Grid& grid);
@@ -63,17 +67,25 @@ class BlockSolver {
   BlockSolver(BlockSolver&&) noexcept;
   BlockSolver& operator=(BlockSolver&&) noexcept;
 
-  /// Builds the matrix and its multigrid hierarchy; false if the library refuses. Ghosts of the slope must be filled.
-  /// \param diagonal_p  on cells, >= 0; empty: 0
+  /// False if the library refuses. Collective.
+  /// \param slope  L on cells, >= 0; q is 0 where it is 0  \param diagonal_p  on cells, >= 0; empty: 0
   [[nodiscard]] bool setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
                            const Field& slope, const Field& diagonal_p, double c);
-  /// p, s start from zero; owned cells.
-  void apply(const Field& r1, const Field& r2, Field& p, Field& s, int cycles);
+  /// p and q of the owned cells. Collective. \param cycles  of multigrid, where it serves
+  void apply(const Field& r1, const Field& r2, Field& p, Field& q, int cycles);
 
  private:
-  struct Hypre;
+  class Scalar;
+  void set_beyond_ends(Field& q) const;
+
   Grid grid_;
-  std::unique_ptr<Hypre> hypre_;
+  Halo halo_;
+  std::unique_ptr<Scalar> of_p_, of_q_;
+  FaceField c12_;       ///< over the square of the distance
+  FaceField rest_;      ///< C22 - C21 C12/C11
+  Field share_;         ///< C21/C11, mean over the faces of a cell
+  Field own_, pinned_;  ///< diagonals of q and of p
+  Field source_;
 };
 
 }  // namespace polybed::core

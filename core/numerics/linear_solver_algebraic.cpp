@@ -1,8 +1,9 @@
 #include "core/numerics/linear_solver_algebraic.hpp"
 
-#include <vector>
+#include <algorithm>
 
 #include "core/numerics/hypre_rows.hpp"
+#include "core/numerics/ranks.hpp"
 
 namespace polybed::core {
 
@@ -32,33 +33,57 @@ void fill(const Grid& grid, const FaceSpans& coefficient, std::span<const double
   });
 }
 
-std::vector<double> packed(const Grid& grid, const Field& field) {
-  std::vector<double> values;
-  values.reserve(grid.cell_count());
-  for_each_row(
-      grid, [&](Index begin, Index end) { values.insert(values.end(), field.begin() + begin, field.begin() + end); });
-  return values;
+void pack(const Grid& grid, const Field& field, std::vector<double>& values) {
+  values.resize(grid.cell_count());
+  double* to = values.data();
+  for_each_row(grid, [&](Index begin, Index end) { to = std::copy(field.begin() + begin, field.begin() + end, to); });
+}
+
+void unpack(const Grid& grid, const std::vector<double>& values, Field& field) {
+  const double* from = values.data();
+  for_each_row(grid, [&](Index begin, Index end) {
+    std::copy(from, from + (end - begin), field.begin() + begin);
+    from += end - begin;
+  });
 }
 
 }  // namespace
 
 int solve_algebraically(const Grid& grid, const FaceSpans& coefficient, std::span<const double> shift,
                         const Field& source, Field& p, double tolerance) {
-  HypreRows rows(grid, 1);
+  HypreRows rows(grid);
   fill(grid, coefficient, shift, rows);
-  std::vector<double> solution = packed(grid, p);
-  rows.set_right(packed(grid, source));
+  std::vector<double> solution;
+  pack(grid, source, solution);
+  rows.set_right(solution);
+  pack(grid, p, solution);
   rows.set_solution(solution);
-  rows.assemble(1, true);
+  rows.assemble();
   const int iterations = rows.conjugate_gradients(tolerance, most_algebraic_iterations);
   HYPRE_ClearAllErrors();
   rows.get_solution(solution);
-  const double* from = solution.data();
-  for_each_row(grid, [&](Index begin, Index end) {
-    std::copy(from, from + (end - begin), p.begin() + begin);
-    from += end - begin;
-  });
+  unpack(grid, solution, p);
   return iterations;
+}
+
+AlgebraicCycles::AlgebraicCycles(const Grid& grid) : grid_(grid), rows_(std::make_unique<HypreRows>(grid)) {}
+AlgebraicCycles::~AlgebraicCycles() = default;
+
+bool AlgebraicCycles::setup(const FaceSpans& coefficient, std::span<const double> shift) {
+  fill(grid_, coefficient, shift, *rows_);
+  rows_->assemble();
+  const bool fine = HYPRE_GetError() == 0;
+  HYPRE_ClearAllErrors();
+  return on_all_ranks(grid_, fine);
+}
+
+void AlgebraicCycles::apply(const Field& source, Field& p, int cycles) {
+  pack(grid_, source, packed_);
+  rows_->set_right(packed_);
+  rows_->cycles(cycles);
+  HYPRE_ClearAllErrors();
+  rows_->get_solution(packed_);
+  unpack(grid_, packed_, p);
 }
 
 }  // namespace polybed::core

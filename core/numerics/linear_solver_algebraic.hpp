@@ -2,6 +2,10 @@
 // wide.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <vector>
+
 #include "core/numerics/linear_solver.hpp"
 
 namespace polybed::core {
@@ -10,5 +14,25 @@ namespace polybed::core {
 /// Returns the iterations; whether they were enough is for the caller to see from the residual.
 int solve_algebraically(const Grid& grid, const FaceSpans& coefficient, std::span<const double> shift,
                         const Field& source, Field& p, double tolerance);
+
+class HypreRows;
+
+/// A fixed number of cycles of BoomerAMG for shift p - div(B grad p) = source, from p = 0. Collective.
+class AlgebraicCycles {
+ public:
+  explicit AlgebraicCycles(const Grid& grid);
+  ~AlgebraicCycles();
+  AlgebraicCycles(const AlgebraicCycles&) = delete;
+  AlgebraicCycles& operator=(const AlgebraicCycles&) = delete;
+
+  /// False if the library refuses. Arguments as in PoissonSolver::solve.
+  [[nodiscard]] bool setup(const FaceSpans& coefficient, std::span<const double> shift);
+  void apply(const Field& source, Field& p, int cycles);
+
+ private:
+  Grid grid_;
+  std::unique_ptr<HypreRows> rows_;
+  std::vector<double> packed_;
+};
 
 }  // namespace polybed::core

@@ -1,84 +1,123 @@
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/numerics/direct_solver.hpp"
 #include "core/numerics/hypre_rows.hpp"
+#include "core/numerics/layer_solver.hpp"
 #include "core/numerics/linear_solver.hpp"
+#include "core/numerics/linear_solver_algebraic.hpp"
 #include "core/numerics/ranks.hpp"
 
 namespace polybed::core {
 
-/// The two unknowns of a cell stand next to each other.
-struct BlockSolver::Hypre {
-  HypreRows rows;
-  std::vector<double> packed;
-  explicit Hypre(const Grid& grid) : rows(grid, 2), packed(2 * grid.cell_count()) {}
+/// One symmetric equation, shift x - div(B grad x) = r: exactly where rows are short, else by cycles of multigrid.
+class BlockSolver::Scalar {
+ public:
+  explicit Scalar(const Grid& grid) {
+    if (LayerSolver::serves(grid))
+      layers_ = std::make_unique<LayerSolver>(grid);
+    else
+      multigrid_ = std::make_unique<AlgebraicCycles>(grid);
+  }
+  [[nodiscard]] bool setup(const FaceSpans& coefficient, std::span<const double> shift) {
+    if (multigrid_) return multigrid_->setup(coefficient, shift);
+    layers_->setup(coefficient, shift);
+    return true;
+  }
+  void apply(const Field& r, Field& x, int cycles) {
+    if (multigrid_)
+      multigrid_->apply(r, x, cycles);
+    else
+      layers_->solve(r, x);
+  }
+
+ private:
+  std::unique_ptr<LayerSolver> layers_;
+  std::unique_ptr<AlgebraicCycles> multigrid_;
 };
 
-BlockSolver::BlockSolver(const Grid& grid) : grid_(grid), hypre_(std::make_unique<Hypre>(grid)) {}
+BlockSolver::BlockSolver(const Grid& grid)
+    : grid_(grid),
+      halo_(grid),
+      of_p_(std::make_unique<Scalar>(grid)),
+      of_q_(std::make_unique<Scalar>(grid)),
+      c12_(make_face_field(grid)),
+      rest_(make_face_field(grid)),
+      share_(make_field(grid)),
+      own_(make_field(grid)),
+      pinned_(make_field(grid)),
+      source_(make_field(grid)) {}
 BlockSolver::~BlockSolver() = default;
 BlockSolver::BlockSolver(BlockSolver&&) noexcept = default;
 BlockSolver& BlockSolver::operator=(BlockSolver&&) noexcept = default;
 
 bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
                         const Field& slope, const Field& diagonal_p, double c) {
-  HypreRows& rows = hypre_->rows;
-  rows.begin();
-  /// Flux of one unknown's equation through one face of a cell: there, and to the cell beyond.
-  const auto couple = [&](Index cell, Index beyond, double of_p, double of_s) {
-    rows.add(rows.row_of(cell), of_p);
-    rows.add(rows.row_of(cell) + 1, of_s * slope[std::size_t(cell)]);
-    if (rows.row_of(beyond) < 0) return;
-    rows.add(rows.row_of(beyond), -of_p);
-    rows.add(rows.row_of(beyond) + 1, -of_s * slope[std::size_t(beyond)]);
-  };
-  const double pin = diagonal_p.empty() ? pin_of_first_cell(grid_, c11, {}) : 0;
-  const auto add_row = [&](Index cell, int unknown, const FaceSpans& of_p, const FaceSpans& of_s) {
-    rows.begin_row();
-    rows.add(rows.row_of(cell), unknown == 0 && !diagonal_p.empty() ? diagonal_p[std::size_t(cell)] : 0.0);
-    if (unknown == 0 && cell == grid_.index(0, 0)) rows.add(rows.row_of(cell), pin);
-    rows.add(rows.row_of(cell) + 1, unknown == 0 ? 0.0 : c);
-    for (int d = 0; d < grid_.dimensions; ++d) {
-      const auto a = std::size_t(d);
-      const double w = 1 / (grid_.spacing[a] * grid_.spacing[a]);
-      for (const int side : {-1, 1}) {
-        const auto face = std::size_t(cell + (side < 0 ? 0 : grid_.stride(d)));
-        couple(cell, cell + side * grid_.stride(d), w * of_p[a][face], w * of_s[a][face]);
-      }
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const double w = 1 / (grid_.spacing[a] * grid_.spacing[a]);
+    for (std::size_t f = 0; f < c12_[a].size(); ++f) {
+      c12_[a][f] = w * c12[a][f];
+      const double through_p = c11[a][f] > 0 ? c21[a][f] * c12[a][f] / c11[a][f] : 0;
+      rest_[a][f] = std::max(c22[a][f] - through_p, 0.0);
     }
-    rows.end_row();
-  };
+  }
   for_each_row(grid_, [&](Index begin, Index end) {
-    for (Index cell = begin; cell < end; ++cell) {
-      add_row(cell, 0, c11, c12);
-      add_row(cell, 1, c21, c22);
+    for (auto cell = std::size_t(begin); cell < std::size_t(end); ++cell) {
+      double to_p = 0, to_q = 0, stiffness = 0;
+      for (int axis = 0; axis < grid_.dimensions; ++axis) {
+        const auto a = std::size_t(axis);
+        const double w = 1 / (grid_.spacing[a] * grid_.spacing[a]);
+        for (const std::size_t face : {cell, cell + std::size_t(grid_.stride(axis))}) {
+          to_p += w * c11[a][face];
+          to_q += w * c21[a][face];
+          stiffness += w * rest_[a][face];
+        }
+      }
+      share_[cell] = to_p > 0 ? to_q / to_p : 0;
+      constexpr double firm = 1e12;  // where nothing presses back q is 0 to round-off
+      const double most = firm * (stiffness + c);
+      own_[cell] = slope[cell] * most > c ? c / slope[cell] : most;
     }
   });
-  rows.assemble(2, false);
-  const bool fine = HYPRE_GetError() == 0;
-  HYPRE_ClearAllErrors();
-  return on_all_ranks(grid_, fine);
+  std::fill(pinned_.begin(), pinned_.end(), 0.0);
+  if (!diagonal_p.empty())
+    pinned_ = diagonal_p;
+  else
+    pinned_[std::size_t(grid_.index(0, 0))] = pin_of_first_cell(grid_, c11, {});
+  const bool fine = of_p_->setup(c11, pinned_);
+  return of_q_->setup({rest_[0], rest_[1], rest_[2]}, own_) && fine;
 }
 
-void BlockSolver::apply(const Field& r1, const Field& r2, Field& p, Field& s, int cycles) {
-  std::vector<double>& packed = hypre_->packed;
-  double* to = packed.data();
+void BlockSolver::apply(const Field& r1, const Field& r2, Field& p, Field& q, int cycles) {
   for_each_row(grid_, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-      *to++ = r1[c];
-      *to++ = r2[c];
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) source_[c] = r2[c] - share_[c] * r1[c];
+  });
+  of_q_->apply(source_, q, cycles);
+  set_beyond_ends(q);
+  for_each_row(grid_, [&](Index begin, Index end) {
+    std::copy(r1.begin() + begin, r1.begin() + end, source_.begin() + begin);
+    for (int axis = 0; axis < grid_.dimensions; ++axis) {
+      const double* c12 = c12_[std::size_t(axis)].data();
+      const Index s = grid_.stride(axis);
+      for (Index c = begin; c < end; ++c)
+        source_[std::size_t(c)] += c12[c + s] * (q[std::size_t(c + s)] - q[std::size_t(c)]) -
+                                   c12[c] * (q[std::size_t(c)] - q[std::size_t(c - s)]);
     }
   });
-  hypre_->rows.set_right(packed);
-  hypre_->rows.cycles(cycles);
-  HYPRE_ClearAllErrors();
-  hypre_->rows.get_solution(packed);
-  const double* from = packed.data();
-  for_each_row(grid_, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-      p[c] = *from++;
-      s[c] = *from++;
-    }
-  });
+  of_p_->apply(source_, p, cycles);
+}
+
+/// The ghosts of other cells, and 0 where the column ends.
+void BlockSolver::set_beyond_ends(Field& q) const {
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    for (const int side : {0, 1})
+      if (grid_.ends(axis, side))
+        for_each_layer_row(grid_, axis, side == 0 ? -1 : grid_.cells[std::size_t(axis)],
+                           [&](Index begin, Index end) { std::fill(q.begin() + begin, q.begin() + end, 0.0); });
+    halo_.exchange(std::array<Field*, 1>{&q}, axis);
+  }
 }
 
 }  // namespace polybed::core

@@ -18,7 +18,7 @@ constexpr int most_across = 64;
 /// cheaper.
 constexpr double most_contrast = 2.5;
 
-constexpr int most_iterations = 20;
+constexpr int most_row_iterations = 20;
 
 /// Sum of products in four interleaved partial sums along each row: the order of additions is fixed, whatever the width
 /// of vectors.
@@ -224,7 +224,7 @@ std::optional<int> RowMeanSolver::solve(const FaceSpans& coefficient, std::span<
   // an error that does not average out, and a bed at rest would feel it.
   const auto goes_on = [&] {
     const double left = std::sqrt(dot(grid_, residual_, residual_)), round_off = 1e-14 * enough / (share * tolerance);
-    return left > (iterations > 0 ? enough : round_off) && iterations < most_iterations;
+    return left > (iterations > 0 ? enough : round_off) && iterations < most_row_iterations;
   };
   while (goes_on()) {
     precondition(residual_, preconditioned_);

@@ -7,69 +7,12 @@
 #include <random>
 
 #include "core/numerics/direct_solver.hpp"
+#include "tests/unit/core/column_coefficients.hpp"
 
 namespace polybed::core {
 namespace {
 
-Grid box(int nx, int ny, bool periodic = false) {
-  Grid grid;
-  grid.cells = {nx, ny, 1};
-  grid.spacing = {1.0 / nx, 2.0 / ny, 1};
-  grid.periodic = {periodic, false, false};
-  return grid;
-}
-
-FaceSpans spans(const FaceField& b) { return {b[0], b[1], b[2]}; }
-
-/// No flux through the walls of an axis on the sides named.
-void close(const Grid& grid, int axis, bool low, bool high, FaceField& b) {
-  const auto a = std::size_t(axis);
-  Box faces = owned_cells(grid);
-  for (const int layer : {0, grid.cells[a]}) {
-    if (layer == 0 ? !low : !high) continue;
-    faces.lo[a] = layer;
-    faces.hi[a] = layer + 1;
-    for_each_row(grid, faces, [&](Index begin, Index end) {
-      for (Index f = begin; f < end; ++f) b[a][std::size_t(f)] = 0;
-    });
-  }
-}
-
-template <class Value>
-Field cells_of(const Grid& grid, Value&& value) {
-  Field field = make_field(grid);
-  for (int j = 0; j < grid.cells[1]; ++j)
-    for (int i = 0; i < grid.cells[0]; ++i) field[std::size_t(grid.index(i, j))] = value(i, j);
-  return field;
-}
-
-double largest_difference(const Grid& grid, const Field& a, const Field& b) {
-  double most = 0;
-  for_each_row(grid, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) most = std::max(most, std::abs(a[std::size_t(c)] - b[std::size_t(c)]));
-  });
-  return most;
-}
-
-class LinearSolver : public testing::Test {
- protected:
-  static void SetUpTestSuite() { open_linear_solvers(); }
-  std::mt19937 random_{3};
-
-  /// Coefficients over three decades, as between a packed bed and clear liquid.
-  FaceField rough(const Grid& grid) {
-    std::uniform_real_distribution<double> exponent(-3, 0);
-    FaceField b = make_face_field(grid);
-    for (int a = 0; a < grid.dimensions; ++a)
-      for (double& v : b[std::size_t(a)]) v = std::pow(10.0, exponent(random_));
-    if (grid.periodic[0])  // the first and the last face across periodic sides are the same face
-      for (int j = 0; j < grid.cells[1]; ++j)
-        b[0][std::size_t(grid.index(grid.cells[0], j))] = b[0][std::size_t(grid.index(0, j))];
-    else
-      close(grid, 0, true, true, b);
-    return b;
-  }
-};
+class LinearSolver : public ColumnCoefficients {};
 
 // Tolerance: both satisfy the equations to 1e-11; the condition number of these grids lies below 1e6 n^2.
 TEST_F(LinearSolver, AgreesWithTheDirectSolverOnOddSizesAndPeriodicSides) {
@@ -325,30 +268,6 @@ TEST_F(LinearSolver, AnExactFirstGuessCostsOneIteration) {
   const int cold = solver.solve(spans(b), {}, source, p, 1e-10).iterations;
   EXPECT_GT(cold, 3);
   EXPECT_LE(solver.solve(spans(b), {}, source, p, 1e-8).iterations, 1);
-}
-
-// Without the couplings the block system is two equations: p as above, and c s - div(C22 grad(L s)). Many
-// cycles of multigrid must solve the first to the direct solver's answer on any width, also where both
-// neighbours of a cell across periodic sides are one cell, or the cell itself. 1e-6: forty cycles at a factor
-// of 0.7 or better.
-TEST_F(LinearSolver, TheBlockSystemIsRightOnNarrowPeriodicGrids) {
-  for (const auto& [nx, ny] : {std::pair{1, 12}, {2, 9}, {3, 8}, {6, 20}}) {
-    const Grid grid = box(nx, ny, true);
-    FaceField b = rough(grid), none = make_face_field(grid), c22 = make_face_field(grid);
-    close(grid, 1, true, false, b);
-    const Field source = cells_of(grid, [](int i, int j) { return std::sin(i + 2.3 * j); });
-    Field p = make_field(grid), s = make_field(grid), direct = make_field(grid);
-    BlockSolver solver(grid);
-    ASSERT_TRUE(solver.setup(spans(b), spans(none), spans(none), spans(c22), make_field(grid, 1.0), {}, 2.0));
-    solver.apply(source, source, p, s, 40);
-    ASSERT_TRUE(solve_directly(grid, spans(b), {}, source, direct));
-    double scale = 0;
-    for (double v : direct) scale = std::max(scale, std::abs(v));
-    EXPECT_LT(largest_difference(grid, p, direct), 1e-6 * scale) << nx << " x " << ny;
-    Field half = source;
-    for (double& v : half) v /= 2;
-    EXPECT_LT(largest_difference(grid, s, half), 1e-6) << nx << " x " << ny;
-  }
 }
 
 // With a shift the closed box has one solution, and the shift alone gives p = source / shift.

@@ -78,5 +78,24 @@ TEST(Evenness, WhileARunGoesOnIsSaidOnceTheFluidHasCrossedTheBed) {
   EXPECT_FALSE(EvennessWatch::of(Model(single, timers).constants().grid, 0.02));
 }
 
+// Over the first step that the rates of an uneven start suggest, round-off of the fluxes alone exceeds the tolerance of
+// the pressure: Newton would fail until steps are 2e-17 s.
+TEST(Initial, AnUnevenStartFindsItsFirstImplicitStepAtATightTolerance) {
+  core::Scene scene = uneven_bed(1e-3);
+  scene.species.resize(1);
+  scene.species[0].diameter = 0.3e-3;
+  scene.species[0].density = 2500;
+  scene.bed.volume_share = {1.0};
+  scene.bed.start_solids_fraction = 0.45;
+  scene.inlet.superficial_velocity = {{0.0, 0.01}};
+  scene.effects.erase("species_exchange");
+  scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
+  scene.tfm.rtol = 1e-9;
+  core::Timers timers;
+  Model model(scene, timers);
+  for (int n = 0; n < 10; ++n) ASSERT_NO_THROW(model.step(1));
+  EXPECT_GT(model.time(), 1e-9);
+}
+
 }  // namespace
 }  // namespace polybed::tfm
