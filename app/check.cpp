@@ -15,6 +15,7 @@
 #include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "dem/continuum_scene.hpp"
+#include "fluid/inlet.hpp"
 #include "multiscale/card/card.hpp"
 #include "multiscale/effects/left_out.hpp"
 #include "multiscale/particle_requirements.hpp"
@@ -43,8 +44,7 @@ struct Derived {
 
 /// By how much a partition makes the drag of the settled bed differ from the mean law, at the inlet's velocity.
 void note_partition(const core::Scene& scene, Derived& derived) {
-  double velocity = 0;
-  for (const auto& [time, speed] : scene.inlet.superficial_velocity) velocity = std::max(velocity, std::abs(speed));
+  const double velocity = fluid::Ramp(scene.inlet.superficial_velocity).greatest();
   std::vector<double> diameter;
   for (const core::Species& species : scene.species) diameter.push_back(species.diameter);
   const std::vector<double>& share = scene.bed.volume_share;
@@ -84,11 +84,7 @@ struct Inflow {
 };
 
 std::vector<Inflow> inflows_of(const core::Scene& scene) {
-  const auto greatest = [](const auto& points) {
-    double most = 0;
-    for (const auto& point : points) most = std::max(most, std::abs(point.second));
-    return most;
-  };
+  const auto greatest = [](const auto& points) { return fluid::Ramp(points).greatest(); };
   std::vector<Inflow> inflows{
       {"the inlet", greatest(scene.inlet.superficial_velocity),
        std::string("it will be carried to the top") + (scene.column.outlet == core::Outlet::open ? ", and out" : "")}};

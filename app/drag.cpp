@@ -125,7 +125,7 @@ std::vector<std::string> split(const std::string& line) {
 
 /// What a row of a table asks: a voidage, a Reynolds number, and of a mixture its shares and diameters.
 struct Row {
-  std::string text;            ///< the cells that ask it, as the file has them
+  std::string text;            ///< the cells that define it, as the file has them
   std::string where;           ///< file and line
   std::vector<double> values;  ///< all of them, in the order of the header
   std::vector<double> share, diameter;
@@ -212,7 +212,7 @@ Row row_of(const std::string& line, std::size_t columns, std::size_t asked, cons
   return row;
 }
 
-/// Calls see(header, row) for every row of a file of points, with the part of the header that says what is asked.
+/// Calls see(header, row) for every row of a file of points, with the columns of the header that define a point.
 template <class See>
 void read_points(const std::string& path, See&& see) {
   (void)core::bytes_of_file(path, core::longest_file);

@@ -9,6 +9,7 @@
 #include "app/closure_uncertainty.hpp"
 #include "app/stress_uncertainty.hpp"
 #include "core/print.hpp"
+#include "fluid/inlet.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/tfm_record.hpp"
 #include "tfm/evenness.hpp"
@@ -19,13 +20,6 @@ namespace polybed::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Of the superficial velocity of the inlet, m/s.
-double greatest_inlet(const core::Scene& scene) {
-  double greatest = 0;
-  for (const auto& [time, velocity] : scene.inlet.superficial_velocity) greatest = std::max(greatest, velocity);
-  return greatest;
-}
 
 class TfmRun final : public CaseRun {
  public:
@@ -73,18 +67,16 @@ class TfmRun final : public CaseRun {
   void keep_last_state() override { model_.keep_last_state(); }
 
   std::vector<core::Observer> observers() override {
-    return {
-        {"history", *scene_.output.history_every,
-         [&](double t) {
-           observers_->write_history(t);
-           if (even_)
-             say(even_->look(t, observers_->bed_height().value_or(HUGE_VAL), model_.constants().grid, model_.fields()));
-           judge(observers_->invariants().worst());
-         }},
-        {"fields", *scene_.output.every, [&](double t) {
-           const auto scope = timers_.scope("output");
-           observers_->write_fields(t);
-         }}};
+    return {{"history", *scene_.output.history_every,
+             [&](double t) {
+               observers_->write_history(t);
+               if (even_) warn_if_even(t);
+               judge(observers_->invariants().worst());
+             }},
+            {"fields", *scene_.output.every, [&](double t) {
+               const auto scope = timers_.scope("output");
+               observers_->write_fields(t);
+             }}};
   }
 
   bool after_step() override {
@@ -188,8 +180,15 @@ class TfmRun final : public CaseRun {
     print_promise();
   }
 
+  void warn_if_even(double t) {
+    for (const std::string& line :
+         even_->look(t, observers_->bed_height().value_or(HUGE_VAL), model_.constants().grid, model_.fields()))
+      say({"warning: " + line});
+  }
+
   tfm::Model model_;
-  std::optional<tfm::EvennessWatch> even_ = tfm::EvennessWatch::of(model_.constants().grid, greatest_inlet(scene_));
+  std::optional<tfm::EvennessWatch> even_ =
+      tfm::EvennessWatch::of(model_.constants().grid, fluid::Ramp(scene_.inlet.superficial_velocity).greatest());
   std::vector<std::string> evenness_;                              ///< warning of the last record
   std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: nothing is watched
   std::vector<double> initial_mass_;

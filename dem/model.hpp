@@ -61,8 +61,8 @@ class Model : public core::Simulation {
 
   /// All particles and contacts, to the bit, on the first rank; it does not depend on how many ranks there are.
   [[nodiscard]] core::Checkpoint checkpoint() const;
-  /// The same for a file: without the rows of particles and contacts, and these, of the state as it is when they are
-  /// asked for.
+  /// The same for a file in two parts: all but the rows of particles and contacts, and those rows, which are made from
+  /// the state while they are written.
   [[nodiscard]] core::Checkpoint checkpoint_but_rows() const;
   [[nodiscard]] std::vector<core::BlockData> rows() const;
   /// Changes the velocities of each species, between steps, as a body force on it for a while would: what drives

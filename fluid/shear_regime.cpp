@@ -12,6 +12,7 @@
 #include "closures/stress_reference.hpp"
 #include "core/case/laws.hpp"
 #include "core/error.hpp"
+#include "fluid/inlet.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -32,12 +33,6 @@ double floating_voidage(const core::Scene& scene, const closures::DragLaw& law, 
                                  fluid.viscosity, scene.column.gravity};
   const auto f = [&](double eps, double reynolds) { return closures::pure_drag_at(law, eps, reynolds); };
   return std::min(closures::carried_voidage(f, bed, velocity, 0.4), 0.99);
-}
-
-double greatest_velocity(const core::Scene& scene) {
-  double most = 0;
-  for (const auto& [time, velocity] : scene.inlet.superficial_velocity) most = std::max(most, std::abs(velocity));
-  return most;
 }
 
 }  // namespace
@@ -67,7 +62,7 @@ Regime shear_regime(const core::Scene& scene) {
   const core::BoxRegime given = scene.calibrate.regime;
   const bool sheared = given == core::BoxRegime::dry || given == core::BoxRegime::wet;
   Regime regime{sheared ? given : core::BoxRegime::automatic, "as the case says", {}};
-  const double velocity = greatest_velocity(scene);
+  const double velocity = Ramp(scene.inlet.superficial_velocity).greatest();
   for (std::size_t j = 0; velocity > 0 && j < scene.species.size(); ++j)
     regime.numbers.push_back(regime_numbers(scene, j, velocity, 0));
   if (sheared || regime.numbers.empty()) return regime;

@@ -19,7 +19,7 @@ namespace polybed::core {
 struct Grid;
 class Ranks;
 
-/// A dataset, and what this rank has of it. One that is written in pieces stands in a list once for each of them.
+/// A part of a dataset, which this rank writes. A dataset that is written in pieces has an entry for each of them.
 struct BlockData {
   std::string name;
   Slab slab;

@@ -1,5 +1,5 @@
-// The disk as HDF5 sees it where one rank writes a file: calls of the system that fail are kept, not told. HDF5 1.10
-// leaves a file half closed when a call fails as it closes it, and crashes at the end of the program.
+// A file driver of HDF5 for files that one rank writes. It remembers the first system call that failed and lets HDF5 go
+// on: HDF5 1.10 leaves a file half closed when a call fails while it closes it, and crashes at the end of the program.
 #pragma once
 
 #include <cstdint>

@@ -115,7 +115,7 @@ def pictures(directory, what=None, time=None, out=None, ending="png", rate=None,
 
 def at_end(directory, time=None):
     """Draws picture.png and makes report.html, as a run does at its end, and returns what to say of them. A picture that cannot be made is
-    an error; a page that cannot be made is told."""
+    an error; of a page that cannot be made the reason is returned."""
     from polybed.report.build import told, write
     drawn = picture(directory, time)
     try:
@@ -158,7 +158,7 @@ def main(arguments=None):
 
 
 def drawn(options):
-    """Draws what is asked and says where it is, or what is wrong. Returns the exit code."""
+    """Draws the pictures chosen, prints where they are or what is wrong, and returns the exit code."""
     try:
         if options.picture:
             print(at_end(options.run, options.time))

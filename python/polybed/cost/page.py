@@ -36,8 +36,8 @@ def settings_words(run):
 def recommendation(sweep):
     """What to use for the accuracy asked for."""
     if not sweep["recommend"]:
-        told = escaped(sweep["reason"] or "no run reaches the accuracy asked for")
-        return f"<p>{OUTCOMES.get(sweep['outcome'], '')}{told}.</p>"
+        reason = escaped(sweep["reason"] or "no run reaches the accuracy asked for")
+        return f"<p>{OUTCOMES.get(sweep['outcome'], '')}{reason}.</p>"
     found = []
     for one in sweep["recommend"]:
         keys = " ".join(f"--set {shlex.quote(override)}" for override in one["overrides"])
@@ -63,11 +63,11 @@ def runs(sweep):
         rows.append([settings_words(run), text(run["s_per_sim_s"], "s") if run["s_per_sim_s"] > 0 else "&ndash;",
                      *(percent(error.get("error"), error.get("error_ci")) for error in errors), state])
     left = sum(run["status"] == "not run" for run in sweep["runs"])
-    told = "".join(f"{quantity_words(q['id'])}: {escaped(q['definition'])}. " for q in shown)
+    definitions = "".join(f"{quantity_words(q['id'])}: {escaped(q['definition'])}. " for q in shown)
     kind = sweep["reference"]["kind"]
     head = ["settings", "for a simulated second", *(f"error of the {quantity_words(q['id'])} (%)" for q in shown), ""]
     return table(head, rows, "last") + source(
-        f"An error is the distance from the reference ({escaped(REFERENCE.get(kind, kind))}). {told}"
+        f"An error is the distance from the reference ({escaped(REFERENCE.get(kind, kind))}). {definitions}"
         + (f"{left} more were not run: the budget was {text(sweep['budget_s'], 's')}." if left else ""))
 
 

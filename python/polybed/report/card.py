@@ -65,8 +65,8 @@ def recorded(card):
     taken, predicted = card["time_s"]["taken"], card["time_s"]["predicted"]
     if taken is not None:
         rows.append(["time", f"{text(taken, 's')} of computing, predicted {text(predicted, 's')}"])
-    told = source("means over the last quarter of the time with their 95 % intervals; polybed explain WORD says what a word means")
-    return table([], [row for row in rows if row[1]], "words") + told
+    note = source("means over the last quarter of the time with their 95 % intervals; polybed explain WORD says what a word means")
+    return table([], [row for row in rows if row[1]], "words") + note
 
 
 def mean_row(run, column, unit):
