@@ -56,7 +56,7 @@ void subtract_exchange_with(const Density& density, const core::Grid& grid, cons
                      *v = solids.velocity[j][a].data();
 #pragma GCC ivdep
         for (Index c = begin; c < end; ++c)
-          rate[c] -= face_mean(phi, c, s) * exchange_on_face(b, c, s, u[c] - v[c]) * (u[c] - v[c]) /
+          rate[c] -= face_mean(phi, c, s) * exchange_on_face(b, eps, c, s, u[c] - v[c]) * (u[c] - v[c]) /
                      (std::max(face_mean(eps, c, s), voidage_floor) * density.on_face(c, s));
       }
     });

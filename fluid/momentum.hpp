@@ -8,6 +8,8 @@
 // J = eps U_f + sum phi_j U_j is the unknown, because its constraint div J = 0 is linear with constant coefficients.
 #pragma once
 
+#include <algorithm>
+
 #include "core/numerics/operators.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/fluid_state.hpp"
@@ -25,12 +27,26 @@ struct FluxRate {
       : free(core::make_face_field(grid)), mobility(core::make_face_field(grid)) {}
 };
 
+/// Voidage on the face c between c - s and c as the cell sees it that the fluid comes from relative to the particles:
+/// the mean of both, unless the voidage grows more than twice as fast as behind that cell, as where a bed ends; there
+/// nearly the cell's own.
+[[nodiscard]] inline double voidage_upstream(const double* eps, core::Index c, core::Index s, double slip) {
+  const double here = eps[c] - eps[c - s], from = slip > 0 ? eps[c - s] : eps[c], rise = slip > 0 ? here : -here,
+               before = slip > 0 ? eps[c - s] - eps[c - 2 * s] : eps[c] - eps[c + s];
+  return std::max(from + 0.5 * std::min(rise, 2 * std::max(before, 0.0)), voidage_floor);
+}
+
 /// b_j on the face between the cells c - s and c: from the cell that the fluid comes from relative to the particles,
 /// with half a limited slope. A mean of both cells would not see a ripple from cell to cell, and nothing else resists
 /// one below packing. Drag grows with the solids fraction, so waves of voidage run with the slip: this is upwinding.
-/// \param b  on cells, ghosts filled  \param slip  U_f - U_j on the face, m/s
-[[nodiscard]] inline double exchange_on_face(const double* b, core::Index c, core::Index s, double slip) {
-  return core::LimitedFace::at(b, c, s, slip);
+/// What carries particles is b_j/eps^2, the force over the superficial slip eps (U_f - U_j) with the pressure gradient
+/// that drag makes. Where a bed ends it is that of the bed, though the face has a larger voidage, so that the topmost
+/// cell is held at the bed's own fraction however far the cell above is filled.
+/// \param b, eps  on cells, ghosts filled  \param slip  U_f - U_j on the face, m/s
+[[nodiscard]] inline double exchange_on_face(const double* b, const double* eps, core::Index c, core::Index s,
+                                             double slip) {
+  const double ratio = std::max(core::face_mean(eps, c, s), voidage_floor) / voidage_upstream(eps, c, s, slip);
+  return core::LimitedFace::at(b, c, s, slip) * ratio * ratio;
 }
 
 /// Voidage from the solids fractions; the ghosts of the fractions must be filled.

@@ -63,7 +63,7 @@ void FastDrag::hold(const Fields& fields) {
           for (Index f = 0; f < count; ++f) {
             const Index c = from + f;
             phi_on[f] = face_mean(phi, c, s);
-            b_on[f] = fluid::exchange_on_face(b, c, s, u[c] - v[c]);
+            b_on[f] = fluid::exchange_on_face(b, eps, c, s, u[c] - v[c]);
             mobility[f] += phi_on[f] * per_density;
           }
         }

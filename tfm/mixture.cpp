@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/operators.hpp"
 #include "core/vectors.hpp"
 
 namespace polybed::tfm {
 
+using core::face_mean;
 using core::Field;
 using core::Index;
 
@@ -59,12 +61,13 @@ void superficial_slip_loops(const Constants& constants, const fluid::Boundaries&
         const double* v = fields.solids.velocity[j][std::size_t(axis)].data();
 #pragma GCC ivdep
         for (Index c = begin; c < end; ++c) {
-          const double w = 0.5 * ((u[c] - v[c]) + (u[c + s] - v[c + s]));
+          const double w =
+              0.5 * (face_mean(eps, c, s) * (u[c] - v[c]) + face_mean(eps, c + s, s) * (u[c + s] - v[c + s]));
           slip[c] = (axis == 0 ? 0.0 : slip[c]) + w * w;
         }
       }
 #pragma GCC ivdep
-      for (Index c = begin; c < end; ++c) slip[c] = std::max(eps[c], 0.0) * std::sqrt(slip[c]);
+      for (Index c = begin; c < end; ++c) slip[c] = std::sqrt(slip[c]);
     });
   }
 }

@@ -13,7 +13,8 @@ constexpr double composition_floor = 1e-4;
 /// Fills solids_fraction, voidage and share in all cells, ghosts included, from the fractions.
 void composition(const Constants& constants, Fields& fields);
 
-/// Fills slip_superficial in the cells of the solids from all components at the centre.
+/// Fills slip_superficial in the cells of the solids: the means of eps (U_f - U_j) on opposite faces, which a surface
+/// beside the cell does not change.
 void superficial_slip(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields);
 
 /// Multiplies slip_superficial by rho_f/rho_0: the closures, which know rho_0, then see the local Reynolds number.

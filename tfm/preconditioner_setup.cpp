@@ -95,7 +95,8 @@ void Preconditioner::invert_face(const Fields& fields, double fluid_density, int
   for (std::size_t j = 0; j < n; ++j) {
     if (!moves_[j]) continue;
     const double slip = fields.fluid.velocity[a][at] - fields.solids.velocity[j][a][at];
-    const double b = fluid::exchange_on_face(fields.solids.exchange[j].data(), face, stride, slip);
+    const double b =
+        fluid::exchange_on_face(fields.solids.exchange[j].data(), fields.fluid.voidage.data(), face, stride, slip);
     const double phi = fraction_[a][j][at];
     const double on_solid = b / constants_.density[j];
     const double on_flux = phi * b * (1 / fluid_density - 1 / constants_.density[j]);

@@ -60,12 +60,12 @@ void add_exchange_loops(const Constants& constants, const fluid::Boundaries& bou
     const auto d = std::size_t(axis);
     const Index s = constants.grid.stride(axis);
     const double *b = fields.solids.exchange[j].data(), *u = fields.fluid.velocity[d].data(),
-                 *v = fields.solids.velocity[j][d].data();
+                 *v = fields.solids.velocity[j][d].data(), *eps = fields.fluid.voidage.data();
     double* a = fields.solids.acceleration[j][d].data();
     const double per_density = 1 / constants.density[j];
 #pragma GCC ivdep
     for (Index c = begin; c < end; ++c)
-      a[c] += fluid::exchange_on_face(b, c, s, u[c] - v[c]) * per_density * (u[c] - v[c]);
+      a[c] += fluid::exchange_on_face(b, eps, c, s, u[c] - v[c]) * per_density * (u[c] - v[c]);
   });
 }
 

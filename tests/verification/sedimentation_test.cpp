@@ -63,6 +63,7 @@ core::Scene stepped_bed(double solids_fraction, double bed_height, double before
   scene.column.closed = false;
   scene.bed.static_height = bed_height * solids_fraction / 0.62;
   scene.inlet.superficial_velocity = {{0.0, before}, {1.0, before}, {1.0, after}};
+  scene.tfm.rtol = 3e-4;  // at 1e-3 the steps alone move the width of the fan by 0.05 mm
   return scene;
 }
 
