@@ -14,7 +14,7 @@
 #include "core/print.hpp"
 #include "core/progress.hpp"
 #include "core/timers.hpp"
-#include "dem/continuum_scene.hpp"
+#include "dem/rules.hpp"
 #include "fluid/inlet.hpp"
 #include "multiscale/card/card.hpp"
 #include "multiscale/effects/left_out.hpp"
@@ -25,7 +25,7 @@
 #include "multiscale/scene_rules.hpp"
 #include "relevance/drag_law.hpp"
 #include "tfm/model.hpp"
-#include "tfm/particle_scene.hpp"
+#include "tfm/rules.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::app {

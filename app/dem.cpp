@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/case_run.hpp"
 #include "core/memory.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
-#include "dem/continuum_scene.hpp"
 #include "dem/observers.hpp"
+#include "dem/rules.hpp"
 #include "dem/settling.hpp"
 #include "multiscale/fluid_report.hpp"
 #include "multiscale/particle_requirements.hpp"
@@ -124,7 +123,7 @@ class DemRun final : public CaseRun {
                  {"integrator_reason", model_.limits().integrator_reason}});
     write_prediction_of(json, cpu_);
     write_card_of(json, cpu_);
-    json["step"] = step_json();
+    write_step(json, model_.limits(), model_.expected().greatest);
     write_overlap(json, model_.overlap_expected());
     json["work"] = work_json();
     write_timers(json, timers_);
@@ -153,16 +152,6 @@ class DemRun final : public CaseRun {
     const double joules = work[0].units() * model_.energy_unit().unit;
     fluid_ = fluid_report(scene_, *model_.coupling(), observers_->fluid()->totals(), model_.limits().dt,
                           scene_.dem.ledger ? std::optional(joules) : std::nullopt);
-  }
-
-  [[nodiscard]] core::Json step_json() const {
-    core::Json limits = core::Json::array();
-    for (const dem::StepLimit& limit : model_.limits().all)
-      limits.push_back({{"name", limit.name}, {"dt_s", limit.dt}});
-    return {{"dt_s", model_.limits().dt},
-            {"limited_by", model_.limits().limited_by},
-            {"greatest_speed_expected_m_s", model_.expected().greatest},
-            {"limits", limits}};
   }
 
   [[nodiscard]] core::Json work_json() const {

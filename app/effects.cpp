@@ -5,8 +5,8 @@
 #include "core/print.hpp"
 #include "multiscale/effects/audit.hpp"
 #include "multiscale/effects/bench.hpp"
-#include "multiscale/effects/choice.hpp"
 #include "multiscale/effects/effects_text.hpp"
+#include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
 
 namespace polybed::app {

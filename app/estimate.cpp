@@ -8,11 +8,11 @@
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/print.hpp"
-#include "dem/continuum_scene.hpp"
-#include "multiscale/effects/choice.hpp"
+#include "dem/rules.hpp"
 #include "multiscale/estimate/estimate.hpp"
 #include "multiscale/roles.hpp"
-#include "tfm/particle_scene.hpp"
+#include "multiscale/scene_rules.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::app {
 

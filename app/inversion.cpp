@@ -8,13 +8,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/closure_uncertainty.hpp"
 #include "app/inversion_beside.hpp"
-#include "app/options.hpp"
+#include "app/study_request.hpp"
 #include "core/case/file.hpp"
 #include "core/output/json.hpp"
-#include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/scene_rules.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/effects/drag.hpp"
 
@@ -59,8 +58,6 @@ std::vector<Band> bands(const core::Scene& scene, const closures::DragLaw& law, 
   return result;
 }
 
-core::Json name_or_null(const std::string& name) { return name.empty() ? core::Json() : core::Json(name); }
-
 core::Json json_of(const std::vector<InversionPoint>& points) {
   core::Json json = core::Json::array();
   for (const InversionPoint& p : points) json.push_back({{"velocity_m_s", p.velocity}, {"voidage", p.voidage}});
@@ -71,7 +68,7 @@ void print_json(const core::Scene& scene, const std::string& method, const std::
                 const std::vector<Band>& band, const InversionBeside& beside) {
   core::Json json = {
       {"law", core::law_of(scene, "drag")},
-      {"partition", name_or_null(scene.effects.contains("partition") ? core::law_of(scene, "partition") : "")},
+      {"partition", core::text_or_null(scene.effects.contains("partition") ? core::law_of(scene, "partition") : "")},
       {"velocity_m_s", nullptr},
       {"voidage", nullptr}};
   if (!points.empty()) json.update(json_of(points).back());
@@ -121,8 +118,8 @@ void print_methods_json(const std::vector<MethodRow>& rows) {
   core::Json methods = core::Json::array();
   for (const MethodRow& row : rows)
     methods.push_back({{"method", row.method},
-                       {"law", name_or_null(row.law)},
-                       {"partition", name_or_null(row.partition)},
+                       {"law", core::text_or_null(row.law)},
+                       {"partition", core::text_or_null(row.partition)},
                        {"roots", json_of(row.points)}});
   core::print("{}\n", core::json_text({{"methods", methods}}));
 }

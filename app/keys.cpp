@@ -1,8 +1,6 @@
 // The commands that show the table of keys and the registries: schema, explain, list.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -14,10 +12,10 @@
 #include "core/error.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
-#include "dem/continuum_scene.hpp"
+#include "dem/rules.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
-#include "tfm/particle_scene.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::app {
 

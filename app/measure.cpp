@@ -6,11 +6,9 @@
 #include <functional>
 #include <iostream>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/measure_list.hpp"
 #include "app/options.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"

@@ -13,7 +13,7 @@
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
-#include "multiscale/installed.hpp"
+#include "multiscale/program.hpp"
 
 namespace polybed::app {
 

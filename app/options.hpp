@@ -1,7 +1,6 @@
 // What the command line says, as plain data: filled by main, read by the commands.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -79,11 +78,6 @@ struct InversionOptions : RunOptions {
   std::string from, to;      ///< velocities to begin the scan at; empty: about the force balance
 };
 
-struct MoveOptions {
-  std::filesystem::path table, moved;
-  double sigma = 0;  ///< standard errors
-};
-
 /// Options of drag data from resolved flow.
 struct ResolveOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-resolve
@@ -93,7 +87,6 @@ struct ResolveOptions : CaseOptions {
 /// Each command writes its answer to standard output; errors are thrown.
 void run_tfm(const RunOptions& options);
 void run_dem(const RunOptions& options);
-[[noreturn]] void run_compare(const std::vector<std::string>& words);
 void run_check(const RunOptions& options);
 /// The case alone, as a record of its run has it; as JSON with its hashes and why a model cannot run it.
 void print_resolved(const RunOptions& options);
@@ -105,9 +98,9 @@ void run_estimate(const EstimateOptions& options);
 void run_drag(const DragOptions& options);
 void run_resolve(const ResolveOptions& options);
 void run_measure(const MeasureOptions& options);
+/// Every measure with its unit and definition: a text, JSON, or the page of the documentation.
+void print_measures(const MeasureOptions& options);
 void run_inversion(const InversionOptions& options);
-/// Writes a table of the solids stress moved by a number of its standard errors; for studies.
-void run_move_table(const MoveOptions& options);
 [[noreturn]] void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& word, bool json);
@@ -120,8 +113,6 @@ void run_new(const std::filesystem::path& name, const std::string& from);
 core::ExitCode run_calibrate(const std::vector<std::string>& words);
 /// Whether these words are run by all ranks.
 [[nodiscard]] bool calibrate_needs_mpi(const std::vector<std::string>& words);
-/// Becomes polybed-hard, installed beside the program. \param words  its options
-[[noreturn]] void run_stability(std::vector<std::string> words);
 /// The code to end with: what is wrong has been said by the module that draws.
 core::ExitCode run_plot(const PlotOptions& options);
 /// Makes report.html of a run; of the options only the run is read.

@@ -55,15 +55,6 @@ void add_dem(CLI::App& app, Commands& commands) {
   commands.push_back({&command, doing([options] { run_dem(*options); }), [] { return On::all_ranks; }});
 }
 
-/// Its options are those of the Python package, `polybed compare --help` included.
-void add_compare(CLI::App& app, Commands& commands) {
-  CLI::App& command =
-      *app.add_subcommand("compare", "run the case by both models, or take runs of it: how far they agree");
-  command.prefix_command();
-  command.set_help_flag();
-  commands.push_back({&command, doing([&command] { run_compare(command.remaining()); }), [] { return On::study; }});
-}
-
 void add_plot(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<PlotOptions>();
   CLI::App& command = *app.add_subcommand("plot", "pictures of a finished or a running run");

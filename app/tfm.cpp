@@ -6,8 +6,7 @@
 #include <map>
 
 #include "app/case_run.hpp"
-#include "app/closure_uncertainty.hpp"
-#include "app/stress_uncertainty.hpp"
+#include "app/study_request.hpp"
 #include "core/print.hpp"
 #include "fluid/inlet.hpp"
 #include "multiscale/requirements.hpp"
