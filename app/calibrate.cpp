@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/options.hpp"
+#include "app/commands.hpp"
 #include "app/studies.hpp"
 #include "core/case/file.hpp"
 #include "core/error.hpp"
@@ -271,8 +271,6 @@ core::ExitCode calibrate_on_ranks(std::vector<std::string> words) {
   return core::ExitCode(std::stoi(core::said_by(ranks.get(), 0, python ? std::to_string(python->wait()) : "")));
 }
 
-}  // namespace
-
 bool calibrate_needs_mpi(const std::vector<std::string>& words) {
   if (is_box(words)) return words[4].starts_with("bed");
   return core::started_by_launcher() && !serves(words);
@@ -291,6 +289,16 @@ core::ExitCode run_calibrate(const std::vector<std::string>& words) {
   }
   if (core::started_by_launcher()) return calibrate_on_ranks(words);
   become_python(study, words);
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, Commands& commands) {
+  CLI::App& command = add_handed_over(
+      app, "calibrate", "run boxes of particles and make a table of the solids stress for the two-fluid model");
+  commands.push_back({&command, doing([&command] { return run_calibrate(command.remaining()); }), [&command] {
+                        return calibrate_needs_mpi(command.remaining()) ? On::all_ranks : On::one_process;
+                      }});
 }
 
 }  // namespace polybed::app

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case_run.hpp"
+#include "app/commands.hpp"
 #include "core/memory.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
@@ -226,8 +227,6 @@ class DemRun final : public CaseRun {
   double cpu_ = 0;
 };
 
-}  // namespace
-
 void run_dem(const RunOptions& options) {
   const core::Scene scene = read_scene(options);
   dem::refuse_continuum_scene(scene);
@@ -242,6 +241,14 @@ void run_dem(const RunOptions& options) {
   start_run({directory, scene, "dem", ranks.get(), options.resume},
             [&] { run.emplace(options, scene, directory, ranks); });
   run->run();
+}
+
+}  // namespace
+
+void add_dem(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App& command = add_run(app, "dem", "run the case particle by particle", *options);
+  commands.push_back({&command, doing([options] { run_dem(*options); }), [] { return On::all_ranks; }});
 }
 
 }  // namespace polybed::app
