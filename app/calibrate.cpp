@@ -1,18 +1,258 @@
-// polybed calibrate: hands over to the Python package, which asks this program for boxes and their results.
+// polybed calibrate: hands over to the Python package, which asks this program which boxes a case has, what they
+// measure, and how a table reads.
+#include <fmt/format.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "app/calibrate_service.hpp"
-#include "app/options.hpp"
+#include "app/commands.hpp"
+#include "app/studies.hpp"
+#include "core/case/file.hpp"
+#include "core/error.hpp"
 #include "core/numerics/mpi_start.hpp"
+#include "core/numerics/ranks.hpp"
+#include "core/output/directory.hpp"
+#include "core/output/files.hpp"
+#include "core/output/json.hpp"
+#include "core/print.hpp"
+#include "core/version.hpp"
+#include "fluid/solids_table.hpp"
+#include "multiscale/calibrate/box_result.hpp"
+#include "multiscale/calibrate/table_shape.hpp"
 #include "multiscale/python_module.hpp"
+#include "multiscale/scene_rules.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::app {
 
 namespace {
+
+using Texts = std::vector<std::string>;
+
+/// Particle-steps per second of sheared boxes, looked at every fourth step, on the development machine.
+constexpr double particle_steps_per_second = 1.5e7;
+
+BoxPoint point_of(const std::string& text) {
+  BoxPoint p;
+  char regime[8] = {};
+  int binary = 0, pushed = 0;
+  if (std::sscanf(text.c_str(), "%7s %lf %lf %lf %lf %lf %d %d %d", regime, &p.phi, &p.stokes, &p.restitution,
+                  &p.friction, &p.share, &binary, &pushed, &p.seed) != 9)
+    throw core::CaseError(fmt::format("calibrate: \"{}\" is no box", text));
+  p.regime = core::choice_of<core::BoxRegime>(regime);
+  p.binary = binary != 0;
+  p.pushed = pushed != 0;
+  return p;
+}
+
+class Service {
+ public:
+  Service(std::shared_ptr<const core::Ranks> ranks, std::function<void()> show)
+      : ranks_(std::move(ranks)), show_(std::move(show)) {}
+
+  /// \param words  the question and what it is about
+  std::string answer(const Texts& words) {
+    using Answer = core::Json (Service::*)(const Texts&);
+    static const std::map<std::string, Answer> answers{{"case", &Service::read_case},   {"take", &Service::take},
+                                                       {"boxes", &Service::name_boxes}, {"run", &Service::run},
+                                                       {"table", &Service::read},       {"bed", &Service::read_bed},
+                                                       {"ratios", &Service::ratios}};
+    return core::json_text((this->*answers.at(words.at(0)))(Texts(words.begin() + 1, words.end())));
+  }
+
+ private:
+  core::Json read_case(const Texts& words) {
+    scene_ = read_chosen_case(words.at(0), Texts(words.begin() + 1, words.end()));
+    const Plan plan = plan_of(scene_);
+    const MeanSphere mean = mean_sphere(scene_.species, scene_.bed.volume_share);
+    core::Json numbers = core::Json::array();
+    for (const fluid::RegimeNumbers& n : plan.regime.numbers)
+      numbers.push_back({{"species", n.species},
+                         {"shear_times_relaxation", n.shear_times_relaxation},
+                         {"stokes_least", n.stokes_least},
+                         {"stokes_most", n.stokes_most},
+                         {"stokes_of_shear", n.stokes_of_shear},
+                         {"voidage", n.voidage},
+                         {"shear_rate", n.shear_rate}});
+    core::Json json = {{"regime", core::name_of(plan.regime.kind)},
+                       {"reason", plan.regime.reason},
+                       {"reference", plan.regime.kind == core::BoxRegime::wet ? "viscous" : fluid::effective_reference},
+                       {"numbers", numbers},
+                       {"axes",
+                        {{"phi", plan.axes.phi},
+                         {"stokes", plan.axes.stokes},
+                         {"e", plan.axes.restitution},
+                         {"mu_p", plan.axes.friction},
+                         {"x2", plan.axes.share}}},
+                       {"binary", plan.binary},
+                       {"seeds", scene_.calibrate.seeds}};
+    json["size_ratio"] = plan.binary ? scene_.species[1].diameter / scene_.species[0].diameter : 1;
+    if (plan.regime.kind == core::BoxRegime::bed)  // |rho_p - rho_f| g D/rho_p
+      json["weight_m2_s2"] = std::abs(1 - relevance::fluid_constants(scene_.fluid).density / mean.density) *
+                             scene_.column.gravity * mean.diameter;
+    json["ranks"] = ranks_ ? ranks_->count() : 1;
+    json["git_commit"] = core::git_commit();
+    json["case_hash"] = core::case_hash(scene_);
+    return json;
+  }
+
+  core::Json take(const Texts& words) {
+    core::on_first(ranks_.get(), [&] {
+      taken_.emplace(words.at(0));
+      core::make_folder(std::filesystem::path(words.at(0)) / "boxes");
+    });
+    return nullptr;
+  }
+
+  [[nodiscard]] double expected(const BoxPoint& point) const {
+    return particle_steps_of(scene_, point) / particle_steps_per_second;
+  }
+
+  core::Json name_boxes(const Texts& words) {
+    core::Json boxes = core::Json::array();
+    for (const std::string& word : words) {
+      const BoxPoint point = point_of(word);
+      boxes.push_back(core::Json::array({box_hash(scene_, point), expected(point)}));
+    }
+    return boxes;
+  }
+
+  /// A fluidised box is shared by all ranks; of sheared boxes, which one rank runs, the next one goes to the rank that
+  /// has least to do.
+  core::Json run(const Texts& words) {
+    std::vector<double> load(std::size_t(ranks_ ? ranks_->count() : 1), 0.0);
+    std::vector<std::int64_t> failed(words.size() / 2, 0);
+    const auto here = std::size_t(ranks_ ? ranks_->rank() : 0);
+    for (std::size_t n = 0; n < failed.size(); ++n) {
+      const BoxPoint point = point_of(words[2 * n + 1]);
+      const bool shared = point.regime == core::BoxRegime::bed;
+      const auto who = std::size_t(std::min_element(load.begin(), load.end()) - load.begin());
+      load[who] += expected(point);
+      if (!shared && who != here) continue;
+      try {
+        const BoxResult result = run_box(scene_, point, shared ? ranks_ : nullptr);
+        core::on_first(shared ? ranks_.get() : nullptr, [&] { write_box(words[2 * n], result); });
+        if (here == 0) show_();
+      } catch (const core::NumericsError& error) {
+        core::print(stderr, "{}\n", error.what());
+        failed[n] = 1;
+      }
+    }
+    core::add_over_ranks(ranks_.get(), failed);
+    core::Json places = core::Json::array();
+    for (std::size_t n = 0; n < failed.size(); ++n)
+      if (failed[n] != 0) places.push_back(n);
+    return places;
+  }
+
+  core::Json read(const Texts& words) {
+    core::Json json;
+    core::on_first(ranks_.get(), [&] {
+      const fluid::SolidsTable table = fluid::read_solids_table(words.at(0));
+      json = {{"falls", falls_of(table)},
+              {"falls_in_shear_up_to", falls_in_shear_up_to(table)},
+              {"a", structure_coefficients(table)}};
+    });
+    return json;
+  }
+
+  core::Json read_bed(const Texts& words) {
+    core::on_first(ranks_.get(), [&] {
+      if (fluid::regime_of_table(words.at(0)) != core::BoxRegime::bed)
+        throw core::CaseError(words[0] + ": no table of fluidised boxes, as --bed takes one");
+      (void)fluid::read_bed_table(words[0]);
+    });
+    return nullptr;
+  }
+
+  core::Json ratios(const Texts& words) {
+    core::Json rows = core::Json::array();
+    core::on_first(ranks_.get(), [&] {
+      const fluid::SolidsTable table = fluid::read_solids_table(words.at(0));
+      for (std::size_t n = 1; n < words.size(); ++n) {
+        const BoxPoint p = point_of(words[n]);
+        const auto at = [&](double sigma) {
+          return fluid::ratios_at(table, {p.restitution, p.friction, p.share, sigma})(p.phi, p.stokes);
+        };
+        const closures::RatioValues mean = at(0), up = at(1);
+        rows.push_back({mean.pressure.pressure, up.pressure.pressure, mean.viscosity.pressure, up.viscosity.pressure});
+      }
+    });
+    return rows;
+  }
+
+  std::shared_ptr<const core::Ranks> ranks_;
+  std::function<void()> show_;  ///< that the first rank has finished a box
+  core::Scene scene_;
+  std::optional<core::OutputDirectory> taken_;  ///< by the first rank
+};
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using Stream = std::unique_ptr<std::FILE, Close>;
+
+/// The next line; empty at the end.
+std::string next_line(std::FILE* stream) {
+  std::string line;
+  for (int c = std::fgetc(stream); c != EOF && c != '\n'; c = std::fgetc(stream)) line.push_back(char(c));
+  return line;
+}
+
+Texts words_of(const std::string& line) {
+  Texts words;
+  const core::Json question = core::parse_json(line);
+  for (const core::Json& word : core::array_of(question)) words.push_back(core::text_of(word));
+  return words;
+}
+
+/// Answers questions until there are no more: each is a line with a JSON array of texts, each answer a line of JSON.
+///   case PATH SETTING...      reads the case: the plan, {"regime", "axes", "seeds", ...}; the first question
+///   take DIRECTORY            takes the directory as long as this runs; null
+///   boxes POINT...            of each its hash and the seconds that it is expected to take on one core, [[hash, s],
+///   ...] run FILE POINT ...        runs boxes on the ranks, in this order: null each time the first rank has finished
+///   one of
+///                             its own, and at the end the places of those that failed, [0, 3]
+///   table PATH                how a table of sheared boxes runs, {"falls", "falls_in_shear_up_to", "a"}
+///   bed PATH                  null for a table of fluidised boxes
+///   ratios PATH POINT...      of each [p, p one standard error up, mu, mu likewise] that a run reads from a table
+/// A point is "regime phi stokes restitution friction share binary pushed seed". Collective; the first rank reads and
+/// writes. Throws what the question meets.
+/// \param questions, answers  descriptors  \param ranks  null: one process
+void answer_calibration(int questions, int answers, std::shared_ptr<const core::Ranks> ranks) {
+  const bool first = core::is_first(ranks.get());
+  const Stream in(first ? ::fdopen(::dup(questions), "r") : nullptr);
+  const Stream out(first ? ::fdopen(::dup(answers), "w") : nullptr);
+  const auto show = [&out](const std::string& text) {
+    core::put(out.get(), text + "\n");
+    std::fflush(out.get());
+  };
+  Service service(ranks, [&show] { show("null"); });
+  for (;;) {
+    const std::string line = core::said_by(ranks.get(), 0, first ? next_line(in.get()) : "");
+    if (line.empty()) return;
+    const std::string answer = service.answer(words_of(line));
+    if (first) show(answer);
+  }
+}
+
+/// Runs one box and writes its file. Collective for a fluidised one.
+void run_box_into(const std::string& file, const std::string& case_path, const std::vector<std::string>& overrides,
+                  const std::string& point) {
+  write_box(file, run_box(read_chosen_case(case_path, overrides), point_of(point)));
+}
 
 constexpr const char* study = "polybed.calibration";
 
@@ -30,8 +270,6 @@ core::ExitCode calibrate_on_ranks(std::vector<std::string> words) {
   answer_calibration(socket, socket, ranks);
   return core::ExitCode(std::stoi(core::said_by(ranks.get(), 0, python ? std::to_string(python->wait()) : "")));
 }
-
-}  // namespace
 
 bool calibrate_needs_mpi(const std::vector<std::string>& words) {
   if (is_box(words)) return words[4].starts_with("bed");
@@ -51,6 +289,16 @@ core::ExitCode run_calibrate(const std::vector<std::string>& words) {
   }
   if (core::started_by_launcher()) return calibrate_on_ranks(words);
   become_python(study, words);
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, Commands& commands) {
+  CLI::App& command = add_handed_over(
+      app, "calibrate", "run boxes of particles and make a table of the solids stress for the two-fluid model");
+  commands.push_back({&command, doing([&command] { return run_calibrate(command.remaining()); }), [&command] {
+                        return calibrate_needs_mpi(command.remaining()) ? On::all_ranks : On::one_process;
+                      }});
 }
 
 }  // namespace polybed::app

@@ -11,7 +11,7 @@
 #include "core/output/history.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
-#include "multiscale/picture.hpp"
+#include "multiscale/python_module.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/commands.hpp"
 #include "app/run_directory.hpp"
 #include "closures/drag.hpp"
 #include "closures/mixture.hpp"
@@ -14,7 +15,7 @@
 #include "core/print.hpp"
 #include "core/progress.hpp"
 #include "core/timers.hpp"
-#include "dem/continuum_scene.hpp"
+#include "dem/rules.hpp"
 #include "fluid/inlet.hpp"
 #include "multiscale/card/card.hpp"
 #include "multiscale/effects/left_out.hpp"
@@ -25,7 +26,7 @@
 #include "multiscale/scene_rules.hpp"
 #include "relevance/drag_law.hpp"
 #include "tfm/model.hpp"
-#include "tfm/particle_scene.hpp"
+#include "tfm/rules.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::app {
@@ -309,8 +310,6 @@ void print_details(const core::Scene& scene, const Derived& derived, const Requi
   for (const std::string& note : derived.notes) core::print("{}\n", note);
 }
 
-}  // namespace
-
 void run_check(const RunOptions& options) {
   const core::Scene scene = read_scene(options);
   if (const auto reasons = tfm::only_for_particles(scene); !reasons.empty())
@@ -352,6 +351,21 @@ void run_check(const RunOptions& options) {
   add_left_out(scene, "tfm", lines);
   if (particles) add_left_out(scene, "dem", lines);
   print_screen(scene, lines, derived.notes);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<RunOptions>();
+  const auto resolved = std::make_shared<bool>(false);
+  CLI::App& command = *app.add_subcommand("check", "what to expect of a case and what it will need; nothing is run");
+  take_case(command, *options);
+  command.add_option("--until", options->until, "simulated time, e.g. \"20 s\"");
+  command.add_flag("--details", options->details, "the numerics, memory and all notes instead of one screen");
+  command.add_flag("--resolved", *resolved, "print the case with all defaults instead");
+  commands.push_back({&command,
+                      doing([options, resolved] { *resolved ? print_resolved(*options) : run_check(*options); }),
+                      [resolved] { return *resolved ? On::one_process : On::first_rank; }});
 }
 
 }  // namespace polybed::app

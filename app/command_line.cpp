@@ -14,7 +14,7 @@
 #include "core/print.hpp"
 #include "core/vectors.hpp"
 #include "core/version.hpp"
-#include "multiscale/mpirun.hpp"
+#include "multiscale/program.hpp"
 
 namespace polybed::app {
 

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -64,6 +63,9 @@ void add_stability(CLI::App& app, Commands& commands);
 
 /// CASE, --set and --json.
 void take_case(CLI::App& command, CaseOptions& options, bool required = true);
-void take_overrides(CLI::App& command, CaseOptions& options);
+/// A command that runs a case by a model of that name.
+CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& help, RunOptions& options);
+/// A command whose options are those of the program that it hands over to, --help included.
+CLI::App& add_handed_over(CLI::App& app, const std::string& name, const std::string& help);
 
 }  // namespace polybed::app

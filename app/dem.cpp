@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/case_run.hpp"
+#include "app/commands.hpp"
 #include "core/memory.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
-#include "dem/continuum_scene.hpp"
 #include "dem/observers.hpp"
+#include "dem/rules.hpp"
 #include "dem/settling.hpp"
 #include "multiscale/fluid_report.hpp"
 #include "multiscale/particle_requirements.hpp"
@@ -124,7 +124,7 @@ class DemRun final : public CaseRun {
                  {"integrator_reason", model_.limits().integrator_reason}});
     write_prediction_of(json, cpu_);
     write_card_of(json, cpu_);
-    json["step"] = step_json();
+    write_step(json, model_.limits(), model_.expected().greatest);
     write_overlap(json, model_.overlap_expected());
     json["work"] = work_json();
     write_timers(json, timers_);
@@ -153,16 +153,6 @@ class DemRun final : public CaseRun {
     const double joules = work[0].units() * model_.energy_unit().unit;
     fluid_ = fluid_report(scene_, *model_.coupling(), observers_->fluid()->totals(), model_.limits().dt,
                           scene_.dem.ledger ? std::optional(joules) : std::nullopt);
-  }
-
-  [[nodiscard]] core::Json step_json() const {
-    core::Json limits = core::Json::array();
-    for (const dem::StepLimit& limit : model_.limits().all)
-      limits.push_back({{"name", limit.name}, {"dt_s", limit.dt}});
-    return {{"dt_s", model_.limits().dt},
-            {"limited_by", model_.limits().limited_by},
-            {"greatest_speed_expected_m_s", model_.expected().greatest},
-            {"limits", limits}};
   }
 
   [[nodiscard]] core::Json work_json() const {
@@ -237,8 +227,6 @@ class DemRun final : public CaseRun {
   double cpu_ = 0;
 };
 
-}  // namespace
-
 void run_dem(const RunOptions& options) {
   const core::Scene scene = read_scene(options);
   dem::refuse_continuum_scene(scene);
@@ -253,6 +241,14 @@ void run_dem(const RunOptions& options) {
   start_run({directory, scene, "dem", ranks.get(), options.resume},
             [&] { run.emplace(options, scene, directory, ranks); });
   run->run();
+}
+
+}  // namespace
+
+void add_dem(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App& command = add_run(app, "dem", "run the case particle by particle", *options);
+  commands.push_back({&command, doing([options] { run_dem(*options); }), [] { return On::all_ranks; }});
 }
 
 }  // namespace polybed::app

@@ -9,7 +9,7 @@
 #include <optional>
 #include <sstream>
 
-#include "app/options.hpp"
+#include "app/commands.hpp"
 #include "closures/drag.hpp"
 #include "core/case/keys.hpp"
 #include "core/error.hpp"
@@ -21,6 +21,12 @@
 namespace polybed::app {
 
 namespace {
+
+struct DragOptions {
+  std::string law = "cello", partition = "none", csv;
+  std::optional<double> voidage, reynolds;
+  bool guard = true, json = false;
+};
 
 using closures::DragLaw;
 
@@ -264,13 +270,30 @@ void print_json(const DragOptions& options, const DragLaw& law) {
   core::print("{}\n", core::json_text(json));
 }
 
-}  // namespace
-
 void run_drag(const DragOptions& options) {
   const DragLaw law = law_of(options);
   if (!options.csv.empty()) return options.json ? print_json(options, law) : print_csv(options, law);
   if (!options.voidage || !options.reynolds) throw core::CaseError("give --voidage and --re, or --csv FILE");
   print_point(options, law);
+}
+
+}  // namespace
+
+void add_drag(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<DragOptions>();
+  const auto guard = std::make_shared<std::string>("on");
+  CLI::App& command = *app.add_subcommand("drag", "evaluate a drag closure at a point, or for every row of a CSV file");
+  command.add_option("--law", options->law, "see polybed list");
+  command.add_option("--partition", options->partition, "that shares the law among species; see polybed list");
+  command.add_option("--voidage", options->voidage, "eps");
+  command.add_option("--re", options->reynolds, "Reynolds number of the diameter and the superficial slip velocity");
+  command.add_option("--csv", options->csv, "file with columns eps,Re or eps,Re,x1,D1,x2,D2,...");
+  command.add_option("--guard", *guard, "on | off: the bare published formula")->check(CLI::IsMember({"on", "off"}));
+  command.add_flag("--json", options->json, "one JSON object");
+  commands.push_back({&command, doing([options, guard] {
+                        options->guard = *guard == "on";
+                        run_drag(*options);
+                      })});
 }
 
 }  // namespace polybed::app

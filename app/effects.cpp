@@ -1,15 +1,24 @@
 // polybed effects: which effects a scene calls for, with the number that decides each; nothing is run.
 #include <nlohmann/json.hpp>
 
-#include "app/options.hpp"
+#include "app/commands.hpp"
 #include "core/print.hpp"
 #include "multiscale/effects/audit.hpp"
 #include "multiscale/effects/bench.hpp"
-#include "multiscale/effects/choice.hpp"
 #include "multiscale/effects/effects_text.hpp"
+#include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
 
 namespace polybed::app {
+
+namespace {
+
+struct EffectsOptions {
+  CaseOptions scene;
+  std::string audited;
+  bool audit_json = false, details = false, bench_json = false;
+  int bench_rounds = 3;
+};
 
 void run_effects(const CaseOptions& options, bool details) {
   const core::Scene scene = read_case(options.case_path, options.overrides);
@@ -42,6 +51,39 @@ core::ExitCode run_effects_audit(const std::filesystem::path& run, bool as_json)
                 neglected.tolerance(), said);
   }
   return neglected.kept().value_or(false) ? core::ExitCode::done : core::ExitCode::numerics;
+}
+
+core::ExitCode run_effects(const EffectsOptions& options, bool audit, bool bench) {
+  if (audit) return run_effects_audit(options.audited, options.audit_json);
+  if (bench)
+    run_effects_bench(options.bench_rounds, options.bench_json);
+  else if (options.scene.case_path.empty())
+    throw core::CaseError("effects: name a CASE, audit RUN, or bench");
+  else
+    run_effects(options.scene, options.details);
+  return core::ExitCode::done;
+}
+
+}  // namespace
+
+void add_effects(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<EffectsOptions>();
+  CLI::App& command =
+      *app.add_subcommand("effects", "which effects the scene calls for, with the number that decides each");
+  take_case(command, options->scene, false);
+  command.add_flag("--details", options->details, "the reason of every row");
+  command.require_subcommand(0, 1);
+  CLI::App* audit = command.add_subcommand(
+      "audit", "what a run has left out, evaluated on all that it stored; code 3 if that exceeds the bound");
+  audit->add_option("RUN", options->audited, "run directory")->required();
+  audit->add_flag("--json", options->audit_json, "one JSON object");
+  CLI::App* bench =
+      command.add_subcommand("bench", "what each effect costs per particle, contact or cell on this machine");
+  bench->add_option("--rounds", options->bench_rounds, "repetitions; the least times are told")
+      ->check(CLI::Range(1, 1000));
+  bench->add_flag("--json", options->bench_json, "one JSON object");
+  commands.push_back(
+      {&command, [options, audit, bench] { return run_effects(*options, audit->parsed(), bench->parsed()); }});
 }
 
 }  // namespace polybed::app

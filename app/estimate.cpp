@@ -3,20 +3,28 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/options.hpp"
+#include "app/commands.hpp"
 #include "core/case/units.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/print.hpp"
-#include "dem/continuum_scene.hpp"
-#include "multiscale/effects/choice.hpp"
+#include "dem/rules.hpp"
 #include "multiscale/estimate/estimate.hpp"
 #include "multiscale/roles.hpp"
-#include "tfm/particle_scene.hpp"
+#include "multiscale/scene_rules.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::app {
 
 namespace {
+
+/// Options of the estimate of what a run will take.
+struct EstimateOptions : CaseOptions {  // case_path may be empty
+  std::string model;                    ///< tfm | dem; empty: the continuum where it runs the case
+  std::string probe;                    ///< CPU time; empty: none
+  int ranks = 1;
+  bool machine = false;  ///< measure the machine
+};
 
 constexpr double machine_seconds = 28;  ///< CPU
 
@@ -47,8 +55,6 @@ std::string model_of(const EstimateOptions& options, const core::Scene& scene) {
   return particles ? "dem" : "tfm";
 }
 
-}  // namespace
-
 void run_estimate(const EstimateOptions& options) {
   if (options.machine) measure_and_keep(options.json);
   if (options.case_path.empty()) {
@@ -65,6 +71,19 @@ void run_estimate(const EstimateOptions& options) {
   core::Json json = {{"until_s", scene.run.until}};
   write_estimate(json, estimate);
   core::print("{}\n", core::json_text(json));
+}
+
+}  // namespace
+
+void add_estimate(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<EstimateOptions>();
+  CLI::App& command = *app.add_subcommand("estimate", "time, memory and disk of a run, and what would make it cheaper");
+  take_case(command, *options, false);
+  command.add_option("--model", options->model, "tfm | dem")->check(CLI::IsMember({"tfm", "dem"}));
+  command.add_option("--ranks", options->ranks, "that will share the case")->check(CLI::Range(1, 1000000));
+  command.add_option("--probe", options->probe, "run the case itself for so long first, e.g. 5s");
+  command.add_flag("--machine", options->machine, "measure this machine (30 s) and keep what was found");
+  commands.push_back({&command, doing([options] { run_estimate(*options); }), [] { return On::first_rank; }});
 }
 
 }  // namespace polybed::app

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/closure_uncertainty.hpp"
+#include "app/commands.hpp"
 #include "app/inversion_beside.hpp"
-#include "app/options.hpp"
+#include "app/study_request.hpp"
 #include "core/case/file.hpp"
 #include "core/output/json.hpp"
-#include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/scene_rules.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/effects/drag.hpp"
 
@@ -59,8 +59,6 @@ std::vector<Band> bands(const core::Scene& scene, const closures::DragLaw& law, 
   return result;
 }
 
-core::Json name_or_null(const std::string& name) { return name.empty() ? core::Json() : core::Json(name); }
-
 core::Json json_of(const std::vector<InversionPoint>& points) {
   core::Json json = core::Json::array();
   for (const InversionPoint& p : points) json.push_back({{"velocity_m_s", p.velocity}, {"voidage", p.voidage}});
@@ -71,7 +69,7 @@ void print_json(const core::Scene& scene, const std::string& method, const std::
                 const std::vector<Band>& band, const InversionBeside& beside) {
   core::Json json = {
       {"law", core::law_of(scene, "drag")},
-      {"partition", name_or_null(scene.effects.contains("partition") ? core::law_of(scene, "partition") : "")},
+      {"partition", core::text_or_null(scene.effects.contains("partition") ? core::law_of(scene, "partition") : "")},
       {"velocity_m_s", nullptr},
       {"voidage", nullptr}};
   if (!points.empty()) json.update(json_of(points).back());
@@ -121,8 +119,8 @@ void print_methods_json(const std::vector<MethodRow>& rows) {
   core::Json methods = core::Json::array();
   for (const MethodRow& row : rows)
     methods.push_back({{"method", row.method},
-                       {"law", name_or_null(row.law)},
-                       {"partition", name_or_null(row.partition)},
+                       {"law", core::text_or_null(row.law)},
+                       {"partition", core::text_or_null(row.partition)},
                        {"roots", json_of(row.points)}});
   core::print("{}\n", core::json_text({{"methods", methods}}));
 }
@@ -209,8 +207,6 @@ void run_without_a_run(const InversionOptions& options) {
   core::print("{}", lines_of(beside));
 }
 
-}  // namespace
-
 void run_inversion(const InversionOptions& options) {
   InversionOptions chosen = options;
   if (!options.temperature.empty()) chosen.overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
@@ -231,6 +227,39 @@ void run_inversion(const InversionOptions& options) {
     run_closure_uncertainty(chosen, "inversion", options.method);
   }
   options.scan.empty() ? run_without_a_run(chosen) : run_inversion_scan(chosen);
+}
+
+}  // namespace
+
+void add_inversion(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<InversionOptions>();
+  CLI::App& command =
+      *app.add_subcommand("inversion", "the inversion point of two species: by force balance, or by a scan of runs");
+  take_case(command, *options);
+  command.add_option("--law", options->law, "drag law in place of the case's");
+  command.add_option("--partition", options->partition,
+                     "what shares it among the species in place of the case's; none");
+  command.add_option("--temperature", options->temperature, "in place of the case's, e.g. \"20 degC\"");
+  command.add_option("--method", options->method, "force_balance | bulk_density | expansion | density_maximum | all");
+  command.add_flag("--composition", options->composition, "a table over the share of the second species");
+  command.add_flag("--seen", options->seen,
+                   "the force balance also with the averages that particles see, dem.own_share = kept");
+  command.add_option("--scan", options->scan, "by runs instead: tfm | dem | both")
+      ->check(CLI::IsMember({"tfm", "dem", "both"}));
+  command.add_option("--from", options->from, "lowest velocity of the first bracket, e.g. \"30 mm/s\"");
+  command.add_option("--to", options->to, "highest; default a quarter about the force balance");
+  command.add_option("-o,--output", options->output, "folder of a scan; default runs/<case name>-inversion");
+  command.add_option("--until", options->until, "simulated time of each run, e.g. \"20 s\"");
+  command.add_flag("--stress-uncertainty", options->stress_uncertainty,
+                   "of a scan by the TFM: again with its stress table at plus and minus one standard error");
+  command.add_flag("--closure-uncertainty", options->closure_uncertainty,
+                   "of the force balance: with the band of its drag law; -o DIR keeps record and picture");
+  command.add_flag("--permissive", options->permissive, "runs of a scan go on where a conservation law is broken");
+  command.add_flag("--quiet", options->quiet, "no line for each run");
+  command.add_flag("!--no-picture", options->picture, "no inversion.png and inversion.html at the end");
+  commands.push_back({&command, doing([options] { run_inversion(*options); }), [options] {
+                        return options->scan.empty() && !options->closure_uncertainty ? On::one_process : On::study;
+                      }});
 }
 
 }  // namespace polybed::app

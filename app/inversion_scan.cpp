@@ -5,15 +5,14 @@
 
 #include "app/inversion_beside.hpp"
 #include "app/run_directory.hpp"
-#include "app/stress_uncertainty.hpp"
 #include "app/study_request.hpp"
 #include "core/case/units.hpp"
 #include "core/error.hpp"
-#include "dem/continuum_scene.hpp"
+#include "dem/rules.hpp"
 #include "multiscale/inversion/models.hpp"
 #include "multiscale/python_module.hpp"
 #include "relevance/drag_law.hpp"
-#include "tfm/particle_scene.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::app {
 

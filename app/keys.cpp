@@ -1,23 +1,21 @@
 // The commands that show the table of keys and the registries: schema, explain, list.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "app/commands.hpp"
 #include "app/explain.hpp"
-#include "app/options.hpp"
 #include "closures/drag_form.hpp"
 #include "core/case/case_rules.hpp"
 #include "core/case/keys.hpp"
 #include "core/error.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
-#include "dem/continuum_scene.hpp"
+#include "dem/rules.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
-#include "tfm/particle_scene.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::app {
 
@@ -124,6 +122,29 @@ void run_list(bool json) {
     core::print("{} ({}; slot {}): {}\n", role.name, role.models, role.slot, role.help);
     for (const core::Law& law : role.laws) core::print("  {:20} {}\n", law.name, law.help);
   }
+}
+
+void add_keys(CLI::App& app, Commands& commands) {
+  struct Options {
+    bool json = false, markdown = false;
+    std::string key;
+  };
+  const auto schema = std::make_shared<Options>(), explain = std::make_shared<Options>(),
+             list = std::make_shared<Options>();
+  CLI::App& all = *app.add_subcommand("schema", "all keys of the case file");
+  all.add_flag("--json", schema->json, "as JSON");
+  all.add_flag("--markdown", schema->markdown, "as the page of the documentation");
+  commands.push_back({&all, doing([schema] { run_schema(schema->json, schema->markdown); })});
+  CLI::App& one =
+      *app.add_subcommand("explain", "a key, role, law, measure, status, invariant, limit or exit code: what it means");
+  one.add_option("KEY", explain->key, "e.g. tfm.rtol, rtol, drag, cello, hollow, 3")->required();
+  one.add_flag("--json", explain->json, "as JSON");
+  commands.push_back({&one, doing([explain] { run_explain(explain->key, explain->json); })});
+  CLI::App& laws = *app.add_subcommand("list", "the effects and their laws, or the cases to start from");
+  laws.add_option("WHAT", list->key, "cases: templates and shipped cases, instead")->check(CLI::IsMember({"cases"}));
+  laws.add_flag("--json", list->json, "as JSON");
+  commands.push_back(
+      {&laws, doing([list] { list->key == "cases" ? run_list_cases(list->json) : run_list(list->json); })});
 }
 
 }  // namespace polybed::app

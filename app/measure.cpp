@@ -6,12 +6,10 @@
 #include <functional>
 #include <iostream>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/measure_list.hpp"
-#include "app/options.hpp"
+#include "app/commands.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
@@ -280,13 +278,26 @@ void print_table(const Asked& asked, bool of_run) {
   }
 }
 
-}  // namespace
-
 void run_measure(const MeasureOptions& options) {
   if (options.list) return print_measures(options);
   const bool of_run = options.profiles.empty();
   const Asked asked = of_run ? read_run(options.run) : read_profiles_of(options.profiles);
   options.json ? print_json(asked, of_run) : print_table(asked, of_run);
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<MeasureOptions>();
+  CLI::App& command = *app.add_subcommand("measure", "bed height, centres, mixing, ... of the profiles of a run");
+  CLI::Option_group& what = *command.add_option_group("what");
+  what.add_option("RUN", options->run, "run directory");
+  what.add_option("--profiles", options->profiles, "JSON file of profiles instead; - reads standard input");
+  CLI::Option* list = what.add_flag("--list", options->list, "instead: every measure with its unit and definition");
+  what.require_option(1);
+  command.add_flag("--markdown", options->markdown, "of the list: the page of the documentation")->needs(list);
+  command.add_flag("--json", options->json, "one JSON object");
+  commands.push_back({&command, doing([options] { run_measure(*options); })});
 }
 
 }  // namespace polybed::app

@@ -1,9 +1,10 @@
-#include "app/measure_list.hpp"
+// polybed measure --list: the tables of measures themselves.
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
+#include "app/options.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "dem/history_table.hpp"
@@ -65,9 +66,8 @@ void print_page() {
 }
 
 core::Json json_of(const Line& line) {
-  const auto text_or_null = [](const std::string& text) { return text.empty() ? core::Json() : core::Json(text); };
-  return {{"name", text_or_null(line.name)},
-          {"column", text_or_null(line.column)},
+  return {{"name", core::text_or_null(line.name)},
+          {"column", core::text_or_null(line.column)},
           {"unit", line.unit},
           {"help", line.help},
           {"drift", line.readers.drift},

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "app/options.hpp"
+#include "app/commands.hpp"
 #include "core/case/keys.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
-#include "multiscale/installed.hpp"
+#include "multiscale/program.hpp"
 
 namespace polybed::app {
 
@@ -93,6 +93,20 @@ bool belongs_to_case(const fs::path& file) {
   return std::find(kinds.begin(), kinds.end(), file.extension().string()) != kinds.end();
 }
 
+void run_new(const fs::path& name, const std::string& from) {
+  const KnownCase chosen = case_named(from);
+  if (fs::exists(name / "case.toml"))
+    throw core::CaseError(fmt::format("{} exists already: choose another name", (name / "case.toml").string()));
+  core::make_directories(name);
+  for (const fs::directory_entry& entry : fs::directory_iterator(chosen.folder))
+    if (belongs_to_case(entry.path()))
+      core::write_atomically(name / entry.path().filename(), text_of_file(entry.path()));
+  const std::string file = (name / "case.toml").string();
+  const char* model = chosen.takes.find("polybed tfm") != std::string::npos || chosen.takes.empty() ? "tfm" : "dem";
+  core::print("{}: {}\n{}", file, chosen.title, chosen.takes.empty() ? "" : "takes about " + chosen.takes + "\n");
+  core::print("next:\n  polybed check {}\n  polybed {} {}\n", file, model, file);
+}
+
 }  // namespace
 
 void run_list_cases(bool json) {
@@ -113,18 +127,15 @@ void run_list_cases(bool json) {
   }
 }
 
-void run_new(const fs::path& name, const std::string& from) {
-  const KnownCase chosen = case_named(from);
-  if (fs::exists(name / "case.toml"))
-    throw core::CaseError(fmt::format("{} exists already: choose another name", (name / "case.toml").string()));
-  core::make_directories(name);
-  for (const fs::directory_entry& entry : fs::directory_iterator(chosen.folder))
-    if (belongs_to_case(entry.path()))
-      core::write_atomically(name / entry.path().filename(), text_of_file(entry.path()));
-  const std::string file = (name / "case.toml").string();
-  const char* model = chosen.takes.find("polybed tfm") != std::string::npos || chosen.takes.empty() ? "tfm" : "dem";
-  core::print("{}: {}\n{}", file, chosen.title, chosen.takes.empty() ? "" : "takes about " + chosen.takes + "\n");
-  core::print("next:\n  polybed check {}\n  polybed {} {}\n", file, model, file);
+void add_new(CLI::App& app, Commands& commands) {
+  struct Options {
+    std::string name, from;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("new", "write a case to start from: NAME/case.toml");
+  command.add_option("NAME", options->name, "folder of the new case")->required();
+  command.add_option("--from", options->from, "a template or a shipped case: polybed list cases");
+  commands.push_back({&command, doing([options] { run_new(options->name, options->from); })});
 }
 
 }  // namespace polybed::app

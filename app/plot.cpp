@@ -1,7 +1,7 @@
 // polybed plot: pictures of a finished or a running run, drawn by the Python package.
 #include <fmt/format.h>
 
-#include "app/options.hpp"
+#include "app/commands.hpp"
 #include "app/run_directory.hpp"
 #include "core/case/units.hpp"
 #include "core/error.hpp"
@@ -12,6 +12,23 @@
 namespace polybed::app {
 
 namespace {
+
+/// Options of the pictures of a run.
+struct PlotOptions {
+  std::filesystem::path run;     ///< a run directory, or a case that has one in runs/
+  std::string what = "all";      ///< overview | fields | particles | profiles | history | animation, by commas; or all
+  std::string time;              ///< empty: the last one stored
+  std::filesystem::path output;  ///< empty: RUN/pictures
+  std::string format = "png";    ///< png | svg
+  double rate = 0;               ///< frames per second; 0: chosen
+  bool quiet = false, json = false;
+};
+
+/// Options of the page that follows a run.
+struct WatchOptions {
+  std::filesystem::path run;  ///< a run directory, or a case that has one in runs/
+  int port = 0;               ///< on the loopback address; 0: any that is free
+};
 
 namespace fs = std::filesystem;
 
@@ -86,8 +103,6 @@ core::ExitCode code_of(const PythonEnd& end, const PlotOptions& options, const s
   }
 }
 
-}  // namespace
-
 core::ExitCode run_plot(const PlotOptions& options) {
   if (!options.output.empty()) core::mark_directory(options.output);
   return code_of(draw(options), options, "pictures");
@@ -101,6 +116,40 @@ core::ExitCode run_report(const PlotOptions& options) {
 void run_watch(const WatchOptions& options) {
   become_python("polybed.report.watch",
                 {"--port", fmt::format("{}", options.port), "--", run_of(options.run).string()});
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<PlotOptions>();
+  CLI::App& command = *app.add_subcommand("plot", "pictures of a finished or a running run");
+  command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
+  command.add_option("--what", options->what,
+                     "overview | fields | particles | profiles | history | animation, several by commas; default all");
+  command.add_option("--time", options->time, "the stored time nearest to it, e.g. \"5 s\"; default the last");
+  command.add_option("-o,--out,--output", options->output, "folder of the pictures; default RUN/pictures");
+  command.add_option("--format", options->format, "png | svg")->check(CLI::IsMember({"png", "svg"}));
+  command.add_option("--rate", options->rate, "frames per second of the animation; default: it lasts about 12 s")
+      ->check(CLI::Range(0.1, 120.0));
+  command.add_flag("--quiet", options->quiet, "no progress");
+  command.add_flag("--json", options->json, "one JSON object: the files written");
+  commands.push_back({&command, doing([options] { return run_plot(*options); })});
+}
+
+void add_report(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<PlotOptions>();
+  CLI::App& command =
+      *app.add_subcommand("report", "report.html of a run: one file with results, pictures and the case");
+  command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
+  commands.push_back({&command, doing([options] { return run_report(*options); })});
+}
+
+void add_watch(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<WatchOptions>();
+  CLI::App& command = *app.add_subcommand("watch", "a page that follows a run, for a browser on this machine");
+  command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
+  command.add_option("--port", options->port, "of the page; default: any that is free")->check(CLI::Range(0, 65535));
+  commands.push_back({&command, doing([options] { run_watch(*options); })});
 }
 
 }  // namespace polybed::app

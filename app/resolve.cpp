@@ -23,6 +23,12 @@ namespace polybed::app {
 
 namespace {
 
+/// Options of drag data from resolved flow.
+struct ResolveOptions : CaseOptions {
+  std::filesystem::path output;  ///< empty: runs/<case name>-resolve
+  bool resume = false, force = false, quiet = false, estimate = false;
+};
+
 namespace fs = std::filesystem;
 
 void require_what_resolve_needs(const ResolveOptions& options, const core::Scene& scene) {
@@ -191,15 +197,11 @@ class ResolveRun {
   double done_ = 0, seconds_ = 0;
 };
 
-}  // namespace
-
 void run_resolve(const ResolveOptions& options) {
   options.estimate ? estimate_resolve(options) : ResolveRun(options).run();
 }
 
-}  // namespace polybed::app
-
-namespace polybed::app {
+}  // namespace
 
 void add_resolve(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<ResolveOptions>();

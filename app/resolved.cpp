@@ -7,8 +7,8 @@
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "core/version.hpp"
-#include "dem/continuum_scene.hpp"
-#include "tfm/particle_scene.hpp"
+#include "dem/rules.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::app {
 

@@ -6,8 +6,8 @@
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/print.hpp"
-#include "multiscale/effects/choice.hpp"
 #include "multiscale/roles.hpp"
+#include "multiscale/scene_rules.hpp"
 
 namespace polybed::app {
 

@@ -3,6 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/run_directory.hpp"
+#include "core/error.hpp"
+#include "multiscale/python_module.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::app {
 
@@ -19,6 +22,30 @@ core::Json common_request(const RunOptions& options, const std::string& kind) {
           {"quiet", options.quiet},
           {"json", options.json},
           {"picture", options.picture}};
+}
+
+void run_closure_uncertainty(const RunOptions& options, const std::string& kind, const std::string& method) {
+  const core::Scene scene = read_scene(options);
+  if (!scene.effects.contains("drag"))
+    throw core::CaseError("--closure-uncertainty is that of a drag law: [effects] drag = ...");
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  core::Json json = common_request(options, kind);
+  json.update({{"kind", kind},
+               {"method", method},
+               {"law", core::law_of(scene, "drag")},
+               {"partition", core::law_of(scene, "partition")},
+               {"fluid", {{"density", fluid.density}, {"viscosity", fluid.viscosity}}}});
+  become_python("polybed.study.closure_uncertainty", {core::json_text(json)});
+}
+
+void require_table(const core::Scene& scene) {
+  if (!core::law_of(scene, "solids_stress").starts_with("table:"))
+    throw core::CaseError("--stress-uncertainty is that of a table: effects.solids_stress = \"table:FILE\"");
+}
+
+void run_stress_uncertainty(const RunOptions& options) {
+  require_table(read_scene(options));
+  become_python("polybed.study.stress_uncertainty", {core::json_text(common_request(options, "tfm"))});
 }
 
 }  // namespace polybed::app

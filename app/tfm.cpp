@@ -6,8 +6,8 @@
 #include <map>
 
 #include "app/case_run.hpp"
-#include "app/closure_uncertainty.hpp"
-#include "app/stress_uncertainty.hpp"
+#include "app/commands.hpp"
+#include "app/study_request.hpp"
 #include "core/print.hpp"
 #include "fluid/inlet.hpp"
 #include "multiscale/requirements.hpp"
@@ -197,8 +197,6 @@ class TfmRun final : public CaseRun {
   RunTotals totals_;
 };
 
-}  // namespace
-
 void run_tfm(const RunOptions& options) {
   if (options.closure_uncertainty && options.stress_uncertainty)
     throw core::CaseError("--closure-uncertainty and --stress-uncertainty are two studies: give one of them at a time");
@@ -216,6 +214,20 @@ void run_tfm(const RunOptions& options) {
   start_run({directory, scene, "tfm", ranks.get(), options.resume},
             [&] { run.emplace(options, scene, directory, ranks); });
   run->run();
+}
+
+}  // namespace
+
+void add_tfm(CLI::App& app, Commands& commands) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App& command = add_run(app, "tfm", "run the case as a continuum (two-fluid model)", *options);
+  command.add_flag("--stress-uncertainty", options->stress_uncertainty,
+                   "again with the stress table at plus and minus one standard error: the band of the bed height");
+  command.add_flag("--closure-uncertainty", options->closure_uncertainty,
+                   "again with the drag law moved within its band: the band of the bed height");
+  commands.push_back({&command, doing([options] { run_tfm(*options); }), [options] {
+                        return options->stress_uncertainty || options->closure_uncertainty ? On::study : On::all_ranks;
+                      }});
 }
 
 }  // namespace polybed::app

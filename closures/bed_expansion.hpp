@@ -3,8 +3,6 @@
 // and grows with the superficial slip velocity u, so both roots are found by bisection.
 #pragma once
 
-#include <cmath>
-
 namespace polybed::closures {
 
 /// What is carried, by which fluid.

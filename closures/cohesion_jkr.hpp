@@ -11,11 +11,6 @@
 
 namespace polybed::closures {
 
-/// 1.5 pi W R*, N: greatest pull that the contact bears. \param work_of_adhesion W, J/m2
-[[nodiscard]] inline double jkr_pull_off(double work_of_adhesion, double reduced_radius) {
-  return 1.5 * std::numbers::pi * work_of_adhesion * reduced_radius;
-}
-
 /// Constants of a pair: pi W R* (N), a_s and delta_s (m), where the neck breaks.
 struct JkrScales {
   double force, contact_radius, gap;
@@ -52,12 +47,6 @@ struct JkrScales {
 [[nodiscard]] inline double jkr_energy(const JkrScales& scales, double overlap) {
   const double u = jkr_size(overlap / scales.gap), cube = u * u * u, fourth = u * cube;
   return 4.0 / 3 * scales.force * scales.gap * (fourth * (cube * (cube / 60 - 1.0 / 6) + 0.25) - 0.1);
-}
-
-/// a, m: radius of the contact.
-[[nodiscard]] inline double jkr_contact_radius(const JkrScales& scales, double overlap) {
-  const double u = jkr_size(overlap / scales.gap);
-  return scales.contact_radius * u * u;
 }
 
 }  // namespace polybed::closures

@@ -36,14 +36,6 @@ inline constexpr double hertz_damping_share = 0.91287092917527685576;
   return {4.0 / 3 * youngs_modulus * contact_radius * overlap, -damping * normal_velocity};
 }
 
-/// The same from R*, beta and m*; zero without overlap.
-[[nodiscard]] inline NormalForce hertz_force_of_pair(double youngs_modulus, double radius, double mass, double beta,
-                                                     double overlap, double normal_velocity) {
-  const double depth = overlap > 0 ? overlap : 0, a = contact_radius(radius, depth);
-  return hertz_force(youngs_modulus, a, depth, hertz_damping(beta, hertz_stiffness(youngs_modulus, a), mass),
-                     normal_velocity);
-}
-
 /// (2/5) K delta^2.5, J.
 [[nodiscard]] inline double hertz_stored_energy(double coefficient, double overlap) {
   return 0.4 * coefficient * overlap * overlap * std::sqrt(overlap);

@@ -5,19 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include "closures/contact_pair.hpp"
-
 namespace polybed::closures {
 
 /// c = 2 beta sqrt(k m*), kg/s. \param beta from restitution.hpp
 [[nodiscard]] inline double linear_damping(double beta, double stiffness, double mass) {
   return 2 * beta * std::sqrt(stiffness * mass);
-}
-
-/// k delta and -c v_n; v_n negative on approach. overlap >= 0.
-[[nodiscard]] inline NormalForce linear_force(double stiffness, double overlap, double damping,
-                                              double normal_velocity) {
-  return {stiffness * overlap, -damping * normal_velocity};
 }
 
 /// t_c = pi sqrt(m*/k)/sqrt(1 - beta^2), s, with the tail kept; infinite from beta = 1 on: it creeps apart.
@@ -34,10 +26,5 @@ namespace polybed::closures {
 /// Tangential over normal stiffness where a case gives none, 2/7: equal periods of both springs for a solid sphere on a
 /// plane, m R^2/I = 5/2.
 inline constexpr double linear_tangential_share = 2.0 / 7;
-
-/// k_t = (2/7) k_n, N/m.
-[[nodiscard]] inline double linear_tangential_stiffness(double stiffness) {
-  return linear_tangential_share * stiffness;
-}
 
 }  // namespace polybed::closures

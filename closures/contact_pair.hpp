@@ -53,22 +53,10 @@ struct NormalForce {
   return 1 / ((2 - a.poisson_ratio) / shear_modulus(a) + (2 - b.poisson_ratio) / shear_modulus(b));
 }
 
-/// l_i = (r^2 + R_i^2 - R_j^2)/(2 r), m: from the centre of i to the plane in which two overlapping spheres meet;
-/// l_j = r - l_i. Of a wall the lever arm is the distance of the centre to it. distance r > 0.
-[[nodiscard]] inline double lever_arm(double distance, double radius_i, double radius_j) {
-  return 0.5 * (distance + (radius_i - radius_j) * (radius_i + radius_j) / distance);
-}
-
 /// I = (2/5) m R^2 of a solid sphere, kg m2.
 [[nodiscard]] inline double moment_of_inertia(double mass, double radius) { return 0.4 * mass * radius * radius; }
 
 /// Spring and dashpot together; near separation the dashpot may attract.
 [[nodiscard]] inline double normal_kept(const NormalForce& force) { return force.elastic + force.dashpot; }
-
-/// Spring and dashpot together, never attractive.
-[[nodiscard]] inline double normal_clipped(const NormalForce& force) {
-  const double sum = force.elastic + force.dashpot;
-  return sum > 0 ? sum : 0;
-}
 
 }  // namespace polybed::closures

@@ -1,7 +1,7 @@
 // Tangential contact: springs, the Coulomb cap that rescales the history, and how the history turns with the pair.
 // Forces act on i; v_t is the tangential velocity of i relative to j at the contact; xi the tangential displacement.
-// One step: xi = transported(xi, n) + v_t dt; force of the spring and dashpot; coulomb_cap. The first step of a contact
-// counts from the touch on: xi = v_t time_since_touch.
+// One step: xi = transported(xi, n) + v_t dt; force of the spring and dashpot, times coulomb_share. The first step of a
+// contact counts from the touch on: xi = v_t time_since_touch.
 #pragma once
 
 #include <cmath>
@@ -25,11 +25,6 @@ namespace polybed::closures {
 [[nodiscard]] inline double tangential_damping_ratio(double shear_modulus, double youngs_modulus) {
   return std::sqrt(4 * shear_modulus / youngs_modulus);
 }
-
-/// Force on i, and the history after it: the displacement xi, or for the law "mindlin" the force of the spring.
-struct TangentialForce {
-  Vec3 force, history;
-};
 
 /// -k_t xi - c_t v_t, not capped.
 [[nodiscard]] inline Vec3 spring_force(double stiffness, const Vec3& displacement, double damping,
@@ -59,24 +54,6 @@ inline constexpr double first_step_share = 2.0 / 3;
   const double bound = limit > 0 ? limit : 0;
   const double share = bound / std::sqrt(force_squared > least ? force_squared : least);
   return share < 1 ? share : 1;
-}
-
-/// Coulomb's cap with history rescale: while it slides the spring holds the whole force, xi = -F_t/k_t; without sliding
-/// the history stays. (xi = -(F_t + c_t v_t)/k_t, often used, leaves too little on the spring: in an oblique impact
-/// with damping the sphere leaves with 15 to 25 % less tangential impulse at e 0.5.)
-/// \param force -k_t xi - c_t v_t  \param stiffness k_t, the secant one, > 0  \param limit mu F_n
-[[nodiscard]] inline TangentialForce coulomb_cap(const Vec3& force, const Vec3& displacement, double stiffness,
-                                                 double limit) {
-  const double share = coulomb_share(dot(force, force), limit);
-  const Vec3 capped = share * force;
-  return {capped, select(share < 1, (-1 / stiffness) * capped, displacement)};
-}
-
-/// The same for the law "mindlin", whose history is the force of the spring. \param force spring - c_t v_t
-[[nodiscard]] inline TangentialForce coulomb_cap_of_force(const Vec3& force, const Vec3& spring, double limit) {
-  const double share = coulomb_share(dot(force, force), limit);
-  const Vec3 capped = share * force;
-  return {capped, select(share < 1, capped, spring)};
 }
 
 /// Part of a step during which the bodies have touched, s: overlap/(-v_n) in the first step of a contact, dt in every

@@ -1,6 +1,5 @@
 #include "closures/drag_form.hpp"
 
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>

@@ -40,18 +40,12 @@ namespace polybed::closures {
   return 1.5 * diameter * diameter * std::sqrt(std::numbers::pi * fluid_density * viscosity);
 }
 
-/// 1/sqrt(t) as a sum of a_i sqrt(e/t_i) exp(-t/(2 t_i)), t from 1 on in units of the window.
+/// 1/sqrt(t) as a sum of a_i sqrt(e/t_i) exp(-t/(2 t_i)), t from 1 to 1e5 in units of the window (van Hinsberg et al.
+/// 2011). Beyond it falls below 1/sqrt(t): older slips are forgotten.
 struct BassetTail {
   static constexpr std::size_t terms = 10;
   std::array<double, terms> time, share;  ///< t_i, a_i
 };
-
-/// The published ten (van Hinsberg et al. 2011). Greatest error of the kernel 0.7 % to t = 100, 3.4 % to 1000,
-/// 10 % to 1e4, 45 % to 1e5.
-inline constexpr BassetTail basset_tail_van_hinsberg{
-    {0.1, 0.3, 1, 3, 10, 40, 190, 1000, 6500, 50000},
-    {0.23477481312586, 0.28549576238194, 0.28479416718255, 0.26149775537574, 0.32056200511938, 0.35354490689146,
-     0.39635904496921, 0.42253908596514, 0.48317384225265, 0.63661146557001}};
 
 /// Ten fitted to the least greatest error, tests/unit/closures/basset_tail_fit.py: 0.126 % to t = 1e5.
 inline constexpr BassetTail basset_tail_fitted{
@@ -59,14 +53,6 @@ inline constexpr BassetTail basset_tail_fitted{
      2413.573898021, 9978.490263909, 106197.7229658},
     {0.3169747753027, 0.3097961954886, 0.30945597876, 0.3094413274276, 0.3094491427082, 0.3095467371408,
      0.3104942726614, 0.3193666739533, 0.3889005191874, 0.9860850933615}};
-
-/// The sum, at t >= 1 in units of the window. Past t = 1e5 it falls below 1/sqrt(t): older slips are forgotten.
-[[nodiscard]] inline double basset_tail_kernel(const BassetTail& tail, double time) {
-  double sum = 0;
-  for (std::size_t i = 0; i < BassetTail::terms; ++i)
-    sum += tail.share[i] * std::sqrt(std::numbers::e / tail.time[i]) * std::exp(-time / (2 * tail.time[i]));
-  return sum;
-}
 
 /// Weights of 1/sqrt(t) for one step and a window of `Window` steps, s^(1/2). For set-up.
 template <std::size_t Window>
@@ -125,14 +111,9 @@ struct BassetHistory {
   std::size_t known = 0;                       ///< how many of `past` there are
 };
 
-/// Coefficient of the newest g, s^(1/2): (4/3) sqrt(h), and 0 at the very start.
-template <std::size_t Window>
-[[nodiscard]] double basset_newest(const BassetWeights<Window>& weights, const BassetHistory<Window>& history) {
-  return history.known > 0 ? weights.newer[0] : 0;
-}
-
-/// The sum without the newest g, m/s^(3/2): F = B (newest g + past), B the prefactor. In the equation of motion: add
-/// B newest to the mass, and B (newest du_f/dt + past) to the other forces.
+/// The sum without the newest g, m/s^(3/2): F = B (newest g + past), B the prefactor, newest = weights.newer[0], and 0
+/// at the very start. In the equation of motion: add B newest to the mass, and B (newest du_f/dt + past) to the other
+/// forces.
 template <std::size_t Window>
 [[nodiscard]] Vec3 basset_past(const BassetWeights<Window>& weights, const BassetHistory<Window>& history) {
   Vec3 sum{0, 0, 0};
@@ -142,13 +123,6 @@ template <std::size_t Window>
   }
   for (const Vec3& part : history.tail) sum = sum + part;
   return sum;
-}
-
-/// B (newest g + past), N: the force once g is known.
-template <std::size_t Window>
-[[nodiscard]] Vec3 basset_force(double prefactor, const BassetWeights<Window>& weights,
-                                const BassetHistory<Window>& history, const Vec3& acceleration) {
-  return prefactor * (basset_newest(weights, history) * acceleration + basset_past(weights, history));
 }
 
 /// The history one step later. \param acceleration g of now, m/s2

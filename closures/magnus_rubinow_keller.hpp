@@ -36,9 +36,4 @@ namespace polybed::closures {
   return std::numbers::pi * viscosity * diameter * diameter * diameter;
 }
 
-/// -pi mu d^3 (Omega - omega/2), N m.
-[[nodiscard]] inline Vec3 fluid_torque(const Vec3& relative_spin, double diameter, double viscosity) {
-  return -spin_resistance(viscosity, diameter) * relative_spin;
-}
-
 }  // namespace polybed::closures

@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "closures/added_mass.hpp"
-#include "closures/cohesion_capillary.hpp"
 #include "closures/cohesion_van_der_waals.hpp"
 #include "closures/gas_slip.hpp"
 #include "closures/history_basset.hpp"
@@ -135,10 +134,11 @@ inline constexpr double relevance_contact_gap = 0.4e-9;
   return van_der_waals_pull_off(hamaker, 0.5 * roughness, relevance_contact_gap) / reference;
 }
 
-/// Pull of a liquid bridge that wets, 2 pi R gamma, over F_ref. \param surface_tension  gamma, N/m
+/// Pull of a liquid bridge that wets, 2 pi R gamma with R = D/2 (Willett, Adams, Johnson and Seville, Langmuir 16,
+/// 2000,
+/// 9396), over F_ref. \param surface_tension  gamma, N/m
 [[nodiscard]] inline double capillary_relevance(double surface_tension, double diameter, double reference) {
-  const double any_volume = 1e-3 * diameter * diameter * diameter;  // the pull in contact does not depend on it
-  return capillary_bridge(surface_tension, 0, any_volume, 0.25 * diameter).pull_off / reference;
+  return 2 * std::numbers::pi * (0.5 * diameter) * surface_tension / reference;
 }
 
 /// Length over which fluctuations are conducted before collisions eat them, m: D sqrt(k/(1.5 Gamma)) of the linearised

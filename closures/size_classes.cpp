@@ -1,7 +1,6 @@
 #include "closures/size_classes.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 

@@ -43,11 +43,4 @@ namespace polybed::closures {
   return viscosity_star / dissipation_star;
 }
 
-/// theta/(gamma d)^2 with drag, rate r = 1/(gamma tau_d): mu* s = Gamma* s^3 + 3 phi r s^2, s = sqrt(theta)/(gamma d).
-[[nodiscard]] inline double shear_temperature_with_drag(double viscosity_star, double dissipation_star, double phi,
-                                                        double rate) {
-  const double s = balanced_speed(dissipation_star, 3 * phi * rate, viscosity_star, 0);
-  return s * s;
-}
-
 }  // namespace polybed::closures

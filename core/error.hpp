@@ -43,6 +43,13 @@ class CaseError : public std::runtime_error {
   std::vector<CaseProblem> problems_;
 };
 
+/// What is wrong with a case that keeps every rule, and only shows when its start is made: particles that cannot be
+/// packed, a column that cannot be cut, a table or a list that does not fit (exit code 2).
+class StartError : public CaseError {
+ public:
+  using CaseError::CaseError;
+};
+
 /// The numbers failed: time, place, values and a hint are in the text (exit code 3).
 class NumericsError : public std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -1,8 +1,32 @@
 #include "dem/effects.hpp"
 
-#include "core/start_error.hpp"
+#include "core/error.hpp"
+#include "dem/effects/maker.hpp"
+#include "relevance/effect_rules.hpp"
 
 namespace polybed::dem {
+
+namespace {
+
+relevance::Menu menu_of(const std::vector<const Maker*>& list) {
+  relevance::Menu menu;
+  for (const Maker* one : list) relevance::add(menu, *one->effect, "dem", one->slot);
+  return menu;
+}
+
+}  // namespace
+
+std::vector<core::Role> roles() { return relevance::roles_of(menu_of(effects())); }
+
+std::vector<core::Rule> rules_of_keys(const std::vector<const Maker*>& list) {
+  std::vector<core::Rule> all;
+  for (const Maker* one : list) all.insert(all.end(), one->rules.begin(), one->rules.end());
+  return all;
+}
+
+std::vector<core::Rule> rules(const std::vector<const Maker*>& list) {
+  return relevance::joined({relevance::rules_of(menu_of(list)), rules_of_keys(list)});
+}
 
 PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials, const std::vector<const Maker*>& list) {
   core::refuse(rules(list), scene);

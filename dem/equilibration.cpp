@@ -1,4 +1,5 @@
-#include "dem/equilibration.hpp"
+// Random moves of hard spheres until they are a fluid of hard spheres.
+#include "dem/hard_spheres.hpp"
 
 #include <algorithm>
 #include <cmath>

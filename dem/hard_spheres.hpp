@@ -17,6 +17,11 @@ struct Region {
   Vector low, high;
 };
 
+/// Places particles in a region, whatever their overlaps. Some lie anywhere; the others, in random order, each in a
+/// part of the region as large as its share of the volume. Particles that all lay anywhere would be as uneven as an
+/// ideal gas, and what is uneven over many diameters takes longest to even out.
+void spread(std::vector<Particle*>& particles, const Region& region, std::uint64_t seed);
+
 class HardSpheres {
  public:
   /// \param region  of each particle
@@ -48,5 +53,17 @@ class HardSpheres {
   std::vector<std::int32_t> order_;
   Contacts near_;
 };
+
+/// Moves spheres apart, lighter ones further, until none overlap; in a bed near the densest by less than a thousandth
+/// of the smaller radius. Until then each pair is held at a random gap, as in a fluid of hard spheres: pushed to
+/// contact alone, most would end in contact.
+/// \param gap  m, the largest
+/// Throws core::StartError if they do not fit.
+void push_apart(HardSpheres& spheres, double gap);
+
+/// Sweeps of Metropolis et al. (J. Chem. Phys. 21, 1953): each sphere in turn tries a random step and takes it if it
+/// overlaps none. This leaves the statistics of a fluid of hard spheres as they are, and any others it brings there.
+/// \param fraction  of solids
+void equilibrate(HardSpheres& spheres, double least_diameter, double fraction, std::uint64_t seed);
 
 }  // namespace polybed::dem

@@ -1,9 +1,6 @@
 // The energy of the particles, where it is and where it went: it must add up.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "dem/box.hpp"
 #include "dem/contacts/batch.hpp"
 #include "dem/contacts/contacts.hpp"

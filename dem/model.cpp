@@ -244,13 +244,6 @@ void Model::wrap() {
   }
 }
 
-std::vector<KeptContact> Model::kept_contacts() const {
-  std::vector<KeptContact> kept;
-  keep(pairs_, particles_, false, kept);
-  keep(walls_, particles_, true, kept);
-  return kept;
-}
-
 void Model::refresh_ghosts() {
   exchange_.send_ghosts(particles_);
   exchange_.receive_ghosts(particles_);

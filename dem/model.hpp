@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/case/scene.hpp"
@@ -128,7 +127,6 @@ class Model : public core::Simulation {
   [[nodiscard]] bool may_shorten() const;
   void shorten_step();
   void set_step_for(double began, std::int64_t began_at, double speed);
-  [[nodiscard]] std::vector<KeptContact> kept_contacts() const;
   void rebuild();
   void list_pairs(KeptContacts kept);
   void find_forces(double dt);

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "core/case/scene.hpp"
 #include "core/output/history.hpp"

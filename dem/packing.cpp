@@ -9,12 +9,9 @@
 
 #include "closures/sphere.hpp"
 #include "core/case/particle_list.hpp"
+#include "core/error.hpp"
 #include "core/numerics/random.hpp"
-#include "core/start_error.hpp"
-#include "dem/equilibration.hpp"
 #include "dem/hard_spheres.hpp"
-#include "dem/relaxation.hpp"
-#include "dem/spreading.hpp"
 
 namespace polybed::dem {
 

@@ -1,13 +1,14 @@
-#include "dem/relaxation.hpp"
+// Random particles pushed apart until none overlap.
+#include "dem/hard_spheres.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/numerics/random.hpp"
-#include "core/start_error.hpp"
 
 namespace polybed::dem {
 

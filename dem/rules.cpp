@@ -21,4 +21,21 @@ std::vector<core::Rule> key_rules() {
   return relevance::joined({rules_of_keys(), own});
 }
 
+const std::vector<core::Rule>& model_rules() {
+  static const std::vector<core::Rule> all{
+      {{"column.outlet"},
+       "column.outlet = \"open\" is for the TFM only: particles leave through dem.opening, where there is no fluid; "
+       "use "
+       "\"screen\", which holds them",
+       [](const core::Scene& scene) { return core::broken_if(scene.column.outlet == core::Outlet::open); }},
+      {{"feed.species"},
+       "[[feed]] is for the TFM only: particles cannot enter the column yet; give them all in [bed]",
+       [](const core::Scene& scene) { return core::broken_if(!scene.feeds.empty()); }}};
+  return all;
+}
+
+std::vector<std::string> only_for_continuum(const core::Scene& scene) { return core::faults_of(model_rules(), scene); }
+
+void refuse_continuum_scene(const core::Scene& scene) { core::refuse(model_rules(), scene); }
+
 }  // namespace polybed::dem

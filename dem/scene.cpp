@@ -10,7 +10,7 @@
 #include "closures/drag_turton_levenspiel.hpp"
 #include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "core/start_error.hpp"
+#include "core/error.hpp"
 #include "dem/packing.hpp"
 #include "relevance/fluid_properties.hpp"
 

@@ -11,7 +11,6 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/numerics/ranks.hpp"
-#include "core/start_error.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "dem/packing.hpp"

@@ -1,4 +1,5 @@
-#include "dem/spreading.hpp"
+// Random first places of particles, as even over large distances as those of hard spheres.
+#include "dem/hard_spheres.hpp"
 
 #include <algorithm>
 #include <cmath>

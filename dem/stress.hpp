@@ -30,9 +30,6 @@ struct Stress {
   [[nodiscard]] double shear() const { return -component(1, 0); }
   /// mu_s = -sigma_yx/gamma, Pa s; without meaning in a box that is not sheared.
   [[nodiscard]] double viscosity() const { return shear() / shear_rate; }
-  /// N_1/p and N_2/p, (sigma_xx - sigma_yy)/p and (sigma_yy - sigma_zz)/p.
-  [[nodiscard]] double first_normal_difference() const { return (component(0, 0) - component(1, 1)) / pressure(); }
-  [[nodiscard]] double second_normal_difference() const { return (component(1, 1) - component(2, 2)) / pressure(); }
 };
 
 /// Of the last step, at the velocities of the full step. Nothing moves on: contacts are looked at once more, and the

@@ -94,13 +94,4 @@ void Boundaries::join(core::FaceField& faces, core::FaceField& others) const {
   }
 }
 
-void Boundaries::hold_boundary(core::FaceField& faces, double value) const {
-  for (int axis = 0; axis < grid_.dimensions; ++axis) {
-    for (int side = 0; side < 2; ++side)
-      for_each_boundary_row(grid_, axis, side, [&](Index begin, Index end) {
-        std::fill(faces[std::size_t(axis)].begin() + begin, faces[std::size_t(axis)].begin() + end, value);
-      });
-  }
-}
-
 }  // namespace polybed::fluid

@@ -84,9 +84,6 @@ class Boundaries {
     return of_fluid ? box : with_solids(box);
   }
 
-  /// Sets all boundary faces of a face field (sides, bottom, top) to a value, except across joined sides.
-  void hold_boundary(core::FaceField& faces, double value) const;
-
  private:
   void fill_walls(const Ghosts& wanted, int axis) const;
   void copy_outward(core::Field& u) const;

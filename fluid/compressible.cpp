@@ -1,6 +1,5 @@
 #include "fluid/compressible.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,10 +19,6 @@ EquationOfState equation_of_state(const core::Fluid& fluid, double density) {
   // Only the product R T = P_out/rho_0 counts.
   const double temperature = fluid.temperature.value_or(1.0);
   return closures::IdealGas{fluid.outlet_pressure / (density * temperature), temperature};
-}
-
-double volume_compressibility(const EquationOfState& law, double voidage, double pressure) {
-  return voidage * std::visit([&](const auto& l) { return l.compressibility(pressure); }, law);
 }
 
 double speed_of_sound(const EquationOfState& law, double pressure) {

@@ -27,10 +27,6 @@ using EquationOfState = std::variant<closures::TaitLiquid, closures::IdealGas>;
 /// \param density  rho_0, kg/m3
 [[nodiscard]] EquationOfState equation_of_state(const core::Fluid& fluid, double density);
 
-/// kappa of (5), 1/Pa, = eps (drho/dP)/rho_f = eps/(rho_f c^2).
-/// \param pressure  P, Pa, in the range of the law
-[[nodiscard]] double volume_compressibility(const EquationOfState& law, double voidage, double pressure);
-
 /// Speed of sound in the fluid alone, m/s, at a total pressure, Pa.
 [[nodiscard]] double speed_of_sound(const EquationOfState& law, double pressure);
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "core/error.hpp"
 #include "core/numerics/ranks.hpp"
 #include "fluid/convection.hpp"

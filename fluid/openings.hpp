@@ -32,8 +32,6 @@ class Openings {
 
   /// False where all ends are screens and nothing is fed: then no other member need be called.
   [[nodiscard]] bool present() const { return !passages_.empty(); }
-  /// The outlet lets solids out.
-  [[nodiscard]] bool open_outlet() const { return open_; }
   [[nodiscard]] const std::vector<Passage>& passages() const { return passages_; }
   /// The greatest speed at which anything is fed, m/s.
   [[nodiscard]] double greatest() const { return greatest_; }

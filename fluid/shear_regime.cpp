@@ -10,7 +10,7 @@
 #include "closures/lubrication.hpp"
 #include "closures/relevance.hpp"
 #include "closures/stress_reference.hpp"
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "core/error.hpp"
 #include "fluid/inlet.hpp"
 #include "relevance/drag_law.hpp"

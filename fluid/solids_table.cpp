@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <span>
 #include <stdexcept>
 
 #include "core/error.hpp"

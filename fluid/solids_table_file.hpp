@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/output/file.hpp"
 #include "fluid/solids_table.hpp"

@@ -93,7 +93,6 @@ void Flow<Real>::find_runs() {
     }
     runs.end = runs_.size();
   }
-  for (const Run& run : runs_) worked_ += run.length;
 }
 
 template <class Real>

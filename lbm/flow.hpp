@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "core/numerics/ranks.hpp"
@@ -55,9 +54,8 @@ class Flow {
   void level_density();
 
   [[nodiscard]] const Sites& sites() const { return sites_; }
-  /// Sites of fluid in the whole box; those that a step works on, in this slab; links cut in this slab.
+  /// Sites of fluid in the whole box; links cut in this slab.
   [[nodiscard]] double fluid_sites() const { return fluid_sites_; }
-  [[nodiscard]] std::size_t worked_sites() const { return worked_; }
   [[nodiscard]] std::size_t links() const { return links_.size(); }
   /// Of this slab.
   [[nodiscard]] std::size_t memory_bytes() const;
@@ -98,7 +96,7 @@ class Flow {
   FlowSetup setup_;
   Sites sites_;
   std::vector<std::int32_t> owner_;
-  std::size_t stride_ = 0, worked_ = 0;
+  std::size_t stride_ = 0;
   double fluid_sites_ = 0;
   std::vector<Real> populations_;
   std::vector<Run> runs_;

@@ -32,12 +32,6 @@ void ParticleExtremes::add(double volume_of_one, const std::array<double, 3>& u)
   energy = std::max(energy, volume_of_one * speed_squared(u));
 }
 
-ParticleExtremes extremes_of(const core::ParticleSnapshot& particles) {
-  ParticleExtremes most;
-  for (std::size_t i = 0; i < particles.id.size(); ++i) most.add(volume_of(particles.radius[i]), particles.velocity[i]);
-  return most;
-}
-
 ParticleAdder::ParticleAdder(std::size_t species, const Slabs& slabs, const ParticleExtremes& all)
     : slabs_(slabs.count), thickness_(slabs.thickness()) {
   const double momentum = unit_for(all.particles, all.momentum);
@@ -74,16 +68,6 @@ void ParticleAdder::add(std::size_t species, double radius, double centre, const
   }
 }
 
-ParticleSums particle_sums(const core::ParticleSnapshot& particles, std::size_t species, const Slabs& slabs,
-                           const ParticleExtremes& all) {
-  ParticleAdder adder(species, slabs, all);
-  for (std::size_t i = 0; i < particles.id.size(); ++i)
-    adder.add(std::size_t(particles.species[i]), particles.radius[i], particles.position[i][1], particles.velocity[i]);
-  return adder.take();
-}
-
-SteadySum::SteadySum(std::int64_t count, double most) : per_unit_(1 / unit_for(count, most)) {}
-
 ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, const Slabs& slabs) {
   ParticleProfile profile;
   profile.solids.slab = slabs.thickness();
@@ -105,63 +89,6 @@ ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, 
   return profile;
 }
 
-ParticleProfile particle_profile(const core::ParticleSnapshot& particles, std::size_t species, const Slabs& slabs) {
-  return particle_profile(particle_sums(particles, species, slabs, extremes_of(particles)), species, slabs);
-}
-
-ParticleHeights particle_heights(const core::ParticleSnapshot& particles, std::span<const double> density) {
-  const std::size_t n = particles.id.size();
-  const auto mass = [&](std::size_t i) {
-    return density[std::size_t(particles.species[i])] * volume_of(particles.radius[i]);
-  };
-  double highest = 0, heaviest = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    highest = std::max(highest, std::abs(particles.position[i][1]));
-    heaviest = std::max(heaviest, mass(i));
-  }
-  std::vector<SteadySum> height(density.size(), SteadySum(std::int64_t(n), highest));
-  std::vector<std::int64_t> count(density.size(), 0);
-  SteadySum weight(std::int64_t(n), heaviest), moment(std::int64_t(n), heaviest * highest);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto j = std::size_t(particles.species[i]);
-    height[j].add(particles.position[i][1]);
-    ++count[j];
-    weight.add(mass(i));
-    moment.add(mass(i) * particles.position[i][1]);
-  }
-  ParticleHeights heights;
-  for (std::size_t j = 0; j < density.size(); ++j)
-    heights.mean.push_back(count[j] > 0 ? std::optional(height[j].value_of(height[j].units()) / double(count[j]))
-                                        : std::nullopt);
-  if (weight.units() > 0) heights.mean_by_mass = moment.value_of(moment.units()) / weight.value_of(weight.units());
-  return heights;
-}
-
-std::optional<double> bed_height_columns(const core::ParticleSnapshot& particles, std::array<double, 2> size,
-                                         std::array<int, 2> columns) {
-  struct Ends {
-    double low = 0, high = 0;
-    bool found = false;
-  };
-  std::vector<Ends> ends(std::size_t(columns[0]) * std::size_t(columns[1]));
-  const auto place = [](double position, double length, int count) {
-    return std::size_t(std::clamp(std::floor(position / length * count), 0.0, double(count - 1)));
-  };
-  for (const auto& x : particles.position) {
-    const std::size_t across = place(x[0], size[0], columns[0]), deep = place(x[2], size[1], columns[1]);
-    Ends& here = ends[across + std::size_t(columns[0]) * deep];
-    here.low = here.found ? std::min(here.low, x[1]) : x[1];
-    here.high = here.found ? std::max(here.high, x[1]) : x[1];
-    here.found = true;
-  }
-  double sum = 0;
-  std::size_t held = 0;
-  for (const Ends& here : ends)
-    if (here.found) {
-      sum += here.high - here.low;
-      ++held;
-    }
-  return held > 0 ? std::optional(sum / double(held)) : std::nullopt;
-}
+SteadySum::SteadySum(std::int64_t count, double most) : per_unit_(1 / unit_for(count, most)) {}
 
 }  // namespace polybed::measures

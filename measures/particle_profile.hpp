@@ -8,12 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "core/output/particles.hpp"
 #include "measures/profile.hpp"
 
 namespace polybed::measures {
@@ -40,7 +37,6 @@ struct ParticleExtremes {
 
   void add(double volume_of_one, const std::array<double, 3>& velocity);
 };
-[[nodiscard]] ParticleExtremes extremes_of(const core::ParticleSnapshot& particles);
 
 /// Sums of V, V u_x, V u_y, V u_z and V |u|^2 over the parts of the particles in each slab, in whole units.
 struct ParticleSums {
@@ -70,10 +66,6 @@ class ParticleAdder {
   std::int64_t whole_ = 0;  ///< its volume in units
 };
 
-/// Of these particles. \param all  of the particles on all ranks, these included
-[[nodiscard]] ParticleSums particle_sums(const core::ParticleSnapshot& particles, std::size_t species,
-                                         const Slabs& slabs, const ParticleExtremes& all);
-
 /// Means over slabs; where a species is absent its velocity and temperature are 0.
 struct ParticleProfile {
   Profile solids;                                ///< phi_j; without pressure
@@ -81,10 +73,6 @@ struct ParticleProfile {
   std::vector<std::vector<double>> temperature;  ///< theta = <|u - <u>|^2>/3, m2/s2; <u> of this slab and species
 };
 [[nodiscard]] ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, const Slabs& slabs);
-
-/// The same in one go, where all particles are at hand.
-[[nodiscard]] ParticleProfile particle_profile(const core::ParticleSnapshot& particles, std::size_t species,
-                                               const Slabs& slabs);
 
 /// A sum of numbers no greater than `most` that does not depend on their order.
 class SteadySum {
@@ -99,22 +87,5 @@ class SteadySum {
   double per_unit_;  ///< a power of two
   std::int64_t sum_ = 0;
 };
-
-/// Heights that the thesis takes from particles rather than from a profile.
-struct ParticleHeights {
-  std::vector<std::optional<double>> mean;  ///< H_b,j: mean height of the centres of species j, T(5.14), m
-  std::optional<double> mean_by_mass;       ///< H_b,t: of all particles, weighted by mass, m
-};
-
-/// \param density  of each species, kg/m3. Independent of the order of the particles.
-[[nodiscard]] ParticleHeights particle_heights(const core::ParticleSnapshot& particles,
-                                               std::span<const double> density);
-
-/// Height of the bed as the thesis has it, m: in each vertical column the highest less the lowest centre, the mean over
-/// the columns that hold a particle; empty without particles. Grows with the number of particles, as extremes do: for
-/// the tables of the thesis only. A centre beyond the sides counts for the column next to it.
-/// \param size   width and depth, m   \param columns  along the width and along the depth
-[[nodiscard]] std::optional<double> bed_height_columns(const core::ParticleSnapshot& particles,
-                                                       std::array<double, 2> size, std::array<int, 2> columns);
 
 }  // namespace polybed::measures

@@ -171,6 +171,15 @@ void choose_stiffness(core::Scene& scene) {
   scene.dem.youngs_modulus = dem::rounded_up(core::least_modulus * std::max(1.0, overlap.stiffening));
 }
 
+void write_step(core::Json& json, const dem::StepLimits& limits, double greatest_speed) {
+  core::Json all = core::Json::array();
+  for (const dem::StepLimit& limit : limits.all) all.push_back({{"name", limit.name}, {"dt_s", limit.dt}});
+  json["step"] = {{"dt_s", limits.dt},
+                  {"limited_by", limits.limited_by},
+                  {"greatest_speed_expected_m_s", greatest_speed},
+                  {"limits", all}};
+}
+
 void write_overlap(core::Json& json, const dem::OverlapForecast& overlap) {
   json["overlap"] = {{"pair", overlap.pair}, {"expected_m", overlap.overlap}, {"over_diameter", overlap.share}};
 }
@@ -191,12 +200,7 @@ void write_particle_requirements(core::Json& json, const core::Scene& scene, con
                      {"kernel_width_m", fluid->kernel.width},
                      {"kernel_reason", fluid->kernel.reason}};
   json["integrator"] = need.limits.synchronised ? "synchronised" : "thesis";
-  core::Json limits = core::Json::array();
-  for (const dem::StepLimit& limit : need.limits.all) limits.push_back({{"name", limit.name}, {"dt_s", limit.dt}});
-  json["step"] = {{"dt_s", need.limits.dt},
-                  {"limited_by", need.limits.limited_by},
-                  {"greatest_speed_expected_m_s", need.limits.greatest_speed},
-                  {"limits", limits}};
+  write_step(json, need.limits, need.limits.greatest_speed);
   write_overlap(json, need.overlap);
   json["time"] = {{"settling_s", need.settling}, {"before_s", need.before},
                   {"steps", need.steps},         {"particle_steps", need.particle_steps},

@@ -48,6 +48,9 @@ struct ParticleRequirements {
 /// the speeds to expect need it to keep overlaps within dem.max_overlap. Steps are the longer the softer contacts are.
 void choose_stiffness(core::Scene& scene);
 
+/// "step": its length and what sets it. \param greatest_speed  expected, m/s
+void write_step(core::Json& json, const dem::StepLimits& limits, double greatest_speed);
+
 /// "overlap": the deepest contact to expect.
 void write_overlap(core::Json& json, const dem::OverlapForecast& overlap);
 

@@ -10,15 +10,13 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
-#include <filesystem>
 #include <initializer_list>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
-#include "multiscale/become.hpp"
-#include "multiscale/installed.hpp"
+#include "multiscale/program.hpp"
 
 namespace polybed::multiscale {
 
@@ -70,6 +68,12 @@ int wait_for(pid_t child) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+std::string last_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  const std::size_t begin = text.rfind('\n');
+  return begin == std::string::npos ? text : text.substr(begin + 1);
+}
+
 }  // namespace
 
 PythonEnd run_python(const std::string& module, const std::vector<std::string>& arguments, PythonOutput output) {
@@ -116,6 +120,18 @@ int AskingModule::wait() {
 void become_python(const std::string& module, const std::vector<std::string>& arguments) {
   ::setenv("POLYBED", this_program().c_str(), 1);
   not_started(become(words_of(module, arguments)));
+}
+
+bool draw(const std::string& module, const std::filesystem::path& directory, std::string& message,
+          std::vector<std::string> options) {
+  options.insert(options.end(), {"--", directory.string()});
+  const PythonEnd end = run_python(module, options, PythonOutput::keep);
+  message = end.not_started.empty() ? last_line(end.output) : end.not_started;
+  return end.not_started.empty() && end.code == 0;
+}
+
+bool draw_picture(const std::filesystem::path& run_directory, std::string& message) {
+  return draw("polybed.plot", run_directory, message, {"--picture"});
 }
 
 }  // namespace polybed::multiscale

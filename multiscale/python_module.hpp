@@ -1,6 +1,7 @@
 // Starts a module of the Python package that stands beside the program.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,5 +52,16 @@ class AskingModule {
 /// The line that installs what the package needs.
 constexpr const char* python_packages =
     "apt-get install python3 python3-numpy python3-h5py python3-matplotlib python3-scipy";
+
+/// Pictures and pages that the package makes of what a command has written: hands a folder over to a module of the
+/// Python package, with the words `OPTIONS -- directory`. Nothing is printed and nothing thrown: what lies in the
+/// folder is complete without its picture.
+/// \param message  the last line it says, where the picture is; or, if false is returned, why there is none (Python or a
+///                 package of it missing, nothing stored yet)
+[[nodiscard]] bool draw(const std::string& module, const std::filesystem::path& directory, std::string& message,
+                        std::vector<std::string> options = {});
+
+/// Draws picture.png and makes report.html in a run directory, finished or running, likewise.
+[[nodiscard]] bool draw_picture(const std::filesystem::path& run_directory, std::string& message);
 
 }  // namespace polybed::multiscale

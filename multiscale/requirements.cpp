@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "tfm/memory_use.hpp"
+#include "tfm/fields.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::multiscale {

@@ -37,6 +37,10 @@ bool can_be_added(const relevance::MenuEntry& entry, const std::string& model) {
 
 std::vector<core::Role> all_roles() { return relevance::roles_of(menu()); }
 
+relevance::Choice choose(const core::Scene& scene) { return relevance::choose(scene, menu()); }
+
+core::Scene with_choice(core::Scene scene) { return relevance::with_choice(std::move(scene), menu()); }
+
 std::vector<std::pair<double, double>> size_classes(const core::SizeDistribution& given) {
   std::vector<closures::SizeClass> classes;
   if (given.kind == core::SizeLaw::sieves) {

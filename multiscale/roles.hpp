@@ -7,6 +7,7 @@
 
 #include "core/case/registry.hpp"
 #include "core/case/size_classes.hpp"
+#include "relevance/choice.hpp"
 #include "relevance/effect.hpp"
 
 namespace polybed::multiscale {
@@ -23,6 +24,10 @@ namespace polybed::multiscale {
 
 /// Their roles.
 [[nodiscard]] std::vector<core::Role> all_roles();
+
+/// relevance::choose and relevance::with_choice of the whole menu.
+[[nodiscard]] relevance::Choice choose(const core::Scene& scene);
+[[nodiscard]] core::Scene with_choice(core::Scene scene);
 
 /// How a distribution of sizes becomes classes: by its moments, closures/size_classes.hpp.
 [[nodiscard]] std::vector<std::pair<double, double>> size_classes(const core::SizeDistribution& distribution);

@@ -12,8 +12,11 @@
 #include "core/error.hpp"
 #include "dem/rules.hpp"
 #include "multiscale/calibrate/plan.hpp"
+#include "multiscale/particle_requirements.hpp"
 #include "multiscale/resolve/box_drag.hpp"
 #include "multiscale/roles.hpp"
+#include "relevance/drag_file.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "tfm/rules.hpp"
 
@@ -163,6 +166,15 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
 
 core::Scene read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   return core::read_case(path, overrides, all_roles(), size_classes, scene_rules(), core::OtherRoles::chosen);
+}
+
+core::Scene read_chosen_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  core::Scene chosen = with_choice(read_case(path, overrides));
+  if (!chosen.chooser.chosen.empty()) core::refuse(scene_rules(), chosen);  // what is chosen beside what is given
+  choose_stiffness(chosen);
+  if (const auto file = relevance::drag_file(core::law_of(chosen, "drag")))
+    chosen.drag_record = relevance::record_of(*file, relevance::read_drag_file(*file));
+  return chosen;
 }
 
 }  // namespace polybed::multiscale

@@ -22,4 +22,8 @@ namespace polybed::multiscale {
 /// this program.
 [[nodiscard]] core::Scene read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides);
 
+/// The same, with what it leaves to the chooser resolved.
+[[nodiscard]] core::Scene read_chosen_case(const std::filesystem::path& path,
+                                           const std::vector<std::string>& overrides);
+
 }  // namespace polybed::multiscale

@@ -1,9 +1,8 @@
 #include "relevance/choice.hpp"
 
 #include <algorithm>
-#include <iterator>
 
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "relevance/situation.hpp"
 
 namespace polybed::relevance {

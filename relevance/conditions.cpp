@@ -177,7 +177,7 @@ EffectRow capillary(const core::Scene& scene, const Survey& survey) {
     greatest.add(s, closures::capillary_relevance(*scene.chooser.free_liquid, s.diameter, s.reference()));
   greatest.fill(row);
   row.is_force = true;
-  row.not_built = "the closure is there, no role has it yet";
+  row.not_built = "no role has it yet";
   return row;
 }
 

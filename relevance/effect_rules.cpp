@@ -1,5 +1,5 @@
 #include "relevance/effect_rules.hpp"
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 
 namespace polybed::relevance {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "closures/bed_expansion.hpp"
@@ -11,11 +10,10 @@
 #include "closures/mixture.hpp"
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "core/case/laws.hpp"
 #include "core/case/particle_list.hpp"
+#include "core/case/scene.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
-#include "relevance/gas_slip.hpp"
 
 namespace polybed::relevance {
 

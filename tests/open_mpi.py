@@ -1,4 +1,4 @@
-"""What Open MPI needs in a container and as root, for the scripts that start mpirun. multiscale/mpirun.cpp sets the same
+"""What Open MPI needs in a container and as root, for the scripts that start mpirun. multiscale/program.cpp sets the same
 for `polybed -n`, and tests/CMakeLists.txt for test programs that it starts itself."""
 import pathlib
 

@@ -1,10 +1,30 @@
 #include "tfm/effects.hpp"
 
-#include "core/case/laws.hpp"
+#include <utility>
+
+#include "core/case/scene.hpp"
 #include "tfm/effects/maker.hpp"
-#include "tfm/effects/solids_wall_johnson_jackson.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::tfm {
+
+namespace {
+
+relevance::Menu menu_of(const std::vector<const Maker*>& list) {
+  relevance::Menu menu;
+  for (const Maker* one : list) relevance::add(menu, *one->effect, "tfm", one->slot);
+  return menu;
+}
+
+}  // namespace
+
+std::vector<core::Role> roles() { return relevance::roles_of(menu_of(effects())); }
+
+std::vector<core::Rule> rules(const std::vector<const Maker*>& list) {
+  std::vector<core::Rule> all = relevance::rules_of(menu_of(list));
+  for (core::Rule& rule : key_rules()) all.push_back(std::move(rule));
+  return all;
+}
 
 Effects make_effects(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                      Fields& fields, const std::vector<const Maker*>& list) {
@@ -15,7 +35,7 @@ Effects make_effects(const core::Scene& scene, const Constants& constants, const
     if (one->make != nullptr && !core::is_off(law)) one->make({scene, constants, boundaries, law, fields, made});
   }
   if (scene.tfm.solids_wall == core::SolidsWall::johnson_jackson)
-    made.solids_wall = std::make_unique<JohnsonJacksonWall>(scene, constants, boundaries, fields);
+    made.solids_wall = johnson_jackson_wall(scene, constants, boundaries, fields);
   if (scene.fluid.compressible()) {
     const double density = constants.fluid.density;
     made.compressible = std::make_unique<fluid::Compressible>(constants.grid, boundaries,

@@ -99,6 +99,10 @@ class SolidsWall {
   virtual void fill_ghosts(Fields& fields) = 0;
 };
 
+/// tfm.solids_wall = "johnson_jackson". Throws core::StartError where the solids have no viscosity.
+[[nodiscard]] std::unique_ptr<SolidsWall> johnson_jackson_wall(const core::Scene& scene, const Constants& constants,
+                                                               const fluid::Boundaries& boundaries, Fields& fields);
+
 /// The effects that are on; null where absent.
 struct Effects {
   std::unique_ptr<FluidExchange> drag;

@@ -75,4 +75,7 @@ struct Fields {
   return j * (2 * n - j - 1) / 2 + (k - j - 1);
 }
 
+/// Memory of the fields, bytes; memory_use.cpp.
+[[nodiscard]] std::size_t bytes_of(const Fields& fields);
+
 }  // namespace polybed::tfm

@@ -21,7 +21,6 @@ class ImplicitProblem : public core::DaeProblem {
   core::Rate precondition(double t, std::span<const double> r, std::span<double> z, double cj, double delta) override;
 
   [[nodiscard]] std::uint64_t residuals() const { return residuals_; }
-  [[nodiscard]] const Preconditioner& preconditioner() const { return preconditioner_; }
 
  private:
   void pack_continuity(const StateLayout::Entry& entry, std::span<const double> dydt, std::span<double> r);

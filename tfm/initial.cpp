@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/error.hpp"
 #include "core/numerics/random.hpp"
-#include "core/start_error.hpp"
 
 namespace polybed::tfm {
 

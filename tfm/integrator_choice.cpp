@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/start_error.hpp"
-#include "relevance/gas_slip.hpp"
+#include "core/error.hpp"
+#include "relevance/fluid_properties.hpp"
 #include "tfm/rules.hpp"
 #include "tfm/step_estimate.hpp"
 
@@ -40,6 +40,11 @@ IntegratorChoice choose_integrator(const core::Scene& scene, const Constants& co
   if (choice.kind == core::TfmIntegrator::implicit_steps && !wrong.empty())
     throw core::StartError(fmt::format("tfm.rtol = {} with the implicit integrator: {}", scene.tfm.rtol, wrong));
   return choice;
+}
+
+MomentumForm momentum_form(const core::Scene& scene) {
+  if (scene.scheme.momentum != core::Momentum::automatic) return {scene.scheme.momentum, "as the case says"};
+  return {core::Momentum::conservative, "(U.grad)U would show beds heavier than they are"};
 }
 
 }  // namespace polybed::tfm

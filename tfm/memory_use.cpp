@@ -1,6 +1,5 @@
-#include "tfm/memory_use.hpp"
-
-#include <initializer_list>
+// What a model holds in memory.
+#include "tfm/fields.hpp"
 
 namespace polybed::tfm {
 

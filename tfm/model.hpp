@@ -14,11 +14,9 @@
 #include "core/timers.hpp"
 #include "fluid/fluid_mass.hpp"
 #include "tfm/integrator_choice.hpp"
-#include "tfm/momentum_form.hpp"
 #include "tfm/right_hand_side.hpp"
 #include "tfm/step_part.hpp"
 #include "tfm/stepping.hpp"
-#include "tfm/work.hpp"
 
 namespace polybed::tfm {
 

@@ -11,7 +11,7 @@
 #include "closures/mixture.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "relevance/drag_law.hpp"
-#include "tfm/bulk_viscosity.hpp"
+#include "tfm/effects/solids_stress_frictional.hpp"
 #include "tfm/fast_drag.hpp"
 
 namespace polybed::tfm {

@@ -2,15 +2,20 @@
 // fill only part of the column.
 #pragma once
 
+#include <cstdint>
 #include <span>
-
-#include "tfm/work.hpp"
 
 namespace polybed::core {
 struct Checkpoint;
 }
 
 namespace polybed::tfm {
+
+/// What a run has done so far. Repeats exactly from run to run.
+struct Work {
+  std::uint64_t steps = 0, rejected_steps = 0, right_hand_sides = 0, pressure_solves = 0, pressure_iterations = 0,
+                newton_iterations = 0, krylov_iterations = 0, first_order_cells = 0;
+};
 
 /// The model holds a list of those that its scene has, and calls each of them once at every point of a step: what a
 /// scene has not costs nothing. Times in s; `y` is the state of this rank. All hooks are collective.

@@ -10,8 +10,8 @@
 #include "core/timers.hpp"
 #include "tfm/right_hand_side.hpp"
 #include "tfm/step_limits.hpp"
+#include "tfm/step_part.hpp"
 #include "tfm/tolerances.hpp"
-#include "tfm/work.hpp"
 
 namespace polybed::tfm {
 

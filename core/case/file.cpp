@@ -24,24 +24,259 @@ class CaseReader {
              OtherRoles others)
       : name_(std::move(name)), roles_(roles), classes_(classes), rules_(rules), others_(others), values_(name_) {}
 
-  void read(toml::table& root, std::span<const std::string> overrides);
-  Scene finish();
+  void read(toml::table& root, std::span<const std::string> overrides) {
+    spell_out_effects(root);
+    for (const std::string& given : overrides) apply_override(root, given, values_);
+    scene_.overrides.assign(overrides.begin(), overrides.end());
+    const Key& title = find_table("")->keys.front();
+    for (const auto& [name, node] : root) {
+      if (name.str() == "effects")
+        read_effects(node);
+      else if (name.str() == title.name)
+        read_key(title, 0, node);
+      else
+        read_entry(name.str(), name, node);
+    }
+    leave_others_to_chooser();
+    for (std::string_view table : {"column", "fluid", "species", "bed", "run"})
+      if (!root.contains(table)) wrong_table(table, {}, fmt::format("{} is missing", header(*find_table(table))));
+  }
+
+  Scene finish() {
+    check_amount();
+    check_fluid();
+    check_scene();
+    std::vector<CaseProblem>& problems = values_.problems();
+    std::stable_sort(problems.begin(), problems.end(), [](const CaseProblem& a, const CaseProblem& b) {
+      return std::pair(a.line == 0, a.line) < std::pair(b.line == 0, b.line);
+    });
+    if (!problems.empty()) throw CaseError(problems);
+    return scene_;
+  }
 
  private:
-  void read_table(const toml::table& table, const Table& known, std::size_t index);
-  void read_entry(std::string_view table, const toml::key& name, const toml::node& node);
-  void spell_out_effects(toml::table& root) const;
-  void read_effects(const toml::node& node);
-  void read_others(const toml::node& value);
-  void leave_others_to_chooser();
-  void read_key(const Key& key, std::size_t index, const toml::node& node);
-  void check_amount();
-  void check_fluid();
-  void check_sizes(const toml::table& species);
-  void check_scene();
-  bool judge(const Rule& rule);
-  void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message);
-  void wrong_key(const toml::key& key, std::string_view table);
+  void read_table(const toml::table& table, const Table& known, std::size_t index) {
+    for (const auto& [key, node] : table) {
+      const auto found =
+          std::find_if(known.keys.begin(), known.keys.end(), [&](const Key& k) { return k.name == key.str(); });
+      if (found == known.keys.end())
+        wrong_key(key, known.name);
+      else
+        read_key(*found, index, node);
+    }
+    for (const Key& key : known.keys)
+      if (key.required && !table.contains(key.name)) {
+        values_.add(table.source(), fmt::format("{} is missing: {}", key.path(), key.help));
+        wrong_.add(key.path());
+      }
+    const std::size_t problems = values_.problems().size();
+    if (known.name == "species") check_sizes(table);
+    if (values_.problems().size() > problems) wrong_.add("species.diameter");
+  }
+
+  void read_entry(std::string_view table, const toml::key& name, const toml::node& node) {
+    const Table* known = find_table(table);
+    if (known == nullptr) return wrong_key(name, "");
+    if (!known->array) {
+      if (!node.is_table())
+        return wrong_table(table, node.source(), fmt::format("{} is a table: write [{}]", table, table));
+      return read_table(*node.as_table(), *known, 0);
+    }
+    const toml::array* entries = node.as_array();
+    if (entries == nullptr || !entries->is_homogeneous<toml::table>())
+      return wrong_table(table, node.source(), fmt::format("{} is an array of tables: write [[{}]]", table, table));
+    known->resize(scene_, entries->size());
+    for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), *known, n);
+  }
+
+  /// effects = "auto" is every role left to the chooser: as a table, so that a command line may set one of them.
+  void spell_out_effects(toml::table& root) const {
+    const toml::node* effects = root.get("effects");
+    if (effects == nullptr || effects->value_exact<std::string>() != automatic) return;
+    const toml::source_region here = effects->source();
+    toml::table roles;
+    for (const Role& role : roles_) roles.insert(toml::key(role.name, here), automatic);
+    root.insert_or_assign(toml::key("effects", here), std::move(roles));
+  }
+
+  void read_effects(const toml::node& node) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      values_.add(node.source(), "effects: a table [effects] that names roles, or effects = \"auto\" at the top");
+      return;
+    }
+    for (const auto& [name, value] : *table) {
+      if (name.str() == other_roles) {
+        read_others(value);
+        continue;
+      }
+      given_.emplace(fmt::format("effects.{}", name.str()), name.source());
+      const auto role = std::find_if(roles_.begin(), roles_.end(), [&](const Role& r) { return r.name == name.str(); });
+      if (role == roles_.end()) {
+        wrong_key(name, "effects");
+        continue;
+      }
+      const auto law = value.value_exact<std::string>();
+      std::vector<std::string> laws{"none", automatic};
+      for (const Law& l : role->laws) laws.push_back(l.name);
+      if (!law || std::none_of(laws.begin(), laws.end(), [&](const auto& l) { return fits_word(l, *law); })) {
+        const std::string near = law ? nearest_name(*law, laws) : "";
+        values_.add(value.source(),
+                    fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value), fmt::join(laws, " | "),
+                                near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+        wrong_.add("effects." + role->name);
+        continue;
+      }
+      if (*law != "none") scene_.effects[role->name] = *law;
+    }
+  }
+
+  void read_others(const toml::node& value) {
+    const auto word = value.value_exact<std::string>();
+    if (word != automatic && word != "none")
+      values_.add(value.source(),
+                  fmt::format("effects.{} = {}: allowed are auto | none: what becomes of the roles that the case does "
+                              "not name",
+                              other_roles, shown(value)));
+    others_ = word == "none" ? OtherRoles::off : OtherRoles::chosen;
+  }
+
+  void leave_others_to_chooser() {
+    if (others_ == OtherRoles::off) return;
+    for (const Role& role : roles_)
+      if (!given_.contains("effects." + role.name)) scene_.effects.emplace(role.name, automatic);
+  }
+  void read_key(const Key& key, std::size_t index, const toml::node& node) {
+    if (!given_.emplace(key.path(), node.source()).second) repeated_.insert(key.path());
+    const std::size_t problems = values_.problems().size();
+    const Value value = values_.read(key, node);
+    if (!std::holds_alternative<std::monostate>(value)) key.set(scene_, index, value);
+    if (values_.problems().size() == problems) return;
+    wrong_.add(key.path());
+    if (key.path() == "chooser.monitor" && node.value_exact<std::string>() == "enable")
+      values_.problems().back().message +=
+          "; a run switches no effect on by itself any more: use \"stop\", then resume it with the effect on, "
+          "--resume --set effects.ROLE=LAW";
+  }
+
+  /// How much there is in the bed: said once.
+  void check_amount() {
+    const auto given = [&](const std::string& path) { return given_.contains(path); };
+    const bool by_particles = given("bed.particles"), list = scene_.bed.start.kind == StartKind::list;
+    for (const char* key : {"bed.volume_share", "bed.static_height"}) {
+      if (by_particles && given(key))
+        values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
+      if (by_particles || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
+      values_.add(fmt::format("{} is missing (or give bed.particles)", key));
+      wrong_.add(key);
+    }
+    // A feed is held against the packing of the settled bed, whatever the bed begins as.
+    const bool anywhere = scene_.bed.start.kind == StartKind::random && by_particles;
+    if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
+    if ((list || anywhere) && scene_.feeds.empty()) return;
+    values_.add("bed.solids_fraction is missing: of the settled bed");
+    wrong_.add("bed.solids_fraction");
+  }
+
+  /// A fluid with density and viscosity needs no name.
+  void check_fluid() {
+    const auto given = [&](const char* path) { return given_.contains(path); };
+    if (given("fluid.name") || !wrong_.sound("fluid.name")) return;
+    if (given("fluid.density") && given("fluid.viscosity")) return;
+    values_.add(
+        "fluid.name is missing: \"water\" or \"air\" with fluid.temperature, \"none\" for particles without a fluid, "
+        "or "
+        "give fluid.density and fluid.viscosity");
+    wrong_.add("fluid.name");
+  }
+
+  /// A species has one diameter or a distribution, and a distribution what its kind needs and nothing else.
+  void check_sizes(const toml::table& species) {
+    const auto has = [&](const char* key) { return species.contains(key); };
+    const std::string kind = species["distribution"].value_or(std::string());
+    if (!has("diameter") && !has("distribution"))
+      values_.add(species.source(), "species.diameter is missing: D_j of its spheres (or give species.distribution)");
+    if (has("diameter") && has("distribution"))
+      values_.add(species.get("diameter")->source(),
+                  "species.diameter and species.distribution both say how large: give one");
+    if (has("distribution") && kind != "lognormal" && kind != "sieves") return;  // reported like any wrong word
+    const auto only = [&](const char* key, const std::string& of) {
+      const bool acts = of.empty() ? !kind.empty() : kind == of;
+      if (has(key) && !acts)
+        values_.add(species.get(key)->source(), fmt::format("species.{} says nothing without species.distribution{}",
+                                                            key, of.empty() ? "" : " = \"" + of + "\""));
+    };
+    for (const char* key : {"median", "mean", "deviation"}) only(key, "lognormal");
+    only("sieves", "sieves");
+    only("classes", "");
+    const auto missing = [&](const std::string& what) {
+      values_.add(species.get("distribution")->source(),
+                  fmt::format("species.distribution = \"{}\" needs {}", kind, what));
+    };
+    if (kind == "lognormal" && !has("deviation")) missing("species.deviation");
+    if (kind == "lognormal" && has("median") == has("mean")) missing("either species.median or species.mean");
+    if (kind == "sieves" && !has("sieves")) missing("species.sieves");
+  }
+
+  /// Fills in what follows from the keys, between the rules that this rests on and the others.
+  void check_scene() {
+    const auto has_sizes = [](const Species& species) { return species.sizes.kind.has_value(); };
+    const auto by_sizes = [&] { return std::any_of(scene_.species.begin(), scene_.species.end(), has_sizes); };
+    if (by_sizes() && wrong_.sound({"species.", "bed.volume_share"})) {
+      if (classes_)
+        expand_size_classes(scene_, classes_);
+      else
+        values_.add("species.distribution: this program knows no classes");
+    }
+    if (by_sizes() || !wrong_.sound("species.distribution"))
+      wrong_.add("species.diameter");  // without its classes a distribution has none
+    for (const Rule& rule : case_rules())
+      if (rule.first && judge(rule)) wrong_.add(rule.keys.front());
+    resolve(scene_, name_, wrong_);
+    for (const Rule& rule : case_rules())
+      if (!rule.first) judge(rule);
+    for (const Rule& rule : rules_) judge(rule);
+  }
+
+  /// Whether the scene breaks a rule whose keys are sound; it is reported at the first of them that the case gives.
+  bool judge(const Rule& rule) {
+    if (!std::all_of(rule.keys.begin(), rule.keys.end(), [&](const std::string& key) { return wrong_.sound(key); }))
+      return false;
+    const auto is_given = [&](const std::string& key) { return given_.contains(key); };
+    const auto place = std::find_if(rule.keys.begin(), rule.keys.end(), is_given);
+    const bool has_line = place != rule.keys.end() && !repeated_.contains(*place);  // else it may be another entry's
+    const std::vector<std::string> faults = rule.faults(scene_);
+    for (const std::string& fault : faults) has_line ? values_.add(given_.at(*place), fault) : values_.add(fault);
+    return !faults.empty();
+  }
+
+  /// A table that cannot be read: none of its keys has a value.
+  void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message) {
+    values_.add(place, message);
+    for (const Key& key : find_table(table)->keys) wrong_.add(key.path());
+  }
+  void wrong_key(const toml::key& key, std::string_view table) {
+    std::vector<std::string> names;
+    const Table* known = find_table(table);
+    if (known != nullptr)
+      for (const Key& k : known->keys) names.emplace_back(k.name);
+    if (table == "effects")
+      for (const Role& role : roles_) names.push_back(role.name);
+    if (table.empty())
+      for (const Table& t : tables()) names.emplace_back(t.name);
+    const std::string near = nearest_name(key.str(), names);
+    constexpr std::size_t few = 8;  // names that fit on a line
+    std::string hint;
+    if (!near.empty())
+      hint = fmt::format("; did you mean '{}'?", near);
+    else if (!names.empty() && names.size() <= few)
+      hint = fmt::format("; there {} {}", names.size() == 1 ? "is" : "are", fmt::join(names, ", "));
+    values_.add(
+        key.source(),
+        fmt::format("unknown key '{}'{}{}", key.str(),
+                    table.empty() ? "" : " in " + (known == nullptr ? fmt::format("[{}]", table) : header(*known)),
+                    hint));
+  }
 
   std::string name_;
   std::span<const Role> roles_;
@@ -54,260 +289,6 @@ class CaseReader {
   std::set<std::string> repeated_;                    ///< those of several entries of an array
   WrongKeys wrong_;
 };
-
-void CaseReader::read_key(const Key& key, std::size_t index, const toml::node& node) {
-  if (!given_.emplace(key.path(), node.source()).second) repeated_.insert(key.path());
-  const std::size_t problems = values_.problems().size();
-  const Value value = values_.read(key, node);
-  if (!std::holds_alternative<std::monostate>(value)) key.set(scene_, index, value);
-  if (values_.problems().size() == problems) return;
-  wrong_.add(key.path());
-  if (key.path() == "chooser.monitor" && node.value_exact<std::string>() == "enable")
-    values_.problems().back().message +=
-        "; a run switches no effect on by itself any more: use \"stop\", then resume it with the effect on, "
-        "--resume --set effects.ROLE=LAW";
-}
-
-/// A table that cannot be read: none of its keys has a value.
-void CaseReader::wrong_table(std::string_view table, const toml::source_region& place, const std::string& message) {
-  values_.add(place, message);
-  for (const Key& key : find_table(table)->keys) wrong_.add(key.path());
-}
-
-void CaseReader::wrong_key(const toml::key& key, std::string_view table) {
-  std::vector<std::string> names;
-  const Table* known = find_table(table);
-  if (known != nullptr)
-    for (const Key& k : known->keys) names.emplace_back(k.name);
-  if (table == "effects")
-    for (const Role& role : roles_) names.push_back(role.name);
-  if (table.empty())
-    for (const Table& t : tables()) names.emplace_back(t.name);
-  const std::string near = nearest_name(key.str(), names);
-  constexpr std::size_t few = 8;  // names that fit on a line
-  std::string hint;
-  if (!near.empty())
-    hint = fmt::format("; did you mean '{}'?", near);
-  else if (!names.empty() && names.size() <= few)
-    hint = fmt::format("; there {} {}", names.size() == 1 ? "is" : "are", fmt::join(names, ", "));
-  values_.add(
-      key.source(),
-      fmt::format("unknown key '{}'{}{}", key.str(),
-                  table.empty() ? "" : " in " + (known == nullptr ? fmt::format("[{}]", table) : header(*known)),
-                  hint));
-}
-
-void CaseReader::read_table(const toml::table& table, const Table& known, std::size_t index) {
-  for (const auto& [key, node] : table) {
-    const auto found =
-        std::find_if(known.keys.begin(), known.keys.end(), [&](const Key& k) { return k.name == key.str(); });
-    if (found == known.keys.end())
-      wrong_key(key, known.name);
-    else
-      read_key(*found, index, node);
-  }
-  for (const Key& key : known.keys)
-    if (key.required && !table.contains(key.name)) {
-      values_.add(table.source(), fmt::format("{} is missing: {}", key.path(), key.help));
-      wrong_.add(key.path());
-    }
-  const std::size_t problems = values_.problems().size();
-  if (known.name == "species") check_sizes(table);
-  if (values_.problems().size() > problems) wrong_.add("species.diameter");
-}
-
-/// A species has one diameter or a distribution, and a distribution what its kind needs and nothing else.
-void CaseReader::check_sizes(const toml::table& species) {
-  const auto has = [&](const char* key) { return species.contains(key); };
-  const std::string kind = species["distribution"].value_or(std::string());
-  if (!has("diameter") && !has("distribution"))
-    values_.add(species.source(), "species.diameter is missing: D_j of its spheres (or give species.distribution)");
-  if (has("diameter") && has("distribution"))
-    values_.add(species.get("diameter")->source(),
-                "species.diameter and species.distribution both say how large: give one");
-  if (has("distribution") && kind != "lognormal" && kind != "sieves") return;  // reported like any wrong word
-  const auto only = [&](const char* key, const std::string& of) {
-    const bool acts = of.empty() ? !kind.empty() : kind == of;
-    if (has(key) && !acts)
-      values_.add(species.get(key)->source(), fmt::format("species.{} says nothing without species.distribution{}", key,
-                                                          of.empty() ? "" : " = \"" + of + "\""));
-  };
-  for (const char* key : {"median", "mean", "deviation"}) only(key, "lognormal");
-  only("sieves", "sieves");
-  only("classes", "");
-  const auto missing = [&](const std::string& what) {
-    values_.add(species.get("distribution")->source(),
-                fmt::format("species.distribution = \"{}\" needs {}", kind, what));
-  };
-  if (kind == "lognormal" && !has("deviation")) missing("species.deviation");
-  if (kind == "lognormal" && has("median") == has("mean")) missing("either species.median or species.mean");
-  if (kind == "sieves" && !has("sieves")) missing("species.sieves");
-}
-
-/// effects = "auto" is every role left to the chooser: as a table, so that a command line may set one of them.
-void CaseReader::spell_out_effects(toml::table& root) const {
-  const toml::node* effects = root.get("effects");
-  if (effects == nullptr || effects->value_exact<std::string>() != automatic) return;
-  const toml::source_region here = effects->source();
-  toml::table roles;
-  for (const Role& role : roles_) roles.insert(toml::key(role.name, here), automatic);
-  root.insert_or_assign(toml::key("effects", here), std::move(roles));
-}
-
-void CaseReader::read_effects(const toml::node& node) {
-  const toml::table* table = node.as_table();
-  if (table == nullptr) {
-    values_.add(node.source(), "effects: a table [effects] that names roles, or effects = \"auto\" at the top");
-    return;
-  }
-  for (const auto& [name, value] : *table) {
-    if (name.str() == other_roles) {
-      read_others(value);
-      continue;
-    }
-    given_.emplace(fmt::format("effects.{}", name.str()), name.source());
-    const auto role = std::find_if(roles_.begin(), roles_.end(), [&](const Role& r) { return r.name == name.str(); });
-    if (role == roles_.end()) {
-      wrong_key(name, "effects");
-      continue;
-    }
-    const auto law = value.value_exact<std::string>();
-    std::vector<std::string> laws{"none", automatic};
-    for (const Law& l : role->laws) laws.push_back(l.name);
-    if (!law || std::none_of(laws.begin(), laws.end(), [&](const auto& l) { return fits_word(l, *law); })) {
-      const std::string near = law ? nearest_name(*law, laws) : "";
-      values_.add(value.source(),
-                  fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value), fmt::join(laws, " | "),
-                              near.empty() ? "" : "; did you mean \"" + near + "\"?"));
-      wrong_.add("effects." + role->name);
-      continue;
-    }
-    if (*law != "none") scene_.effects[role->name] = *law;
-  }
-}
-
-void CaseReader::read_others(const toml::node& value) {
-  const auto word = value.value_exact<std::string>();
-  if (word != automatic && word != "none")
-    values_.add(value.source(),
-                fmt::format("effects.{} = {}: allowed are auto | none: what becomes of the roles that the case does "
-                            "not name",
-                            other_roles, shown(value)));
-  others_ = word == "none" ? OtherRoles::off : OtherRoles::chosen;
-}
-
-void CaseReader::leave_others_to_chooser() {
-  if (others_ == OtherRoles::off) return;
-  for (const Role& role : roles_)
-    if (!given_.contains("effects." + role.name)) scene_.effects.emplace(role.name, automatic);
-}
-
-void CaseReader::read_entry(std::string_view table, const toml::key& name, const toml::node& node) {
-  const Table* known = find_table(table);
-  if (known == nullptr) return wrong_key(name, "");
-  if (!known->array) {
-    if (!node.is_table())
-      return wrong_table(table, node.source(), fmt::format("{} is a table: write [{}]", table, table));
-    return read_table(*node.as_table(), *known, 0);
-  }
-  const toml::array* entries = node.as_array();
-  if (entries == nullptr || !entries->is_homogeneous<toml::table>())
-    return wrong_table(table, node.source(), fmt::format("{} is an array of tables: write [[{}]]", table, table));
-  known->resize(scene_, entries->size());
-  for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), *known, n);
-}
-
-void CaseReader::read(toml::table& root, std::span<const std::string> overrides) {
-  spell_out_effects(root);
-  for (const std::string& given : overrides) apply_override(root, given, values_);
-  scene_.overrides.assign(overrides.begin(), overrides.end());
-  const Key& title = find_table("")->keys.front();
-  for (const auto& [name, node] : root) {
-    if (name.str() == "effects")
-      read_effects(node);
-    else if (name.str() == title.name)
-      read_key(title, 0, node);
-    else
-      read_entry(name.str(), name, node);
-  }
-  leave_others_to_chooser();
-  for (std::string_view table : {"column", "fluid", "species", "bed", "run"})
-    if (!root.contains(table)) wrong_table(table, {}, fmt::format("{} is missing", header(*find_table(table))));
-}
-
-/// How much there is in the bed: said once.
-void CaseReader::check_amount() {
-  const auto given = [&](const std::string& path) { return given_.contains(path); };
-  const bool by_particles = given("bed.particles"), list = scene_.bed.start.kind == StartKind::list;
-  for (const char* key : {"bed.volume_share", "bed.static_height"}) {
-    if (by_particles && given(key))
-      values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
-    if (by_particles || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
-    values_.add(fmt::format("{} is missing (or give bed.particles)", key));
-    wrong_.add(key);
-  }
-  // A feed is held against the packing of the settled bed, whatever the bed begins as.
-  const bool anywhere = scene_.bed.start.kind == StartKind::random && by_particles;
-  if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
-  if ((list || anywhere) && scene_.feeds.empty()) return;
-  values_.add("bed.solids_fraction is missing: of the settled bed");
-  wrong_.add("bed.solids_fraction");
-}
-
-/// A fluid with density and viscosity needs no name.
-void CaseReader::check_fluid() {
-  const auto given = [&](const char* path) { return given_.contains(path); };
-  if (given("fluid.name") || !wrong_.sound("fluid.name")) return;
-  if (given("fluid.density") && given("fluid.viscosity")) return;
-  values_.add(
-      "fluid.name is missing: \"water\" or \"air\" with fluid.temperature, \"none\" for particles without a fluid, or "
-      "give fluid.density and fluid.viscosity");
-  wrong_.add("fluid.name");
-}
-
-/// Fills in what follows from the keys, between the rules that this rests on and the others.
-void CaseReader::check_scene() {
-  const auto has_sizes = [](const Species& species) { return species.sizes.kind.has_value(); };
-  const auto by_sizes = [&] { return std::any_of(scene_.species.begin(), scene_.species.end(), has_sizes); };
-  if (by_sizes() && wrong_.sound({"species.", "bed.volume_share"})) {
-    if (classes_)
-      expand_size_classes(scene_, classes_);
-    else
-      values_.add("species.distribution: this program knows no classes");
-  }
-  if (by_sizes() || !wrong_.sound("species.distribution"))
-    wrong_.add("species.diameter");  // without its classes a distribution has none
-  for (const Rule& rule : case_rules())
-    if (rule.first && judge(rule)) wrong_.add(rule.keys.front());
-  resolve(scene_, name_, wrong_);
-  for (const Rule& rule : case_rules())
-    if (!rule.first) judge(rule);
-  for (const Rule& rule : rules_) judge(rule);
-}
-
-/// Whether the scene breaks a rule whose keys are sound; it is reported at the first of them that the case gives.
-bool CaseReader::judge(const Rule& rule) {
-  if (!std::all_of(rule.keys.begin(), rule.keys.end(), [&](const std::string& key) { return wrong_.sound(key); }))
-    return false;
-  const auto is_given = [&](const std::string& key) { return given_.contains(key); };
-  const auto place = std::find_if(rule.keys.begin(), rule.keys.end(), is_given);
-  const bool has_line = place != rule.keys.end() && !repeated_.contains(*place);  // else it may be another entry's
-  const std::vector<std::string> faults = rule.faults(scene_);
-  for (const std::string& fault : faults) has_line ? values_.add(given_.at(*place), fault) : values_.add(fault);
-  return !faults.empty();
-}
-
-Scene CaseReader::finish() {
-  check_amount();
-  check_fluid();
-  check_scene();
-  std::vector<CaseProblem>& problems = values_.problems();
-  std::stable_sort(problems.begin(), problems.end(), [](const CaseProblem& a, const CaseProblem& b) {
-    return std::pair(a.line == 0, a.line) < std::pair(b.line == 0, b.line);
-  });
-  if (!problems.empty()) throw CaseError(problems);
-  return scene_;
-}
 
 }  // namespace
 

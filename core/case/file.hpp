@@ -1,12 +1,10 @@
 // Reads a case file, or a case resolved before, into a scene; finds everything that is wrong with it at once.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/case/registry.hpp"
 #include "core/case/rule.hpp"

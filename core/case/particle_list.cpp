@@ -13,8 +13,8 @@
 #include <string_view>
 
 #include "core/case/keys.hpp"
+#include "core/error.hpp"
 #include "core/output/files.hpp"
-#include "core/start_error.hpp"
 
 namespace polybed::core {
 
@@ -53,15 +53,118 @@ std::vector<Cell> cells_of(std::string_view line) {
 class ListReader {
  public:
   ListReader(const Scene& scene, std::string file) : scene_(scene), file_(std::move(file)) {}
-  ParticleList read(std::istream& in);
+  ParticleList read(std::istream& in) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    std::string text;
+    while (std::getline(in, text)) {
+      ++line_;
+      std::string_view line = text;
+      if (line_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
+      if (trimmed(line).empty()) continue;
+      if (!meaning_.empty()) {
+        read_row(cells_of(line));
+        continue;
+      }
+      read_header(cells_of(line));
+      if (!problems_.empty()) throw StartError(problems_);  // without the columns nothing else can be said
+    }
+    if (in.bad()) throw FileError(fmt::format("{}: cannot be read ({})", file_, std::strerror(errno)));
+    line_ = 0;
+    if (problems_.empty() && list_.species.empty())
+      problems_.push_back({file_, 0, 0, "no particles: a header species,x,y,z and a line for each are needed"});
+    if (untold_ > 0) problems_.push_back({file_, 0, 0, fmt::format("{} more problems like these", untold_)});
+    if (!problems_.empty()) throw StartError(problems_);
+    return std::move(list_);
+  }
 
  private:
-  void read_header(const std::vector<Cell>& cells);
-  void read_row(const std::vector<Cell>& cells);
-  std::optional<std::int32_t> species(const Cell& cell);
-  std::optional<double> number(const Cell& cell, std::string_view name);
-  void check_inside(const std::array<double, 3>& position, int column);
-  void add(int column, std::string message);
+  void read_header(const std::vector<Cell>& cells) {
+    for (const Cell& cell : cells) {
+      const auto found = std::find(column_names.begin(), column_names.end(), cell.text);
+      const auto index = std::size_t(found - column_names.begin());
+      if (found == column_names.end()) {
+        const std::string near = nearest_name(cell.text, {column_names.begin(), column_names.end()});
+        add(cell.column, fmt::format("unknown column '{}': allowed are {}{}", cell.text, fmt::join(column_names, ", "),
+                                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+      } else if (std::find(meaning_.begin(), meaning_.end(), index) != meaning_.end()) {
+        add(cell.column, fmt::format("column '{}' stands twice", cell.text));
+      }
+      meaning_.push_back(index);
+    }
+    for (std::size_t k = 0; k < required_columns; ++k)
+      if (std::find(meaning_.begin(), meaning_.end(), k) == meaning_.end())
+        add(1,
+            fmt::format("column '{}' is missing: the first line names the columns, of which species, x, y, z must be "
+                        "there",
+                        column_names[k]));
+  }
+
+  void read_row(const std::vector<Cell>& cells) {
+    if (cells.size() != meaning_.size())
+      return add(1, fmt::format("{} values, the header names {} columns", cells.size(), meaning_.size()));
+    std::optional<std::int32_t> kind;
+    std::array<std::array<double, 3>, 3> vectors{};  // position, velocity, spin
+    bool good = true;
+    int place = 1;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const std::size_t index = meaning_[k];
+      if (index == 0) {
+        kind = species(cells[k]);
+        good = good && kind;
+        continue;
+      }
+      if (index == 1) place = cells[k].column;
+      const auto value = number(cells[k], column_names[index]);
+      good = good && value;
+      vectors[(index - 1) / 3][(index - 1) % 3] = value.value_or(0);
+    }
+    if (!good) return;
+    check_inside(vectors[0], place);
+    list_.species.push_back(*kind);
+    list_.position.push_back(vectors[0]);
+    list_.velocity.push_back(vectors[1]);
+    list_.spin.push_back(vectors[2]);
+  }
+
+  std::optional<std::int32_t> species(const Cell& cell) {
+    std::vector<std::string> names;
+    for (std::size_t j = 0; j < scene_.species.size(); ++j) {
+      if (scene_.species[j].name == cell.text) return std::int32_t(j);
+      names.push_back(scene_.species[j].name);
+    }
+    const std::string near = nearest_name(cell.text, names);
+    add(cell.column, fmt::format("no species '{}': there are {}{}", cell.text, fmt::join(names, ", "),
+                                 near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    return std::nullopt;
+  }
+
+  std::optional<double> number(const Cell& cell, std::string_view name) {
+    double value = 0;
+    const char* end = cell.text.data() + cell.text.size();
+    const auto [stop, error] = std::from_chars(cell.text.data(), end, value);
+    if (cell.text.empty() || error == std::errc::invalid_argument || stop != end)
+      add(cell.column, fmt::format("{} = '{}': expected a number in SI units", name, cell.text));
+    else if (error != std::errc() || !std::isfinite(value))
+      add(cell.column, fmt::format("{} = {} is out of range: finite numbers", name, cell.text));
+    else
+      return value;
+    return std::nullopt;
+  }
+
+  void check_inside(const std::array<double, 3>& position, int column) {
+    constexpr std::array<char, 3> axis{'x', 'y', 'z'};
+    for (std::size_t d = 0; d < 3; ++d)
+      if (!(position[d] >= 0 && position[d] <= scene_.column.size[d]))
+        add(column, fmt::format("{} = {:g} m: the centre lies outside the column, 0 to {:g} m", axis[d], position[d],
+                                scene_.column.size[d]));
+  }
+
+  void add(int column, std::string message) {
+    if (problems_.size() < most_problems)
+      problems_.push_back({file_, line_, column, std::move(message)});
+    else
+      ++untold_;
+  }
 
   const Scene& scene_;
   std::string file_;
@@ -71,117 +174,6 @@ class ListReader {
   std::vector<CaseProblem> problems_;
   std::size_t untold_ = 0;
 };
-
-void ListReader::add(int column, std::string message) {
-  if (problems_.size() < most_problems)
-    problems_.push_back({file_, line_, column, std::move(message)});
-  else
-    ++untold_;
-}
-
-void ListReader::read_header(const std::vector<Cell>& cells) {
-  for (const Cell& cell : cells) {
-    const auto found = std::find(column_names.begin(), column_names.end(), cell.text);
-    const auto index = std::size_t(found - column_names.begin());
-    if (found == column_names.end()) {
-      const std::string near = nearest_name(cell.text, {column_names.begin(), column_names.end()});
-      add(cell.column, fmt::format("unknown column '{}': allowed are {}{}", cell.text, fmt::join(column_names, ", "),
-                                   near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
-    } else if (std::find(meaning_.begin(), meaning_.end(), index) != meaning_.end()) {
-      add(cell.column, fmt::format("column '{}' stands twice", cell.text));
-    }
-    meaning_.push_back(index);
-  }
-  for (std::size_t k = 0; k < required_columns; ++k)
-    if (std::find(meaning_.begin(), meaning_.end(), k) == meaning_.end())
-      add(1, fmt::format("column '{}' is missing: the first line names the columns, of which species, x, y, z must be "
-                         "there",
-                         column_names[k]));
-}
-
-std::optional<std::int32_t> ListReader::species(const Cell& cell) {
-  std::vector<std::string> names;
-  for (std::size_t j = 0; j < scene_.species.size(); ++j) {
-    if (scene_.species[j].name == cell.text) return std::int32_t(j);
-    names.push_back(scene_.species[j].name);
-  }
-  const std::string near = nearest_name(cell.text, names);
-  add(cell.column, fmt::format("no species '{}': there are {}{}", cell.text, fmt::join(names, ", "),
-                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
-  return std::nullopt;
-}
-
-std::optional<double> ListReader::number(const Cell& cell, std::string_view name) {
-  double value = 0;
-  const char* end = cell.text.data() + cell.text.size();
-  const auto [stop, error] = std::from_chars(cell.text.data(), end, value);
-  if (cell.text.empty() || error == std::errc::invalid_argument || stop != end)
-    add(cell.column, fmt::format("{} = '{}': expected a number in SI units", name, cell.text));
-  else if (error != std::errc() || !std::isfinite(value))
-    add(cell.column, fmt::format("{} = {} is out of range: finite numbers", name, cell.text));
-  else
-    return value;
-  return std::nullopt;
-}
-
-void ListReader::check_inside(const std::array<double, 3>& position, int column) {
-  constexpr std::array<char, 3> axis{'x', 'y', 'z'};
-  for (std::size_t d = 0; d < 3; ++d)
-    if (!(position[d] >= 0 && position[d] <= scene_.column.size[d]))
-      add(column, fmt::format("{} = {:g} m: the centre lies outside the column, 0 to {:g} m", axis[d], position[d],
-                              scene_.column.size[d]));
-}
-
-void ListReader::read_row(const std::vector<Cell>& cells) {
-  if (cells.size() != meaning_.size())
-    return add(1, fmt::format("{} values, the header names {} columns", cells.size(), meaning_.size()));
-  std::optional<std::int32_t> kind;
-  std::array<std::array<double, 3>, 3> vectors{};  // position, velocity, spin
-  bool good = true;
-  int place = 1;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const std::size_t index = meaning_[k];
-    if (index == 0) {
-      kind = species(cells[k]);
-      good = good && kind;
-      continue;
-    }
-    if (index == 1) place = cells[k].column;
-    const auto value = number(cells[k], column_names[index]);
-    good = good && value;
-    vectors[(index - 1) / 3][(index - 1) % 3] = value.value_or(0);
-  }
-  if (!good) return;
-  check_inside(vectors[0], place);
-  list_.species.push_back(*kind);
-  list_.position.push_back(vectors[0]);
-  list_.velocity.push_back(vectors[1]);
-  list_.spin.push_back(vectors[2]);
-}
-
-ParticleList ListReader::read(std::istream& in) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  std::string text;
-  while (std::getline(in, text)) {
-    ++line_;
-    std::string_view line = text;
-    if (line_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
-    if (trimmed(line).empty()) continue;
-    if (!meaning_.empty()) {
-      read_row(cells_of(line));
-      continue;
-    }
-    read_header(cells_of(line));
-    if (!problems_.empty()) throw StartError(problems_);  // without the columns nothing else can be said
-  }
-  if (in.bad()) throw FileError(fmt::format("{}: cannot be read ({})", file_, std::strerror(errno)));
-  line_ = 0;
-  if (problems_.empty() && list_.species.empty())
-    problems_.push_back({file_, 0, 0, "no particles: a header species,x,y,z and a line for each are needed"});
-  if (untold_ > 0) problems_.push_back({file_, 0, 0, fmt::format("{} more problems like these", untold_)});
-  if (!problems_.empty()) throw StartError(problems_);
-  return std::move(list_);
-}
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "core/case/rule.hpp"
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 
 namespace polybed::core {
@@ -21,11 +23,16 @@ std::vector<std::string> Rule::faults(const Scene& scene) const {
   return texts;
 }
 
-void refuse(std::span<const Rule> rules, const Scene& scene) {
-  std::string text;
+std::vector<std::string> faults_of(std::span<const Rule> rules, const Scene& scene) {
+  std::vector<std::string> all;
   for (const Rule& rule : rules)
-    for (const std::string& fault : rule.faults(scene)) text += (text.empty() ? "" : "\n") + fault;
-  if (!text.empty()) throw CaseError(text);
+    for (std::string& fault : rule.faults(scene)) all.push_back(std::move(fault));
+  return all;
+}
+
+void refuse(std::span<const Rule> rules, const Scene& scene) {
+  if (const std::vector<std::string> faults = faults_of(rules, scene); !faults.empty())
+    throw CaseError(fmt::format("{}", fmt::join(faults, "\n")));
 }
 
 }  // namespace polybed::core

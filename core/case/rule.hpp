@@ -63,8 +63,10 @@ struct Rule {
 /// Broken without words.
 [[nodiscard]] inline Broken broken_if(bool broken) { return broken ? Broken(Broken::Words()) : Broken(); }
 
-/// Throws CaseError with the messages of all rules that a scene breaks, if there are any: for scenes that no reader has
-/// seen.
+/// The messages of all rules that a scene breaks.
+[[nodiscard]] std::vector<std::string> faults_of(std::span<const Rule> rules, const Scene& scene);
+
+/// Throws CaseError with them, if there are any: for scenes that no reader has seen.
 void refuse(std::span<const Rule> rules, const Scene& scene);
 
 }  // namespace polybed::core

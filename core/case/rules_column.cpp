@@ -1,4 +1,4 @@
-// What a column requires: its axes, gravity, joined ends, and the flow of a sheared box.
+// What a column requires: its axes, gravity, joined ends, and the flow of a sheared box; and the list of all rules.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -143,6 +143,16 @@ std::vector<Rule> column_rules() {
   for (const auto& part : {axis_rules(), gravity_rules(), end_rules(), shear_rules()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
+}
+
+std::span<const Rule> case_rules() {
+  static const std::vector<Rule> all = [] {
+    std::vector<Rule> rules;
+    for (const auto& part : {column_rules(), opening_rules(), bed_rules(), idle_rules()})
+      rules.insert(rules.end(), part.begin(), part.end());
+    return rules;
+  }();
+  return all;
 }
 
 }  // namespace polybed::core

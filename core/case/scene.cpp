@@ -1,7 +1,5 @@
 #include "core/case/scene.hpp"
 
-#include "core/case/laws.hpp"
-
 namespace polybed::core {
 
 Substance Fluid::substance() const {

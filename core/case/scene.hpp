@@ -293,6 +293,16 @@ inline constexpr const char* automatic = "auto";
   return found == scene.effects.end() ? "none" : found->second;
 }
 
+/// Of a word that [effects] may give a role: that it takes the role out.
+[[nodiscard]] bool is_off(const std::string& law);
+/// That it names a law: neither takes the role out nor leaves it to the chooser.
+[[nodiscard]] bool is_law(const std::string& law);
+
+/// Whether a scene gives a role a law, or leaves it to the chooser.
+[[nodiscard]] inline bool acts(const Scene& scene, const std::string& role) { return !is_off(law_of(scene, role)); }
+/// Whether it names the law itself.
+[[nodiscard]] inline bool names_law(const Scene& scene, const std::string& role) { return is_law(law_of(scene, role)); }
+
 /// Gives walls and all species one friction, one restitution.
 void set_friction(Scene& scene, double friction);
 void set_restitution(Scene& scene, double restitution);

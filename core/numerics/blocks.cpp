@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/error.hpp"
 #include "core/numerics/halo.hpp"
 #include "core/numerics/mpi.hpp"
-#include "core/start_error.hpp"
 
 namespace polybed::core {
 

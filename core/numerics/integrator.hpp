@@ -1,15 +1,29 @@
 // Time integration with error control, by SUNDIALS: explicit Runge-Kutta (ARKODE) and implicit BDF (IDA).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "core/numerics/error_weights.hpp"
 #include "core/numerics/ranks.hpp"
 
 namespace polybed::core {
+
+/// What errors are weighed by in a step: a relative tolerance and absolute ones, which may follow the state. Sets the
+/// absolute ones at a state, entry by entry. \param y  this rank's state  \param dydt  its rates, of
+/// the implicit integrator only; else empty. Collective.
+using TolerancesAt =
+    std::function<void(std::span<const double> y, std::span<const double> dydt, std::span<double> atol)>;
+
+/// Sets weight_i = 1/(rtol |y_i| + atol_i) with the tolerances at y. \param weight  work space until then
+inline void weigh_errors(double rtol, const TolerancesAt& atol, std::span<const double> y, std::span<const double> dydt,
+                         std::span<double> weight) {
+  atol(y, dydt, weight);
+  for (std::size_t n = 0; n < y.size(); ++n) weight[n] = 1 / (rtol * std::abs(y[n]) + weight[n]);
+}
 
 /// What an evaluation says: fine, or try again with a smaller step. Exceptions thrown by a problem pass
 /// through Integrator::step unharmed.

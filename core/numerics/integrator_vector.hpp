@@ -6,7 +6,6 @@
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 
-#include <memory>
 #include <span>
 
 #include "core/numerics/ranks.hpp"

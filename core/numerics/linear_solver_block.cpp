@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "core/numerics/direct_solver.hpp"
 #include "core/numerics/hypre_rows.hpp"

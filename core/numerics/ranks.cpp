@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <new>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/numerics/mpi.hpp"

@@ -1,9 +1,6 @@
 // When something happens in a run, and which times mean the same event.
 #pragma once
 
-#include <utility>
-#include <vector>
-
 namespace polybed::core {
 
 struct Scene;

@@ -38,6 +38,8 @@ std::string json_text(const Json& value) {
 
 Json or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
 
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
 Json parse_json(std::string_view text) {
   try {
     return Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {

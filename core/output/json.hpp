@@ -19,6 +19,8 @@ using Json = nlohmann::ordered_json;
 
 /// The number, or null without one.
 [[nodiscard]] Json or_null(const std::optional<double>& number);
+/// The text, or null in place of an empty one.
+[[nodiscard]] Json text_or_null(const std::string& text);
 
 /// Reads one value that is all of the text. Throws FileError with the place of what is no JSON, as of a text that ends
 /// early or has brackets within brackets beyond all measure.

@@ -2,7 +2,6 @@
 // innermost cache, and one that a scene leaves out has no loop and no branch.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 namespace polybed::dem {

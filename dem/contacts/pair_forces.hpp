@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "dem/box.hpp"
 #include "dem/contacts/batch.hpp"

@@ -1,10 +1,8 @@
 // Drag of a sheared box: of a fluid that moves with the box's own flow, everywhere, whatever the particles do.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
-#include "core/case/laws.hpp"
 #include "core/case/scene.hpp"
 #include "dem/box.hpp"
 #include "dem/contacts/materials.hpp"

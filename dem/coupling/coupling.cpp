@@ -5,7 +5,6 @@
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
-#include "core/start_error.hpp"
 #include "dem/coupling/kernel.hpp"
 #include "dem/scene.hpp"
 #include "relevance/fluid_properties.hpp"

@@ -49,7 +49,15 @@ class FluidMotion {
   /// \param fluid_density  kg/m3  \param gravity  m/s2  \param force, energy  units of loads and of the work
   /// \param counts_work  whether the fluid's work is summed
   FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force, FixedPoint energy,
-              bool counts_work = true);
+              bool counts_work = true)
+      : gravity_(gravity), force_(force), energy_(energy), counts_work_(counts_work) {
+    for (const Species& species : materials.species()) {
+      mass_.push_back(species.mass);
+      Vector net = gravity;
+      for (double& g : net) g *= 1 - fluid_density / species.density;
+      net_gravity_.push_back(net);
+    }
+  }
 
   /// What happens to a particle in a time h under a load, the fluid, and its weight less the displaced fluid's.
   struct Kick {

@@ -1,7 +1,5 @@
 #include "dem/coupling/fluid_output.hpp"
 
-#include <algorithm>
-
 #include "closures/sphere.hpp"
 #include "core/numerics/blocks.hpp"
 #include "measures/profile.hpp"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "fluid/smoothing.hpp"
 
 namespace polybed::dem {

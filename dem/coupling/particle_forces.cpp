@@ -6,7 +6,7 @@
 
 #include "closures/added_mass.hpp"
 #include "closures/sphere.hpp"
-#include "relevance/gas_slip.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
 

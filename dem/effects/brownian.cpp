@@ -12,6 +12,8 @@ namespace polybed::dem {
 
 namespace {
 
+constexpr std::uint64_t own_sequence = 0x6272'6f77'6e69'616eULL;  ///< apart from what else is drawn from a case's seed
+
 /// A random force on each particle, drawn anew in the middle of every step and held until that of the next: of mean 0
 /// and variance 2 k_B T k/dt along each axis, k the drag over the slip. Under the exact drag a sphere then diffuses
 /// with D = k_B T/k whatever the step. At the ends of steps, in the middle of a hold, its speed has the variance (k_B
@@ -24,9 +26,22 @@ class Brownian final : public SideForce {
   Brownian(double temperature, std::uint64_t seed, double dt, std::size_t place)
       : temperature_(temperature), seed_(seed), dt_(dt), place_(place) {}
   [[nodiscard]] std::size_t memory_size() const override { return 1; }
-  void begin(const SideView& view, SideRows& rows) override;
-  void end_interval(const SideView& view, SideRows& rows) override;
-  void add(const SideView& view, SideRows& rows) override;
+  void begin(const SideView& view, SideRows& rows) override {
+    for (std::size_t i = 0; i < view.loads.size(); ++i) rows.of(i)[place_] = 0;
+  }
+  /// No time has passed: the force that is found next is the one drawn before, with the drag of now.
+  void end_interval(const SideView& view, SideRows& rows) override {
+    for (std::size_t i = 0; i < view.loads.size(); ++i) rows.of(i)[place_] -= 1;
+  }
+  void add(const SideView& view, SideRows& rows) override {
+    for (std::size_t i = 0; i < view.loads.size(); ++i) {
+      double* row = rows.of(i);
+      const auto count = std::uint64_t(row[place_] += 1);
+      const double deviation = std::sqrt(2 * closures::boltzmann * temperature_ * view.loads[i].drag / dt_);
+      for (std::size_t k = 0; k < 3; ++k)
+        row[k] += deviation * core::normal(seed_ ^ own_sequence, std::uint64_t(view.particles.id[i]), 3 * count + k);
+    }
+  }
 
  private:
   double temperature_;
@@ -34,27 +49,6 @@ class Brownian final : public SideForce {
   double dt_;
   std::size_t place_;
 };
-
-constexpr std::uint64_t own_sequence = 0x6272'6f77'6e69'616eULL;  ///< apart from what else is drawn from a case's seed
-
-void Brownian::begin(const SideView& view, SideRows& rows) {
-  for (std::size_t i = 0; i < view.loads.size(); ++i) rows.of(i)[place_] = 0;
-}
-
-/// No time has passed: the force that is found next is the one drawn before, with the drag of now.
-void Brownian::end_interval(const SideView& view, SideRows& rows) {
-  for (std::size_t i = 0; i < view.loads.size(); ++i) rows.of(i)[place_] -= 1;
-}
-
-void Brownian::add(const SideView& view, SideRows& rows) {
-  for (std::size_t i = 0; i < view.loads.size(); ++i) {
-    double* row = rows.of(i);
-    const auto count = std::uint64_t(row[place_] += 1);
-    const double deviation = std::sqrt(2 * closures::boltzmann * temperature_ * view.loads[i].drag / dt_);
-    for (std::size_t k = 0; k < 3; ++k)
-      row[k] += deviation * core::normal(seed_ ^ own_sequence, std::uint64_t(view.particles.id[i]), 3 * count + k);
-  }
-}
 
 }  // namespace
 

@@ -17,66 +17,6 @@ namespace polybed::dem {
 
 namespace {
 
-/// A constant pull 2 pi W R* while the bodies touch.
-class DmtCohesion final : public CohesionLaw {
- public:
-  /// \param work_of_adhesion  W, J/m2
-  DmtCohesion(const Materials& materials, double work_of_adhesion);
-  void act(ContactBatch& batch) const override;
-  [[nodiscard]] int memory_size() const override { return 0; }
-  void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const override;
-  void add_loss(const ContactBatch&, ContactBatch::Row&) const override {}
-  [[nodiscard]] double reach() const override { return 0; }
-  [[nodiscard]] double pull_off() const override;
-
- private:
-  std::vector<double> pull_;
-};
-
-/// JKR's force in place of Hertz'. Surfaces jump together when they touch and part when the neck breaks, a gap delta_s
-/// later: the memory is whether they hold. The energy of that way is lost, and counted where they jump together.
-/// Dashpot, friction and rolling act while the bodies overlap, as with Hertz' force, not on the neck.
-class JkrCohesion final : public CohesionLaw {
- public:
-  /// \param place  of its memory in a batch
-  JkrCohesion(const Materials& materials, double work_of_adhesion, int place);
-  void act(ContactBatch& batch) const override;
-  [[nodiscard]] int memory_size() const override { return 1; }
-  void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const override;
-  void add_loss(const ContactBatch& batch, ContactBatch::Row& lost) const override;
-  [[nodiscard]] double reach() const override;
-  [[nodiscard]] double pull_off() const override;
-
- private:
-  struct Constants {
-    closures::JkrScales scales;
-    double loss;         ///< of a jump into contact, J
-    double coefficient;  ///< K of Hertz' force, whose energy it replaces
-  };
-  std::vector<Constants> constants_;
-  int place_;
-};
-
-/// A R*/(6 z^2), z the gap but at least z_0; cut where it is a millionth of the pull at z_0, at 1000 z_0, where a
-/// thousandth of the energy is left. A step that is to resolve the approach must move less than z_0.
-class VanDerWaalsCohesion final : public CohesionLaw {
- public:
-  /// \param hamaker  A, J  \param least_gap  z_0, m  \param asperity_radius  R* of rough surfaces, m; empty: of the
-  /// spheres
-  VanDerWaalsCohesion(const Materials& materials, double hamaker, double least_gap,
-                      std::optional<double> asperity_radius = {});
-  void act(ContactBatch& batch) const override;
-  [[nodiscard]] int memory_size() const override { return 0; }
-  void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const override;
-  void add_loss(const ContactBatch&, ContactBatch::Row&) const override {}
-  [[nodiscard]] double reach() const override { return reach_; }
-  [[nodiscard]] double pull_off() const override;
-
- private:
-  std::vector<double> radius_;  ///< R*
-  double hamaker_, least_gap_, reach_;
-};
-
 using Row = ContactBatch::Row;
 
 void dmt(ContactBatch& b, const Row& pull) {
@@ -109,97 +49,134 @@ void van_der_waals(ContactBatch& b, const Row& radius, double hamaker, double le
 /// Share of the greatest pull at which the van der Waals force is cut.
 constexpr double pull_at_reach = 1e-6;
 
-DmtCohesion::DmtCohesion(const Materials& materials, double work_of_adhesion) {
-  for (const PairMaterial& m : materials.kinds()) pull_.push_back(closures::dmt_pull_off(work_of_adhesion, m.radius));
-}
-
-void DmtCohesion::act(ContactBatch& batch) const {
-  alignas(64) Row pull = {};
-  for (int c = 0; c < batch.count; ++c) pull[c] = pull_[std::size_t(batch.kind[c])];
-  core::in_vectors<dmt>(batch, pull);
-}
-
-void DmtCohesion::add_energy(const ContactBatch& batch, Row& stored) const {
-  for (int c = 0; c < batch.count; ++c)
-    stored[c] += closures::dmt_energy(pull_[std::size_t(batch.kind[c])], batch.overlap[c]);
-}
-
-double DmtCohesion::pull_off() const { return *std::max_element(pull_.begin(), pull_.end()); }
-
-JkrCohesion::JkrCohesion(const Materials& materials, double work_of_adhesion, int place) : place_(place) {
-  for (const PairMaterial& m : materials.kinds()) {
-    const closures::JkrScales scales = closures::jkr_scales(work_of_adhesion, m.youngs_modulus, m.radius);
-    constants_.push_back(
-        {scales, -closures::jkr_energy(scales, 0), closures::hertz_coefficient(m.youngs_modulus, m.radius)});
+/// A constant pull 2 pi W R* while the bodies touch.
+class DmtCohesion final : public CohesionLaw {
+ public:
+  /// \param work_of_adhesion  W, J/m2
+  DmtCohesion(const Materials& materials, double work_of_adhesion) {
+    for (const PairMaterial& m : materials.kinds()) pull_.push_back(closures::dmt_pull_off(work_of_adhesion, m.radius));
   }
-}
-
-void JkrCohesion::act(ContactBatch& batch) const {
-  alignas(64) Row force = {}, gap;
-  std::fill_n(gap, ContactBatch::width, 1.0);
-  for (int c = 0; c < batch.count; ++c) {
-    const closures::JkrScales& s = constants_[std::size_t(batch.kind[c])].scales;
-    force[c] = s.force;
-    gap[c] = s.gap;
+  void act(ContactBatch& batch) const override {
+    alignas(64) Row pull = {};
+    for (int c = 0; c < batch.count; ++c) pull[c] = pull_[std::size_t(batch.kind[c])];
+    core::in_vectors<dmt>(batch, pull);
   }
-  core::in_vectors<jkr>(batch, place_, force, gap);
-}
-
-void JkrCohesion::add_energy(const ContactBatch& batch, Row& stored) const {
-  for (int c = 0; c < batch.count; ++c) {
-    const Constants& k = constants_[std::size_t(batch.kind[c])];
-    const double hertz = closures::hertz_stored_energy(k.coefficient, std::max(batch.overlap[c], 0.0));
-    stored[c] += batch.memory[place_][c] * (closures::jkr_energy(k.scales, batch.overlap[c]) - hertz);
+  [[nodiscard]] int memory_size() const override { return 0; }
+  void add_energy(const ContactBatch& batch, Row& stored) const override {
+    for (int c = 0; c < batch.count; ++c)
+      stored[c] += closures::dmt_energy(pull_[std::size_t(batch.kind[c])], batch.overlap[c]);
   }
-}
+  void add_loss(const ContactBatch&, ContactBatch::Row&) const override {}
+  [[nodiscard]] double reach() const override { return 0; }
+  [[nodiscard]] double pull_off() const override { return *std::max_element(pull_.begin(), pull_.end()); }
 
-void JkrCohesion::add_loss(const ContactBatch& batch, Row& lost) const {
-  for (int c = 0; c < batch.count; ++c) {
-    const Constants& k = constants_[std::size_t(batch.kind[c])];
-    const double held = batch.memory[place_][c];
-    lost[c] += (holds(held, batch.overlap[c], k.scales.gap) > held ? 1 : 0) * k.loss;
+ private:
+  std::vector<double> pull_;
+};
+
+/// JKR's force in place of Hertz'. Surfaces jump together when they touch and part when the neck breaks, a gap delta_s
+/// later: the memory is whether they hold. The energy of that way is lost, and counted where they jump together.
+/// Dashpot, friction and rolling act while the bodies overlap, as with Hertz' force, not on the neck.
+class JkrCohesion final : public CohesionLaw {
+ public:
+  /// \param place  of its memory in a batch
+  JkrCohesion(const Materials& materials, double work_of_adhesion, int place) : place_(place) {
+    for (const PairMaterial& m : materials.kinds()) {
+      const closures::JkrScales scales = closures::jkr_scales(work_of_adhesion, m.youngs_modulus, m.radius);
+      constants_.push_back(
+          {scales, -closures::jkr_energy(scales, 0), closures::hertz_coefficient(m.youngs_modulus, m.radius)});
+    }
   }
-}
 
-double JkrCohesion::reach() const {
-  double reach = 0;
-  for (const Constants& k : constants_) reach = std::max(reach, k.scales.gap);
-  return reach;
-}
-
-double JkrCohesion::pull_off() const {
-  double pull = 0;
-  for (const Constants& k : constants_) pull = std::max(pull, 1.5 * k.scales.force);
-  return pull;
-}
-
-VanDerWaalsCohesion::VanDerWaalsCohesion(const Materials& materials, double hamaker, double least_gap,
-                                         std::optional<double> asperity_radius)
-    : hamaker_(hamaker), least_gap_(least_gap) {
-  for (const PairMaterial& m : materials.kinds()) radius_.push_back(asperity_radius.value_or(m.radius));
-  const double greatest = *std::max_element(radius_.begin(), radius_.end());
-  reach_ = closures::van_der_waals_reach(
-      hamaker, greatest, pull_at_reach * closures::van_der_waals_pull_off(hamaker, greatest, least_gap));
-}
-
-void VanDerWaalsCohesion::act(ContactBatch& batch) const {
-  alignas(64) Row radius = {};
-  for (int c = 0; c < batch.count; ++c) radius[c] = radius_[std::size_t(batch.kind[c])];
-  core::in_vectors<van_der_waals>(batch, radius, hamaker_, least_gap_);
-}
-
-void VanDerWaalsCohesion::add_energy(const ContactBatch& batch, Row& stored) const {
-  for (int c = 0; c < batch.count; ++c) {
-    const double radius = radius_[std::size_t(batch.kind[c])], gap = -batch.overlap[c];
-    // From the distance at which the force is cut.
-    stored[c] += closures::van_der_waals_energy(hamaker_, radius, least_gap_, gap) -
-                 closures::van_der_waals_energy(hamaker_, radius, least_gap_, reach_);
+  void act(ContactBatch& batch) const override {
+    alignas(64) Row force = {}, gap;
+    std::fill_n(gap, ContactBatch::width, 1.0);
+    for (int c = 0; c < batch.count; ++c) {
+      const closures::JkrScales& s = constants_[std::size_t(batch.kind[c])].scales;
+      force[c] = s.force;
+      gap[c] = s.gap;
+    }
+    core::in_vectors<jkr>(batch, place_, force, gap);
   }
-}
 
-double VanDerWaalsCohesion::pull_off() const {
-  return closures::van_der_waals_pull_off(hamaker_, *std::max_element(radius_.begin(), radius_.end()), least_gap_);
-}
+  [[nodiscard]] int memory_size() const override { return 1; }
+  void add_energy(const ContactBatch& batch, Row& stored) const override {
+    for (int c = 0; c < batch.count; ++c) {
+      const Constants& k = constants_[std::size_t(batch.kind[c])];
+      const double hertz = closures::hertz_stored_energy(k.coefficient, std::max(batch.overlap[c], 0.0));
+      stored[c] += batch.memory[place_][c] * (closures::jkr_energy(k.scales, batch.overlap[c]) - hertz);
+    }
+  }
+
+  void add_loss(const ContactBatch& batch, Row& lost) const override {
+    for (int c = 0; c < batch.count; ++c) {
+      const Constants& k = constants_[std::size_t(batch.kind[c])];
+      const double held = batch.memory[place_][c];
+      lost[c] += (holds(held, batch.overlap[c], k.scales.gap) > held ? 1 : 0) * k.loss;
+    }
+  }
+
+  [[nodiscard]] double reach() const override {
+    double reach = 0;
+    for (const Constants& k : constants_) reach = std::max(reach, k.scales.gap);
+    return reach;
+  }
+  [[nodiscard]] double pull_off() const override {
+    double pull = 0;
+    for (const Constants& k : constants_) pull = std::max(pull, 1.5 * k.scales.force);
+    return pull;
+  }
+
+ private:
+  struct Constants {
+    closures::JkrScales scales;
+    double loss;         ///< of a jump into contact, J
+    double coefficient;  ///< K of Hertz' force, whose energy it replaces
+  };
+  std::vector<Constants> constants_;
+  int place_;
+};
+
+/// A R*/(6 z^2), z the gap but at least z_0; cut where it is a millionth of the pull at z_0, at 1000 z_0, where a
+/// thousandth of the energy is left. A step that is to resolve the approach must move less than z_0.
+class VanDerWaalsCohesion final : public CohesionLaw {
+ public:
+  /// \param hamaker  A, J  \param least_gap  z_0, m  \param asperity_radius  R* of rough surfaces, m; empty: of the
+  /// spheres
+  VanDerWaalsCohesion(const Materials& materials, double hamaker, double least_gap,
+                      std::optional<double> asperity_radius = {})
+      : hamaker_(hamaker), least_gap_(least_gap) {
+    for (const PairMaterial& m : materials.kinds()) radius_.push_back(asperity_radius.value_or(m.radius));
+    const double greatest = *std::max_element(radius_.begin(), radius_.end());
+    reach_ = closures::van_der_waals_reach(
+        hamaker, greatest, pull_at_reach * closures::van_der_waals_pull_off(hamaker, greatest, least_gap));
+  }
+
+  void act(ContactBatch& batch) const override {
+    alignas(64) Row radius = {};
+    for (int c = 0; c < batch.count; ++c) radius[c] = radius_[std::size_t(batch.kind[c])];
+    core::in_vectors<van_der_waals>(batch, radius, hamaker_, least_gap_);
+  }
+  [[nodiscard]] int memory_size() const override { return 0; }
+  void add_energy(const ContactBatch& batch, Row& stored) const override {
+    for (int c = 0; c < batch.count; ++c) {
+      const double radius = radius_[std::size_t(batch.kind[c])], gap = -batch.overlap[c];
+      // From the distance at which the force is cut.
+      stored[c] += closures::van_der_waals_energy(hamaker_, radius, least_gap_, gap) -
+                   closures::van_der_waals_energy(hamaker_, radius, least_gap_, reach_);
+    }
+  }
+
+  void add_loss(const ContactBatch&, ContactBatch::Row&) const override {}
+  [[nodiscard]] double reach() const override { return reach_; }
+  [[nodiscard]] double pull_off() const override {
+    return closures::van_der_waals_pull_off(hamaker_, *std::max_element(radius_.begin(), radius_.end()), least_gap_);
+  }
+
+ private:
+  std::vector<double> radius_;  ///< R*
+  double hamaker_, least_gap_, reach_;
+};
 
 }  // namespace
 

@@ -1,17 +1,82 @@
+// Contact: springs and dashpots along the normal, and the friction beside them.
+#include "relevance/effects/contact.hpp"
+
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "closures/contact_linear.hpp"
+#include "closures/restitution.hpp"
+#include "core/vectors.hpp"
 #include "dem/effects.hpp"
 #include "dem/effects/contact_hertz.hpp"
-#include "dem/effects/contact_linear.hpp"
 #include "dem/effects/friction.hpp"
 #include "dem/effects/friction_partial_slip.hpp"
 #include "dem/effects/maker.hpp"
 #include "relevance/effect_rules.hpp"
-#include "relevance/effects/contact.hpp"
 
-namespace polybed::dem::makers {
+namespace polybed::dem {
+
+namespace {
+
+void linear(ContactBatch& b, double stiffness, const ContactBatch::Row& dashpot, double least_force) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c) {
+    const double overlap = b.overlap[c] > 0 ? b.overlap[c] : 0;
+    const double damping = b.overlap[c] > 0 ? dashpot[c] : 0, elastic = stiffness * overlap;
+    const double force = elastic - damping * b.speed[c];
+    b.elastic[c] = elastic;
+    b.dashpot[c] = damping;
+    b.normal[c] = force > least_force ? force : least_force;
+  }
+}
+
+/// A linear spring and dashpot.
+class LinearContact final : public NormalLaw {
+ public:
+  /// \param stiffness  N/m  \param tail  as of HertzContact
+  LinearContact(const Materials& materials, double stiffness, core::Tail tail)
+      : stiffness_(stiffness), least_force_(tail == core::Tail::clip ? 0 : -std::numeric_limits<double>::infinity()) {
+    for (const PairMaterial& m : materials.kinds()) {
+      const double beta = tail == core::Tail::clip ? closures::damping_ratio_clipped(m.restitution)
+                                                   : closures::damping_ratio_kept(m.restitution);
+      constants_.push_back({m.mass, closures::linear_damping(beta, stiffness, m.mass), beta});
+    }
+  }
+
+  void act(ContactBatch& batch) const override {
+    alignas(64) ContactBatch::Row dashpot = {};
+    for (int c = 0; c < batch.count; ++c) dashpot[c] = constants_[std::size_t(batch.kind[c])].dashpot;
+    core::in_vectors<linear>(batch, stiffness_, dashpot, least_force_);
+  }
+  [[nodiscard]] double energy(int, double overlap) const override {
+    return closures::linear_stored_energy(stiffness_, overlap);
+  }
+  [[nodiscard]] double force_at(int, double overlap) const override { return stiffness_ * overlap; }
+  [[nodiscard]] double contact_time(int kind, double) const override {
+    const Constants& k = constants_[std::size_t(kind)];
+    return closures::linear_contact_time(stiffness_, k.mass, 0);
+  }
+  [[nodiscard]] double overlap_of_impact(int kind, double speed) const override {
+    return speed * std::sqrt(constants_[std::size_t(kind)].mass / stiffness_);
+  }
+  [[nodiscard]] double stiffness_at(int, double) const override { return stiffness_; }
+  [[nodiscard]] double damping_ratio(int kind) const override { return constants_[std::size_t(kind)].damping; }
+
+ private:
+  struct Constants {
+    double mass, dashpot, damping;  ///< m*, c, beta
+  };
+  std::vector<Constants> constants_;
+  double stiffness_, least_force_;  ///< N/m; N: 0, or none
+};
+
+}  // namespace
+
+namespace makers {
 
 namespace {
 
@@ -71,4 +136,6 @@ std::vector<core::Rule> contact_rules() {
 extern const Maker contact;
 const Maker contact{&relevance::effects::contact, "Pair", MakePair(make_contact), {}, contact_rules()};
 
-}  // namespace polybed::dem::makers
+}  // namespace makers
+
+}  // namespace polybed::dem

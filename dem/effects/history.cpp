@@ -11,6 +11,8 @@ namespace polybed::dem {
 
 namespace {
 
+using closures::Vec3;
+
 /// Stepped once in a step of the fluid: g is the change of slip over it, so that a collision enters by its impulse
 /// however short it is. For a g that is constant in each step the weights give the mean of the force over a step
 /// exactly, 4/3 sqrt(h) [(n+1)^1.5 - 2 n^1.5 + (n-1)^1.5]: momentum is right, and the start from rest is a past of
@@ -24,13 +26,43 @@ class History final : public SideForce {
  public:
   /// \param density, viscosity  of the fluid, kg/m3, Pa s  \param interval  step of the fluid, s
   /// \param place  of its memory in a row  \param beside  other inertia is in the loads: added mass
-  History(const Materials& materials, double density, double viscosity, double interval, std::size_t place,
-          bool beside);
+  History(const Materials& materials, double density, double viscosity, double interval, std::size_t place, bool beside)
+      : weights_(closures::basset_weights<window>(closures::basset_tail_fitted, interval)),
+        place_(place),
+        interval_(interval),
+        others_(beside ? 1 : 0) {
+    for (const Species& s : materials.species())
+      prefactor_.push_back(closures::basset_prefactor(2 * s.radius, density, viscosity));
+  }
+
   [[nodiscard]] bool has_inertia() const override { return true; }
   [[nodiscard]] std::size_t memory_size() const override { return memory; }
-  void begin(const SideView& view, SideRows& rows) override;
-  void end_interval(const SideView& view, SideRows& rows) override;
-  void add(const SideView& view, SideRows& rows) override;
+  void begin(const SideView& view, SideRows& rows) override {
+    for (std::size_t i = 0; i < view.loads.size(); ++i) put(rows.of(i) + place_ + slip, slip_of(view, i));
+  }
+  void end_interval(const SideView& view, SideRows& rows) override {
+    closures::BassetHistory<window> history;
+    for (std::size_t i = 0; i < view.loads.size(); ++i) {
+      double* row = rows.of(i) + place_;
+      history.known = window;  // of zeros, at the start
+      for (std::size_t n = 0; n < window; ++n) history.past[n] = to_vec3(row + past + 3 * n);
+      for (std::size_t n = 0; n < closures::BassetTail::terms; ++n) history.tail[n] = to_vec3(row + tail + 3 * n);
+      const Vec3 now = slip_of(view, i), change = now - to_vec3(row + slip);
+      history = closures::basset_step(weights_, history, (1 / interval_) * change);
+      put(row + slip, now);
+      put(row + sum, closures::basset_past(weights_, history));
+      for (std::size_t n = 0; n < window; ++n) put(row + past + 3 * n, history.past[n]);
+      for (std::size_t n = 0; n < closures::BassetTail::terms; ++n) put(row + tail + 3 * n, history.tail[n]);
+    }
+  }
+
+  void add(const SideView& view, SideRows& rows) override {
+    for (std::size_t i = 0; i < view.loads.size(); ++i) {
+      const double prefactor = prefactor_[std::size_t(view.particles.species[i])];
+      add_to(rows.of(i), prefactor * to_vec3(rows.of(i) + place_ + sum));
+      view.loads[i].added = others_ * view.loads[i].added + prefactor * weights_.newer[0];
+    }
+  }
 
  private:
   static constexpr std::size_t window = 4;
@@ -43,46 +75,6 @@ class History final : public SideForce {
   std::size_t place_;
   double interval_, others_;  ///< s; share of the inertia of others: 1, or 0 where there is none
 };
-
-using closures::Vec3;
-
-History::History(const Materials& materials, double density, double viscosity, double interval, std::size_t place,
-                 bool beside)
-    : weights_(closures::basset_weights<window>(closures::basset_tail_fitted, interval)),
-      place_(place),
-      interval_(interval),
-      others_(beside ? 1 : 0) {
-  for (const Species& s : materials.species())
-    prefactor_.push_back(closures::basset_prefactor(2 * s.radius, density, viscosity));
-}
-
-void History::begin(const SideView& view, SideRows& rows) {
-  for (std::size_t i = 0; i < view.loads.size(); ++i) put(rows.of(i) + place_ + slip, slip_of(view, i));
-}
-
-void History::end_interval(const SideView& view, SideRows& rows) {
-  closures::BassetHistory<window> history;
-  for (std::size_t i = 0; i < view.loads.size(); ++i) {
-    double* row = rows.of(i) + place_;
-    history.known = window;  // of zeros, at the start
-    for (std::size_t n = 0; n < window; ++n) history.past[n] = to_vec3(row + past + 3 * n);
-    for (std::size_t n = 0; n < closures::BassetTail::terms; ++n) history.tail[n] = to_vec3(row + tail + 3 * n);
-    const Vec3 now = slip_of(view, i), change = now - to_vec3(row + slip);
-    history = closures::basset_step(weights_, history, (1 / interval_) * change);
-    put(row + slip, now);
-    put(row + sum, closures::basset_past(weights_, history));
-    for (std::size_t n = 0; n < window; ++n) put(row + past + 3 * n, history.past[n]);
-    for (std::size_t n = 0; n < closures::BassetTail::terms; ++n) put(row + tail + 3 * n, history.tail[n]);
-  }
-}
-
-void History::add(const SideView& view, SideRows& rows) {
-  for (std::size_t i = 0; i < view.loads.size(); ++i) {
-    const double prefactor = prefactor_[std::size_t(view.particles.species[i])];
-    add_to(rows.of(i), prefactor * to_vec3(rows.of(i) + place_ + sum));
-    view.loads[i].added = others_ * view.loads[i].added + prefactor * weights_.newer[0];
-  }
-}
 
 }  // namespace
 

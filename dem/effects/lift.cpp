@@ -17,25 +17,21 @@ namespace {
 class Lift final : public SideForce {
  public:
   /// \param density, viscosity  of the fluid, kg/m3, Pa s
-  Lift(const Materials& materials, double density, double viscosity);
+  Lift(const Materials& materials, double density, double viscosity) : density_(density), viscosity_(viscosity) {
+    for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
+  }
   [[nodiscard]] bool needs_vorticity() const override { return true; }
-  void add(const SideView& view, SideRows& rows) override;
+  void add(const SideView& view, SideRows& rows) override {
+    for (std::size_t i = 0; i < view.loads.size(); ++i)
+      add_to(rows.of(i),
+             closures::lift_saffman_mei(slip_of(view, i), to_vec3(view.vorticity[i]),
+                                        diameter_[std::size_t(view.particles.species[i])], density_, viscosity_));
+  }
 
  private:
   std::vector<double> diameter_;  ///< of each species, m
   double density_, viscosity_;
 };
-
-Lift::Lift(const Materials& materials, double density, double viscosity) : density_(density), viscosity_(viscosity) {
-  for (const Species& s : materials.species()) diameter_.push_back(2 * s.radius);
-}
-
-void Lift::add(const SideView& view, SideRows& rows) {
-  for (std::size_t i = 0; i < view.loads.size(); ++i)
-    add_to(rows.of(i),
-           closures::lift_saffman_mei(slip_of(view, i), to_vec3(view.vorticity[i]),
-                                      diameter_[std::size_t(view.particles.species[i])], density_, viscosity_));
-}
 
 }  // namespace
 

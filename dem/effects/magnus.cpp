@@ -12,16 +12,39 @@ namespace polybed::dem {
 
 namespace {
 
+using closures::Vec3;
+
 /// The force is explicit; it turns the slip at the rate (3/4) rho_f |Omega - omega/2|/rho_p and less. The torque is
 /// taken exactly in a frozen fluid, Omega - omega/2 falling as exp(-60 mu t/(rho_p d^2)): no step is too long for it.
 /// The averaged fluid has no spin of its own: the torque's reaction stays with it as heat.
 class Magnus final : public SideForce {
  public:
   /// \param density, viscosity  of the fluid, kg/m3, Pa s  \param dt  step of the particles, s
-  Magnus(const Materials& materials, double density, double viscosity, double dt);
+  Magnus(const Materials& materials, double density, double viscosity, double dt)
+      : density_(density), viscosity_(viscosity) {
+    for (const Species& s : materials.species())
+      constants_.push_back(
+          {2 * s.radius, -std::expm1(-closures::spin_resistance(viscosity, 2 * s.radius) * dt / s.inertia)});
+  }
   [[nodiscard]] bool needs_vorticity() const override { return true; }
-  void add(const SideView& view, SideRows& rows) override;
-  void turn(std::span<const Vector> vorticity, Particles& particles, FluidMotion& motion) override;
+  void add(const SideView& view, SideRows& rows) override {
+    for (std::size_t i = 0; i < view.loads.size(); ++i) {
+      const Vec3 spin =
+          closures::spin_relative_to_fluid(to_vec3(view.particles.motion[i].w), to_vec3(view.vorticity[i]));
+      const double d = constants_[std::size_t(view.particles.species[i])].diameter;
+      add_to(rows.of(i), closures::magnus_rubinow_keller(slip_of(view, i), spin, d, density_, viscosity_));
+    }
+  }
+
+  void turn(std::span<const Vector> vorticity, Particles& particles, FluidMotion& motion) override {
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      Motion& m = particles.motion[i];
+      const Vec3 before = to_vec3(m.w), relative = closures::spin_relative_to_fluid(before, to_vec3(vorticity[i]));
+      const Vec3 change = -constants_[std::size_t(particles.species[i])].turned * relative;
+      motion.account_work(closures::dot(before + 0.5 * change, change) / m.inverse_inertia);
+      put(m.w.data(), before + change);
+    }
+  }
 
  private:
   struct Constants {
@@ -31,33 +54,6 @@ class Magnus final : public SideForce {
   std::vector<Constants> constants_;  ///< of each species
   double density_, viscosity_;
 };
-
-using closures::Vec3;
-
-Magnus::Magnus(const Materials& materials, double density, double viscosity, double dt)
-    : density_(density), viscosity_(viscosity) {
-  for (const Species& s : materials.species())
-    constants_.push_back(
-        {2 * s.radius, -std::expm1(-closures::spin_resistance(viscosity, 2 * s.radius) * dt / s.inertia)});
-}
-
-void Magnus::add(const SideView& view, SideRows& rows) {
-  for (std::size_t i = 0; i < view.loads.size(); ++i) {
-    const Vec3 spin = closures::spin_relative_to_fluid(to_vec3(view.particles.motion[i].w), to_vec3(view.vorticity[i]));
-    const double d = constants_[std::size_t(view.particles.species[i])].diameter;
-    add_to(rows.of(i), closures::magnus_rubinow_keller(slip_of(view, i), spin, d, density_, viscosity_));
-  }
-}
-
-void Magnus::turn(std::span<const Vector> vorticity, Particles& particles, FluidMotion& motion) {
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    Motion& m = particles.motion[i];
-    const Vec3 before = to_vec3(m.w), relative = closures::spin_relative_to_fluid(before, to_vec3(vorticity[i]));
-    const Vec3 change = -constants_[std::size_t(particles.species[i])].turned * relative;
-    motion.account_work(closures::dot(before + 0.5 * change, change) / m.inverse_inertia);
-    put(m.w.data(), before + change);
-  }
-}
 
 }  // namespace
 

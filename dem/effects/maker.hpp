@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "closures/drag.hpp"
-#include "core/case/laws.hpp"
 #include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
 #include "dem/contacts/materials.hpp"

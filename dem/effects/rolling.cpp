@@ -15,39 +15,6 @@ namespace polybed::dem {
 
 namespace {
 
-/// A constant moment mu_r R* F_n against the rolling. No memory; at rest it flickers with the sign of the spin.
-class ConstantRolling final : public RollingLaw {
- public:
-  ConstantRolling(const Materials& materials, double rolling_friction);
-  void act(ContactBatch& batch, double dt) const override;
-  [[nodiscard]] int memory_size() const override { return 0; }
-  void add_energy(const ContactBatch&, ContactBatch::Row&) const override {}
-  [[nodiscard]] double stiffness(int, double) const override { return 0; }
-
- private:
-  std::vector<double> arm_;  ///< mu_r R*, m
-};
-
-/// A spring of rotation k_r = 2.25 k_n mu_r^2 R*^2 with a dashpot, capped at mu_r R* F_n; k_n is the elastic force over
-/// the overlap. The memory is the spring's moment, which turns with the pair.
-class SpringRolling final : public RollingLaw {
- public:
-  /// \param damping  share of the critical damping  \param place  of its memory in a batch
-  SpringRolling(const Materials& materials, double rolling_friction, double damping, int place);
-  void act(ContactBatch& batch, double dt) const override;
-  [[nodiscard]] int memory_size() const override { return 3; }
-  void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const override;
-  [[nodiscard]] double stiffness(int kind, double normal_stiffness) const override;
-
- private:
-  struct Constants {
-    double arm, inertia;  ///< mu_r R*, m; I_r, kg m2
-  };
-  std::vector<Constants> constants_;
-  double damping_;
-  int place_;
-};
-
 using closures::Vec3;
 using Row = ContactBatch::Row;
 
@@ -86,43 +53,66 @@ void roll_spring(ContactBatch& b, int place, const Row& arm, const Row& inertia,
   }
 }
 
-ConstantRolling::ConstantRolling(const Materials& materials, double rolling_friction) {
-  for (const PairMaterial& m : materials.kinds()) arm_.push_back(rolling_friction * m.radius);
-}
-
-void ConstantRolling::act(ContactBatch& batch, double) const {
-  alignas(64) Row arm = {};
-  for (int c = 0; c < batch.count; ++c) arm[c] = arm_[std::size_t(batch.kind[c])];
-  core::in_vectors<roll_constant>(batch, arm);
-}
-
-SpringRolling::SpringRolling(const Materials& materials, double rolling_friction, double damping, int place)
-    : damping_(damping), place_(place) {
-  for (const PairMaterial& m : materials.kinds())
-    constants_.push_back({rolling_friction * m.radius, m.rolling_inertia});
-}
-
-void SpringRolling::act(ContactBatch& batch, double dt) const {
-  alignas(64) Row arm = {}, inertia = {};
-  for (int c = 0; c < batch.count; ++c) {
-    const Constants& k = constants_[std::size_t(batch.kind[c])];
-    arm[c] = k.arm;
-    inertia[c] = k.inertia;
+/// A constant moment mu_r R* F_n against the rolling. No memory; at rest it flickers with the sign of the spin.
+class ConstantRolling final : public RollingLaw {
+ public:
+  ConstantRolling(const Materials& materials, double rolling_friction) {
+    for (const PairMaterial& m : materials.kinds()) arm_.push_back(rolling_friction * m.radius);
   }
-  core::in_vectors<roll_spring>(batch, place_, arm, inertia, damping_, dt);
-}
-
-double SpringRolling::stiffness(int kind, double normal_stiffness) const {
-  return closures::rolling_stiffness(normal_stiffness, 1, constants_[std::size_t(kind)].arm);
-}
-
-void SpringRolling::add_energy(const ContactBatch& batch, Row& stored) const {
-  for (int c = 0; c < batch.count; ++c) {
-    const Vec3 kept = at(batch.memory + place_, c);
-    const double k = stiffness(batch.kind[c], secant_stiffness(batch, c));
-    stored[c] += 0.5 * closures::dot(kept, kept) / (k > tiny ? k : tiny);
+  void act(ContactBatch& batch, double) const override {
+    alignas(64) Row arm = {};
+    for (int c = 0; c < batch.count; ++c) arm[c] = arm_[std::size_t(batch.kind[c])];
+    core::in_vectors<roll_constant>(batch, arm);
   }
-}
+  [[nodiscard]] int memory_size() const override { return 0; }
+  void add_energy(const ContactBatch&, ContactBatch::Row&) const override {}
+  [[nodiscard]] double stiffness(int, double) const override { return 0; }
+
+ private:
+  std::vector<double> arm_;  ///< mu_r R*, m
+};
+
+/// A spring of rotation k_r = 2.25 k_n mu_r^2 R*^2 with a dashpot, capped at mu_r R* F_n; k_n is the elastic force over
+/// the overlap. The memory is the spring's moment, which turns with the pair.
+class SpringRolling final : public RollingLaw {
+ public:
+  /// \param damping  share of the critical damping  \param place  of its memory in a batch
+  SpringRolling(const Materials& materials, double rolling_friction, double damping, int place)
+      : damping_(damping), place_(place) {
+    for (const PairMaterial& m : materials.kinds())
+      constants_.push_back({rolling_friction * m.radius, m.rolling_inertia});
+  }
+  void act(ContactBatch& batch, double dt) const override {
+    alignas(64) Row arm = {}, inertia = {};
+    for (int c = 0; c < batch.count; ++c) {
+      const Constants& k = constants_[std::size_t(batch.kind[c])];
+      arm[c] = k.arm;
+      inertia[c] = k.inertia;
+    }
+    core::in_vectors<roll_spring>(batch, place_, arm, inertia, damping_, dt);
+  }
+
+  [[nodiscard]] int memory_size() const override { return 3; }
+  void add_energy(const ContactBatch& batch, Row& stored) const override {
+    for (int c = 0; c < batch.count; ++c) {
+      const Vec3 kept = at(batch.memory + place_, c);
+      const double k = stiffness(batch.kind[c], secant_stiffness(batch, c));
+      stored[c] += 0.5 * closures::dot(kept, kept) / (k > tiny ? k : tiny);
+    }
+  }
+
+  [[nodiscard]] double stiffness(int kind, double normal_stiffness) const override {
+    return closures::rolling_stiffness(normal_stiffness, 1, constants_[std::size_t(kind)].arm);
+  }
+
+ private:
+  struct Constants {
+    double arm, inertia;  ///< mu_r R*, m; I_r, kg m2
+  };
+  std::vector<Constants> constants_;
+  double damping_;
+  int place_;
+};
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/start_error.hpp"
+#include "core/error.hpp"
 
 namespace polybed::dem {
 

@@ -1,7 +1,6 @@
 #include "dem/parallel/exchange.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <unordered_map>
 
 namespace polybed::dem {

@@ -7,9 +7,8 @@
 #include "closures/restitution.hpp"
 #include "closures/sphere.hpp"
 #include "closures/stress_reference.hpp"
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "core/error.hpp"
-#include "multiscale/calibrate/bed_scene.hpp"
 #include "multiscale/calibrate/plan.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -102,7 +101,7 @@ void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
   if (core::acts(scene, "lubrication")) {
     box.effects["lubrication"] = core::law_of(scene, "lubrication");
     box.material.roughness = std::max(scene.material.roughness, scene.calibrate.film_gap * d);
-    // A film acts as if it were thicker by 36 pi mu R*^2 dt/m* (dem/effects/film.hpp), R* = d/4.
+    // A film acts as if it were thicker by 36 pi mu R*^2 dt/m* (dem/effects/lubrication.cpp), R* = d/4.
     step = std::min(step, box.material.roughness * scales.least_mass / (36 * pi * mu * d * d / 16));
   }
   box.column.shear_rate = rate;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "closures/mixture.hpp"
 #include "closures/stress_reference.hpp"

@@ -40,6 +40,10 @@ struct Plan {
 /// The scene of a box: a cube for `dry` and `wet`, a column for `bed`.
 [[nodiscard]] core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point);
 
+/// A column of particles of one size whose superficial velocity expands it to a solids fraction by the scene's law of
+/// drag: point.phi. Spheres of the bed's mean size, as many as calibrate.particles.
+[[nodiscard]] core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point);
+
 /// Steps of a box times its particles, without the doublings.
 [[nodiscard]] double particle_steps_of(const core::Scene& scene, const BoxPoint& point);
 

@@ -14,8 +14,6 @@ namespace polybed::multiscale {
 
 namespace {
 
-core::Json text_or_null(const std::string& text) { return text.empty() ? core::Json() : core::Json(text); }
-
 core::Json json_of(const std::optional<Mean>& mean) {
   if (!mean) return nullptr;
   return {{"value", mean->value}, {"interval", core::or_null(mean->interval)}};
@@ -160,8 +158,8 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
                   {"u_over_u_mf", core::or_null(expected.velocity_ratio())},
                   {"terminal_m_s", fluid ? terminal : core::Json()},
                   {"geldart", geldart.empty() ? core::Json() : geldart},
-                  {"state", text_or_null(name_of(seen.state))},
-                  {"layers", text_or_null(seen.layers)},
+                  {"state", core::text_or_null(name_of(seen.state))},
+                  {"layers", core::text_or_null(seen.layers)},
                   {"bed_height_m", json_of(seen.height)},
                   {"pressure_drop_over_weight", json_of(seen.drop)},
                   {"mixing", core::or_null(seen.mixing)},
@@ -169,7 +167,7 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
                   {"recovery", json_or_null(seen.recovery)},
                   {"discharge_kg_s", core::or_null(seen.discharge)},
                   {"steady", seen.steady ? core::Json(*seen.steady) : core::Json()},
-                  {"limited_by", text_or_null(card.limited_by)},
+                  {"limited_by", core::text_or_null(card.limited_by)},
                   {"left_out", left_out_text(card.left_out)},
                   {"time_s", {{"taken", core::or_null(card.taken)}, {"predicted", card.predicted.expected}}}};
 }

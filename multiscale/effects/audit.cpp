@@ -1,6 +1,5 @@
 #include "multiscale/effects/audit.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/case/file.hpp"

@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "core/case/file.hpp"
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "core/timers.hpp"
 #include "dem/effects/maker.hpp"
 #include "dem/model.hpp"

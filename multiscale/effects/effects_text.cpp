@@ -1,5 +1,5 @@
 #include "multiscale/effects/effects_text.hpp"
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 
 #include <fmt/format.h>
 

@@ -4,12 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/case/laws.hpp"
-#include "multiscale/effects/choice.hpp"
+#include "core/case/scene.hpp"
+#include "multiscale/roles.hpp"
 
 namespace polybed::multiscale {
 

@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "closures/relevance.hpp"
-#include "core/case/laws.hpp"
-#include "multiscale/effects/choice.hpp"
+#include "core/case/scene.hpp"
 #include "multiscale/roles.hpp"
 #include "relevance/fluid_properties.hpp"
 

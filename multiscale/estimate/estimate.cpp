@@ -9,7 +9,6 @@
 #include "core/progress.hpp"
 #include "core/timers.hpp"
 #include "dem/model.hpp"
-#include "multiscale/estimate/ways.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/requirements.hpp"
 #include "tfm/step_estimate.hpp"

@@ -65,4 +65,8 @@ void print_estimate(const core::Scene& scene, const CostEstimate& estimate);
 /// \param ended  or it says nothing of what it took  \param actual  CPU s
 void write_prediction(core::Json& json, const TimeBand& predicted, bool ended, double actual);
 
+/// Three ways that apply, those that lose least first.
+[[nodiscard]] std::vector<Way> tfm_ways(const core::Scene& scene, bool implicit, int ranks, int cores);
+[[nodiscard]] std::vector<Way> dem_ways(const core::Scene& scene, const std::string& limited_by, int ranks, int cores);
+
 }  // namespace polybed::multiscale

@@ -1,4 +1,5 @@
-#include "multiscale/estimate/ways.hpp"
+// Ways to halve the time of a run, with what is known of the loss.
+#include "multiscale/estimate/estimate.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <optional>
 
 #include "closures/terminal_velocity.hpp"

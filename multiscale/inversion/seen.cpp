@@ -16,7 +16,7 @@ namespace polybed::multiscale {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int wave_numbers = 1000;    ///< twice as many move no velocity by 1e-5
 constexpr double most_per_cell = 40;  ///< k a: sinc^4 is below 1e-5 there, in the mean over directions below 1e-6
 constexpr int directions = 128;       ///< of a quarter turn; in three dimensions as many azimuths as half of it

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 from polybed.drawing.units import fitting
-from polybed.in_place import in_place
+from polybed.in_place import put_text
 from polybed.packages import needed
 from polybed.page import file_name, picture, section, source, table, warnings
 from polybed.page import page as whole_page
@@ -198,9 +198,7 @@ def write_page(directory):
     path = Path(directory) / "comparison.html"
     with contents_of(path.with_name("comparison.json")):
         text = page(directory)
-    with in_place(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    return path
+    return put_text(path, text)
 
 
 def main(arguments=None):

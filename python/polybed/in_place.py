@@ -21,3 +21,10 @@ def in_place(path, ending=".temporary"):
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def put_text(path, text, errors="strict"):
+    """Puts a text file in place whole and returns its path."""
+    with in_place(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", errors=errors)
+    return path

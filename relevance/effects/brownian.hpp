@@ -3,7 +3,7 @@
 
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
 #include "relevance/supremum.hpp"

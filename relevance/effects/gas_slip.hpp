@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include "closures/relevance.hpp"
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "core/error.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
 #include "relevance/fluid_properties.hpp"
-#include "relevance/gas_slip.hpp"
 #include "relevance/supremum.hpp"
 
 namespace polybed::relevance::effects {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "closures/relevance.hpp"
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
 #include "relevance/effects/solids_stress.hpp"

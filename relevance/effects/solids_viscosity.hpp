@@ -1,7 +1,7 @@
 // Resistance of packed solids to shear.
 #pragma once
 
-#include "core/case/laws.hpp"
+#include "core/case/scene.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
 

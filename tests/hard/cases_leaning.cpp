@@ -4,7 +4,6 @@
 
 #include "closures/bed_expansion.hpp"
 #include "closures/drag.hpp"
-#include "closures/inclined_settling.hpp"
 #include "hard/cases.hpp"
 #include "hard/scenes.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -12,6 +11,20 @@
 namespace polybed::hard {
 
 namespace {
+
+/// Length, m, that a suspension still fills of a channel after a time, measured along it. Ponder (1925) and Nakamura
+/// and Kuroda (1937), as Acrivos and Herbolzheimer (1979) have it, from memory: clear fluid forms over what the
+/// suspension covers of a level surface, dL/dt = -v (cos a + (L/b) sin a). Range: a clear layer much thinner than the
+/// channel and sediment that slides down at once; below 0 there is none left.
+/// \param start     L at time 0, m
+/// \param width     b, distance of the plates, m
+/// \param velocity  v, at which the suspension settles in an upright vessel, m/s
+/// \param angle     a, of the plates to the vertical, above 0, below pi/2
+/// \param time      s
+double suspension_length(double start, double width, double velocity, double angle, double time) {
+  const double end = -width / std::tan(angle);
+  return end + (start - end) * std::exp(-velocity * std::sin(angle) * time / width);
+}
 
 constexpr double width = 6e-3, length = 0.12, fraction = 0.1, degree = std::numbers::pi / 180;
 
@@ -77,8 +90,7 @@ double rate_over_theory(Trial& trial, int cells) {
     trial.advance(*run, time);
     filled.push_back(measures::bed_height(profile_of(*run)).value_or(0));
   }
-  return (filled[0] - filled[1]) /
-         (filled[0] - closures::suspension_length(filled[0], width, settling, 30 * degree, 6.0));
+  return (filled[0] - filled[1]) / (filled[0] - suspension_length(filled[0], width, settling, 30 * degree, 6.0));
 }
 
 /// Three cells do not hold a clear layer of a tenth of the width; 24 do.

@@ -17,9 +17,7 @@
 #include "core/error.hpp"
 #include "core/output/descriptor.hpp"
 #include "core/output/files.hpp"
-#include "multiscale/become.hpp"
-#include "multiscale/installed.hpp"
-#include "multiscale/mpirun.hpp"
+#include "multiscale/program.hpp"
 
 namespace polybed::hard {
 

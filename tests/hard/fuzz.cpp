@@ -17,7 +17,7 @@
 #include "hard/grains.hpp"
 #include "hard/result_text.hpp"
 #include "multiscale/roles.hpp"
-#include "tfm/particle_scene.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::hard {
 

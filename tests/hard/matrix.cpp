@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "hard/child.hpp"
 #include "hard/result_text.hpp"
-#include "multiscale/installed.hpp"
+#include "multiscale/program.hpp"
 
 namespace polybed::hard {
 

@@ -1,7 +1,6 @@
 // polybed-hard: the catalogue of hard cases against every scheme, cell by cell what held.
 #include <cstdio>
 
-#include "app/comma_list.hpp"
 #include "core/error.hpp"
 #include "core/output/directory.hpp"
 #include "core/output/files.hpp"
@@ -9,12 +8,26 @@
 #include "hard/fuzz.hpp"
 #include "hard/options.hpp"
 #include "hard/report.hpp"
-#include "multiscale/picture.hpp"
+#include "multiscale/python_module.hpp"
 
 namespace polybed::hard {
 
 namespace fs = std::filesystem;
-using app::comma_list;
+
+namespace {
+
+/// The words of "a,b,c"; empty ones are left out.
+std::vector<std::string> comma_list(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end > begin) words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+}  // namespace
 
 core::ExitCode run_matrix(const Options& options) {
   const Choice choice{options.suite == "full", comma_list(options.only), comma_list(options.schemes),

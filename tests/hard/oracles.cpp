@@ -11,7 +11,7 @@
 #include "core/output/particles.hpp"
 #include "core/print.hpp"
 #include "hard/options.hpp"
-#include "measures/particle_profile.hpp"
+#include "scenes/snapshot_profile.hpp"
 
 namespace polybed::hard {
 

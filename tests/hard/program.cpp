@@ -1,7 +1,7 @@
 #include "hard/program.hpp"
 
 #include "core/output/files.hpp"
-#include "multiscale/installed.hpp"
+#include "multiscale/program.hpp"
 #include "scenes/scratch.hpp"
 
 namespace polybed::hard {

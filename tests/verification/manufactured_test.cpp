@@ -3,7 +3,7 @@
 
 #include "scenes/manufactured_box.hpp"
 #include "scenes/record.hpp"
-#include "tfm/momentum_form.hpp"
+#include "tfm/integrator_choice.hpp"
 
 namespace polybed::scenes {
 namespace {

@@ -1,43 +1,65 @@
-#include "tfm/effects/drag.hpp"
-#include "relevance/drag_law.hpp"
+// Slot Exchange, fluid with solids: the drag on every species, by any law of the menu, one closure pass per cell.
 #include "relevance/effects/drag.hpp"
+
+#include "closures/drag.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/effects/gas_slip.hpp"
 #include "relevance/effects/partition.hpp"
+#include "tfm/effects.hpp"
 #include "tfm/effects/maker.hpp"
 
 namespace polybed::tfm {
 
+namespace {
+
 using core::Index;
 
-Drag::Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& name,
-           const closures::DragLaw& law, std::vector<double> divisors)
-    : constants_(constants), boundaries_(boundaries), name_(name), law_(law), divisors_(std::move(divisors)) {
-  share_.resize(constants.species());
-  slip_.resize(constants.species());
-  result_.resize(constants.species());
-}
+/// b_j = 18 mu eps f_j / D_j^2, T(1.49), with f_j from the polydisperse law at the cell's voidage,
+/// composition and the superficial slip of species j.
+class Drag : public FluidExchange {
+ public:
+  /// \param divisors  of the drag on each species by the slip of a gas; 1 without it
+  Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& name,
+       const closures::DragLaw& law, std::vector<double> divisors)
+      : constants_(constants), boundaries_(boundaries), name_(name), law_(law), divisors_(std::move(divisors)) {
+    share_.resize(constants.species());
+    slip_.resize(constants.species());
+    result_.resize(constants.species());
+  }
+  void evaluate(Fields& fields) override {
+    const double scale = 18 * constants_.fluid.viscosity;
+    core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
+      const std::size_t row = std::size_t(begin), cells = std::size_t(end - begin);
+      for (std::size_t j = 0; j < constants_.species(); ++j) {
+        share_[j] = fields.share[j].data() + row;
+        slip_[j] = fields.slip_superficial[j].data() + row;
+        result_[j] = fields.solids.exchange[j].data() + row;
+      }
+      const std::span<const double> eps(fields.fluid.voidage.data() + row, cells);
+      closures::drag_of_cells(law_, eps, share_, slip_, constants_.diameter, constants_.fluid.density,
+                              constants_.fluid.viscosity, result_, count_);
+      for (std::size_t j = 0; j < constants_.species(); ++j) {
+        const double factor = scale / (constants_.diameter[j] * constants_.diameter[j] * divisors_[j]);
+        for (std::size_t c = 0; c < cells; ++c) result_[j][c] *= factor * eps[c];
+      }
+    });
+    boundaries_.fill_cells(fields.solids.exchange);
+  }
 
-void Drag::evaluate(Fields& fields) {
-  const double scale = 18 * constants_.fluid.viscosity;
-  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
-    const std::size_t row = std::size_t(begin), cells = std::size_t(end - begin);
-    for (std::size_t j = 0; j < constants_.species(); ++j) {
-      share_[j] = fields.share[j].data() + row;
-      slip_[j] = fields.slip_superficial[j].data() + row;
-      result_[j] = fields.solids.exchange[j].data() + row;
-    }
-    const std::span<const double> eps(fields.fluid.voidage.data() + row, cells);
-    closures::drag_of_cells(law_, eps, share_, slip_, constants_.diameter, constants_.fluid.density,
-                            constants_.fluid.viscosity, result_, count_);
-    for (std::size_t j = 0; j < constants_.species(); ++j) {
-      const double factor = scale / (constants_.diameter[j] * constants_.diameter[j] * divisors_[j]);
-      for (std::size_t c = 0; c < cells; ++c) result_[j][c] *= factor * eps[c];
-    }
-  });
-  boundaries_.fill_cells(fields.solids.exchange);
-}
+  [[nodiscard]] ClosureUse use() const override { return {"drag " + name_, count_.evaluations, count_.guarded}; }
 
-ClosureUse Drag::use() const { return {"drag " + name_, count_.evaluations, count_.guarded}; }
+ private:
+  const Constants& constants_;
+  const fluid::Boundaries& boundaries_;
+  std::string name_;
+  closures::DragLaw law_;
+  closures::GuardCount count_;
+  std::vector<double> divisors_;
+  std::vector<const double*> share_, slip_;
+  std::vector<double*> result_;
+};
+
+}  // namespace
 
 namespace makers {
 

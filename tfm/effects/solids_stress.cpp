@@ -1,19 +1,94 @@
 // Makes the stress of the solids: friction, and what collisions add to it.
 #include "relevance/effects/solids_stress.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "closures/stress_ratios.hpp"
 #include "closures/stress_reference.hpp"
-#include "core/case/laws.hpp"
-#include "core/start_error.hpp"
+#include "core/case/scene.hpp"
+#include "core/error.hpp"
+#include "core/numerics/operators.hpp"
 #include "fluid/solids_table.hpp"
 #include "relevance/effects/granular_temperature.hpp"
+#include "tfm/effects.hpp"
 #include "tfm/effects/maker.hpp"
 #include "tfm/effects/solids_stress_frictional.hpp"
 #include "tfm/effects/solids_stress_kinetic.hpp"
 #include "tfm/effects/solids_stress_table.hpp"
-#include "tfm/effects/solids_stress_wet.hpp"
 #include "tfm/effects/table_file.hpp"
 
-namespace polybed::tfm::makers {
+namespace polybed::tfm {
+
+namespace {
+
+using core::Index;
+
+/// 1/s, that rounds the shear rate off at 0.
+constexpr double least_shear_rate = 0.01;
+/// Solids fraction below which the viscosity over phi is that at it: V falls as phi^2, and a stress of so thin solids
+/// is none.
+constexpr double fraction_floor = 1e-3;
+
+/// What a liquid's drag and films add to the stress of sheared solids, as boxes of particles measured it.
+/// p = mu_f gamma (1 + lambda St) V(phi) R_p, mu_s = mu_f (1 + lambda St) V(phi) R_mu, closures/stress_ratios.hpp, with
+/// St = rho d^2 gamma/mu_f of the cell's Sauter diameter and mean density. It needs no granular temperature. gamma is
+/// sqrt(2 D':D' + g^2) - g with g = 0.01 1/s, D' the mean over the solids: 0 at rest, and smooth there. Beyond the
+/// table the ratios of its edge are held, which is counted where there are solids.
+class WetStress : public CollisionalStress {
+ public:
+  /// \param jammed  phi_m of V  \param lambda  of the table
+  WetStress(const Constants& constants, const fluid::Boundaries& boundaries, closures::StressRatios ratios,
+            double jammed, double lambda, const std::string& name, Fields& fields)
+      : constants_(constants),
+        boundaries_(boundaries),
+        ratios_(std::move(ratios)),
+        jammed_(jammed),
+        lambda_(lambda),
+        use_{"solids stress " + name} {
+    fields.stress.make_viscous(constants);
+  }
+
+  void add(Fields& fields) override {
+    const double mu = constants_.fluid.viscosity;
+    core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+        double square = least_shear_rate * least_shear_rate, per_diameter = 0, density = 0;
+        for (std::size_t j = 0; j < constants_.species(); ++j) {
+          const double share = fields.share[j][c];
+          square += share * fields.stress.strain[j][c];
+          per_diameter += share / constants_.diameter[j];
+          density += share * constants_.density[j];
+        }
+        const double rate = std::sqrt(square) - least_shear_rate, phi = std::max(fields.solids_fraction[c], 0.0);
+        const double stokes = closures::stokes_of_shear(density, 1 / per_diameter, rate, mu);
+        const closures::WetStress stress = closures::wet_stress(ratios_, jammed_, lambda_, phi, stokes, mu, rate);
+        fields.stress.pressure[c] += stress.pressure;
+        fields.stress.slope[c] += stress.slope;
+        fields.stress.viscosity[c] += stress.viscosity / std::max(phi, fraction_floor);
+        if (phi > fraction_floor && ratios_.outside(phi, stokes)) ++use_.guarded;
+      }
+      use_.evaluations += std::uint64_t(end - begin);
+    });
+    boundaries_.fill_cells(fields.stress.pressure);
+  }
+
+  [[nodiscard]] std::optional<ClosureUse> use() const override { return use_; }
+
+ private:
+  const Constants& constants_;
+  const fluid::Boundaries& boundaries_;
+  closures::StressRatios ratios_;
+  double jammed_, lambda_;
+  ClosureUse use_;
+};
+
+}  // namespace
+
+namespace makers {
 
 namespace {
 
@@ -69,6 +144,7 @@ void make_solids_stress(const Making& m) {
                                                              relevance::effects::is_transported(m.scene),
                                                              m.effects.solids_stress->max_packing(), m.fields);
   }
+
   if (core::acts(m.scene, temperature.role) && dynamic_cast<KineticStress*>(m.effects.collisions.get()) == nullptr)
     throw core::StartError("effects.granular_temperature = \"" + core::law_of(m.scene, temperature.role) +
                            "\" acts only with solids_stress = \"kinetic\" or a dry table");
@@ -80,4 +156,6 @@ extern const Maker solids_stress, granular_temperature;
 const Maker solids_stress{&relevance::effects::solids_stress, "Stress", make_solids_stress, {"kinetic"}};
 const Maker granular_temperature{&relevance::effects::granular_temperature, "Scalar"};
 
-}  // namespace polybed::tfm::makers
+}  // namespace makers
+
+}  // namespace polybed::tfm

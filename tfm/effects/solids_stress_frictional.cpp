@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/numerics/ranks.hpp"
-#include "core/start_error.hpp"
-#include "tfm/bulk_viscosity.hpp"
 #include "tfm/initial.hpp"
 #include "tfm/step_estimate.hpp"
 

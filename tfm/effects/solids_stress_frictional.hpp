@@ -1,6 +1,7 @@
 // Slot Stress: the frictional pressure of packed solids with a bulk viscosity that damps its elastic waves.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "closures/max_packing.hpp"
@@ -44,5 +45,15 @@ class FrictionalStress : public StressEffect {
   double bulk_viscosity_, cell_width_;
   std::array<double, 3> lies_towards_{};  ///< unit vector of the weight less buoyancy; 0 where no surface is held
 };
+
+/// How strongly elastic waves of a packed bed are damped: alpha of the bulk viscosity alpha rho_s c_s h, dimensionless:
+/// as the case says, or 1 over the number of directions with more than one cell. It acts in all directions at once, so
+/// that an explicit step may take some h/(2 d alpha c_s) in d of them: with alpha = 1 in two dimensions nothing else
+/// bound the steps of a packed bed (docs/record/cost.md).
+[[nodiscard]] inline double bulk_viscosity_of(const core::Scene& scene, const core::Grid& grid) {
+  int directions = 0;
+  for (int axis = 0; axis < grid.dimensions; ++axis) directions += grid.column_cells(axis) > 1 ? 1 : 0;
+  return scene.tfm.bulk_viscosity.value_or(1.0 / std::max(directions, 1));
+}
 
 }  // namespace polybed::tfm

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/start_error.hpp"
+#include "core/error.hpp"
 #include "fluid/solids_table.hpp"
 
 namespace polybed::tfm {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/start_error.hpp"
+#include "core/error.hpp"
 #include "fluid/shear_regime.hpp"
 
 namespace polybed::tfm {

@@ -18,12 +18,12 @@ with needed(__name__ == "__main__"):
     from polybed.calibration import bed, fit
     from polybed.calibration.boxes import Boxes
     from polybed.calibration.check import deviation, deviation_lines, points_between
-    from polybed.calibration.output import ERR, OUT, duration, refusals, say, write_text
+    from polybed.calibration.output import ERR, OUT, duration, refusals, say
     from polybed.calibration.plan import Plan
     from polybed.calibration.service import FILE, STOPPED, WRONG_CASE, Failure, Service
     from polybed.calibration.text import box_lines, table_toml
     from polybed.files import FAULTS
-    from polybed.in_place import in_place
+    from polybed.in_place import in_place, put_text
     from polybed.solids_table import read_table
 
 
@@ -89,7 +89,7 @@ def check_table(options, service, plan):
     ratios = service.ask("ratios", options.check, *(point.text() for point in points))
     lines = deviation_lines(points, [deviation(box, read, table.attributes["lambda"]) for box, read in zip(boxes, ratios)])
     say(lines, options.people)
-    write_text(options.output / "check.txt", lines)
+    put_text(options.output / "check.txt", lines, "surrogateescape")
 
 
 def identify(table, plan):
@@ -110,7 +110,7 @@ def finish_bed(options, plan, boxes):
     table = bed.bed_table(plan.seeds, boxes, plan.case["weight_m2_s2"])
     lines = bed.bed_lines(boxes) + "\n" + bed.bed_rows(table)
     say(lines, options.people)
-    write_text(options.output / "boxes.txt", lines)
+    put_text(options.output / "boxes.txt", lines, "surrogateescape")
     bed.require_usable(table)
     identify(table, plan)
     with in_place(options.output / "table.h5") as path:
@@ -134,7 +134,7 @@ def finish_sheared(options, service, plan, boxes, table):
         table.arrays |= {"p_bed_se": of_bed["p_bed_se"]} if "p_bed_se" in of_bed.names() else {}
     lines = box_lines(boxes)
     say(lines, options.people)
-    write_text(options.output / "boxes.txt", lines)
+    put_text(options.output / "boxes.txt", lines, "surrogateescape")
     tested = tested_by(table, plan)
     error, residual, left_out = ("-" if share is None else f"{100 * share:.2f} %" for share in tested.values())
     say(f"standard errors up to {error}; with a solids fraction left out {left_out} off, {residual} beyond two standard errors\n",
@@ -149,7 +149,7 @@ def finish_sheared(options, service, plan, boxes, table):
             say(f"at fixed shear rate without a fluid the pressure falls up to phi = {shape['falls_in_shear_up_to']:.3f}, as a dilute gas "
                 "does\n", options.people)
         fit.require_usable(table, shape["falls"])
-    write_text(options.output / "table.toml", table_toml(table, plan, boxes, shape["a"]))
+    put_text(options.output / "table.toml", table_toml(table, plan, boxes, shape["a"]), "surrogateescape")
     say_table(options, plan, len(boxes), tested)
 
 

@@ -2,8 +2,6 @@
 
 import os
 
-from polybed.in_place import in_place
-
 OUT, ERR = 1, 2
 refusals = []  # of standard output
 
@@ -17,12 +15,6 @@ def say(text, to=OUT):
     except OSError as error:
         if to == OUT:
             refusals.append(error)
-
-
-def write_text(path, text):
-    """Puts a text file in place whole."""
-    with in_place(path) as temporary:
-        temporary.write_text(text, encoding="utf-8", errors="surrogateescape")
 
 
 def duration(seconds):

@@ -1,4 +1,4 @@
-"""What the program answers in a calibration, app/calibrate_service.hpp: the plan of a case, names of boxes, how a table reads."""
+"""What the program answers in a calibration, app/calibrate.cpp: the plan of a case, names of boxes, how a table reads."""
 
 import contextlib
 import json

@@ -10,7 +10,7 @@ from polybed.cost.quantities import measure_on, quantities_of_run
 from polybed.cost.runner import Runner, RunOrder
 from polybed.cost.scene import Scene
 from polybed.files import FormatError, contents_of, read_json, read_text
-from polybed.in_place import in_place
+from polybed.in_place import put_text
 from polybed.study.ending import NUMBERS, WRONG_CASE, StudyError, answer
 
 TIME_ALLOWED, DEARER_ALLOWED, AS_ACCURATE, ROUNDING = 0.25, 0.1, 1.01, 1e-9
@@ -50,9 +50,7 @@ def scene_of(sweep):
 
 def confirm(path):
     """The sweep's own file says that what it recommends was run again and held."""
-    text = read_text(path).replace('"confirmed": false', '"confirmed": true', 1)
-    with in_place(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    put_text(path, read_text(path).replace('"confirmed": false', '"confirmed": true', 1))
 
 
 def run_again(sweep, advised, folder):

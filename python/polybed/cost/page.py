@@ -10,7 +10,7 @@ from polybed.drawing import cost
 from polybed.drawing.style import NAMES, STYLE
 from polybed.drawing.units import text
 from polybed.files import contents_of, read_json
-from polybed.in_place import in_place
+from polybed.in_place import put_text
 from polybed.page import escaped, file_name, page, picture, section, source, table, warnings
 
 STORED = ("output.every=", "output.history_every=", "output.checkpoint_every=")  # that every study sets by itself
@@ -103,7 +103,4 @@ def write_page(directory):
     sweep = read_json(path, "polybed cost")
     with contents_of(path):
         found = text_of(sweep, path)
-    place = path.with_suffix(".html")
-    with in_place(place) as temporary:
-        temporary.write_text(found, encoding="utf-8")
-    return place
+    return put_text(path.with_suffix(".html"), found)

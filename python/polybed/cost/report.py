@@ -9,7 +9,7 @@ from polybed.cost.judge import level_of, scale_of
 from polybed.cost.markdown import sweep_markdown
 from polybed.cost.timing import Timing, timing_of
 from polybed.cost.work import VERSION, weighed
-from polybed.in_place import in_place
+from polybed.in_place import put_text
 from polybed.program import call
 from polybed.study.ending import NUMBERS, StudyError
 
@@ -136,8 +136,7 @@ def write_sweep(sweep, of, folder, picture):
     """All of them. Returns why there is no picture, if one was asked for."""
     texts = {"cost.json": sweep_json(sweep, of) + "\n", "cost.csv": sweep_csv(sweep), "cost.md": sweep_markdown(sweep, of)}
     for name, text in texts.items():
-        with in_place(folder / name) as path:
-            path.write_text(text, encoding="utf-8")
+        put_text(folder / name, text)
     if not picture:
         return ""
     try:

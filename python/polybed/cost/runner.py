@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from polybed.cost.work import counters_of, weighed
 from polybed.files import contents_of, read_json
-from polybed.in_place import in_place
+from polybed.in_place import put_text
 from polybed.study.cases import hash_of, words_of
 from polybed.study.child import run_child
 from polybed.study.ending import WRONG_CASE
@@ -113,8 +113,7 @@ class Runner:
         words += words_of([*self.overrides, *order.overrides])
         end = run_child(words, order.ranks, folder / "output.txt", seconds)
         remove_not_read(folder)
-        with in_place(folder / "end.json") as path:
-            path.write_text(json.dumps({"code": end.code, "timed_out": end.timed_out, "wall_s": end.wall}) + "\n")
+        put_text(folder / "end.json", json.dumps({"code": end.code, "timed_out": end.timed_out, "wall_s": end.wall}) + "\n")
 
     def read(self, folder):
         with contents_of(folder / "end.json"):

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from polybed.drawing.units import fitting, text
-from polybed.in_place import in_place
+from polybed.in_place import put_text
 from polybed.packages import needed
 from polybed.page import escaped, file_name, page, section, source, table
 from polybed.page import picture as shown_picture
@@ -133,10 +133,7 @@ def write_page(directory):
     found = read_scan(directory)
     with contents_of(path):
         content = text_of(found, path)
-    place = path.with_suffix(".html")
-    with in_place(place) as temporary:
-        temporary.write_text(content, encoding="utf-8")
-    return place
+    return put_text(path.with_suffix(".html"), content)
 
 
 def drawn(directory):

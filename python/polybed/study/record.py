@@ -5,7 +5,7 @@ import json
 import sys
 from contextlib import suppress
 
-from polybed.in_place import in_place
+from polybed.in_place import put_text
 from polybed.study.ending import FILE, NUMBERS, StudyError, answer
 
 
@@ -13,8 +13,7 @@ def write_record(path, found):
     """Puts a JSON file in place whole and returns its text. Raises StudyError."""
     try:
         text = json.dumps(found, ensure_ascii=False, allow_nan=False)
-        with in_place(path) as temporary:
-            temporary.write_text(text + "\n", encoding="utf-8")
+        put_text(path, text + "\n")
     except ValueError as error:
         raise StudyError(NUMBERS, "a number that is not finite was about to be written as JSON") from error
     except OSError as error:

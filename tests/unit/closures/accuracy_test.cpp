@@ -9,7 +9,6 @@
 
 #include "../../data/table.hpp"
 #include "closures/drag.hpp"
-#include "closures/forces.hpp"
 
 namespace polybed::closures {
 namespace {

@@ -4,6 +4,7 @@
 // axis for which the velocity of the contact is v_t + l w.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "closures/contact_hertz.hpp"
@@ -45,6 +46,28 @@ struct History {
   double normal = 0;
 };
 
+/// Force on i, and the history after it: the displacement xi, or for the law "mindlin" the force of the spring.
+struct TangentialForce {
+  Vec3 force, history;
+};
+
+/// Coulomb's cap with history rescale: while it slides the spring holds the whole force, xi = -F_t/k_t; without sliding
+/// the history stays. (xi = -(F_t + c_t v_t)/k_t, often used, leaves too little on the spring: in an oblique impact
+/// with damping the sphere leaves with 15 to 25 % less tangential impulse at e 0.5.)
+/// \param force -k_t xi - c_t v_t  \param stiffness k_t, the secant one, > 0  \param limit mu F_n
+inline TangentialForce coulomb_cap(const Vec3& force, const Vec3& displacement, double stiffness, double limit) {
+  const double share = coulomb_share(dot(force, force), limit);
+  const Vec3 capped = share * force;
+  return {capped, select(share < 1, (-1 / stiffness) * capped, displacement)};
+}
+
+/// The same for the law "mindlin", whose history is the force of the spring. \param force spring - c_t v_t
+inline TangentialForce coulomb_cap_of_force(const Vec3& force, const Vec3& spring, double limit) {
+  const double share = coulomb_share(dot(force, force), limit);
+  const Vec3 capped = share * force;
+  return {capped, select(share < 1, capped, spring)};
+}
+
 inline double arm_of(const Sphere& s, const Motion& m) { return s.shortened_arm ? s.radius - m.overlap : s.radius; }
 
 /// Law 3: force of the spring, and its state.
@@ -64,7 +87,7 @@ inline Force contact_force(const Sphere& s, const Motion& m, double dt, double o
   const double a = contact_radius(s.radius, m.overlap);
   const double damping = hertz_damping(s.beta, hertz_stiffness(s.youngs_modulus, a), s.mass);
   const NormalForce parts = hertz_force(s.youngs_modulus, a, m.overlap, damping, m.v_n);
-  const double normal = s.clipped ? normal_clipped(parts) : normal_kept(parts);
+  const double normal = s.clipped ? std::max(normal_kept(parts), 0.0) : normal_kept(parts);
   if (s.law == Law::none) return {normal, 0};
   const double full = tangential_stiffness(s.shear_modulus, a), v_t = m.v_t + arm_of(s, m) * m.spin;
   const double c_t = damping * tangential_damping_ratio(s.shear_modulus, s.youngs_modulus);

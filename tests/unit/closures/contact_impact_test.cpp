@@ -277,7 +277,7 @@ Bounce bounce(double restitution, double dt) {
     y += dt * v;
     t += dt;
     const double overlap = radius - y;
-    force = (overlap > 0 ? normal_kept(linear_force(k, overlap, damping, v)) : 0) - mass * g;
+    force = (overlap > 0 ? k * overlap - damping * v : 0) - mass * g;
     v += 0.5 * dt * force / mass;
     if (overlap > 0 && y_old >= radius) out.begin = t - dt * overlap / (y_old - y);
     out.overlap = std::max(out.overlap, overlap);

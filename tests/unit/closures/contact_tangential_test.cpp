@@ -59,29 +59,12 @@ TEST(Tangential, MindlinSpringGivesNoEnergyOnAClosedPath) {
   EXPECT_NEAR(given_back(false), 1.5, 1e-12);
 }
 
-TEST(Coulomb, RescalesTheHistory) {
-  // |F| = 5 against 2: the force keeps its direction, the spring holds all of it.
-  const TangentialForce slides = coulomb_cap({3, -4, 0}, {1, 1, 1}, 10, 2);
-  expect_near(slides.force, {1.2, -1.6, 0}, 1e-15);
-  expect_near(slides.history, {-.12, .16, 0}, 1e-16);
-  const TangentialForce sticks = coulomb_cap({3, -4, 0}, {1, 1, 1}, 10, 6);
-  expect_near(sticks.force, {3, -4, 0}, 0);
-  expect_near(sticks.history, {1, 1, 1}, 0);
-  const TangentialForce exact = coulomb_cap({3, -4, 0}, {1, 1, 1}, 10, 5);  // at the limit nothing changes
-  expect_near(exact.history, {1, 1, 1}, 0);
-}
-
-TEST(Coulomb, OfALooseContactIsNothing) {
-  for (double limit : {0.0, -1.0}) {  // a tail that attracts has no friction
-    expect_near(coulomb_cap({3, -4, 0}, {1, 1, 1}, 10, limit).force, {0, 0, 0}, 0);
-    expect_near(coulomb_cap({3, -4, 0}, {1, 1, 1}, 10, limit).history, {0, 0, 0}, 0);
-  }
-  expect_near(coulomb_cap({0, 0, 0}, {0, 0, 0}, 10, 0).force, {0, 0, 0}, 0);
-}
-
-TEST(Coulomb, OfTheMindlinLawCapsTheSpring) {
-  expect_near(coulomb_cap_of_force({3, -4, 0}, {2, -2, 0}, 2).history, {1.2, -1.6, 0}, 1e-15);
-  expect_near(coulomb_cap_of_force({3, -4, 0}, {2, -2, 0}, 6).history, {2, -2, 0}, 0);
+TEST(Coulomb, ShareByHand) {
+  EXPECT_DOUBLE_EQ(coulomb_share(25, 2), 0.4);
+  EXPECT_EQ(coulomb_share(25, 5), 1);  // at the limit nothing changes
+  EXPECT_EQ(coulomb_share(25, 6), 1);
+  for (double limit : {0.0, -1.0}) EXPECT_EQ(coulomb_share(25, limit), 0);  // a tail that attracts has no friction
+  EXPECT_EQ(coulomb_share(0, 0), 0);
 }
 
 TEST(Touch, TimeByHand) {

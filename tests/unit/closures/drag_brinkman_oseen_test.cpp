@@ -8,10 +8,14 @@
 #include <random>
 
 #include "closures/drag.hpp"
-#include "closures/forces.hpp"
 
 namespace polybed::closures {
 namespace {
+
+/// Net force over Stokes of species j: n_j = f_j + (1-eps) y_j^2 f_mean/eps, T(3.13)-(3.17).
+double net_of_pure(double voidage, double f_pure, double poly_index, double f_mean) {
+  return f_pure + (1 - voidage) * poly_index * poly_index * f_mean / voidage;
+}
 
 struct Mixture {
   double eps, re;  ///< Re of the Sauter diameter, one slip for all

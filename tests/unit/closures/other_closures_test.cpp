@@ -6,7 +6,6 @@
 
 #include "closures/drag_schiller_naumann.hpp"
 #include "closures/fluid_properties.hpp"
-#include "closures/inclined_settling.hpp"
 #include "closures/species_exchange_syamlal.hpp"
 #include "closures/stress_frictional.hpp"
 #include "closures/terminal_velocity.hpp"
@@ -62,18 +61,6 @@ TEST(SpeciesExchange, HandValueSymmetryAndEqualSizes) {
   const SpeciesPair swapped{2e-3, 1e-3, 1500, 2000, 0.9, 0.3};
   EXPECT_DOUBLE_EQ(species_exchange(pair, g0, 0.1, 5), species_exchange(swapped, g0, 0.1, 5));
   EXPECT_EQ(species_exchange(pair, g0, 0, 0), 0);
-}
-
-// By hand: b = 10 mm, v = 1 mm/s, 30 degrees, L = 200 mm: the rate is 1 (0.8660254 + 20 0.5) = 10.8660254 mm/s at
-// first, and after 10 s L = -17.3205081 + 217.3205081 exp(-0.5) = 114.491 mm.
-TEST(InclinedSettling, HandValuesAndTheUprightVessel) {
-  const double angle = std::acos(std::sqrt(0.75));
-  const auto length = [&](double time) { return suspension_length(0.2, 0.01, 1e-3, angle, time); };
-  EXPECT_DOUBLE_EQ(length(0), 0.2);
-  EXPECT_NEAR((length(0) - length(1e-3)) / 1e-3, 10.8660254e-3, 1e-6);  // half a step's change of the rate, 0.27e-6
-  EXPECT_NEAR(length(10), 0.1144910, 1e-7);
-  EXPECT_DOUBLE_EQ(suspension_length(0.2, 0.01, 1e-3, 0, 10), 0.19);
-  EXPECT_NEAR(suspension_length(0.2, 0.01, 1e-3, 1e-6, 10), 0.19, 1e-6);  // the limit of no angle
 }
 
 TEST(TerminalVelocity, StokesLimitAndForceBalance) {

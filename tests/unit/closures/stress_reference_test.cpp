@@ -45,11 +45,15 @@ TEST(StressReference, TemperatureOfSimpleShear) {
   };
   EXPECT_NEAR(shear_temperature(mu(0.2, 0.9), loss(0.2, 0.9)), 2.0245, 1e-4);
   EXPECT_NEAR(shear_temperature(mu(0.4, 0.99), loss(0.4, 0.99)), 10.1709, 1e-4);
-  EXPECT_NEAR(shear_temperature_with_drag(mu(0.4, 0.9), loss(0.4, 0.9), 0.4, 0.1), 0.848, 5e-4);
-  EXPECT_NEAR(shear_temperature_with_drag(mu(0.4, 0.9), loss(0.4, 0.9), 0.4, 1), 0.2324, 5e-5);
-  EXPECT_NEAR(shear_temperature_with_drag(mu(0.4, 0.9), loss(0.4, 0.9), 0.4, 10), 0.004, 5e-4);
-  EXPECT_NEAR(shear_temperature_with_drag(mu(0.4, 0.9), loss(0.4, 0.9), 0.4, 0),
-              shear_temperature(mu(0.4, 0.9), loss(0.4, 0.9)), 1e-12);
+  // With drag: mu* s = Gamma* s^3 + 3 phi r s^2, r = 1/(gamma tau_d).
+  const auto with_drag = [&](double rate) {
+    const double s = balanced_speed(loss(0.4, 0.9), 3 * 0.4 * rate, mu(0.4, 0.9), 0);
+    return s * s;
+  };
+  EXPECT_NEAR(with_drag(0.1), 0.848, 5e-4);
+  EXPECT_NEAR(with_drag(1), 0.2324, 5e-5);
+  EXPECT_NEAR(with_drag(10), 0.004, 5e-4);
+  EXPECT_NEAR(with_drag(0), shear_temperature(mu(0.4, 0.9), loss(0.4, 0.9)), 1e-12);
 }
 
 RatioCurves level(double stokes, double p, double mu) {

@@ -1,5 +1,5 @@
 // The particle model refuses what only the continuum model can run, naming the key.
-#include "dem/continuum_scene.hpp"
+#include "dem/rules.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -27,7 +27,7 @@ class PartialSlip : public testing::Test {
     bench.press(overlap, {});
     const PairMaterial& k = bench.kind();
     const double a = closures::contact_radius(k.radius, overlap);
-    limit = 0.3 * closures::hertz_force_of_pair(k.youngs_modulus, k.radius, k.mass, 0, overlap, 0).elastic;
+    limit = 0.3 * closures::hertz_greatest_force(closures::hertz_coefficient(k.youngs_modulus, k.radius), overlap);
     stiffness = closures::tangential_stiffness(k.shear_modulus, a);
     xi_m = 1.5 * limit / stiffness;
   }

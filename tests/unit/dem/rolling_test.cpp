@@ -28,7 +28,7 @@ struct Pressed {
 
 Pressed pressed(const Bench& bench) {
   const PairMaterial& k = bench.kind();
-  const double force = closures::hertz_force_of_pair(k.youngs_modulus, k.radius, k.mass, 0, overlap, 0).elastic;
+  const double force = closures::hertz_greatest_force(closures::hertz_coefficient(k.youngs_modulus, k.radius), overlap);
   return {force, rolling_friction * k.radius * force,
           closures::rolling_stiffness(force / overlap, rolling_friction, k.radius)};
 }

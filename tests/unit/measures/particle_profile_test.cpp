@@ -9,6 +9,7 @@
 #include <random>
 
 #include "measures/bed.hpp"
+#include "scenes/snapshot_profile.hpp"
 
 namespace polybed::measures {
 namespace {
@@ -126,16 +127,12 @@ TEST(ParticleProfile, HasTheVolumeOfItsParticles) {
 TEST(ParticleProfile, DoesNotDependOnTheOrder) {
   const Bed bed = random_bed();
   const ParticleProfile here = particle_profile(bed.view(), 2, column);
-  const std::vector<double> density{1395, 1170};
-  const ParticleHeights heights = particle_heights(bed.view(), density);
   for (unsigned seed : {1u, 2u, 3u}) {
     const Bed other = shuffled(bed, seed);
     const ParticleProfile there = particle_profile(other.view(), 2, column);
     EXPECT_EQ(here.solids.fraction, there.solids.fraction);
     EXPECT_EQ(here.velocity, there.velocity);
     EXPECT_EQ(here.temperature, there.temperature);
-    EXPECT_EQ(heights.mean, particle_heights(other.view(), density).mean);
-    EXPECT_EQ(heights.mean_by_mass, particle_heights(other.view(), density).mean_by_mass);
   }
 }
 
@@ -164,9 +161,6 @@ TEST(ParticleProfile, NothingGivesAnEmptyBed) {
   const ParticleProfile profile = particle_profile(bed.view(), 2, column);
   EXPECT_FALSE(bed_height(profile.solids));
   EXPECT_EQ(profile.solids.fraction[1], std::vector<double>(100, 0.0));
-  EXPECT_FALSE(particle_heights(bed.view(), std::vector<double>{1.0, 1.0}).mean[0]);
-  EXPECT_FALSE(particle_heights(bed.view(), std::vector<double>{1.0, 1.0}).mean_by_mass);
-  EXPECT_FALSE(bed_height_columns(bed.view(), {1, 1}, {2, 2}));
 }
 
 // Two layers of spheres on a lattice of 2 mm: fine ones (D 1 mm) at 1 .. 59 mm, coarse ones (D 2 mm) at 61 .. 119 mm,
@@ -184,34 +178,6 @@ TEST(ParticleProfile, IsMeasuredAsAContinuumIs) {
   EXPECT_NEAR(profile.solids.fraction[1][40], pi / 6, rounding);  // touching spheres on a cubic lattice
   EXPECT_NEAR(*bed_height(profile.solids), 0.120, 1e-3);
   EXPECT_NEAR(*interface_height(profile.solids), 0.054, rounding);
-}
-
-// Species 0 at 1 and 3 m, species 1 (three times the mass each) at 5 m: by mass (1 + 3 + 3 * 5)/5 = 3.8 m.
-TEST(ParticleHeights, MeansByHand) {
-  Bed bed;
-  bed.add(0, 0.1, {0, 1, 0});
-  bed.add(0, 0.1, {0, 3, 0});
-  bed.add(1, 0.1, {0, 5, 0});
-  const ParticleHeights heights = particle_heights(bed.view(), std::vector<double>{1000, 3000, 1});
-  EXPECT_NEAR(*heights.mean[0], 2, rounding);
-  EXPECT_NEAR(*heights.mean[1], 5, rounding);
-  EXPECT_FALSE(heights.mean[2]);
-  EXPECT_NEAR(*heights.mean_by_mass, 3.8, rounding);
-}
-
-// Four columns of 1 m: the first from 0.5 to 2 m, the second with one particle only (0), the third empty, the fourth,
-// which also gets what lies beyond the side, from 1 to 4 m. Mean over the three that hold some: 4.5/3.
-TEST(ParticleHeights, ColumnsByHand) {
-  Bed bed;
-  bed.add(0, 0.1, {0.5, 0.5, 0.5});
-  bed.add(0, 0.1, {0.9, 2.0, 0.5});
-  bed.add(1, 0.1, {0.2, 1.0, 0.1});
-  bed.add(0, 0.1, {1.5, 3.0, 0.5});
-  bed.add(0, 0.1, {3.5, 1.0, 0.5});
-  bed.add(0, 0.1, {4.01, 4.0, 0.5});
-  EXPECT_NEAR(*bed_height_columns(bed.view(), {4, 1}, {4, 1}), 1.5, rounding);
-  // Cut along the depth too, the first has 0.5 to 2 m behind and one particle in front: four hold some.
-  EXPECT_NEAR(*bed_height_columns(bed.view(), {4, 1}, {4, 2}), 4.5 / 4, rounding);
 }
 
 }  // namespace

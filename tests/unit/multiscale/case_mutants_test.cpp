@@ -11,16 +11,15 @@
 #include "../core/case_mutator.hpp"
 #include "../core/shipped_cases.hpp"
 #include "core/case/file.hpp"
-#include "core/start_error.hpp"
+#include "core/error.hpp"
 #include "core/timers.hpp"
-#include "dem/continuum_scene.hpp"
 #include "dem/model.hpp"
-#include "multiscale/effects/choice.hpp"
+#include "dem/rules.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
 #include "tfm/model.hpp"
-#include "tfm/particle_scene.hpp"
+#include "tfm/rules.hpp"
 
 namespace polybed::multiscale {
 namespace {

@@ -1,4 +1,4 @@
-#include "multiscale/picture.hpp"
+#include "multiscale/python_module.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

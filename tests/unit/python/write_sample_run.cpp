@@ -8,7 +8,7 @@
 
 #include "core/output/files.hpp"
 #include "core/output/output.hpp"
-#include "measures/particle_profile.hpp"
+#include "scenes/snapshot_profile.hpp"
 
 namespace {
 

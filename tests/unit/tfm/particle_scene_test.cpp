@@ -1,5 +1,5 @@
 // The two-fluid model refuses what only the particle model can run, naming the key.
-#include "tfm/particle_scene.hpp"
+#include "tfm/rules.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

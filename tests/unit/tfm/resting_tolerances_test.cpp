@@ -1,5 +1,5 @@
 // Tolerances of velocities that follow how fast a bed moves.
-#include "tfm/resting_tolerances.hpp"
+#include "tfm/tolerances.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,24 +1,51 @@
-#include "multiscale/mpirun.hpp"
+#include "multiscale/program.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 #include "core/error.hpp"
 #include "core/numerics/mpi_start.hpp"
-#include "multiscale/become.hpp"
-#include "multiscale/installed.hpp"
 
 namespace polybed::multiscale {
 
-namespace {
-
 namespace fs = std::filesystem;
+
+fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
+
+fs::path beside_program(const fs::path& from_program, const fs::path& in_sources) {
+  if (this_program().parent_path() == POLYBED_BUILD) return in_sources;  // what is beside the build is not ours
+  std::error_code unknown;
+  const fs::path installed = (this_program().parent_path() / from_program).lexically_normal();
+  return fs::exists(installed, unknown) ? installed : in_sources;
+}
+
+std::vector<std::string> environment() {
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
+  return all;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> list;
+  for (std::string& text : texts) list.push_back(text.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+std::string become(std::vector<std::string> words, std::vector<std::string> variables) {
+  ::execve(words.front().c_str(), pointers_to(words).data(), pointers_to(variables).data());
+  return std::system_category().message(errno);
+}
+
+namespace {
 
 constexpr std::array<std::string_view, 5> settings{
     "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "OMPI_MCA_rmaps_base_oversubscribe=1",

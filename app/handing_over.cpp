@@ -1,0 +1,67 @@
+// Commands that hand over to another program, or serve one.
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "multiscale/calibrate/moved_table.hpp"
+#include "multiscale/program.hpp"
+#include "multiscale/python_module.hpp"
+
+namespace polybed::app {
+
+namespace {
+
+/// One that becomes a module of the Python package.
+void add_study(CLI::App& app, Commands& commands, const std::string& name, const std::string& help,
+               const std::string& module, On on) {
+  CLI::App& command = add_handed_over(app, name, help);
+  commands.push_back({&command, [&command, module]() -> core::ExitCode { become_python(module, command.remaining()); },
+                      [on] { return on; }});
+}
+
+[[noreturn]] void become_stability(std::vector<std::string> words) {
+  const std::string program = (this_program().parent_path() / "polybed-hard").string();
+  words.insert(words.begin(), program);
+  throw core::FileError(
+      fmt::format("{}: cannot be started ({}); in a build tree: cmake --build build --target polybed-hard", program,
+                  become(words)));
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Commands& commands) {
+  add_study(app, commands, "compare", "run the case by both models, or take runs of it: how far they agree",
+            "polybed.study.compare", On::study);
+}
+
+void add_cost(CLI::App& app, Commands& commands) {
+  add_study(app, commands, "cost", "error against time for a case, and the settings that follow", "polybed.cost",
+            On::one_process);
+}
+
+void add_fit(CLI::App& app, Commands& commands) {
+  add_study(app, commands, "fit", "fit a drag law to rows of resolved flow, and write a law file", "polybed.fit",
+            On::one_process);
+}
+
+/// For the package's own use.
+void add_move_table(CLI::App& app, Commands& commands) {
+  struct Options {
+    std::filesystem::path table, moved;
+    double sigma = 0;  ///< standard errors
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("move-table", "a table of the solids stress, moved by standard errors");
+  command.group("");
+  command.add_option("TABLE", options->table)->required();
+  command.add_option("--sigma", options->sigma)->required();
+  command.add_option("MOVED", options->moved)->required();
+  commands.push_back(
+      {&command, doing([options] { write_moved_table(options->table, options->sigma, options->moved); })});
+}
+
+void add_stability(CLI::App& app, Commands& commands) {
+  CLI::App& command = add_handed_over(app, "stability", "hard cases against every scheme: what held, cell by cell");
+  commands.push_back({&command, doing([&command] { become_stability(command.remaining()); })});
+}
+
+}  // namespace polybed::app
