@@ -2,39 +2,12 @@
 """Checkpoints that are whole, by their checksum, but not what a run has left. Usage: broken_checkpoint_test.py PROGRAM"""
 import re
 import shutil
-import struct
 
 import h5py
 import numpy as np
 
 import program
 from program import DONE, FILE, NUMBERS, WRONG_CASE, Scratch, datasets, run_all, small_bed
-
-MARK = b"polybed complete"
-SEAL = len(MARK) + 16
-TABLE = []
-for byte in range(256):
-    for _ in range(8):
-        byte = byte >> 1 ^ (0xC96C5795D7870F42 if byte & 1 else 0)
-    TABLE.append(byte)
-
-
-def crc64(content):
-    crc = 2**64 - 1
-    for byte in content:
-        crc = TABLE[(crc ^ byte) & 0xFF] ^ crc >> 8
-    return ~crc & 2**64 - 1
-
-
-def reseal(path):
-    """Puts the seal of its content behind an HDF5 file."""
-    content = path.read_bytes()
-    path.write_bytes(content + MARK + struct.pack("<QQ", len(content), crc64(content)))
-
-
-def unsealed(path, copy):
-    copy.write_bytes(path.read_bytes()[:-SEAL])
-    return copy
 
 
 def shorter(data):
@@ -62,7 +35,9 @@ class Broken(Scratch):
     def broken(self, checkpoint, name, how, path):
         """True if the change can be made: a copy of the checkpoint with one dataset changed."""
         change = CHANGES[how]
-        with h5py.File(unsealed(checkpoint, path), "r+") as file:
+        shutil.copy(checkpoint, path)
+        program.unseal(path)
+        with h5py.File(path, "r+") as file:
             data = file[name][()]
             if isinstance(data, bytes):
                 new = {"removed": None, "empty": "", "longer": data.decode() + " x nan"}.get(how, False)
@@ -75,7 +50,7 @@ class Broken(Scratch):
             del file[name]
             if new is not None:
                 file[name] = new
-        reseal(path)
+        program.seal(path)
         return True
 
     def all_broken(self, model, *settings):

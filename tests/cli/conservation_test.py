@@ -6,14 +6,6 @@ import h5py
 import program
 from program import CASE, DONE, NUMBERS, SMALL, Scratch, history, strict_json
 
-POLYNOMIAL = 0xC96C5795D7870F42
-TABLE = []
-for value in range(256):
-    for _ in range(8):
-        value = (value >> 1) ^ (POLYNOMIAL if value & 1 else 0)
-    TABLE.append(value)
-MARK = b"polybed complete"
-
 # 100 spheres fall; a step takes some 20 microseconds.
 FALL = """[column]
 size = ["8 mm", "30 mm"]
@@ -84,14 +76,10 @@ checkpoint_every = "20 ms"
 
 def change(path, work):
     """Works on a checkpoint and seals it again, so that it counts as whole."""
-    content = path.read_bytes()[:-len(MARK) - 16]
-    path.write_bytes(content)
+    program.unseal(path)
     with h5py.File(path, "r+") as file:
         work(file)
-    content, crc = path.read_bytes(), (1 << 64) - 1
-    for byte in content:
-        crc = TABLE[(crc ^ byte) & 0xFF] ^ (crc >> 8)
-    path.write_bytes(content + MARK + len(content).to_bytes(8, "little") + (crc ^ ((1 << 64) - 1)).to_bytes(8, "little"))
+    program.seal(path)
 
 
 class Broken(Scratch):

@@ -142,8 +142,8 @@ class Cost(Scratch):
             self.assertEqual((small.returncode, sweep["outcome"]), (NUMBERS, "refused"))
 
     def test_what_cannot_be_known_is_refused(self):
-        told = self.ends(NUMBERS, "cost", self.case, *SWEEP, "--reference", "exact", "-o", self.folder / "exact", "--json",
-                         timeout=500).stdout
+        told = self.ends(NUMBERS, "cost", self.case, "--axes", "rtol", *SWEEP[2:], "--reference", "exact", "-o", self.folder / "exact",
+                         "--json", timeout=500).stdout
         sweep = strict_json(told)
         self.assertEqual((sweep["outcome"], sweep["recommend"]), ("refused", []))
         self.assertIn("no exact value", sweep["reason"])

@@ -148,9 +148,10 @@ class Files(Dem):
 
     def test_its_pictures_show_what_it_has(self):
         """Without the ledger there are energies still, and without a fluid there is no pressure drop."""
-        self.dem(DONE, "run", "--set", "dem.ledger=false", "--until", "5 ms")
+        self.ends(DONE, "dem", self.case, "--quiet", "-o", self.folder / "run", "--set", "dem.ledger=false", "--until", "5 ms", picture=True)
+        self.assertTrue((self.folder / "run/picture.png").exists())
         done = self.ends(DONE, "plot", self.folder / "run", "--what", "overview,particles,profiles,history", "--format", "svg",
-                         "--out", self.folder / "drawn", picture=True)
+                         "--out", self.folder / "drawn")
         self.assertEqual(len(done.stdout.split()), 4)
         text = (self.folder / "drawn/history.svg").read_text()  # matplotlib writes each text as a comment beside its glyphs
         self.assertIn("energy (J)", text)

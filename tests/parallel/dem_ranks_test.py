@@ -259,7 +259,7 @@ class DemRanks(Scratch):
         """`polybed dem` on a number of ranks, begun."""
         settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
         settings |= {"OMPI_MCA_orte_tmpdir_base": tempfile.mkdtemp(dir=self.folder), "PYTHONHOME": "/nowhere"}
-        return subprocess.Popen(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "dem", *map(str, words), "--quiet"],
+        return subprocess.Popen(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "dem", *map(str, words), "--quiet", "--no-picture"],
                                 env=settings, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 
     def on(self, ranks, *words, code=0):
