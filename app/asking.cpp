@@ -108,13 +108,14 @@ void add_measure(CLI::App& app, Commands& commands) {
   CLI::Option* list = what.add_flag("--list", options->list, "instead: every measure with its unit and definition");
   what.require_option(1);
   command.add_flag("--markdown", options->markdown, "of the list: the page of the documentation")->needs(list);
-  command.add_flag("--json", options->json, "one JSON object");
+  CLI::Option* json = command.add_flag("--json", options->json, "one JSON object");
+  command.add_flag("--csv", options->csv, "comma-separated, in SI units")->excludes(json);
   commands.push_back({&command, doing([options] { run_measure(*options); })});
 }
 
 void add_keys(CLI::App& app, Commands& commands) {
   struct Options {
-    bool json = false, markdown = false;
+    bool json = false, markdown = false, details = false;
     std::string key;
   };
   const auto schema = std::make_shared<Options>(), explain = std::make_shared<Options>(),
@@ -131,8 +132,10 @@ void add_keys(CLI::App& app, Commands& commands) {
   CLI::App& laws = *app.add_subcommand("list", "the effects and their laws, or the cases to start from");
   laws.add_option("WHAT", list->key, "cases: templates and shipped cases, instead")->check(CLI::IsMember({"cases"}));
   laws.add_flag("--json", list->json, "as JSON");
-  commands.push_back(
-      {&laws, doing([list] { list->key == "cases" ? run_list_cases(list->json) : run_list(list->json); })});
+  laws.add_flag("--details", list->details, "of laws: equations and references");
+  commands.push_back({&laws, doing([list] {
+                        list->key == "cases" ? run_list_cases(list->json) : run_list(list->json, list->details);
+                      })});
 }
 
 }  // namespace polybed::app

@@ -61,7 +61,7 @@ struct MeasureOptions {
   std::filesystem::path run;  ///< a run directory
   std::string profiles;       ///< a JSON file of profiles; "-": standard input
   bool list = false;          ///< the measures themselves
-  bool markdown = false, json = false;
+  bool markdown = false, json = false, csv = false;
 };
 
 struct DragOptions {
@@ -111,7 +111,7 @@ void run_move_table(const MoveOptions& options);
 [[noreturn]] void run_inversion_scan(const InversionOptions& options);
 void run_schema(bool json, bool markdown);
 void run_explain(const std::string& word, bool json);
-void run_list(bool json);
+void run_list(bool json, bool details);
 /// Templates and shipped cases with what each shows and how long it takes.
 void run_list_cases(bool json);
 /// Writes NAME/case.toml, with the files that it reads.

@@ -41,6 +41,20 @@ class Templates(Scratch):
             self.assertIn(case["title"], text)
             self.assertIn(case["takes"], text)
 
+    def test_laws_are_in_plain_words(self):
+        text, details = (self.ends(DONE, "list", *words).stdout for words in ([], ["--details"]))
+        self.assertLessEqual(max(map(len, text.splitlines())), 100)
+        self.assertEqual(text.count("differs from the pressure drop"), 1)
+        text, details = (re.sub(r"\s+", " ", each) for each in (text, details))  # long ones go on in the next line
+        for roles in strict_json(self.ends(DONE, "list", "--json").stdout)["roles"]:
+            for law in roles["laws"]:
+                self.assertIn(f"{law['law']}{'*' if law['note'] else ''} {law['help']}", text)
+                self.assertIn(law["source"], details)
+        for symbol in ("slot ", "Cello 2009", "eq.", "Omega"):
+            self.assertNotIn(symbol, text)
+            self.assertIn(symbol, details)
+        self.assertIn("Cello 2009, eq. 3.24", self.ends(DONE, "explain", "ergun").stdout)
+
     def test_refusals(self):
         self.assertIn("did you mean 'hopper'", self.ends(WRONG_CASE, "new", self.folder / "a", "--from", "hoper").stderr)
         self.ends(DONE, "new", self.folder / "a", "--from", "hopper")
