@@ -261,6 +261,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
     const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text}, {"hash", core::case_hash(scene)}};
     write_particle_requirements(json, scene, need);
+    if (const auto discharge = bed_of_case(scene).discharge) json["expected_discharge_kg_s"] = discharge->rate;
     write_size_classes(json, scene);
     json["notes"] = notes;
     return core::print("{}\n", core::json_text(json));

@@ -66,8 +66,11 @@ Meaning meaning_of(const core::Role& role) {
 
 Meaning meaning_of(const core::Role& role, const core::Law& law) {
   std::string text = title_of(law.name, "law of effects." + role.name);
-  text += fmt::format("  {}\n  in the case: [effects] {} = \"{}\"\n", law.help, role.name, law.name);
-  return {text, {{"law", law.name}, {"role", role.name}, {"help", law.help}}};
+  text += fmt::format("  {}\n", law.help);
+  if (!law.note.empty()) text += fmt::format("  {}\n", law.note);
+  if (!law.source.empty()) text += fmt::format("  source: {}\n", law.source);
+  text += fmt::format("  in the case: [effects] {} = \"{}\"\n", role.name, law.name);
+  return {text, {{"law", law.name}, {"role", role.name}, {"help", law.help}, {"source", law.source}}};
 }
 
 Meaning meaning_of(const Term& term) {

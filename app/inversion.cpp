@@ -125,15 +125,35 @@ void print_methods_json(const std::vector<MethodRow>& rows) {
   core::print("{}\n", core::json_text({{"methods", methods}}));
 }
 
-void print_methods(const std::vector<MethodRow>& rows) {
-  core::print("{:16} {:20} {:16} {:>8} {:>8}\n", "method", "law", "partition", "mm/s", "voidage");
-  for (const MethodRow& row : rows) {
-    if (row.points.empty())
-      core::print("{:16} {:20} {:16} {:>8} {:>8}\n", row.method, row.law, row.partition, "-", "-");
-    for (const InversionPoint& p : row.points)
-      core::print("{:16} {:20} {:16} {:8.2f} {:8.4f}\n", row.method, row.law, row.partition, 1e3 * p.velocity,
-                  p.voidage);
+/// How a law shares the drag among the species, for people.
+std::string sharing_of(const MethodRow& row) {
+  if (!row.partition.empty()) return row.partition;
+  for (const closures::DragLawInfo& law : closures::drag_laws())
+    if (law.name == row.law) return law.is_mean && !law.obeys_sum_rule ? "(one size)" : "(mixtures)";
+  return "";
+}
+
+/// Within each method by rising velocity of the last point; without a point last. A star is at the law of the case.
+void print_methods(std::vector<MethodRow> rows, const core::Scene& scene) {
+  const auto velocity = [](const MethodRow& row) { return row.points.empty() ? 1e300 : row.points.back().velocity; };
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto last =
+        std::find_if(first, rows.end(), [&](const MethodRow& row) { return row.method != first->method; });
+    std::stable_sort(first, last, [&](const auto& a, const auto& b) { return velocity(a) < velocity(b); });
+    first = last;
   }
+  const std::string drag = core::law_of(scene, "drag");
+  const std::string partition = scene.effects.contains("partition") ? core::law_of(scene, "partition") : "";
+  core::print("  {:16} {:20} {:16} {:>8} {:>8}\n", "method", "law", "partition", "mm/s", "voidage");
+  for (const MethodRow& row : rows) {
+    const char* mark = row.law == drag && row.partition == partition ? "*" : " ";
+    const std::string front = fmt::format("{} {:16} {:20} {:16}", mark, row.method, row.law, sharing_of(row));
+    if (row.points.empty()) core::print("{} {:>8} {:>8}\n", front, "-", "-");
+    for (const InversionPoint& p : row.points) core::print("{} {:8.2f} {:8.4f}\n", front, 1e3 * p.velocity, p.voidage);
+  }
+  core::print(
+      "by method, then by velocity; -: no inversion point; *: the law of the case\n"
+      "(mixtures): a law made for several sizes; (one size): applied to each species as if it were alone\n");
 }
 
 /// By how much the drag of all species together departs from the mean law at a root.
@@ -186,7 +206,7 @@ void run_without_a_run(const InversionOptions& options) {
   const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
   if (options.method == "all") {
     const std::vector<MethodRow> rows = all_methods(binary_bed(scene));
-    return options.json ? print_methods_json(rows) : print_methods(rows);
+    return options.json ? print_methods_json(rows) : print_methods(rows, scene);
   }
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <span>
+#include <sstream>
 
 #include "app/commands.hpp"
 #include "app/explain.hpp"
@@ -25,7 +26,8 @@ using core::Key;
 
 core::Json json_of(const core::Role& role) {
   core::Json laws = core::Json::array();
-  for (const core::Law& law : role.laws) laws.push_back({{"law", law.name}, {"help", law.help}});
+  for (const core::Law& law : role.laws)
+    laws.push_back({{"law", law.name}, {"help", law.help}, {"source", law.source}, {"note", law.note}});
   return {{"role", role.name}, {"models", role.models}, {"slot", role.slot}, {"help", role.help}, {"laws", laws}};
 }
 
@@ -97,7 +99,19 @@ void print_markdown() {
   }
 }
 
-}  // namespace
+/// A text behind another one, on lines of at most 100 columns; those that follow are indented.
+void print_beside(std::string line, std::size_t indent, const std::string& text) {
+  constexpr std::size_t width = 100;
+  std::stringstream words(text);
+  for (std::string word; words >> word;) {
+    if (line.size() + 1 + word.size() > width) {
+      core::print("{}\n", line);
+      line = std::string(indent - 1, ' ');
+    }
+    line += " " + word;
+  }
+  core::print("{}\n", line);
+}
 
 void run_schema(bool json, bool markdown) {
   if (markdown) return print_markdown();
@@ -115,18 +129,38 @@ void run_schema(bool json, bool markdown) {
   core::print("\nunits: {}; also µm, °C, °F\n", fmt::join(core::unit_names(), " "));
 }
 
-void run_list(bool json) {
+void run_list(bool json, bool details) {
   const std::vector<core::Role> roles = all_roles();
   if (json) return print_list_json(roles);
+  std::vector<std::string> notes;  // each is printed once, below, and marked by as many stars as its place
+  const auto mark_of = [&notes](const std::string& note) -> std::string {
+    if (note.empty()) return "";
+    const auto at = std::find(notes.begin(), notes.end(), note);
+    const std::size_t stars = std::size_t(at - notes.begin()) + 1;
+    if (at == notes.end()) notes.push_back(note);
+    return std::string(stars, '*');
+  };
   for (const core::Role& role : roles) {
-    core::print("{} ({}; slot {}): {}\n", role.name, role.models, role.slot, role.help);
-    for (const core::Law& law : role.laws) core::print("  {:20} {}\n", law.name, law.help);
+    const std::string slot = details ? "; slot " + role.slot : "";
+    print_beside(fmt::format("{} ({}{}):", role.name, role.models, slot), 2, role.help);
+    for (const core::Law& law : role.laws) {
+      print_beside(fmt::format("  {:20}", law.name + mark_of(law.note)), 23, law.help);
+      if (details && !law.source.empty()) print_beside(std::string(24, ' '), 25, law.source);
+    }
   }
+  core::print("\n");
+  for (const std::string& note : notes) core::print("{} {}\n", mark_of(note), note);
+  core::print(
+      "tfm: two-fluid model, dem: particles; Re: Reynolds number of diameter and superficial slip velocity\n"
+      "in a case: [effects], then e.g. drag = \"cello\"; more: polybed explain NAME{}\n",
+      details ? "" : ", --details (references)");
 }
+
+}  // namespace
 
 void add_keys(CLI::App& app, Commands& commands) {
   struct Options {
-    bool json = false, markdown = false;
+    bool json = false, markdown = false, details = false;
     std::string key;
   };
   const auto schema = std::make_shared<Options>(), explain = std::make_shared<Options>(),
@@ -143,8 +177,10 @@ void add_keys(CLI::App& app, Commands& commands) {
   CLI::App& laws = *app.add_subcommand("list", "the effects and their laws, or the cases to start from");
   laws.add_option("WHAT", list->key, "cases: templates and shipped cases, instead")->check(CLI::IsMember({"cases"}));
   laws.add_flag("--json", list->json, "as JSON");
-  commands.push_back(
-      {&laws, doing([list] { list->key == "cases" ? run_list_cases(list->json) : run_list(list->json); })});
+  laws.add_flag("--details", list->details, "of laws: equations and references");
+  commands.push_back({&laws, doing([list] {
+                        list->key == "cases" ? run_list_cases(list->json) : run_list(list->json, list->details);
+                      })});
 }
 
 }  // namespace polybed::app

@@ -62,14 +62,14 @@ struct DragLaw {
 [[nodiscard]] DragLaw shared_by(const DragLaw& law, std::string_view name, std::string_view partition, Guard guard);
 
 struct DragLawInfo {
-  std::string name, help;
+  std::string name, help, source;
   bool obeys_sum_rule;
   bool is_mean;  ///< a law of one size, which a partition can share
 };
 [[nodiscard]] std::vector<DragLawInfo> drag_laws();
 [[nodiscard]] std::vector<std::string> drag_law_names();
 
-/// Help is how it shares; obeys_sum_rule: over any mean law.
+/// Help and source are of how it shares; obeys_sum_rule: over any mean law.
 [[nodiscard]] std::vector<DragLawInfo> partitions();
 
 /// The base law at points: f and Re df/dRe of one size. All spans of one length; counted into `count`.

@@ -9,7 +9,8 @@ namespace polybed::closures {
 
 struct DragBatchelor {
   static constexpr std::string_view name = "batchelor";
-  static constexpr std::string_view help = "dilute, creeping flow; T(3.22), solids fraction < 0.05";
+  static constexpr std::string_view help = "dilute suspension, creeping flow; solids fraction < 0.05";
+  static constexpr std::string_view source = "Cello 2009, eq. 3.22";
   Guard guard = Guard::on;
   /// f = eps/(1 - 6.55 phi), singular at eps 0.8473; guarded beyond phi = 0.05 by its tangent there.
   DragValue operator()(double eps, double) const {

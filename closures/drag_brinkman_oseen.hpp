@@ -43,7 +43,9 @@ struct BrinkmanOseenConstants {
 struct PublishedBrinkmanOseen {
   static constexpr std::string_view name = "brinkman_oseen";
   static constexpr std::string_view help =
-      "spheres in a Brinkman medium with Oseen's inertia, fitted to lattice-Boltzmann data; voidage 0.35-1, Re <= 1050";
+      "fixed spheres of any sizes, fitted to resolved flow; voidage 0.35-1, Re <= 1050";
+  static constexpr std::string_view source =
+      "docs/theory/closures.md: spheres in a Brinkman medium with Oseen's inertia, on lattice-Boltzmann data";
   static constexpr BrinkmanOseenConstants constants{};
 };
 
@@ -51,6 +53,7 @@ struct PublishedBrinkmanOseen {
 struct FittedBrinkmanOseen {
   static constexpr std::string_view name = "fitted brinkman_oseen";
   static constexpr std::string_view help = "the form of brinkman_oseen with constants of a file";
+  static constexpr std::string_view source = "";
   static constexpr bool is_fitted = true;
   BrinkmanOseenConstants constants = {};
 };
@@ -130,8 +133,10 @@ using DragFittedBrinkmanOseen = BrinkmanOseenForm<FittedBrinkmanOseen>;
 /// The law of a mixture. It is not a base law times a factor: a medium for each cell, then f_j of each species in it.
 template <class Mean>
 struct BrinkmanOseenShares {
-  static constexpr std::string_view name = Mean::name, help = Mean::help;
-  static constexpr std::string_view shares = "each size in a Brinkman medium; the mean rises with sum x_j/y_j^2";
+  static constexpr std::string_view name = Mean::name, help = Mean::help, source = Mean::source;
+  static constexpr std::string_view shares = "each size as a sphere in a porous medium; any sizes";
+  static constexpr std::string_view shares_source =
+      "docs/theory/closures.md: a Brinkman medium; the mean rises with sum x_j/y_j^2";
   static constexpr bool obeys_sum_rule = true;  ///< its mean is sum x_k f_k/y_k^2, which rises with m2
   static constexpr bool mean_is_base = false;
   using Base = Mean;

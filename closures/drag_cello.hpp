@@ -35,14 +35,15 @@ struct CelloConstants {
 /// The constants of the thesis, known to the compiler.
 struct PublishedCello {
   static constexpr std::string_view name = "cello";
-  static constexpr std::string_view help =
-      "the thesis's law on lattice-Boltzmann data; T(4.1)-(4.2), voidage 0.35-1, Re <= 1050";
+  static constexpr std::string_view help = "mixtures, fitted to resolved flow; voidage 0.35-1, Re <= 1050";
+  static constexpr std::string_view source = "Cello 2009, eqs. 4.1-4.2, on lattice-Boltzmann data";
   static constexpr CelloConstants constants{};
 };
 
 /// Constants of a file: see closures/drag_form.hpp.
 struct FittedCello {
   static constexpr std::string_view name = "fitted cello", help = "the form of cello with constants of a file";
+  static constexpr std::string_view source = "";
   static constexpr bool is_fitted = true;
   CelloConstants constants = {};
 };

@@ -10,7 +10,8 @@ namespace polybed::closures {
 
 struct DragDallavalle {
   static constexpr std::string_view name = "dallavalle";
-  static constexpr std::string_view help = "single sphere; Dallavalle 1948";
+  static constexpr std::string_view help = "one sphere";
+  static constexpr std::string_view source = "Dallavalle 1948";
   Guard guard = Guard::on;
   /// f = (0.63 sqrt(Re) + 4.8)^2 / 24: finite at Re = 0, where it is 0.96.
   DragValue operator()(double, double re) const {

@@ -12,7 +12,8 @@ namespace polybed::closures {
 
 struct DragGidaspow {
   static constexpr std::string_view name = "gidaspow";
-  static constexpr std::string_view help = "Ergun joined to Wen-Yu; Huilin and Gidaspow 2003";
+  static constexpr std::string_view help = "ergun where the bed is dense, joined to wen_yu where it is open";
+  static constexpr std::string_view source = "Huilin and Gidaspow 2003";
   Guard guard = Guard::on;
   /// f = (1-psi) f_Ergun + psi f_WenYu, psi = 1/2 + arctan[262.5 (0.2 - phi)]/pi. Bare: the sharp switch at 0.8.
   DragValue operator()(double eps, double re) const {

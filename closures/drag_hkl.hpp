@@ -11,8 +11,8 @@ namespace polybed::closures {
 
 struct DragHkl {
   static constexpr std::string_view name = "hkl";
-  static constexpr std::string_view help =
-      "lattice-Boltzmann, Hill, Koch and Ladd 2001; T(3.31), voidage > 0.36, Re < 150";
+  static constexpr std::string_view help = "fitted to resolved flow; voidage > 0.36, Re < 150";
+  static constexpr std::string_view source = "Hill, Koch and Ladd 2001, lattice-Boltzmann; Cello 2009, eq. 3.31";
   Guard guard = Guard::on;
   /// f = f_0 + f_3 Re/2. The cubic's sign is -8.48 (printed +8.48). f_0 jumps by 1 % at phi 0.4; the guard
   /// blends its branches over 0.38-0.40.

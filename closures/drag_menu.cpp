@@ -51,8 +51,8 @@ template <class Law>
 constexpr bool is_mean = Law::name == Law::Base::name;
 
 template <class Law>
-DragLawInfo info_of(std::string_view help) {
-  return {std::string(Law::name), std::string(help), Law::obeys_sum_rule, is_mean<Law>};
+DragLawInfo info_of(std::string_view help, std::string_view source) {
+  return {std::string(Law::name), std::string(help), std::string(source), Law::obeys_sum_rule, is_mean<Law>};
 }
 
 /// Name of the law of one size that a law of mixtures stands on.
@@ -97,7 +97,7 @@ std::vector<DragLawInfo> drag_laws() {
   std::vector<DragLawInfo> list;
   for_each_of<MixtureLaw>([&](auto type) {
     using Law = typename decltype(type)::type;
-    list.push_back(info_of<Law>(Law::help));
+    list.push_back(info_of<Law>(Law::help, Law::source));
   });
   return list;
 }
@@ -112,7 +112,7 @@ std::vector<DragLawInfo> partitions() {
   std::vector<DragLawInfo> list;
   for_each_of<Partition>([&](auto type) {
     using Law = typename decltype(type)::type;
-    list.push_back(info_of<Law>(Law::shares));
+    list.push_back(info_of<Law>(Law::shares, Law::shares_source));
   });
   return list;
 }

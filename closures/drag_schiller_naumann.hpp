@@ -10,7 +10,8 @@ namespace polybed::closures {
 
 struct DragSchillerNaumann {
   static constexpr std::string_view name = "schiller_naumann";
-  static constexpr std::string_view help = "single sphere; Schiller and Naumann 1933, Re < 1000";
+  static constexpr std::string_view help = "one sphere, Re < 1000";
+  static constexpr std::string_view source = "Schiller and Naumann 1933";
   Guard guard = Guard::on;
   /// f = 1 + 0.15 Re^0.687; guarded by max(f, 0.44 Re/24), which takes over, continuously, at Re 989.
   DragValue operator()(double, double re) const {

@@ -10,7 +10,8 @@ namespace polybed::closures {
 
 struct DragWenYu {
   static constexpr std::string_view name = "wen_yu";
-  static constexpr std::string_view help = "expanded beds; T(3.29), voidage > 0.8";
+  static constexpr std::string_view help = "expanded bed, voidage > 0.8";
+  static constexpr std::string_view source = "Cello 2009, eq. 3.29";
   Guard guard = Guard::on;
   /// f = f_SchillerNaumann(Re) eps^-3.65.
   DragValue operator()(double eps, double re) const {

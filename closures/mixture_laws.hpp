@@ -32,9 +32,10 @@ template <class Law>
 /// Omega_j = y_j [1 + h(eps)(y_j - 1)/y_m], T(4.18)-(4.21), (4.28), of a mean law.
 template <class Mean>
 struct CelloShares {
-  static constexpr std::string_view name = "cello", help = DragCello::help;
-  static constexpr std::string_view shares =
-      "Omega_j = y_j [1 + h (y_j - 1)/y_m], h by voidage; T(4.18)-(4.21), (4.28)";
+  static constexpr std::string_view name = "cello", help = DragCello::help, source = DragCello::source;
+  static constexpr std::string_view shares = "by diameter and voidage, fitted to resolved flow";
+  static constexpr std::string_view shares_source =
+      "Omega_j = y_j [1 + h (y_j - 1)/y_m], h by voidage; Cello 2009, eqs. 4.18-4.21, 4.28";
   static constexpr bool obeys_sum_rule = true;
   static constexpr bool mean_is_base = true;
   using Base = Mean;
@@ -63,8 +64,10 @@ using MixtureFittedCello = CelloShares<DragFittedCello>;
 /// Omega_j = y_j, T(3.53).
 template <class Mean>
 struct VbkTheoryShares {
-  static constexpr std::string_view name = "vbk_theory", help = "vbk with Omega_j = y_j; T(3.53)";
-  static constexpr std::string_view shares = "Omega_j = y_j; T(3.53)";
+  static constexpr std::string_view name = "vbk_theory", help = "vbk for mixtures, shared by diameter alone";
+  static constexpr std::string_view source = "vbk with Omega_j = y_j; Cello 2009, eq. 3.53";
+  static constexpr std::string_view shares = "by diameter alone";
+  static constexpr std::string_view shares_source = "Omega_j = y_j; Cello 2009, eq. 3.53";
   static constexpr bool obeys_sum_rule = true;
   static constexpr bool mean_is_base = true;
   using Base = Mean;
@@ -80,8 +83,11 @@ using MixtureVbkTheory = VbkTheoryShares<DragVbk>;
 /// Omega_j = y_j + 0.064 y_j^3, T(3.54); voidage 0.35-0.90, y 0.44-2.52.
 template <class Mean>
 struct VbkCorrectedShares {
-  static constexpr std::string_view name = "vbk_corrected", help = "vbk with Omega_j = y_j + 0.064 y_j^3; T(3.54)";
-  static constexpr std::string_view shares = "Omega_j = y_j + 0.064 y_j^3; T(3.54), voidage 0.35-0.90, y 0.44-2.52";
+  static constexpr std::string_view name = "vbk_corrected", help = "vbk for mixtures, more drag on large particles";
+  static constexpr std::string_view source = "vbk with Omega_j = y_j + 0.064 y_j^3; Cello 2009, eq. 3.54";
+  static constexpr std::string_view shares =
+      "by diameter, more for large particles; voidage 0.35-0.90, diameter over mean 0.44-2.52";
+  static constexpr std::string_view shares_source = "Omega_j = y_j + 0.064 y_j^3; Cello 2009, eq. 3.54";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
   using Base = Mean;
@@ -98,10 +104,11 @@ using MixtureVbkCorrected = VbkCorrectedShares<DragVbk>;
 /// f_j = 1/eps + (f_mean - 1/eps)[a y_j + (1-a) y_j^2], T(3.55)-(3.56), Yin and Sundaresan 2009; a at phi <= 0.4.
 struct MixtureYinSundaresan {
   static constexpr std::string_view name = "yin_sundaresan",
-                                    help =
-                                        "Yin and Sundaresan 2009 on cello; T(3.55)-(3.56), Re -> 0, voidage 0.60-0.90";
-  static constexpr std::string_view shares =
-      "1/eps + (f_cello - 1/eps)[a y_j + (1-a) y_j^2] over f_cello; T(3.55)-(3.56), Re -> 0, voidage 0.60-0.90";
+                                    help = "mixtures in creeping flow, on cello; voidage 0.60-0.90";
+  static constexpr std::string_view source = "Yin and Sundaresan 2009; Cello 2009, eqs. 3.55-3.56";
+  static constexpr std::string_view shares = "by diameter and voidage, creeping flow; voidage 0.60-0.90";
+  static constexpr std::string_view shares_source =
+      "1/eps + (f_cello - 1/eps)[a y_j + (1-a) y_j^2] over f_cello; Cello 2009, eqs. 3.55-3.56";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
   using Base = DragCello;
@@ -120,8 +127,8 @@ struct MixtureYinSundaresan {
 /// f_j = cello(eps_j, Re_j), eps_j = 1 - (1 + delta/D_j)^-3, delta = [(1-eps)^(-1/3) - 1] sum x_k D_k, T(3.34)-(3.36),
 /// Patwardhan and Tien 1985.
 struct MixturePatwardhanTien {
-  static constexpr std::string_view name = "patwardhan_tien",
-                                    help = "a voidage for each species, Patwardhan and Tien 1985; T(3.34)-(3.36)";
+  static constexpr std::string_view name = "patwardhan_tien", help = "mixtures, with a voidage for each species";
+  static constexpr std::string_view source = "Patwardhan and Tien 1985; Cello 2009, eqs. 3.34-3.36";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = false;
   using Base = DragCello;
@@ -147,8 +154,8 @@ struct MixturePatwardhanTien {
 
 /// f_j = x_j f_gidaspow(eps, Re), T(3.37), Syamlal 1985; for comparison only: it breaks the sum rule.
 struct MixtureSyamlal {
-  static constexpr std::string_view name = "syamlal",
-                                    help = "x_j times gidaspow, Syamlal 1985; T(3.37), for comparison";
+  static constexpr std::string_view name = "syamlal", help = "gidaspow times the share of the species; for comparison";
+  static constexpr std::string_view source = "Syamlal 1985; Cello 2009, eq. 3.37";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
   using Base = DragGidaspow;
@@ -162,7 +169,7 @@ struct MixtureSyamlal {
 /// A law of one size named for a mixture: it acts on each species with its own Re_j, as in T(5.13).
 template <class Law>
 struct EachSpecies {
-  static constexpr std::string_view name = Law::name, help = Law::help;
+  static constexpr std::string_view name = Law::name, help = Law::help, source = Law::source;
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = false;
   using Base = Law;

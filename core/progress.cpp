@@ -67,12 +67,13 @@ void Progress::show(const ProgressLine& line) {
   while (next_ <= line.time) next_ += (until_ - from_) / lines_in_pipe;
   const double done = line.time - from_, share = std::clamp(done / (until_ - from_), 0.0, 1.0);
   const double rate = done > 0 ? since(begin_) / done : 0;
-  constexpr double enough_to_tell = 1e-3;  // share of the run below which its speed says nothing yet
+  constexpr double enough_to_tell = 1e-3;  // share of the run below which its speed and step say nothing yet
   const std::string speed =
       share < enough_to_tell ? "" : fmt::format(", {} left", duration_text(rate * (until_ - line.time)));
   const std::string bed = line.bed_height ? fmt::format("  bed {:.1f} mm", 1e3 * *line.bed_height) : "";
-  const std::string text = fmt::format("t {:.3f}/{:g} s{}{}  dt {:.2g} s ({})  {}", line.time, line.until, speed, bed,
-                                       line.step, line.limited_by, line.worst_invariant);
+  const std::string step = share < enough_to_tell ? "" : fmt::format("  dt {:.2g} s ({})", line.step, line.limited_by);
+  const std::string text =
+      fmt::format("t {:.3f}/{:g} s{}{}{}  {}", line.time, line.until, speed, bed, step, line.worst_invariant);
   if (!terminal_) {
     print(stderr, "{}\n", text);
     return;

@@ -70,9 +70,11 @@ Regime shear_regime(const core::Scene& scene) {
       regime.numbers.begin(), regime.numbers.end(),
       [](const auto& a, const auto& b) { return a.shear_times_relaxation < b.shear_times_relaxation; });
   regime.kind = most.shear_times_relaxation >= 1 ? core::BoxRegime::dry : core::BoxRegime::wet;
-  regime.reason =
-      fmt::format("gamma tau_p = {:.2g} of {}, {}; St* = {:.2g} to {:.2g}", most.shear_times_relaxation, most.species,
-                  regime.kind == core::BoxRegime::dry ? "1 or more" : "below 1", most.stokes_least, most.stokes_most);
+  regime.reason = fmt::format(
+      "shear rate x relaxation time (gamma tau_p) = {:.2g} of {}, {}; Stokes number of impacts (St*) = {:.2g} to "
+      "{:.2g}",
+      most.shear_times_relaxation, most.species, regime.kind == core::BoxRegime::dry ? "1 or more" : "below 1",
+      most.stokes_least, most.stokes_most);
   return regime;
 }
 

@@ -8,8 +8,10 @@
 namespace polybed::core {
 
 struct Law {
-  std::string name;  ///< as in the case file
-  std::string help;  ///< one line: what it is, with its source
+  std::string name;         ///< as in the case file
+  std::string help;         ///< what it is and where it holds, in plain words; at most 78 columns
+  std::string source = {};  ///< equation and reference, for `polybed explain`
+  std::string note = {};    ///< what several laws of a role share; `polybed list` prints it once
 };
 
 struct Role {

@@ -155,14 +155,14 @@ void write_fresh(const fs::path& fresh, Checkpoint& checkpoint, const Ranks* ran
   if (in_memory) {
     write_blocks(*file, data);
     const std::span<const std::byte> bytes = file->view();
-    write_atomically(fresh, bytes, seal_of(bytes.size(), crc64(bytes)));
+    write_atomically(fresh, bytes, seal_of(bytes.size(), crc64(bytes)), Flush::content);
     return;
   }
   const fs::path temporary = fresh.string() + ".temporary";
   write_blocks(temporary, file ? &*file : nullptr, data, ranks);
   on_first(ranks, [&] {
     append_to_file(temporary, seal_of(temporary, bytes_of_file(temporary)));
-    put_in_place(temporary, fresh);
+    put_in_place(temporary, fresh, Flush::content);
   });
 }
 
@@ -232,6 +232,7 @@ void write_checkpoint(const fs::path& path, Checkpoint checkpoint, const Ranks* 
     keep_previous(path);
     if (std::rename(fresh.c_str(), path.c_str()) != 0)
       throw FileError(fmt::format("cannot write {}: {}", path.string(), std::system_category().message(errno)));
+    flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
   });
 }
 

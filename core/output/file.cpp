@@ -358,6 +358,8 @@ std::span<const std::byte> OutputFile::view() const {
   return {*static_cast<const std::byte**>(image), std::size_t(size)};
 }
 
-void OutputFile::save(const std::filesystem::path& path) const { write_atomically(path, view()); }
+void OutputFile::save(const std::filesystem::path& path, Flush flush) const {
+  write_atomically(path, view(), {}, flush);
+}
 
 }  // namespace polybed::core

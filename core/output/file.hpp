@@ -102,7 +102,7 @@ class OutputFile {
   /// The file as bytes, where it stands in memory: until it is changed.
   [[nodiscard]] std::span<const std::byte> view() const;
   /// Puts the file in place on the disk; it can be changed and saved again.
-  void save(const std::filesystem::path& path) const;
+  void save(const std::filesystem::path& path, Flush flush = Flush::all) const;
 
  private:
   OutputFile();

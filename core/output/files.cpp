@@ -38,11 +38,11 @@ int write_all(const Descriptor& file, std::span<const std::byte> bytes) {
   return 0;
 }
 
-/// 0 or the reason why not all bytes reached the disk.
-int write_and_flush(Descriptor& file, std::span<const std::byte> bytes, std::span<const std::byte> more = {}) {
+/// 0 or the reason why not all bytes were taken or, flushed, did not reach the disk.
+int write_and_close(Descriptor& file, std::span<const std::byte> bytes, std::span<const std::byte> more, Flush flush) {
   for (const auto& part : {bytes, more})
     if (const int reason = write_all(file, part); reason != 0) return reason;
-  if (::fsync(file.number()) != 0) return errno;
+  if (flush != Flush::nothing && ::fsync(file.number()) != 0) return errno;
   return file.close();
 }
 
@@ -57,14 +57,15 @@ Descriptor opened_to_append(const fs::path& path) {
 }
 
 Descriptor begun(const fs::path& path, std::string_view text) {
-  write_atomically(path, text);
+  write_atomically(path, text, Flush::content);
   return opened_to_append(path);
 }
 
-/// Makes a rename survive a power cut. Some file systems cannot flush a directory, which costs nothing but that.
-void flush_directory(const fs::path& directory) {
-  const Descriptor handle(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (handle.number() >= 0) ::fsync(handle.number());
+/// Gives a file its name; 0 or the reason why not.
+int rename_and_flush(const fs::path& written, const fs::path& path, Flush flush) {
+  if (std::rename(written.c_str(), path.c_str()) != 0) return errno;
+  if (flush == Flush::all) flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  return 0;
 }
 
 /// Of a reflected polynomial: what each byte does to the remainder.
@@ -105,35 +106,39 @@ void LineFile::append(std::string_view line) {
   if (const int reason = write_all(file_, bytes_of(line)); reason != 0) cannot("write", path_, reason);
 }
 
-void write_atomically(const fs::path& path, std::span<const std::byte> bytes, std::span<const std::byte> more) {
-  const fs::path temporary = path.string() + ".temporary";
-  Descriptor file = new_file(temporary);
-  int reason = write_and_flush(file, bytes, more);
-  if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
-  if (reason != 0) {
-    ::unlink(temporary.c_str());
-    cannot("write", path, reason);
-  }
-  flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
+void flush_directory(const fs::path& directory) {
+  const Descriptor handle(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (handle.number() >= 0) ::fsync(handle.number());
 }
 
-void write_atomically(const fs::path& path, std::string_view text) { write_atomically(path, bytes_of(text)); }
+void write_atomically(const fs::path& path, std::span<const std::byte> bytes, std::span<const std::byte> more,
+                      Flush flush) {
+  const fs::path temporary = path.string() + ".temporary";
+  Descriptor file = new_file(temporary);
+  int reason = write_and_close(file, bytes, more, flush);
+  if (reason == 0) reason = rename_and_flush(temporary, path, flush);
+  if (reason == 0) return;
+  ::unlink(temporary.c_str());
+  cannot("write", path, reason);
+}
 
-void put_in_place(const fs::path& written, const fs::path& path) {
+void write_atomically(const fs::path& path, std::string_view text, Flush flush) {
+  write_atomically(path, bytes_of(text), {}, flush);
+}
+
+void put_in_place(const fs::path& written, const fs::path& path, Flush flush) {
   Descriptor file(::open(written.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC));
-  int reason = file.number() < 0 || ::fsync(file.number()) != 0 ? errno : file.close();
-  if (reason == 0 && std::rename(written.c_str(), path.c_str()) != 0) reason = errno;
-  if (reason != 0) {
-    ::unlink(written.c_str());
-    cannot("write", path, reason);
-  }
-  flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  int reason = file.number() < 0 ? errno : write_and_close(file, {}, {}, flush);
+  if (reason == 0) reason = rename_and_flush(written, path, flush);
+  if (reason == 0) return;
+  ::unlink(written.c_str());
+  cannot("write", path, reason);
 }
 
 void claim_file(const fs::path& path, std::span<const std::byte> bytes, std::size_t size) {
   Descriptor file = new_file(path);
   int reason = ::posix_fallocate(file.number(), 0, off_t(std::max(size, bytes.size())));
-  if (reason == 0) reason = write_and_flush(file, bytes);
+  if (reason == 0) reason = write_and_close(file, bytes, {}, Flush::nothing);
   if (reason == 0) return;
   ::unlink(path.c_str());
   cannot("write", path, reason);
@@ -141,7 +146,7 @@ void claim_file(const fs::path& path, std::span<const std::byte> bytes, std::siz
 
 void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {
   Descriptor file = opened_to_append(path);
-  if (const int reason = write_and_flush(file, bytes); reason != 0) cannot("write", path, reason);
+  if (const int reason = write_and_close(file, bytes, {}, Flush::nothing); reason != 0) cannot("write", path, reason);
 }
 
 std::size_t bytes_of_file(const fs::path& path, std::size_t most) {

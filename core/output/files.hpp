@@ -16,17 +16,29 @@ namespace polybed::core {
 
 using Bytes = std::vector<std::byte>;
 
+/// What of a file that is put in place has to survive a power cut; a killed program loses nothing either way.
+/// Each flush waits for the disk, so a file has no more of it than its loss is worth.
+enum class Flush {
+  nothing,  ///< of a file that is made again from others: after a power cut it may be empty
+  content,  ///< the old or the new content is there, whole: of files that are replaced again and again
+  all       ///< and it is the new one, under its name
+};
+
 /// Replaces the file `path` by `bytes`: written under a temporary name in the same directory, flushed to the
 /// disk, renamed. Whatever interrupts it, `path` holds either all of the old or all of the new content; on
 /// failure (disk full, no permission) the temporary file is removed and FileError thrown.
 /// \param more  what follows the bytes
 void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes,
-                      std::span<const std::byte> more = {});
-void write_atomically(const std::filesystem::path& path, std::string_view text);
+                      std::span<const std::byte> more = {}, Flush flush = Flush::all);
+void write_atomically(const std::filesystem::path& path, std::string_view text, Flush flush = Flush::all);
 
 /// Puts a file that lies complete under another name of the same directory in place: flushed to the disk, renamed. On
 /// failure the other name is removed and FileError thrown.
-void put_in_place(const std::filesystem::path& written, const std::filesystem::path& path);
+void put_in_place(const std::filesystem::path& written, const std::filesystem::path& path, Flush flush = Flush::all);
+
+/// Makes the names in a directory, as renames have left them, survive a power cut. Some file systems cannot, which
+/// costs nothing but that.
+void flush_directory(const std::filesystem::path& directory);
 
 /// A new, empty file, open for writing. What had its name is removed first, and no link is ever followed: in a
 /// directory that others may write, such a link could lead to any file of the user. Throws FileError.
@@ -45,11 +57,11 @@ class LineFile {
   Descriptor file_;
 };
 
-/// Makes a file of a size, its blocks on the disk claimed, that begins with `bytes`; the rest is zero. Throws
-/// FileError.
+/// Makes a file of a size, its blocks on the disk claimed, that begins with `bytes`; the rest is zero. Not flushed.
+/// Throws FileError.
 void claim_file(const std::filesystem::path& path, std::span<const std::byte> bytes, std::size_t size);
 
-/// Appends to a file; throws FileError.
+/// Appends to a file without flushing it; throws FileError.
 void append_to_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// Longest file that is read whole unless a reader says otherwise.

@@ -33,7 +33,7 @@ ProfileWriter::ProfileWriter(const fs::path& run_directory, std::vector<double> 
     go_on(*resume_time);
   else
     begin();
-  file_->save(path_);
+  file_->save(path_, Flush::content);
 }
 
 void ProfileWriter::begin() {
@@ -60,7 +60,7 @@ void ProfileWriter::write_row(double time_s, std::span<const std::vector<double>
   for (std::size_t n = 0; n < rows.size(); ++n) refuse_if_not_finite(names_[n], rows[n], time_s);
   for (std::size_t n = 0; n < rows.size(); ++n) file_->append_row(names_[n], rows[n]);
   file_->append_row("time_s", std::span(&time_s, 1));
-  file_->save(path_);
+  file_->save(path_, Flush::content);
 }
 
 const DataSet& Profiles::of(const std::string& name) const {

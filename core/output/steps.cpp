@@ -50,7 +50,7 @@ void StepWriter::begin() {
   index_->make_rows("time_s", 0);
   if (!series_.count_name.empty()) index_->make_rows(series_.count_name, 0);
   remove_quietly(directory_ / (series_.name + ".xdmf"));
-  index_->save(index_path());
+  index_->save(index_path(), Flush::content);
   for (std::size_t step = 0; fs::exists(path_of(step)); ++step) remove_quietly(path_of(step));
 }
 
@@ -90,8 +90,8 @@ void StepWriter::add_written(double time_s, std::size_t count) {
 }
 
 void StepWriter::write_description() const {
-  index_->save(index_path());
-  write_atomically(directory_ / (series_.name + ".xdmf"), series_.xdmf(stored_));
+  index_->save(index_path(), Flush::content);
+  write_atomically(directory_ / (series_.name + ".xdmf"), series_.xdmf(stored_), Flush::nothing);
 }
 
 OutputFile open_step(const fs::path& run_directory, const std::string& name, std::size_t step, std::size_t steps,

@@ -5,8 +5,10 @@
 #include <numeric>
 
 #include "closures/bed_expansion.hpp"
+#include "closures/hopper_discharge.hpp"
 #include "closures/minimum_fluidisation.hpp"
 #include "closures/mixture.hpp"
+#include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -95,6 +97,25 @@ void expect(const core::Scene& scene, const Balance& balance, const CarriedBed& 
   if (voidage < 1) bed.height = scene.bed.static_height * (1 - balance.packed) / (1 - voidage);
 }
 
+/// Of the particles of a case over its opening, at their Sauter diameter and the solids fraction of the settled bed.
+std::optional<ExpectedDischarge> expected_discharge(const core::Scene& scene, double gravity) {
+  const std::vector<double> share = shares_of(scene);
+  const bool counted = scene.bed.particles.size() == scene.species.size();
+  if (!scene.dem.opening || share.empty() || !counted || !(scene.bed.solids_fraction > 0 && gravity > 0)) return {};
+  std::vector<double> diameter;
+  double mass = 0, density = 0;
+  for (std::size_t j = 0; j < share.size(); ++j) {
+    const core::Species& species = scene.species[j];
+    diameter.push_back(species.diameter);
+    density += share[j] * species.density;
+    mass += double(scene.bed.particles[j]) * species.density * closures::sphere_volume(species.diameter / 2);
+  }
+  const double mean = closures::sauter_diameter(share, diameter), width = *scene.dem.opening;
+  const double depth = scene.column.dimensions == 2 ? scene.column.size[2] : 0;  // a slot; else a round hole
+  return ExpectedDischarge{closures::hopper_discharge(width, depth, mean, scene.bed.solids_fraction * density, gravity),
+                           mass, width / mean};
+}
+
 }  // namespace
 
 std::string name_of(Fluidisation state) {
@@ -116,9 +137,12 @@ std::string geldart_class(double diameter, double excess) {
 
 BedOfCase bed_of_case(const core::Scene& scene) {
   BedOfCase bed;
-  if (!scene.fluid.present()) return bed;
-  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const double gravity = scene.column.gravity * std::max(0.0, -scene.column.down[1]);
+  if (!scene.fluid.present()) {
+    bed.discharge = expected_discharge(scene, gravity);
+    return bed;
+  }
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const Balance balance = balance_of(scene);
   for (const core::Species& species : scene.species) {
     const double excess = species.density - fluid.density;

@@ -23,12 +23,20 @@ struct SpeciesInFluid {
   std::string geldart;                         ///< A | B | C | D in a gas; else empty
 };
 
+/// Out of an opening in the bottom, by correlation: closures/hopper_discharge.hpp.
+struct ExpectedDischarge {
+  double rate;       ///< kg/s; 0: the opening is too narrow for the correlation
+  double mass;       ///< of all particles, kg
+  double diameters;  ///< width of the opening over the mean diameter
+};
+
 struct BedOfCase {
   std::vector<SpeciesInFluid> species;
   std::optional<double> minimum_fluidisation;  ///< of the mixture, at its Sauter diameter and mean density, m/s
   std::optional<double> velocity;              ///< superficial, mean over the bottom at the end of the run, m/s
   Fluidisation state{};                        ///< expected
   std::optional<double> height;                ///< expected of a uniform bed, m
+  std::optional<ExpectedDischarge> discharge;  ///< of dry particles over dem.opening
   [[nodiscard]] std::optional<double> velocity_ratio() const;
 };
 

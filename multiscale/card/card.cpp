@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "closures/hopper_discharge.hpp"
 #include "core/progress.hpp"
 #include "multiscale/effects/effects_text.hpp"
 
@@ -87,6 +88,19 @@ void add_velocities(const BedOfCase& bed, std::vector<std::string>& lines) {
     if (!species.geldart.empty())
       classes.push_back(bed.species.size() > 1 ? species.name + " " + species.geldart : species.geldart);
   if (!classes.empty()) lines.push_back(card_line("Geldart class", each(classes)));
+}
+
+/// What to expect of an opening in the bottom.
+void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines) {
+  const std::string width = fmt::format("the opening is {:.2g} particle diameters wide", out.diameters);
+  if (!(out.rate > 0)) return lines.push_back(card_line("expect", "no discharge: " + width));
+  lines.push_back(
+      card_line("expect", fmt::format("discharge of about {}/s; {} would be out after {:.2g} s", in_kilograms(out.rate),
+                                      in_kilograms(out.mass), out.mass / out.rate)));
+  lines.push_back(
+      card_line("", "estimate by Beverloo's law, good to 30 %; a flat bottom keeps what lies in its corners"));
+  if (out.diameters < closures::least_hopper_opening)
+    lines.push_back(card_line("", fmt::format("{}: below {:g} it may block", width, closures::least_hopper_opening)));
 }
 
 std::string out_text(const BedOfRun& bed) {
@@ -184,6 +198,7 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
       text += fmt::format(" (settled {:.0f} mm, column {:.0f} mm)", 1e3 * scene.bed.static_height, 1e3 * top);
     lines.push_back(card_line("expect", text));
   }
+  if (bed.discharge) add_discharge(*bed.discharge, lines);
   add_velocities(bed, lines);
   return lines;
 }

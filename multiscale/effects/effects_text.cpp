@@ -2,8 +2,10 @@
 #include "core/case/scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 namespace polybed::multiscale {
@@ -42,22 +44,24 @@ std::string reason_text(const relevance::EffectRow& row) {
 
 constexpr std::size_t width = 100;  // columns
 
-/// A text on lines of at most `width` columns that begin with `indent` spaces.
-std::string wrapped(const std::string& text, std::size_t indent) {
-  std::string lines, line(indent, ' ');
+/// A text on lines of at most `width` columns that begin with `front`.
+std::string wrapped(const std::string& text, const std::string& front) {
+  std::string lines, line = front;
   std::size_t from = 0;
   while (from < text.size()) {
     const std::size_t end = std::min(text.find(' ', from), text.size());
     const std::string word = text.substr(from, end - from);
-    if (line.size() > indent && line.size() + 1 + word.size() > width) {
+    if (line.size() > front.size() && line.size() + 1 + word.size() > width) {
       lines += line + "\n";
-      line = std::string(indent, ' ');
+      line = front;
     }
-    line += (line.size() > indent ? " " : "") + word;
+    line += (line.size() > front.size() ? " " : "") + word;
     from = end + 1;
   }
   return lines + line + "\n";
 }
+
+std::string indented(const std::string& text, std::size_t by) { return wrapped(text, std::string(by, ' ')); }
 
 constexpr std::string_view off = "off";  // as case_text() has it
 
@@ -88,6 +92,20 @@ std::string why(const relevance::EffectRow& row) {
   return (!row.has_number() ? "" : row.number + ": ") + reason_text(row);
 }
 
+/// The same in words, for who knows no symbols; --details has those.
+std::string why_in_words(const relevance::EffectRow& row) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> words{
+      {{"St*", "Stokes number of impacts"},
+       {"shear rate x tau_p", "shear rate x relaxation time"},
+       {", 2 sqrt(mu/beta)/min(L/10, 10 d)", ""},
+       {"1.257 Kn", "mean free path over diameter"},
+       {"C_m s/(1 + C_m s)", "added mass over all mass"}}};
+  std::string text = why(row);
+  for (const auto& [symbol, word] : words)
+    if (const std::size_t at = text.find(symbol); at != std::string::npos) text.replace(at, symbol.size(), word);
+  return text;
+}
+
 std::string role_line(const core::Scene& scene, const relevance::EffectRow& row) {
   return fmt::format("{} {:20} {:15} {:15} {:>15} {:>11}  {}\n", mark_of(advice_of(scene, row)), row.effect,
                      case_text(scene, row).empty() ? "not built" : case_text(scene, row), advised_law(row),
@@ -116,26 +134,73 @@ std::string sums_text(const core::Scene& scene, const relevance::Choice& choice)
   if (less_in_particles)
     text += "  more is left out by the two-fluid model, which has no law of some forces on particles\n";
   if (choice.sum_up_to > choice.tolerance)
-    text += wrapped(fmt::format("in a run up to {}, where the fluid is sheared within a cell or impacts spin "
-                                "particles; polybed effects audit RUN measures it",
-                                percent(choice.sum_up_to)),
-                    2);
+    text += indented(fmt::format("in a run up to {}, where the fluid is sheared within a cell or impacts spin "
+                                 "particles; polybed effects audit RUN measures it",
+                                 percent(choice.sum_up_to)),
+                     2);
   return text;
+}
+
+/// A line for the case with its reason, beside it where that fits. A change that is a choice stands behind #.
+std::string line_for_case(Advice advice, const relevance::EffectRow& row) {
+  const std::string law = row.state == State::on ? row.model : "none";
+  const std::string line = fmt::format("{}{} = \"{}\"", advice == Advice::add ? "" : "# ", row.effect, law);
+  const std::string reason = why_in_words(row), beside = fmt::format("{:36}  # {}\n", line, reason);
+  return beside.size() <= width + 1 ? beside : wrapped(reason, "# ") + line + "\n";
 }
 
 /// What to write into the case, with the reason of each line.
 std::string lines_for_case(const core::Scene& scene, const relevance::Choice& choice) {
-  std::string reasons, lines;
+  std::string lines;
+  bool chosen = false;
   for (const relevance::EffectRow& row : choice.rows) {
     const Advice advice = advice_of(scene, row);
     if (advice == Advice::none) continue;
-    const std::string law = row.state == State::on ? row.model : "none";
-    reasons += fmt::format("{} {} = \"{}\"\n{}", mark_of(advice), row.effect, law, wrapped(why(row), 4));
-    lines += fmt::format("{}{} = \"{}\"\n", advice == Advice::add ? "" : "# ", row.effect, law);
+    chosen = chosen || advice != Advice::add;
+    lines += line_for_case(advice, row);
   }
-  if (lines.empty()) return "\nNothing to change: the case has what is recommended.\n";
-  return "\n* switch on, ~ another law is recommended, - may be left out:\n" + reasons +
-         "\nfor the case (lines behind # are a choice), or effects = \"auto\" at its top:\n\n[effects]\n" + lines;
+  if (lines.empty()) return "Nothing to change: the case has what is recommended.\n";
+  return fmt::format("lines for [effects] of the case, or effects = \"auto\" at its top{}:\n\n",
+                     chosen ? " (a law behind # is a choice)" : "") +
+         lines;
+}
+
+/// Names of rows in one sentence; empty without rows.
+std::string names_line(const std::string& front, const std::vector<std::string>& names) {
+  return names.empty() ? "" : wrapped(fmt::format("{}: {}", front, fmt::join(names, ", ")), "  ");
+}
+
+/// The rows that the case has or should have; of the others their names.
+std::string short_table(const core::Scene& scene, const relevance::Choice& choice) {
+  std::string lines;
+  std::vector<std::string> unneeded, missing, unknown;
+  for (const relevance::EffectRow& row : choice.rows) {
+    const bool acts = row.state == State::on || (case_text(scene, row) != off && !case_text(scene, row).empty());
+    if (row.kind == Kind::role && acts)
+      lines += role_line(scene, row);
+    else if (row.kind == Kind::role)
+      unneeded.push_back(row.effect);
+    else if (row.kind == Kind::unmodelled && row.state == State::on)
+      missing.push_back(fmt::format("{} ({} {})", row.effect, value_text(row), limit_text(row)));
+    else if (row.kind == Kind::unmodelled && row.state == State::unknown)
+      unknown.push_back(row.effect);
+  }
+  return lines + names_line("off, and not needed", unneeded) + names_line("not modelled, but of weight here", missing) +
+         names_line("not modelled, and not known", unknown);
+}
+
+std::string whole_table(const core::Scene& scene, const relevance::Choice& choice) {
+  std::string text;
+  const Kind kinds[] = {Kind::role, Kind::condition, Kind::unmodelled};
+  for (const Kind kind : kinds) {
+    if (kind == Kind::condition) text += "\ndecided by other keys, or always on:\n";
+    if (kind == Kind::unmodelled) text += "\nnot modelled, estimated:\n";
+    for (const relevance::EffectRow& row : choice.rows) {
+      if (row.kind != kind) continue;
+      text += (kind == Kind::role ? role_line(scene, row) : other_line(row)) + indented(why(row), 6);
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -145,19 +210,12 @@ std::string percent(double share) {
 }
 
 std::string effects_table(const core::Scene& scene, const relevance::Choice& choice, bool details) {
-  std::string text = fmt::format("  {:20} {:15} {:15} {:>15} {:>11}  {}\n", "effect", "this case", "recommended",
-                                 "value", "matters if", "acts in");
-  const Kind kinds[] = {Kind::role, Kind::condition, Kind::unmodelled};
-  for (const Kind kind : kinds) {
-    if (kind == Kind::condition) text += "\ndecided by other keys, or always on:\n";
-    if (kind == Kind::unmodelled) text += "\nnot modelled, estimated:\n";
-    for (const relevance::EffectRow& row : choice.rows) {
-      if (row.kind != kind) continue;
-      text += kind == Kind::role ? role_line(scene, row) : other_line(row);
-      if (details) text += wrapped(why(row), 6);
-    }
-  }
-  return text + "\n" + sums_text(scene, choice) + lines_for_case(scene, choice);
+  return lines_for_case(scene, choice) + "\n" + sums_text(scene, choice) + "\n" +
+         fmt::format("  {:20} {:15} {:15} {:>15} {:>11}  {}\n", "effect", "this case", "recommended", "value",
+                     "matters if", "acts in") +
+         (details ? whole_table(scene, choice) : short_table(scene, choice)) +
+         "* to switch on, ~ another law is recommended, - may be left out" +
+         (details ? "\n" : "; more: --details, polybed explain\n");
 }
 
 namespace {

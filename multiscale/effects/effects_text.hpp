@@ -9,8 +9,9 @@
 
 namespace polybed::multiscale {
 
-/// The table, at most 100 columns wide, with a mark where the case should change; below it what is left out and the
-/// lines to put into the case. \param details  with the reason of every row
+/// The lines to put into the case with their reasons, what is left out, and the effects that the case has or should
+/// have, with a mark where it should change: at most 100 columns wide, one screen.
+/// \param details  every effect with its reason instead
 [[nodiscard]] std::string effects_table(const core::Scene& scene, const relevance::Choice& choice, bool details);
 
 /// A share in per cent with two digits, e.g. "0.14 %", "120 %".

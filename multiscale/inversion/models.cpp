@@ -144,13 +144,11 @@ BinaryBed binary_bed(const core::Scene& scene) {
 
 const std::vector<InversionMethod>& inversion_methods() {
   static const std::vector<InversionMethod> methods{
-      {"force_balance", "drag of each species against its weight in the bulk; T(5.4), (5.7), (5.12), (5.13)", true,
-       true, by_force_balance},
-      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985; T(5.8)", true, false,
-       by_bulk_density},
-      {"expansion", "equal slip velocities, Masliyah 1979; T(5.9)", false, false,
+      {"force_balance", "drag of each species against its weight in the bulk", true, true, by_force_balance},
+      {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985", true, false, by_bulk_density},
+      {"expansion", "equal slip velocities, Masliyah 1979", false, false,
        [](const BinaryBed& bed, const DragLaw&) { return by_expansion(bed); }},
-      {"density_maximum", "composition of largest bulk density, Gibilaro 1986; T(5.10)", false, false,
+      {"density_maximum", "composition of largest bulk density, Gibilaro 1986", false, false,
        [](const BinaryBed& bed, const DragLaw&) { return by_density_maximum(bed); }}};
   return methods;
 }

@@ -15,6 +15,7 @@ of its progress goes to standard error as it comes, unless quiet.
 from __future__ import annotations
 
 import contextlib
+import functools
 import itertools
 import json
 import os
@@ -23,7 +24,7 @@ import sys
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from polybed import search
 from polybed.files import FAULTS, read_json
@@ -42,11 +43,28 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
 
 
 class ProgramError(Exception):
-    """The program ended with another code than 0; the text is what it said."""
+    """The program ended with another code than 0. The text names the function that was called and what the program said; `words` is
+    the command behind it."""
 
-    def __init__(self, words: list[str], code: int, said: str) -> None:
-        super().__init__(f"{' '.join(words)}\nended with {code}: {said.strip()}")
-        self.code, self.said = code, said.strip()
+    def __init__(self, words: list[str], code: int, said: str, called: str = "polybed") -> None:
+        super().__init__(f"{called} ended with {code}: {said.strip()}")
+        self.words, self.code, self.said = words, code, said.strip()
+
+
+Arguments = ParamSpec("Arguments")
+Answer = TypeVar("Answer")
+
+
+def names_itself(function: Callable[Arguments, Answer]) -> Callable[Arguments, Answer]:
+    """A function whose ProgramError names it with its first argument: what the user has called, not the command behind it."""
+    @functools.wraps(function)
+    def called(*arguments: Arguments.args, **options: Arguments.kwargs) -> Answer:
+        try:
+            return function(*arguments, **options)
+        except ProgramError as error:
+            first = str(next(iter((*arguments, *options.values())), ""))
+            raise ProgramError(error.words, error.code, error.said, f"polybed.{function.__name__}({first!r})") from None
+    return called
 
 
 def program() -> str:
@@ -166,6 +184,7 @@ def made(case: Place, model: str, overrides: Overrides | None, until: Value | No
     return read(output)
 
 
+@names_itself
 def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None,
         ranks: int = 1, quiet: bool = False, label: str = "") -> Run:
     """Runs a case by a model, "tfm" or "dem", and opens the run.
@@ -179,6 +198,7 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
                 lambda digest: Path(output) if output else folder_of(case, model, digest))
 
 
+@names_itself
 def sweep(case: Place, key: str, values: Iterable[Value], model: str = "tfm", overrides: Overrides | None = None,
           output: Place | None = None, until: Value | None = None, at_once: int = 1, quiet: bool = False) -> list[Run]:
     """Runs a case for several values of a key and returns the runs in their order, each in a folder of its own, called by the value
@@ -201,6 +221,7 @@ def sweep(case: Place, key: str, values: Iterable[Value], model: str = "tfm", ov
         return list(pool.map(one, each))
 
 
+@names_itself
 def compare(case: Place, tfm: Run | Place | None = None, dem: Run | Place | None = None, overrides: Overrides | None = None,
             output: Place | None = None, until: Value | None = None, page: bool = False, quiet: bool = False) -> dict[str, Any]:
     """Compares both models on a case: comparison.json as a dictionary. Runs that are not given are made, or opened.
@@ -219,6 +240,7 @@ def compare(case: Place, tfm: Run | Place | None = None, dem: Run | Place | None
     return found
 
 
+@names_itself
 def inversion(case: Place, scan: str | None = None, overrides: Overrides | None = None, output: Place | None = None,
               until: Value | None = None, begin: Value | None = None, end: Value | None = None, method: str | None = None,
               quiet: bool = False) -> dict[str, Any]:
@@ -240,6 +262,7 @@ def inversion(case: Place, scan: str | None = None, overrides: Overrides | None 
     return found
 
 
+@names_itself
 def calibrate(case: Place, overrides: Overrides | None = None, output: Place | None = None, jobs: int = 1,
               quiet: bool = False) -> SolidsTable:
     """Runs the boxes of a case and returns the table that they give, arrays by name with units. Finished boxes are kept: the

@@ -11,10 +11,11 @@ from typing import Any
 
 from polybed.files import read_json
 from polybed.overrides import Overrides, Value, plain
-from polybed.program import DIGITS, Place, call, folder_of, inversion, label_of, resolved, settings
+from polybed.program import DIGITS, Place, call, folder_of, inversion, label_of, names_itself, resolved, settings
 from polybed.read import Run
 
 
+@names_itself
 def measure(run: Run | Place) -> dict[str, Any]:
     """Numbers read off the stored profiles of a run, without a run: what `polybed measure RUN --json` prints.
 
@@ -26,6 +27,7 @@ def measure(run: Run | Place) -> dict[str, Any]:
     return found
 
 
+@names_itself
 def scan(case: Place, model: str = "both", overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None,
          begin: Value | None = None, end: Value | None = None, quiet: bool = False) -> dict[str, Any]:
     """Scans for the velocity at which two species change places, by runs: what `polybed inversion CASE --scan` finds.
@@ -38,6 +40,7 @@ def scan(case: Place, model: str = "both", overrides: Overrides | None = None, o
     return inversion(case, model, overrides, output, until, begin, end, quiet=quiet)
 
 
+@names_itself
 def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), target: str | None = None, budget: str | None = None,
          overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None, picture: bool = False,
          quiet: bool = False) -> dict[str, Any]:
@@ -57,6 +60,7 @@ def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), targ
     return found
 
 
+@names_itself
 def fit(rows: Place | Sequence[Place], form: str = "brinkman_oseen", output: Place | None = None, bootstrap: int = 100, seed: int = 1,
         force: bool = False, picture: bool = False, quiet: bool = False) -> dict[str, Any]:
     """Fits a drag law to rows of resolved flow and writes its law file: what `polybed fit ROWS` finds.

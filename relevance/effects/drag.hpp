@@ -7,11 +7,14 @@
 
 namespace polybed::relevance::effects {
 
+inline constexpr const char* disagrees_in_mixtures =
+    "in mixtures the drag on all species together differs from the pressure drop by the same law";
+
 inline std::vector<core::Law> laws_of_drag() {
   std::vector<core::Law> laws;
   for (const closures::DragLawInfo& law : closures::drag_laws())
-    laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [in mixtures drag and pressure drop disagree]")});
-  laws.push_back({"file:FILE", "a law file of polybed fit: a form with its constants"});
+    laws.push_back({law.name, law.help, law.source, law.obeys_sum_rule ? "" : disagrees_in_mixtures});
+  laws.push_back({"file:FILE", "a law file of polybed fit", "a form with its constants"});
   return laws;
 }
 

@@ -24,11 +24,12 @@ inline std::optional<EffectRow> weigh_fluid_stress(const Weighing& by, EffectRow
   return row;
 }
 
-inline const Effect fluid_stress{.role = "fluid_stress",
-                                 .help = "viscous stress of the averaged fluid",
-                                 .laws = {{"newtonian", "mu (grad U + grad U^T - 2/3 div U I); T(1.16)"}},
-                                 .rules = {needs_a_fluid("fluid_stress"), idle_in_a_sheared_box("fluid_stress")},
-                                 .number = "share of a shear length, 2 sqrt(mu/beta)/min(L/10, 10 d)",
-                                 .weigh = weigh_fluid_stress};
+inline const Effect fluid_stress{
+    .role = "fluid_stress",
+    .help = "viscous stress of the averaged fluid",
+    .laws = {{"newtonian", "of a Newtonian fluid", "mu (grad U + grad U^T - 2/3 div U I); Cello 2009, eq. 1.16"}},
+    .rules = {needs_a_fluid("fluid_stress"), idle_in_a_sheared_box("fluid_stress")},
+    .number = "share of a shear length, 2 sqrt(mu/beta)/min(L/10, 10 d)",
+    .weigh = weigh_fluid_stress};
 
 }  // namespace polybed::relevance::effects

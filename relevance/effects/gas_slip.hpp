@@ -44,7 +44,8 @@ inline core::Broken slips_on_a_liquid(const core::Scene& scene) {
 inline const Effect gas_slip{
     .role = "gas_slip",
     .help = "slip of a rarefied gas on small spheres, which lowers their drag",
-    .laws = {{"cunningham", "drag over 1 + Kn (1.257 + 0.4 exp(-1.1/Kn)), at the outlet's pressure; Davies 1945"}},
+    .laws = {{"cunningham", "lower by the mean free path over the diameter, at the outlet's pressure",
+              "drag over 1 + Kn (1.257 + 0.4 exp(-1.1/Kn)); Davies 1945"}},
     .rules = {needs_a_fluid("gas_slip"),
               {{"effects.gas_slip", "fluid."},
                "effects.gas_slip: a fluid of {} kg/m3 is a liquid, which does not slip: leave it out",

@@ -45,9 +45,10 @@ inline core::Broken elastic_species(const core::Scene& scene) {
 
 inline const Effect granular_temperature{
     .role = "granular_temperature",
-    .help = "fluctuations that the kinetic stress rests on",
+    .help = "velocity fluctuations of particles, which the kinetic stress depends on",
     .absent = "particles have velocities of their own",
-    .laws = {{"algebraic", "production, collisions and drag in balance; the default with solids_stress = kinetic"},
+    .laws = {{"algebraic", "in balance in each cell; the default with solids_stress = kinetic",
+              "production, collisions and drag in balance"},
              {"transported", "one equation for each species"}},
     .rules =
         joined({{{{"effects.solids_stress", "effects.granular_temperature", "species.restitution", "dem.restitution"},

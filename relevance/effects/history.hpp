@@ -29,7 +29,7 @@ inline const Effect history{
     .role = "history",
     .help = "vorticity that past accelerations of a particle have left in the fluid",
     .absent = "not in this version",
-    .laws = {{"basset", "Basset 1888, creeping flow, summed by exponentials; adds an inertia"}},
+    .laws = {{"basset", "of one sphere in creeping flow; adds an inertia", "Basset 1888, summed by exponentials"}},
     .rules = {needs_a_fluid("history"), idle_in_a_sheared_box("history"),
               rule_of("history", {"dem.held"},
                       "effects.history = \"{}\" is a force on particles that accelerate, and dem.held holds them: "

@@ -25,7 +25,7 @@ inline std::optional<double> share_of_lift(const Encountered& met) {
 inline const Effect lift{.role = "lift",
                          .help = "force across a sheared fluid's stream",
                          .absent = "not in this version",
-                         .laws = {{"saffman_mei", "Saffman 1965 with the share of Mei 1992, of one sphere"}},
+                         .laws = {{"saffman_mei", "of one sphere", "Saffman 1965 with the share of Mei 1992"}},
                          .rules = {needs_a_fluid("lift"), idle_in_a_sheared_box("lift")},
                          .number = "lift over weight",
                          .weigh = weigh_lift,

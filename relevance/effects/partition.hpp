@@ -6,13 +6,14 @@
 #include "closures/drag.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
+#include "relevance/effects/drag.hpp"
 
 namespace polybed::relevance::effects {
 
 inline std::vector<core::Law> laws_of_partition() {
   std::vector<core::Law> laws;
   for (const closures::DragLawInfo& law : closures::partitions())
-    laws.push_back({law.name, law.help + (law.obeys_sum_rule ? "" : " [drag and pressure drop disagree]")});
+    laws.push_back({law.name, law.help, law.source, law.obeys_sum_rule ? "" : disagrees_in_mixtures});
   return laws;
 }
 

@@ -57,8 +57,8 @@ inline const Effect species_exchange{
     .role = "species_exchange",
     .help = "momentum that solid species exchange by contact",
     .absent = "particles have contacts instead",
-    .laws = {{"syamlal", "collisions, Syamlal 1987; contact in a packed bed, Gera 2004"},
-             {"table:FILE", "of collisions, as polybed calibrate measured it in dry boxes"}},
+    .laws = {{"syamlal", "collisions, and contact in a packed bed", "Syamlal 1987; Gera 2004"},
+             {"table:FILE", "collisions as polybed calibrate measured them in dry boxes"}},
     .number = "contact of species over drag",
     .weigh = weigh_species_exchange};
 

@@ -79,6 +79,17 @@ class Card(Scratch):
         self.assertIsNone(card["u_mf_m_s"])
         self.assertIsNone(card["state"])
 
+    def test_a_hopper_is_told_what_to_expect(self):
+        """By hand: 1.03 of 0.6 2500 kg/m3 sqrt(9.81) 0.01 m (20 - 1.4 4 mm)^1.5 is 83.6 g/s; 800 spheres of 4 mm are 67.0 g."""
+        case = TEMPLATES / "hopper/case.toml"
+        rate = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected_discharge_kg_s"]
+        self.assertAlmostEqual(rate, 1.03 * 0.6 * 2500 * 9.81**0.5 * 0.01 * 0.0144**1.5, places=12)
+        text = self.ends(DONE, "check", case).stdout
+        self.assertRegex(text, r"expect +discharge of about 83\.6 g/s; 67 g would be out after 0\.8 s\n +estimate by Beverloo's law")
+        self.assertNotIn("may block", text)
+        for width, told in (("16 mm", "4 particle diameters wide: below 5 it may block"), ("5.5 mm", "expect +no discharge: the opening is 1.4 ")):
+            self.assertRegex(self.ends(DONE, "check", case, "--set", f"dem.opening={width}").stdout, told)
+
     def test_a_gas_has_geldart_classes(self):
         """By the lines of his paper: 0.5 mm of 2500 kg/m3 is B, 1.5 mm D, 0.05 mm A."""
         case = TEMPLATES / "gas-bed/case.toml"

@@ -161,8 +161,10 @@ class Comparison(Scratch):
 
     def test_the_table_for_people(self):
         told = self.given().stdout
-        for line in ("bed_height_m .*[+]-", "on top", "e_H .*goal 0.05", "by the clock; .*particle_steps", "comparison.json$"):
+        for line in ("bed height [(]mm[)] .*[+]-", "on top", "e_H .*goal 0.05", "by the clock ", "particle steps", "centre of "):
             self.assertRegex(told, f"(?m){line}")
+        self.assertTrue(told.endswith("comparison.json\n"))
+        self.assertNotRegex(told, r"\w_(m|Pa)\b")  # a name of a column
         self.assertIn("warning: tfm: not steady", told)  # after 20 ms no bed is
 
     def test_runs_of_different_cases_are_refused_with_the_keys(self):

@@ -3,7 +3,7 @@
 import re
 
 import program
-from program import CASE, DONE, NUMBERS, WRONG_CASE, Scratch, datasets, same_bits, strict_json
+from program import CASE, DONE, NUMBERS, ROOT, WRONG_CASE, Scratch, datasets, same_bits, strict_json
 
 # Three seconds of settling take a second; a few hundred particles in water.
 BEADS = """title = "beads in water"
@@ -47,9 +47,21 @@ class Table(Scratch):
             self.assertLessEqual(KEYS, set(row))
             self.assertTrue(row["reason"], row["effect"])
         self.assertLessEqual(answer["neglected_sum"], 0.02)
-        text = self.ends(DONE, "effects", CASE).stdout
+        text = self.ends(DONE, "effects", CASE, "--details").stdout
         for effect in CATALOGUE:
             self.assertRegex(text, rf"(?m)^[ *~-] {effect} ")
+
+    def test_one_screen_has_first_what_to_change(self):
+        for name in ("matsuura-akehata", "taghipour", "small-binary", "templates/gas-bed", "templates/hopper"):
+            case = ROOT / "cases" / name / "case.toml"
+            answer, rows = self.table(case)
+            lines = self.ends(DONE, "effects", case).stdout.splitlines()
+            self.assertLessEqual(len(lines), 40, name)
+            self.assertLessEqual(max(map(len, lines)), 100, name)
+            added = [row for row in answer["effects"] if row["kind"] == "role" and row["on"] and row["in_case"] == "off"]
+            for row in added:
+                self.assertTrue(any(line.startswith(f'{row["effect"]} = "{row["model"]}"') for line in lines[:2 + 3 * len(added)]),
+                                f"{name}: {row['effect']}")
 
     def test_the_two_fluid_model_leaves_out_what_only_particles_have(self):
         case = self.write("hand.toml", BY_HAND)

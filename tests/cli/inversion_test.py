@@ -163,7 +163,10 @@ class WithoutARun(Scratch):
         [theory] = [row for row in rows if row["law"] == "vbk_theory" and row["partition"] is None and row["method"] == "force_balance"]
         self.assertAlmostEqual(theory["roots"][-1]["velocity_m_s"], 37.373e-3, delta=0.01 * 37.373e-3)
         table = self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all").stdout
-        self.assertRegex(table, r"(?m)^force_balance +vbk_theory +37\.\d\d +0\.\d{4}$")
+        velocities = [float(line.split()[-2]) for line in table.splitlines() if re.match(". bulk_density .*[0-9]$", line)]
+        self.assertEqual(velocities, sorted(velocities))
+        self.assertEqual(len(re.findall(r"(?m)^\* force_balance ", table)), 1, "the law of the case")
+        self.assertRegex(table, r"(?m)^. force_balance +vbk_theory +\(mixtures\) +37\.\d\d +0\.\d{4}$")
 
     def test_a_mean_law_with_a_partition(self):
         # mm/s and voidage of an evaluation apart from this program, as printed: a unit of the last digit, for rounding and for B's shares of

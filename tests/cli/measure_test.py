@@ -42,7 +42,12 @@ class OfRun(Scratch):
                 values = found["measures"][measure]["values"]
                 np.testing.assert_array_equal(np.array(values, float), rows[column], f"{model} {measure}")
             self.assertEqual({m["unit"] for m in found["measures"].values()}, {"m", "1", "Pa"})
-            self.assertIn("centre_fine_m", self.ends(DONE, "measure", run).stdout.split("\n")[0])
+            table = self.ends(DONE, "measure", run, "--csv").stdout.splitlines()
+            self.assertIn("centre_fine_m", table[0])
+            self.assertEqual([float(row.split(",")[0]) for row in table[1:]], found["time_s"])
+            screen = self.ends(DONE, "measure", run).stdout.splitlines()
+            self.assertLessEqual(max(map(len, screen)), 100)
+            self.assertRegex("\n".join(screen), r"\bmm\b")
 
             listed = strict_json(self.ends(DONE, "measure", "--list", "--json").stdout)
             columns = {line["column"] for section in ("bed", model) for line in listed[section]}

@@ -190,7 +190,7 @@ class Package(Scratch):
             polybed.read_table(self.folder / "table.h5")
 
     def test_what_the_program_refuses_is_raised_with_its_words(self):
-        with self.assertRaisesRegex(polybed.ProgramError, "(?s)ended with 2.*bed.start") as caught:
+        with self.assertRaisesRegex(polybed.ProgramError, r"(?s)^polybed\.run\(.*case\.toml.\) ended with 2.*bed.start") as caught:
             polybed.run(CASE, overrides={"bed.start": "upside down"}, output=self.folder / "none")
         self.assertEqual(caught.exception.code, WRONG_CASE)
 

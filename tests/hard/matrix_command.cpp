@@ -49,6 +49,7 @@ core::ExitCode run_matrix(const Options& options) {
     core::print("{}\n", table_lines(std::span(cells).subspan(begin, count)));
     std::fflush(stdout);
   };
+  if (!options.json) core::print("{}\n", table_heading());
   run_cells(cells, options.jobs, show);
   write_files(cells, options.suite, directory);
   std::string message;
@@ -58,7 +59,7 @@ core::ExitCode run_matrix(const Options& options) {
   if (options.json)
     core::print("{}", core::read_text(directory / "stability.json"));
   else
-    core::print("\n{}\nFiles in {}\n", summary(cells), directory.string());
+    core::print("\n{}\n{}\nFiles in {}\n", summary(cells), meaning_of_outcomes(), directory.string());
   for (const std::string& line : differ) core::print(stderr, "{}\n", line);
   return differ.empty() ? core::ExitCode::done : core::ExitCode::numerics;
 }

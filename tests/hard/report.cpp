@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
@@ -16,8 +17,26 @@ namespace polybed::hard {
 
 namespace {
 
-/// A share of a limit; beyond a limit of nothing there is no number.
-std::string share_text(const Measured& m) { return m.share() >= 1e290 ? "!" : fmt::format("{:.1g}", m.share()); }
+/// The name of an invariant in words: of "V2 phi below 0" what follows the number.
+std::string invariant_words(const std::string& id) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> words{{{"rejected", "rejected steps"},
+                                                                                {"step", "shortest step"},
+                                                                                {"stuck", "steps without progress"},
+                                                                                {"code", "exit code"},
+                                                                                {"phi", "solids fraction"}}};
+  const bool numbered = id.size() > 1 && id[0] == 'V' && std::isdigit(id[1]) != 0;
+  std::string text = numbered ? id.substr(std::min(id.find(' '), id.size() - 1) + 1) : id;
+  for (const auto& [name, meaning] : words)
+    if (text == name || (name == "phi" && text.starts_with("phi "))) text.replace(0, name.size(), meaning);
+  if (text.starts_with("f ")) text.replace(0, 1, "drag");
+  return text;
+}
+
+std::string limit_share_text(const Measured& m) {
+  const double share = 100 * m.share();
+  if (m.share() >= 1e290) return "beyond a limit of 0";
+  return (share < 9.5 ? fmt::format("{:.1g}", share) : fmt::format("{:.0f}", share)) + " % of its limit";
+}
 
 /// One line of the table on the screen: treatment, outcome, the furthest invariant over its limit, least step, cost.
 std::string cell_text(const Cell& cell) {
@@ -25,9 +44,9 @@ std::string cell_text(const Cell& cell) {
   const bool product = cell.treatment.naive.empty();
   const std::string name = product ? cell.treatment.name() : "textbook: " + cell.treatment.naive;
   std::string text = fmt::format("    {:<32} {:<8}", name, name_of(r.outcome));
-  if (!r.worst.id.empty()) text += fmt::format("  {}: {} of its limit", r.worst.id, share_text(r.worst));
-  if (product && r.least_step > 0) text += fmt::format(", least step {:.0e} s", r.least_step);
-  if (product && cell.cost > 0) text += fmt::format(", cost {:.1f}", cell.cost);
+  if (!r.worst.id.empty()) text += fmt::format("  {}: {}", invariant_words(r.worst.id), limit_share_text(r.worst));
+  if (product && r.least_step > 0) text += fmt::format("; step {:.1g} ms", 1e3 * r.least_step);
+  if (product && cell.cost > 0) text += fmt::format("; time x {:.1f}", cell.cost);
   return text + (cell.as_expected() ? "" : "  <-- expected " + cell.expected);
 }
 
@@ -147,6 +166,11 @@ std::string markdown(std::span<const Cell> cells, const std::string& suite) {
 
 }  // namespace
 
+std::string table_heading() {
+  return "each stress test (its name in --only) with every scheme, integrator/convection; the check that is\n"
+         "nearest to its limit; the shortest step; CPU time over that of the cheapest scheme that passes";
+}
+
 std::string table_lines(std::span<const Cell> cells) {
   std::string text = fmt::format("{} ({})", cells[0].one.title, cells[0].one.id);
   for (const Cell& cell : cells) text += "\n" + cell_text(cell);
@@ -165,6 +189,10 @@ std::vector<std::string> differences(std::span<const Cell> cells) {
     if (!cell.proves_hardness()) lines.push_back(where + "the textbook treatment passes: the case is not hard");
   }
   return lines;
+}
+
+std::string meaning_of_outcomes() {
+  return "PASS: every check within its limit; DEGRADED: within ten times; REFUSED: ended with a reason; FAIL: neither";
 }
 
 std::string summary(std::span<const Cell> cells) {

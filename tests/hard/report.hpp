@@ -11,6 +11,9 @@
 
 namespace polybed::hard {
 
+/// What stands above the lines of all cases on the screen, and what the outcomes below mean.
+[[nodiscard]] std::string table_heading();
+[[nodiscard]] std::string meaning_of_outcomes();
 /// The lines of one case: what it is, then for each treatment the outcome, the furthest invariant over its limit, the
 /// least step and the cost over that of the cheapest scheme that passes.
 [[nodiscard]] std::string table_lines(std::span<const Cell> cells);

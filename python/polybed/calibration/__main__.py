@@ -27,6 +27,11 @@ with needed(__name__ == "__main__"):
     from polybed.solids_table import read_table
 
 
+# Axes of a table.
+WORDS = {"phi": "solids fraction", "stokes": "Stokes number of the shear", "e": "restitution", "mu_p": "friction of particles",
+         "x2": "volume share of the second species"}
+
+
 def jobs(text):
     count = int(text)
     if not 1 <= count <= 1024:
@@ -63,15 +68,16 @@ def show_plan(options, plan, boxes):
     case, axes, at_once = plan.case, plan.axes, plan.case["ranks"] if options.on_ranks else options.jobs
     text = f"regime {plan.regime}: {case['reason']}\n"
     for n in case["numbers"]:
-        text += (f"  {n['species']}: gamma tau_p {n['shear_times_relaxation']:.2g}, St* {n['stokes_least']:.2g} to {n['stokes_most']:.2g}, "
-                 f"St_gamma {n['stokes_of_shear']:.2g} (voidage {n['voidage']:.3f}, {n['shear_rate']:.3g} 1/s)\n")
+        text += (f"  {n['species']}: shear rate {n['shear_rate']:.3g} 1/s in the bed, of voidage {n['voidage']:.3f}; times relaxation time "
+                 f"{n['shear_times_relaxation']:.2g}\n    Stokes number of impacts {n['stokes_least']:.2g} to {n['stokes_most']:.2g}, of the "
+                 f"shear {n['stokes_of_shear']:.2g}\n")
     if case["binary"] and not plan.pushed:
-        text += ("no beta_12: it is measured in dry boxes alone. Here a push would meet drag towards the flow and films, whose part the "
+        text += ("no exchange between the species (beta_12): it is measured in dry boxes alone. Here a push would meet drag towards the flow and films, whose part the "
                  "drag law of the two-fluid model has already\n")
-    counts = ", ".join(f"{name} {len(values)}" for name, values in axes.items())
     expected = boxes.expected_left() / at_once
-    say(f"{text}{len(boxes.points)} boxes: {counts}, seeds {min(plan.seeds)}; {len(boxes.left())} left, about {duration(expected)} on "
-        f"{at_once} at once\n", options.people)
+    text += f"{len(boxes.points)} boxes: {min(plan.seeds)} random start{'s' * (min(plan.seeds) > 1)} at each point of\n"
+    text += "".join(f"  {WORDS[name] + ':':37} {', '.join(f'{value:.4g}' for value in values)}\n" for name, values in axes.items() if any(values))
+    say(f"{text}{len(boxes.left())} left to run, about {duration(expected)}, {at_once} at once\n", options.people)
     if options.plan and options.json:
         say_object({"regime": plan.regime, "reason": case["reason"], "boxes": len(boxes.points), "left": len(boxes.left()),
                     "expected_s": expected})

@@ -53,7 +53,10 @@ def box_lines(boxes):
                   f"{box['seed']:>4} {shear_number(box):>7.4g} {measured(box['theta_m2_s2'], math.pow(rate * diameter, 2)):>16} "
                   f"{measured(box['pressure_Pa'], unit * rate):>16} {measured(box['viscosity_Pa_s'], unit):>16} {box['p_ratio'][0]:>7.4g} "
                   f"{box['mu_ratio'][0]:>7.4g} {box['gamma_ratio'][0]:>7.4g} {box['balance']:>8.5f}\n")
-    return lines + species_lines(boxes)
+    return lines + ("phi: solids fraction; St: Stokes number of the shear; e, mu_p: restitution and friction of particles; x2: share of the second "
+                    "species\nS: number of the shear in the fit; theta/(g d)^2: granular temperature over (shear rate x diameter)^2; p, mu: solids "
+                    "pressure and viscosity over density,\n  shear rate and diameter; p, mu, G over ref: over kinetic theory, G the dissipation; "
+                    "balance: work of the shear over dissipation\n") + species_lines(boxes)
 
 
 def species_lines(boxes):

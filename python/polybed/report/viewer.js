@@ -184,9 +184,10 @@
     for (const map of maps.maps) {
       const level = unpacked(map.levels), table = colourTable(map.colours), figure = make("div", into);
       map.figure = figure;
-      figure.className = "figure"; figure.title = map.scale;
+      figure.className = "figure";
       make("div", figure, map.label);
-      const to = canvas(figure, width + 34, tall + 62);
+      const to = canvas(figure, width + 34, tall + 62), scale = make("div", figure, map.scale);
+      scale.className = "source"; scale.style.width = `${width + 34}px`;  // wrapped below a narrow map
       map.draw = step => {
         for (let n = 0; n < cells; ++n) {
           const row = maps.ny - 1 - Math.floor(n / maps.nx), value = level[step * cells + n];

@@ -2,11 +2,18 @@
 
 import os
 
+from polybed.drawing.units import fitting
 from polybed.files import contents_of
+from polybed.quantities import COLUMNS, unit_of_column
 from polybed.study.scores import MODELS
 
 CONFIDENCE = 0.95  # of all intervals
-COUNTERS = ("rhs_evaluations", "linear_iterations", "steps", "particle_steps", "pair_checks")  # of run.json, on the screen
+# Counters of run.json that the screen shows, with their words.
+COUNTERS = {"rhs_evaluations": "evaluations of the equations", "linear_iterations": "linear iterations", "steps": "steps",
+            "particle_steps": "particle steps", "pair_checks": "checks of pairs"}
+# Measures whose words are not those of the table of measures.
+MEASURES = {"centre_difference": "distance of centres/height", "pressure_drop_over_weight": "pressure drop/weight",
+            "mixing": "mixing (1 mixed, 0 apart)"}
 
 
 def plain_measure(measure):
@@ -75,29 +82,42 @@ SCORES = {"e_H": "e_H  bed height", "e_b": "e_b  distance of centres", "D1": "D1
 
 
 def score_line(name, score):
-    line = f"{SCORES.get(name, name):26} {with_error(score['value'], score['error']):>20}"
+    line = f"{SCORES.get(name, name):30} {with_error(score['value'], score['error']):>20}"
     if score["goal"] is None:
         return line
     return line + f"   goal {score['goal']:.2g}" + {True: ": reached", False: ": missed", None: ""}[score["reached"]]
 
 
-def work_line(model, run):
-    wall = "" if run["wall_s"] is None else f" {run['wall_s']:.3g} s by the clock;"
-    counts = "".join(f" {name} {run['work'][name]:.4g}" for name in COUNTERS if name in run["work"])
-    return (f"{model}: {run['state']}, {run['time_s']:.4g} s simulated, {run['cpu_s']:.3g} CPU s,{wall}{counts}  "
-            f"[{os.path.join(run['directory'], 'run.json')}]")
+def work_lines(model, run):
+    wall = "" if run["wall_s"] is None else f", {run['wall_s']:.3g} s by the clock"
+    counts = ", ".join(f"{run['work'][name]:.4g} {words}" for name, words in COUNTERS.items() if name in run["work"])
+    return [f"{model}: {run['state']}, {run['time_s']:.4g} s simulated, {run['cpu_s']:.3g} CPU s{wall}  "
+            f"[{os.path.join(run['directory'], 'run.json')}]", *([f"     {counts}"] if counts else [])]
+
+
+def measure_words(name):
+    """What a column of the measures is called in words."""
+    if name.startswith("centre_") and name.endswith("_m"):
+        return f"centre of {name[len('centre_'):-len('_m')]}"
+    return MEASURES.get(name) or COLUMNS.get(name, {}).get("name", name).replace("_", " ")
+
+
+def measure_line(name, measure):
+    known = [abs(measure[model]) for model in MODELS if measure[model] is not None]
+    factor, unit = fitting(unit_of_column(name), max(known, default=0))
+    cells = [with_error(*(None if value is None else value * factor for value in (measure[what], measure[f"{what}_error"])))
+             for what in (*MODELS, "difference")]
+    return " ".join([f"{measure_words(name) + (f' ({unit})' if unit else ''):30}", *(f"{cell:>20}" for cell in cells)])
 
 
 def table(record):
     """The tables of a comparison.json."""
     window, order = record["window"], record["scores"]["order"]
     lines = [f"means from {window['begin_s']:.4g} to {window['end_s']:.4g} s, +- 95 %",
-             f"{'':26} {'tfm':>20} {'dem':>20} {'tfm - dem':>20}"]
-    for name, of in record["measures"].items():
-        cells = [with_error(of[what], of[f"{what}_error"]) for what in (*MODELS, "difference")]
-        lines.append(" ".join([f"{name:26}", *(f"{cell:>20}" for cell in cells)]))
-    lines += [f"{'on top':26} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}", "",
+             f"{'':30} {'two-fluid (tfm)':>20} {'particles (dem)':>20} {'difference':>20}",
+             *(measure_line(name, measure) for name, measure in record["measures"].items())]
+    lines += [f"{'on top':30} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}", "",
               "scores: 0 where the models agree (polybed explain e_H)"]
     lines += [score_line(name, score) for name, score in record["scores"].items() if name != "order"]
-    lines += ["", *(work_line(model, run) for model, run in record["models"].items())]
+    lines += ["", *(line for model, run in record["models"].items() for line in work_lines(model, run))]
     return "\n".join([*lines, *(f"warning: {line}" for line in record["warnings"])])
