@@ -28,12 +28,14 @@ struct FluxRate {
 };
 
 /// Voidage on the face c between c - s and c as the cell sees it that the fluid comes from relative to the particles:
-/// the mean of both, unless the voidage grows more than twice as fast as behind that cell, as where a bed ends; there
-/// nearly the cell's own.
+/// the mean of both, unless the voidage grows more than twice as fast as behind that cell, and by more than a
+/// twentieth of its solids, as where a bed ends; there nearly the cell's own. Ripples smaller than that keep the mean,
+/// lest each switches with the sign of its slope, which Newton's steps do not forgive.
 [[nodiscard]] inline double voidage_upstream(const double* eps, core::Index c, core::Index s, double slip) {
   const double here = eps[c] - eps[c - s], from = slip > 0 ? eps[c - s] : eps[c], rise = slip > 0 ? here : -here,
-               before = slip > 0 ? eps[c - s] - eps[c - 2 * s] : eps[c] - eps[c + s];
-  return std::max(from + 0.5 * std::min(rise, 2 * std::max(before, 0.0)), voidage_floor);
+               before = slip > 0 ? eps[c - s] - eps[c - 2 * s] : eps[c] - eps[c + s],
+               most = 2 * std::max(before, 0.0) + 0.05 * (1 - from);
+  return std::max(from + 0.5 * std::min(rise, most), voidage_floor);
 }
 
 /// b_j on the face between the cells c - s and c: from the cell that the fluid comes from relative to the particles,
