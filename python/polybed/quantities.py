@@ -102,3 +102,15 @@ def of_fields(run: Run, name: str) -> Quantity | None:
 def names(run: Run) -> list[str]:
     """What find() knows of a run."""
     return sorted({*run.history, *run.profiles, *run.fields} - {"y_m"})
+
+
+# Measures whose words are not those of the table of measures.
+MEASURES = {"centre_difference": "distance of centres/height", "pressure_drop_over_weight": "pressure drop/weight",
+            "mixing": "mixing (1 mixed, 0 apart)"}
+
+
+def measure_words(name: str) -> str:
+    """What a column of the measures is called in words."""
+    if name.startswith("centre_") and name.endswith("_m"):
+        return f"centre of {name[len('centre_'):-len('_m')]}"
+    return MEASURES.get(name) or COLUMNS.get(name, {}).get("name", name).replace("_", " ")

@@ -4,16 +4,13 @@ import os
 
 from polybed.drawing.units import fitting
 from polybed.files import contents_of
-from polybed.quantities import COLUMNS, unit_of_column
+from polybed.quantities import measure_words, unit_of_column
 from polybed.study.scores import MODELS
 
 CONFIDENCE = 0.95  # of all intervals
 # Counters of run.json that the screen shows, with their words.
 COUNTERS = {"rhs_evaluations": "evaluations of the equations", "linear_iterations": "linear iterations", "steps": "steps",
             "particle_steps": "particle steps", "pair_checks": "checks of pairs"}
-# Measures whose words are not those of the table of measures.
-MEASURES = {"centre_difference": "distance of centres/height", "pressure_drop_over_weight": "pressure drop/weight",
-            "mixing": "mixing (1 mixed, 0 apart)"}
 
 
 def plain_measure(measure):
@@ -93,13 +90,6 @@ def work_lines(model, run):
     counts = ", ".join(f"{run['work'][name]:.4g} {words}" for name, words in COUNTERS.items() if name in run["work"])
     return [f"{model}: {run['state']}, {run['time_s']:.4g} s simulated, {run['cpu_s']:.3g} CPU s{wall}  "
             f"[{os.path.join(run['directory'], 'run.json')}]", *([f"     {counts}"] if counts else [])]
-
-
-def measure_words(name):
-    """What a column of the measures is called in words."""
-    if name.startswith("centre_") and name.endswith("_m"):
-        return f"centre of {name[len('centre_'):-len('_m')]}"
-    return MEASURES.get(name) or COLUMNS.get(name, {}).get("name", name).replace("_", " ")
 
 
 def measure_line(name, measure):

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from polybed.files import FormatError
+from polybed.quantities import measure_words
 from polybed.study.measured import (WindowProfiles, centre_column, centre_difference, drifts_in, measures_of, ratio, species_of, window_of,
                                     within)
 from polybed.study.time_mean import TimeMean, jackknife_error, student_quantile, time_mean
@@ -197,7 +198,7 @@ class Comparer:
         times = {name: mean.correlation for name, mean in means.items() if mean and mean.error is not None}
         slowest = max(times, key=times.get, default=None)
         if slowest and len(time) < ENOUGH * times[slowest]:
-            warnings.append(f"window too short for {slowest}: run at least {WINDOW_PARTS * ENOUGH * times[slowest] * step:.3g} s")
+            warnings.append(f"window too short for {measure_words(slowest)}: run at least {WINDOW_PARTS * ENOUGH * times[slowest] * step:.3g} s")
         self.found.warnings += [f"{model}: {line}" for line in (*warnings, *drifts_in(history, self.found.species, window))]
 
 
