@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 OURS = re.compile(r"\bpolybed::")
 # What makes effects and lists them, once: here the lists themselves differ.
-REGISTRIES = re.compile(r"SideForces::SideForces|ParticleForces::ParticleForces|CaseReader::read_effects|make_pair_laws|make_effects|makers::|"
+REGISTRIES = re.compile(r"SideForces::SideForces|ParticleForces::ParticleForces|CaseReader::read|make_pair_laws|make_effects|makers::|"
                         r"for_each_called|roles\(\)|rules(_of_keys)?\(|menu_of|effects\(\)|PairLaws::|relevance::(?!FluidConstants)|"
                         r"core::(Rule|Role|Law|refuse|law_of)|_GLOBAL__sub_I")
 CONTROL = "polybed::absent::control_kernel(int)"

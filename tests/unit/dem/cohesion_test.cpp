@@ -23,7 +23,8 @@ Bench& placed(Bench& bench) {
 
 double hertz(const Bench& bench, double overlap) {
   const PairMaterial& k = bench.kind();
-  return closures::hertz_greatest_force(closures::hertz_coefficient(k.youngs_modulus, k.radius), overlap);
+  return overlap > 0 ? closures::hertz_greatest_force(closures::hertz_coefficient(k.youngs_modulus, k.radius), overlap)
+                     : 0;
 }
 
 core::Scene cohesive(const char* law) {
