@@ -221,10 +221,9 @@ Texts words_of(const std::string& line) {
 /// Answers questions until there are no more: each is a line with a JSON array of texts, each answer a line of JSON.
 ///   case PATH SETTING...      reads the case: the plan, {"regime", "axes", "seeds", ...}; the first question
 ///   take DIRECTORY            takes the directory as long as this runs; null
-///   boxes POINT...            of each its hash and the seconds that it is expected to take on one core, [[hash, s],
-///   ...] run FILE POINT ...        runs boxes on the ranks, in this order: null each time the first rank has finished
-///   one of
-///                             its own, and at the end the places of those that failed, [0, 3]
+///   boxes POINT...            of each its hash and the seconds expected on one core, [[hash, s], ...]
+///   run FILE POINT ...        runs boxes on the ranks, in this order: null each time the first rank has finished
+///                             one of its own, and at the end the places of those that failed, [0, 3]
 ///   table PATH                how a table of sheared boxes runs, {"falls", "falls_in_shear_up_to", "a"}
 ///   bed PATH                  null for a table of fluidised boxes
 ///   ratios PATH POINT...      of each [p, p one standard error up, mu, mu likewise] that a run reads from a table

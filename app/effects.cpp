@@ -79,7 +79,7 @@ void add_effects(CLI::App& app, Commands& commands) {
   audit->add_flag("--json", options->audit_json, "one JSON object");
   CLI::App* bench =
       command.add_subcommand("bench", "what each effect costs per particle, contact or cell on this machine");
-  bench->add_option("--rounds", options->bench_rounds, "repetitions; the least times are told")
+  bench->add_option("--rounds", options->bench_rounds, "repetitions; the shortest time of each is printed")
       ->check(CLI::Range(1, 1000));
   bench->add_flag("--json", options->bench_json, "one JSON object");
   commands.push_back(

@@ -47,8 +47,8 @@ struct InversionOptions : RunOptions {
   std::string from, to;      ///< velocities to begin the scan at; empty: about the force balance
 };
 
-// Commands and parts of them that stand in files of their own. Each writes its answer to standard output; errors are
-// thrown.
+// Commands, and parts of commands, that have their own files. Each prints its answer on standard output and throws
+// errors.
 /// The case alone, as a record of its run has it; as JSON with its hashes and why a model cannot run it.
 void print_resolved(const RunOptions& options);
 /// Every measure with its unit and definition: a text, JSON, or the page of the documentation.

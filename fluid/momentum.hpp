@@ -27,10 +27,11 @@ struct FluxRate {
       : free(core::make_face_field(grid)), mobility(core::make_face_field(grid)) {}
 };
 
-/// Voidage on the face c between c - s and c as the cell sees it that the fluid comes from relative to the particles:
-/// the mean of both, unless the voidage grows more than twice as fast as behind that cell, and by more than a
-/// twentieth of its solids, as where a bed ends; there nearly the cell's own. Ripples smaller than that keep the mean,
-/// lest each switches with the sign of its slope, which Newton's steps do not forgive.
+/// Voidage on the face c between c - s and c for the drag that is taken from the upstream cell, the one from which the
+/// fluid comes relative to the particles. It is the mean of both cells in a bed. At the end of a bed, where it would
+/// rise from the upstream cell to the next by more than twice the rise behind it and a twentieth of the upstream solids
+/// (both chosen), it is nearly the upstream cell's own. Without the twentieth every ripple of a uniform bed would
+/// switch between the two, and Newton's method converges badly.
 [[nodiscard]] inline double voidage_upstream(const double* eps, core::Index c, core::Index s, double slip) {
   const double here = eps[c] - eps[c - s], from = slip > 0 ? eps[c - s] : eps[c], rise = slip > 0 ? here : -here,
                before = slip > 0 ? eps[c - s] - eps[c - 2 * s] : eps[c] - eps[c + s],
@@ -41,9 +42,9 @@ struct FluxRate {
 /// b_j on the face between the cells c - s and c: from the cell that the fluid comes from relative to the particles,
 /// with half a limited slope. A mean of both cells would not see a ripple from cell to cell, and nothing else resists
 /// one below packing. Drag grows with the solids fraction, so waves of voidage run with the slip: this is upwinding.
-/// What carries particles is b_j/eps^2, the force over the superficial slip eps (U_f - U_j) with the pressure gradient
-/// that drag makes. Where a bed ends it is that of the bed, though the face has a larger voidage, so that the topmost
-/// cell is held at the bed's own fraction however far the cell above is filled.
+/// Particles are carried by b_j/eps^2, the force over the superficial slip eps (U_f - U_j) with the pressure gradient
+/// of drag included. Where a bed ends, the face has a larger voidage than the bed; b_j/eps^2 of the bed is used there,
+/// so that the topmost cell keeps the bed's own solids fraction however full the cell above is.
 /// \param b, eps  on cells, ghosts filled  \param slip  U_f - U_j on the face, m/s
 [[nodiscard]] inline double exchange_on_face(const double* b, const double* eps, core::Index c, core::Index s,
                                              double slip) {

@@ -44,7 +44,7 @@ FluidConstants fluid_constants(const core::Fluid& fluid) {
 }
 
 double mean_free_path_at(double pressure, double density, double viscosity) {
-  constexpr double kelvin = 1;  // only the product R T is asked for
+  constexpr double kelvin = 1;  // only the product R T is needed
   return closures::mean_free_path(density, viscosity, kelvin, pressure / density);
 }
 

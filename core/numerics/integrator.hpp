@@ -12,9 +12,9 @@
 
 namespace polybed::core {
 
-/// What errors are weighed by in a step: a relative tolerance and absolute ones, which may follow the state. Sets the
-/// absolute ones at a state, entry by entry. \param y  this rank's state  \param dydt  its rates, of
-/// the implicit integrator only; else empty. Collective.
+/// Errors of a step are weighed by a relative tolerance and by absolute ones, which may follow the state. This sets the
+/// absolute ones, entry by entry. Collective. \param y  this rank's state  \param dydt  its rates with the implicit
+/// integrator, empty with the others
 using TolerancesAt =
     std::function<void(std::span<const double> y, std::span<const double> dydt, std::span<double> atol)>;
 

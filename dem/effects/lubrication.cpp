@@ -42,8 +42,8 @@ void squeeze(const ContactBatch& b, const Row& radius, const Row& per_mass, doub
 ///
 /// Implicit in v_n: c/(1 + 6 c dt/m*). The 6 is for particles with many films: with it the greatest rate of a close
 /// packing, 8 c/m with films along all its bonds, is at most (2/3)/dt however thin they are, where 2/dt is stable and
-/// 1/dt with the synchronised integrator. It is as if h were greater by 36 pi mu R*^2 dt/m*: steps that shall tell
-/// thinner films must be so much shorter.
+/// 1/dt with the synchronised integrator. It is as if h were greater by 36 pi mu R*^2 dt/m*: to resolve thinner films,
+/// steps must be that much shorter.
 class Film final : public FilmLaw {
  public:
   /// \param viscosity  Pa s  \param roughness  m

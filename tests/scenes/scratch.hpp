@@ -12,7 +12,7 @@ namespace polybed::scenes {
 class Scratch {
  public:
   Scratch() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "polybed-XXXXXX").string();
+    std::string pattern = (std::filesystem::temp_directory_path() / ("polybed-" + std::string(6, 'X'))).string();
     if (mkdtemp(pattern.data()) == nullptr) throw core::FileError("no scratch directory: " + pattern);
     path_ = pattern;
   }

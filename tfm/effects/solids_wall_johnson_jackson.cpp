@@ -17,7 +17,7 @@ using core::Index;
 
 /// mu_s dU_t/dn = -B U_t with B = pi sqrt(3 theta) s rho phi g0/(6 phi_max) + p_f tan(delta_w)/|U_t|, n outward: sets
 /// the ghosts of the velocities so that the wall's shear stress is that of U_t half way between ghost and cell. The
-/// collisional part stands in stress.wall and is absent without kinetic theory.
+/// collisional part is stress.wall, which is absent without kinetic theory.
 class JohnsonJacksonWall : public SolidsWall {
  public:
   JohnsonJacksonWall(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
