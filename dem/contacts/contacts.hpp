@@ -33,13 +33,25 @@ struct Contacts {
     std::swap(touched, touching);
     touching.clear();
   }
-  /// Calls for each of the pairs that touched at the force before and do so no longer.
+  /// Calls for each of the pairs that touched at the force before and do so no longer. A step changes few of them, so
+  /// equal stretches of both lists are passed as a whole.
   template <class Act>
   void each_parted(Act&& act) const {
+    constexpr std::ptrdiff_t stretch = 16;
     auto now = touching.begin();
-    for (const std::int32_t pair : touched) {
-      while (now != touching.end() && *now < pair) ++now;
-      if (now == touching.end() || *now != pair) act(pair);
+    for (auto before = touched.begin(); before != touched.end();) {
+      if (touched.end() - before >= stretch && touching.end() - now >= stretch) {
+        std::int32_t differs = 0;
+        for (std::ptrdiff_t k = 0; k < stretch; ++k) differs |= before[k] ^ now[k];
+        if (differs == 0) {
+          before += stretch;
+          now += stretch;
+          continue;
+        }
+      }
+      while (now != touching.end() && *now < *before) ++now;
+      if (now == touching.end() || *now != *before) act(*before);
+      ++before;
     }
   }
 

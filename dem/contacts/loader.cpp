@@ -136,10 +136,19 @@ double ContactLoader::height_over(std::int32_t wall, const Place& place) const {
 /// Where the answer is no, the place in the batch is overwritten by the next.
 std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
                                        std::int32_t p, std::int32_t end, ContactBatch& b) const {
+  // Pairs are read in the order of their places in space, so that the processor sees most records coming; those of the
+  // second particles it does not, and with more particles than its caches hold it would wait for each.
+  constexpr std::int32_t ahead = 16;
   const Place* place = particles.place.data();
+  const Motion* motion = particles.motion.data();
+  const Load* load = particles.load.data();
   int n = 0;
   for (; p < end && n < ContactBatch::width; ++p) {
     const Contacts::Pair& pair = contacts.pairs[std::size_t(p)];
+    __builtin_prefetch(place + contacts.pairs[std::size_t(std::min(p + ahead, end - 1))].second);
+    __builtin_prefetch(motion + pair.second);
+    __builtin_prefetch(load + pair.second, 1);
+    __builtin_prefetch(contacts.memory_of(p), 1);
     const Vector &i = place[pair.first].x, &j = place[pair.second].x, &shift = images.shift[std::size_t(pair.image)];
     const double dx = i[0] - j[0] - shift[0], dy = i[1] - j[1] - shift[1], dz = i[2] - j[2] - shift[2];
     b.distance[0][n] = dx;

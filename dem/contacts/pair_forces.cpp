@@ -79,10 +79,20 @@ void store_memory(double* memory, int size, const ContactBatch& b) {
     for (int c = 0; c < b.count; ++c) memory[std::ptrdiff_t(b.pair[c]) * size + m] = b.memory[m][c];
 }
 
-void add_load(Load& load, const ContactBatch::Row* force, int sign, const ContactBatch::Row* torque, int c) {
+void add_to_pair(const ContactBatch& b, int c, Load& first, Load& second) {
   for (std::size_t k = 0; k < 3; ++k) {
-    load.force[k] += sign * std::int64_t(force[k][c]);
-    load.torque[k] += std::int64_t(torque[k][c]);
+    const auto force = std::int64_t(b.force[k][c]);
+    first.force[k] += force;
+    second.force[k] -= force;
+    first.torque[k] += std::int64_t(b.torque_i[k][c]);
+    second.torque[k] += std::int64_t(b.torque_j[k][c]);
+  }
+}
+
+void add_to_first(const ContactBatch& b, int c, Load& first) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    first.force[k] += std::int64_t(b.force[k][c]);
+    first.torque[k] += std::int64_t(b.torque_i[k][c]);
   }
 }
 
@@ -165,10 +175,8 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Image
     loader_.load_pairs(particles, contacts, images, batch_);
     treat(particles, contacts, false, dt);
     if (flow_work_ != nullptr) flow_work_->act(batch_, counted_, contacts, images);
-    for (int c = 0; c < batch_.count; ++c) {
-      add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
-      add_load(particles.load[std::size_t(batch_.second[c])], batch_.force, -1, batch_.torque_j, c);
-    }
+    Load* const load = particles.load.data();
+    for (int c = 0; c < batch_.count; ++c) add_to_pair(batch_, c, load[batch_.first[c]], load[batch_.second[c]]);
   }
 }
 
@@ -179,8 +187,7 @@ void PairForces::add_walls(Particles& particles, Contacts& contacts, double dt) 
     p = loader_.find_walls(particles, contacts, p, batch_);
     loader_.load_walls(particles, contacts, batch_);
     treat(particles, contacts, true, dt);
-    for (int c = 0; c < batch_.count; ++c)
-      add_load(particles.load[std::size_t(batch_.first[c])], batch_.force, 1, batch_.torque_i, c);
+    for (int c = 0; c < batch_.count; ++c) add_to_first(batch_, c, particles.load[std::size_t(batch_.first[c])]);
   }
   if (ledger_ != nullptr) ledger_->part(contacts, particles.owned);
   contacts.forget_parted();
