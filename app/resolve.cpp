@@ -31,6 +31,8 @@ struct ResolveOptions : CaseOptions {
 
 namespace fs = std::filesystem;
 
+constexpr const char* box_file = "box.h5";  ///< the box that is not steady yet
+
 void require_what_resolve_needs(const ResolveOptions& options, const core::Scene& scene) {
   if (scene.resolve.voidage.empty())
     throw core::CaseError(options.case_path.string() + ": resolve needs resolve.voidage, e.g. [0.5, 0.7]");
@@ -114,6 +116,7 @@ class ResolveRun {
     if (options_.resume && !there)
       throw core::FileError(
           fmt::format("{}: no boxes to resume from; leave out --resume to begin anew", directory_.string()));
+    if (!options_.resume) KeptBox{directory_ / box_file, "", 0}.remove(nullptr);
     std::string kept = "box,cells,change,imbalance,steps,sites,seconds, then n and f of each species\n";
     if (options_.resume) {
       (void)core::bytes_of_file(path);
@@ -149,8 +152,9 @@ class ResolveRun {
       core::on_all(ranks_.get(), [&] {
         spheres = sphere_packing(scene_, point.voidage, scene_.bed.seed + (std::uint64_t(point.packing) << 32));
       });
-    const BoxDrag box = box_drag(scene_, point, *spheres, ranks_,
-                                 [&](double steps, double change) { return say(point, steps, change); });
+    const KeptBox kept{directory_ / box_file, name, scene_.resolve.checkpoint_every};
+    const BoxDrag box = box_drag(
+        scene_, point, *spheres, ranks_, [&](double steps, double change) { return say(point, steps, change); }, &kept);
     core::on_first(ranks_.get(), [&] { file_->append(name + "," + box_text(box) + "\n"); });
     report(point, box);
     return box;
@@ -193,7 +197,7 @@ class ResolveRun {
   std::optional<core::OutputDirectory> lock_;
   std::optional<core::LineFile> file_;
   std::map<std::string, std::string> finished_;
-  std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point said_;  ///< long ago, so that the first line comes at once
   double done_ = 0, seconds_ = 0;
 };
 
@@ -209,7 +213,7 @@ void add_resolve(CLI::App& app, Commands& commands) {
       *app.add_subcommand("resolve", "drag data from resolved flow through random boxes of the case's spheres");
   take_case(command, *options);
   command.add_option("-o,--output", options->output, "folder; default runs/<case name>-resolve");
-  command.add_flag("--resume", options->resume, "keep the boxes that are finished");
+  command.add_flag("--resume", options->resume, "keep the boxes that are finished, and go on with the one that is not");
   command.add_flag("--force", options->force, "replace them");
   command.add_flag("--quiet", options->quiet, "no line for each box");
   command.add_flag("--estimate", options->estimate, "time and memory of each point, and nothing is run");

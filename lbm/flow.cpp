@@ -277,6 +277,24 @@ void Flow<Real>::level_density() {
 }
 
 template <class Real>
+std::vector<double> Flow<Real>::populations(std::size_t way) const {
+  std::vector<double> values;
+  values.reserve(std::size_t(sites_.own[0]) * sites_.own[1] * sites_.own[2]);
+  for (int i = 1; i <= sites_.own[0]; ++i)
+    for (int j = 1; j <= sites_.own[1]; ++j)
+      for (int k = 1; k <= sites_.own[2]; ++k) values.push_back(double(populations_[place(way, sites_.at(i, j, k))]));
+  return values;
+}
+
+template <class Real>
+void Flow<Real>::restore_populations(std::size_t way, const std::vector<double>& populations) {
+  std::size_t n = 0;
+  for (int i = 1; i <= sites_.own[0]; ++i)
+    for (int j = 1; j <= sites_.own[1]; ++j)
+      for (int k = 1; k <= sites_.own[2]; ++k) populations_[place(way, sites_.at(i, j, k))] = Real(populations.at(n++));
+}
+
+template <class Real>
 std::size_t Flow<Real>::memory_bytes() const {
   return populations_.size() * sizeof(Real) + owner_.size() * sizeof(owner_[0]) + links_.size() * sizeof(Link) +
          bundles_.size() * sizeof(Bundle) + runs_.size() * sizeof(Run);

@@ -53,6 +53,13 @@ class Flow {
   /// Subtracts the mean density: interpolated walls do not conserve mass to round-off. Collective.
   void level_density();
 
+  /// Populations along one direction at the sites of this slab, in C order. Those of all directions and the force of
+  /// the last steps are the flow, to the bit.
+  [[nodiscard]] std::vector<double> populations(std::size_t way) const;
+  [[nodiscard]] const Point& last_force() const { return force_; }
+  void restore_populations(std::size_t way, const std::vector<double>& populations);
+  void restore_last_force(const Point& force) { force_ = force; }
+
   [[nodiscard]] const Sites& sites() const { return sites_; }
   /// Sites of fluid in the whole box; links cut in this slab.
   [[nodiscard]] double fluid_sites() const { return fluid_sites_; }

@@ -25,14 +25,21 @@ struct SteadyFlow {
   std::int64_t steps = 0;
 };
 
-/// After each window: steps taken and relative change. Returns false to stop.
-using AfterWindow = std::function<bool(std::int64_t, double)>;
+/// Between two windows: with the flow, all that a run goes on from.
+struct SteadyProgress {
+  std::int64_t steps = 0;
+  double drag = 0, mean_drag = 0;  ///< of the last two steps; mean of the last window
+  double change = 0;               ///< of mean_drag, relative
+};
+
+/// Returns false to stop.
+using AfterWindow = std::function<bool(const SteadyProgress&)>;
 
 /// Drives the flow by a force that keeps its mean velocity, and stops when `tolerance` is met, after `most_steps` or
 /// when `after_window` says so; `change` tells which. Collective. Throws core::NumericsError for populations that are
-/// no numbers any more.
+/// no numbers any more. \param progress  where the run begins
 template <class Real>
 [[nodiscard]] SteadyFlow run_until_steady(Flow<Real>& flow, const SteadyPlan& plan,
-                                          const AfterWindow& after_window = {});
+                                          const AfterWindow& after_window = {}, SteadyProgress progress = {});
 
 }  // namespace polybed::lbm

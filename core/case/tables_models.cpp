@@ -212,10 +212,13 @@ Table resolve_table() {
           key(&Resolve::cells_per_diameter, "cells_per_diameter", range(6, 200),
               help("of the smallest spheres, on the finest grid")),
           key(&Resolve::grids, "grids", range(1, 3),
-              help("each 1.5 times coarser than the one before; from two on rows are extrapolated, of second order")),
+              help("each 1.5 times coarser than the one before; rows are those of the finest, from two on with the "
+                   "difference to the next")),
           key(&Resolve::packings, "packings", range(1, 1000), help("random boxes per row")),
           key(&Resolve::spheres, "spheres", range(1, 1e5), help("in a box, all sizes together")),
           key(&Resolve::precision, "precision", help("of the numbers of the flow: single takes half the memory")),
+          key(&Resolve::checkpoint_every, "checkpoint_every", dimension::time, above(0, 1e9),
+              help("on the clock, between checkpoints of a box that is not steady yet")),
       });
 }
 

@@ -146,8 +146,11 @@ void write_fresh(const fs::path& fresh, Checkpoint& checkpoint, const Ranks* ran
   const bool in_memory = ranks == nullptr && more.empty();
   std::vector<BlockData> data = block_data(checkpoint);
   for (BlockData& d : more) {
-    refuse_slash(d.name);
-    d.name = "arrays/" + d.name;
+    const std::size_t slash = d.name.find('/');
+    const bool part = slash != std::string::npos;
+    refuse_slash(d.name.substr(0, slash));
+    if (part) refuse_slash(d.name.substr(slash + 1));
+    d.name = (part ? "fields/" : "arrays/") + d.name;
     data.push_back(std::move(d));
   }
   std::optional<OutputFile> file;

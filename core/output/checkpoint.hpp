@@ -62,7 +62,8 @@ void require_numbers(const Checkpoint& checkpoint);
 /// Writes a checkpoint: temporary name, flushed, renamed; the one before stays as previous_checkpoint(path).
 /// At no moment is there no whole checkpoint. Throws FileError (disk full, no permission; a name with '/').
 /// \param ranks  that share the column; what is in no part is taken from the first. Collective.
-/// \param more  arrays beside those of the checkpoint, by their names in it, made while they are written
+/// \param more  arrays beside those of the checkpoint, by their names in it, made while they are written; what read_parts
+/// shall find by "array/part"
 void write_checkpoint(const std::filesystem::path& path, Checkpoint checkpoint, const Ranks* ranks = nullptr,
                       std::vector<BlockData> more = {});
 

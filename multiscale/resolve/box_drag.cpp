@@ -166,7 +166,7 @@ double rate_of(const core::Scene& scene, const ResolvePoint& point, const Sphere
 
 template <class Real>
 BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
-                 std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted) {
+                 std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted, const KeptBox* kept) {
   const BoxPlan box = plan_of(scene, point);
   const Units& units = box.units;
   const std::vector<lbm::Sphere> spheres = spheres_of(scene, packing, box.scale);
@@ -178,14 +178,27 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   const lbm::FlowSetup setup = setup_of(box, point.reynolds);
   lbm::Flow<Real> flow(setup, lbm::Spheres(spheres, setup.box), ranks);
   bool stopped = false;
+  KeptBox::Stand stand;
+  if (kept != nullptr && kept->restore(flow, stand, ranks.get()))
+    (void)wanted(double(stand.progress.steps), stand.progress.change);
   const auto begin = std::chrono::steady_clock::now();
-  const lbm::SteadyFlow steady = run_until_steady(flow, plan, [&](std::int64_t steps, double change) {
-    stopped = core::on_any_rank(ranks.get(), !wanted(double(steps), change));
+  const auto seconds = [&] {
+    return stand.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  double last_kept = stand.seconds;
+  const auto after_window = [&](const lbm::SteadyProgress& progress) {
+    stopped = core::on_any_rank(ranks.get(), !wanted(double(progress.steps), progress.change));
+    if (kept != nullptr && core::on_any_rank(ranks.get(), stopped || seconds() - last_kept > kept->every)) {
+      last_kept = seconds();
+      kept->write(flow, {progress, last_kept}, ranks.get());
+    }
     return !stopped;
-  });
+  };
+  const lbm::SteadyFlow steady = run_until_steady(flow, plan, after_window, stand.progress);
   if (stopped) throw core::Stopped("stopped by the user");
+  if (kept != nullptr) kept->remove(ranks.get());
   BoxDrag drag;
-  drag.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  drag.seconds = seconds();
   drag.steps = double(steady.steps);
   drag.sites = std::pow(box.edge, 3);
   drag.cells = least_diameter(scene) * box.scale;
@@ -248,10 +261,10 @@ double measured_rate(const core::Scene& scene, const ResolvePoint& point, const 
 }
 
 BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
-                 std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted) {
+                 std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted, const KeptBox* kept) {
   return scene.resolve.precision == core::Precision::one
-             ? resolved<float>(scene, point, packing, std::move(ranks), wanted)
-             : resolved<double>(scene, point, packing, std::move(ranks), wanted);
+             ? resolved<float>(scene, point, packing, std::move(ranks), wanted, kept)
+             : resolved<double>(scene, point, packing, std::move(ranks), wanted, kept);
 }
 
 }  // namespace polybed::multiscale

@@ -2,10 +2,15 @@
 """polybed resolve: rows, resume, refusals, and one and two ranks. Usage: resolve_test.py PROGRAM"""
 import csv
 import os
+import re
+import shutil
+import signal
 import subprocess
 
+import h5py
+
 import program
-from program import DONE, FILE, TWO_SIZES, WRONG_CASE, Scratch, main, strict_json
+from program import DONE, FILE, LONGEST, STOPPED, TWO_SIZES, WRONG_CASE, Scratch, main, strict_json, wait_until
 import open_mpi
 
 CASE = """[column]
@@ -70,17 +75,48 @@ class Resolve(Scratch):
         self.out = self.folder / "other"
         self.resolve("--resume", code=FILE)
 
+    def test_a_box_goes_on_where_it_was_stopped(self):
+        # Double precision, whose limit of change it takes a second or two to reach; 36 spheres in one box.
+        words = ["--set", "resolve.reynolds=[5]", "--set", "resolve.packings=1", "--set", "resolve.spheres=36",
+                 "--set", 'resolve.precision="double"', "--set", 'resolve.checkpoint_every="1 ms"']
+        rows = self.resolve(*words).stdout
+        self.assertFalse((self.out / "box.h5").exists())
+        for how, code in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGTERM, STOPPED)):
+            self.out = self.folder / how.name
+            box = self.out / "box.h5"
+            running = self.start("resolve", self.case, "-o", self.out, "--quiet", *words)
+            wait_until(running, box.exists)
+            running.send_signal(how)
+            running.communicate(timeout=LONGEST)
+            self.assertEqual(running.returncode, code)
+            with h5py.File(box) as file:
+                kept = file["integers/steps"][()]
+            if code == STOPPED:
+                shutil.copytree(self.out, self.folder / "on-two")
+            again = self.ends(DONE, "resolve", self.case, "-o", self.out, "--resume", *words)
+            self.assertEqual(int(re.search(r"(\d+) steps", again.stderr)[1]), kept)
+            self.assertEqual(again.stdout, rows)
+            self.assertFalse(box.exists())
+        two = self.on_ranks(2, "-o", self.folder / "on-two", "--resume", *words)
+        self.assert_near(two, next(csv.DictReader(rows.splitlines())))
+
+    def on_ranks(self, ranks, *words):
+        """The row of a run on ranks."""
+        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
+        done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "resolve", self.case, "--quiet", *words],
+                              env=settings, capture_output=True, text=True)
+        self.assertEqual(done.returncode, DONE, done.stderr[-1500:])
+        return next(csv.DictReader(done.stdout.splitlines()))
+
+    def assert_near(self, row, other):
+        for name in ("n_1", "n_2", "f_1", "f_2"):  # sums over ranks are rounded otherwise
+            self.assertAlmostEqual(float(row[name]), float(other[name]), delta=2e-6 * float(other[name]))
+
     def test_two_ranks_find_the_same(self):
         words = ["--set", "resolve.reynolds=[5]", "--set", 'resolve.precision="double"', "--set", "resolve.packings=1"]
         one = next(csv.DictReader(self.resolve(*words).stdout.splitlines()))
-        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
         for ranks in (2, 3):
-            done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "resolve", self.case, "--quiet",
-                                   "-o", self.folder / f"on-{ranks}", *words], env=settings, capture_output=True, text=True)
-            self.assertEqual(done.returncode, DONE, done.stderr[-1500:])
-            more = next(csv.DictReader(done.stdout.splitlines()))
-            for name in ("n_1", "n_2", "f_1", "f_2"):  # sums over ranks are rounded otherwise
-                self.assertAlmostEqual(float(more[name]), float(one[name]), delta=2e-6 * float(one[name]))
+            self.assert_near(self.on_ranks(ranks, "-o", self.folder / f"on-{ranks}", *words), one)
 
     def test_what_cannot_be_resolved_is_refused_with_its_number(self):
         for words, said in ((["resolve.cells_per_diameter=6", "resolve.voidage=[0.4]"], "resolve.cells_per_diameter = 6"),

@@ -1,0 +1,36 @@
+// A box of resolved flow that is not steady yet, kept in a file so that a run goes on from it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/numerics/ranks.hpp"
+#include "lbm/steady.hpp"
+
+namespace polybed::multiscale {
+
+struct KeptBox {
+  std::filesystem::path path;
+  std::string name;    ///< box_name: the file of another box is left alone
+  double every = 600;  ///< s of time on the clock, between two writings
+
+  /// How far the flow in the file has come.
+  struct Stand {
+    lbm::SteadyProgress progress;
+    double seconds = 0;  ///< that it took
+  };
+
+  /// Writes the flow, to the bit. Collective. Throws core::FileError.
+  template <class Real>
+  void write(const lbm::Flow<Real>& flow, const Stand& stand, const core::Ranks* ranks) const;
+
+  /// Restores what was written, on any number of ranks; false if there is no file of this box. Collective. Throws
+  /// core::FileError for a damaged one.
+  template <class Real>
+  bool restore(lbm::Flow<Real>& flow, Stand& stand, const core::Ranks* ranks) const;
+
+  /// Removes the file and the one before it. Collective.
+  void remove(const core::Ranks* ranks) const;
+};
+
+}  // namespace polybed::multiscale
