@@ -136,8 +136,8 @@ double ContactLoader::height_over(std::int32_t wall, const Place& place) const {
 /// Where the answer is no, the place in the batch is overwritten by the next.
 std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
                                        std::int32_t p, std::int32_t end, ContactBatch& b) const {
-  // Pairs are read in the order of their places in space, so that the processor sees most records coming; those of the
-  // second particles it does not, and with more particles than its caches hold it would wait for each.
+  // The processor does not see coming which particles a pair names. With more of them than its caches hold it would
+  // wait for their places here, and for what the rest of the batch's way needs of them.
   constexpr std::int32_t ahead = 16;
   const Place* place = particles.place.data();
   const Motion* motion = particles.motion.data();
@@ -145,8 +145,12 @@ std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contact
   int n = 0;
   for (; p < end && n < ContactBatch::width; ++p) {
     const Contacts::Pair& pair = contacts.pairs[std::size_t(p)];
-    __builtin_prefetch(place + contacts.pairs[std::size_t(std::min(p + ahead, end - 1))].second);
+    const Contacts::Pair& coming = contacts.pairs[std::size_t(std::min(p + ahead, end - 1))];
+    __builtin_prefetch(place + coming.first);
+    __builtin_prefetch(place + coming.second);
+    __builtin_prefetch(motion + pair.first);
     __builtin_prefetch(motion + pair.second);
+    __builtin_prefetch(load + pair.first, 1);
     __builtin_prefetch(load + pair.second, 1);
     __builtin_prefetch(contacts.memory_of(p), 1);
     const Vector &i = place[pair.first].x, &j = place[pair.second].x, &shift = images.shift[std::size_t(pair.image)];
