@@ -217,6 +217,12 @@ BROKEN = {
         "effects.rolling=epsd", "effects.contact=hertz", "dem.rolling_friction=0.1"],
     **{f'dem.cohesion_energy: effects.cohesion = "{law}" needs it, as in "50 mJ/m2"': [f"effects.cohesion={law}"] for law in ("dmt", "jkr")},
     'dem.hamaker_constant: effects.cohesion = "van_der_waals" needs it, as in 1e-19': ["effects.cohesion=van_der_waals"],
+    "effects.liquid_bridge: a fluid of {} kg/m3 is a liquid, in which particles have no liquid bridges: leave it out": [
+        "effects.liquid_bridge=willett", "dem.surface_tension=0.07", "dem.liquid_fraction=0.01"],
+    'dem.surface_tension: effects.liquid_bridge = "{}" needs it, as in "72 mN/m"': [
+        "effects.liquid_bridge=willett", "dem.liquid_fraction=0.01"],
+    'dem.liquid_fraction: effects.liquid_bridge = "{}" needs it, above 0, as in 0.01': [
+        "effects.liquid_bridge=willett", "dem.surface_tension=0.07"],
     'effects.cohesion = "{}" cannot be with effects.contact = "linear": '
     "it stands in place of Hertz' force, which linear springs have not": ["effects.cohesion=jkr", "effects.contact=linear"],
     'effects.contact = "linear" cannot be with effects.cohesion = "{}"': ["effects.cohesion=jkr", "effects.contact=linear"],
