@@ -162,6 +162,7 @@ struct Tfm {
   TfmIntegrator integrator = TfmIntegrator::automatic;
   bool follow_bed = true;
   double rtol = 1e-4;
+  PressureForm form = PressureForm::A;
   FractionFlux flux = FractionFlux::limited;
   SolidsWall solids_wall = SolidsWall::free_slip;
   MaxPacking max_packing = PackingRule::automatic;

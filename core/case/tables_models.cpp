@@ -16,6 +16,11 @@ Table tfm_table() {
               help("ask the equations of the solids in the rows that hold solids, and eight above, not in the whole "
                    "column; explicit and imex steps only")),
           key(&Tfm::rtol, "rtol", range(1e-12, 0.1), help("relative tolerance of the time integration")),
+          key(&Tfm::form, "form",
+              help("where the gradient of the pressure acts: A: on every phase by its volume; B: on the fluid alone, "
+                   "with the net force on particles (drag over voidage, of one species) in place of the drag; the same "
+                   "for a uniform bed in balance, other waves and bubbles"),
+              equation("B: b_j + sum phi_k b_k/eps in place of b_j, no grad p in dU_j/dt")),
           key(&Tfm::flux, "flux", help("solids fractions at faces: second order with a limiter, or first order")),
           shared<Tfm>(
               &Scene::scheme,

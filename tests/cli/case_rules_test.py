@@ -230,6 +230,8 @@ BROKEN = {
         "dem.held=true", "effects.drag=none"],
     'tfm.solids_wall = "johnson_jackson" acts through a viscosity of the solids: effects.solids_viscosity, or '
     'effects.solids_stress = "kinetic"': ["tfm.solids_wall=johnson_jackson"],
+    'tfm.form = "B" is for incompressible fluids: the pressure that follows a gas would not hold up the solids': [
+        "tfm.form=B", "fluid.equation_of_state=tait"],
     'tfm.max_packing = "fedors_landel" is for two species; yu_standish is for any number': ["tfm.max_packing=fedors_landel"],
     "tfm.max_packing = {} must lie above tfm.frictional_onset = {}": ["tfm.max_packing=0.4"],
     'bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = "auto"': ["bed.solids_fraction=0.45"],
