@@ -15,6 +15,7 @@
 #include "closures/history_basset.hpp"
 #include "closures/kinetic_theory.hpp"
 #include "closures/lift_saffman_mei.hpp"
+#include "closures/liquid_bridge_willett.hpp"
 #include "closures/lubrication.hpp"
 #include "closures/magnus_rubinow_keller.hpp"
 #include "closures/species_exchange_syamlal.hpp"
@@ -134,11 +135,11 @@ inline constexpr double relevance_contact_gap = 0.4e-9;
   return van_der_waals_pull_off(hamaker, 0.5 * roughness, relevance_contact_gap) / reference;
 }
 
-/// Pull of a liquid bridge that wets, 2 pi R gamma with R = D/2 (Willett, Adams, Johnson and Seville, Langmuir 16,
-/// 2000,
-/// 9396), over F_ref. \param surface_tension  gamma, N/m
-[[nodiscard]] inline double capillary_relevance(double surface_tension, double diameter, double reference) {
-  return 2 * std::numbers::pi * (0.5 * diameter) * surface_tension / reference;
+/// Bond number: greatest pull of a liquid bridge between two equal spheres over F_ref.
+/// \param surface_tension  gamma, N/m  \param contact_angle  theta, rad
+[[nodiscard]] inline double capillary_relevance(double surface_tension, double contact_angle, double diameter,
+                                                double reference) {
+  return liquid_bridge_pull(0.5 * diameter, surface_tension, contact_angle) / reference;
 }
 
 /// Length over which fluctuations are conducted before collisions eat them, m: D sqrt(k/(1.5 Gamma)) of the linearised

@@ -56,8 +56,8 @@ class RollingLaw {
   [[nodiscard]] virtual double stiffness(int kind, double normal_stiffness) const = 0;
 };
 
-/// Slot Pair, attraction: adds to normal; may reach beyond contact. Friction and rolling do not feel it: their limits
-/// are those of the repulsion alone.
+/// Slot Pair, attraction of surfaces or by a liquid bridge: adds to normal; may reach beyond contact. Friction and
+/// rolling do not feel it: their limits are those of the repulsion alone.
 class CohesionLaw {
  public:
   virtual ~CohesionLaw() = default;
@@ -89,20 +89,35 @@ struct PairLaws {
   std::unique_ptr<NormalLaw> normal;  ///< the one that always is
   std::unique_ptr<TangentialLaw> tangential;
   std::unique_ptr<RollingLaw> rolling;
-  std::unique_ptr<CohesionLaw> cohesion;
+  std::unique_ptr<CohesionLaw> cohesion, bridge;
   std::unique_ptr<FilmLaw> film;
 
-  [[nodiscard]] double reach() const { return std::max(cohesion ? cohesion->reach() : 0, film ? film->reach() : 0); }
+  /// Calls act(law) for those attractions that there are.
+  template <class Act>
+  void each_attraction(Act&& act) const {
+    for (const CohesionLaw* law : {cohesion.get(), bridge.get()})
+      if (law != nullptr) act(*law);
+  }
+  [[nodiscard]] double reach() const {
+    double most = film ? film->reach() : 0;
+    each_attraction([&](const CohesionLaw& law) { most = std::max(most, law.reach()); });
+    return most;
+  }
   /// Of what ends with the overlap, the first in a contact's memory.
   [[nodiscard]] int contact_memory() const {
     return (normal ? normal->memory_size() : 0) + (tangential ? tangential->memory_size() : 0) +
            (rolling ? rolling->memory_size() : 0);
   }
-  [[nodiscard]] int memory_size() const { return contact_memory() + (cohesion ? cohesion->memory_size() : 0); }
+  [[nodiscard]] int memory_size() const {
+    int size = contact_memory();
+    each_attraction([&](const CohesionLaw& law) { size += law.memory_size(); });
+    return size;
+  }
 };
 
 /// The laws that a scene names; throws core::CaseError for a scene that breaks a rule of the effects. Each law is given
-/// its place in the memory of a contact: that of the normal force first, then friction's, rolling's, cohesion's.
+/// its place in the memory of a contact: that of the normal force first, then friction's, rolling's, cohesion's, the
+/// bridge's.
 [[nodiscard]] PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials,
                                       const std::vector<const Maker*>& list = effects());
 

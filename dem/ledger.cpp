@@ -71,7 +71,7 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
     const bool ended = batch.normal[c] == 0;
     if_parted[c] = (ended ? elastic_share_ * batch.elastic[c] * batch.overlap[c] : half * now[c]) + held[c];
   }
-  if (laws_.cohesion) laws_.cohesion->add_loss(batch, lost);
+  laws_.each_attraction([&](const CohesionLaw& law) { law.add_loss(batch, lost); });
   add_counted(lost, counted, batch.count, unit_.per_unit, lost_);
 }
 

@@ -44,7 +44,7 @@ void each_contact(const Model& model, const Contacts& contacts, bool walls, See&
     model.laws().normal->act(batch);
     if (model.laws().tangential) model.laws().tangential->energy(batch, stored);
     if (model.laws().rolling) model.laws().rolling->add_energy(batch, stored);
-    if (model.laws().cohesion) model.laws().cohesion->add_energy(batch, stored);
+    model.laws().each_attraction([&](const CohesionLaw& law) { law.add_energy(batch, stored); });
     for (int c = 0; c < batch.count; ++c) {
       const Contacts::Pair& pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
       if (std::size_t(pair.first) >= particles.owned) continue;

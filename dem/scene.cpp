@@ -148,7 +148,7 @@ FixedPoint force_unit(const core::Scene& scene, const Materials& materials, cons
           most_contacts(species[std::size_t(i)].radius, species[std::size_t(j)].radius) * force(materials.kind(i, j));
     most = std::max(most, sum);
   }
-  if (laws.cohesion) most = std::max(most, laws.cohesion->pull_off());
+  laws.each_attraction([&](const CohesionLaw& law) { most = std::max(most, law.pull_off()); });
   // The dashpot and friction add to the elastic force, hardly more than it.
   return FixedPoint::for_sums_of(4 * most, 1);
 }

@@ -19,6 +19,7 @@ struct Interphase {
   std::vector<core::Field> passed;            ///< what has crossed the ends, m, upward, [species][face]; empty: closed
   std::vector<core::Field> passed_rate;       ///< d passed / dt, m/s
   std::vector<core::Field> exchange;          ///< b_j = beta_j / phi_j, kg/(m3 s), finite where phi_j = 0
+  bool carry_pressure = true;                 ///< -phi_j grad p acts on them (form A), or on the fluid alone (form B)
 
   Interphase() = default;
   Interphase(const core::Grid& grid, std::vector<double> species_density)
@@ -30,6 +31,8 @@ struct Interphase {
         exchange(density.size(), core::make_field(grid)) {}
 
   [[nodiscard]] std::size_t species() const { return density.size(); }
+  /// What a unit gradient of the pressure does to U_j, m3/kg.
+  [[nodiscard]] double response(std::size_t j) const { return carry_pressure ? 1 / density[j] : 0; }
 };
 
 }  // namespace polybed::fluid

@@ -41,7 +41,7 @@ void fluid_velocity_loops(const core::Grid& grid, const Interphase& solids, Flui
   }
 }
 
-template <class Density>
+template <class Form, class Density>
 void subtract_exchange_with(const Density& density, const core::Grid& grid, const Boundaries& boundaries,
                             const Interphase& solids, const FluidState& fluid, core::FaceField& acceleration) {
   const double* eps = fluid.voidage.data();
@@ -56,7 +56,7 @@ void subtract_exchange_with(const Density& density, const core::Grid& grid, cons
                      *v = solids.velocity[j][a].data();
 #pragma GCC ivdep
         for (Index c = begin; c < end; ++c)
-          rate[c] -= face_mean(phi, c, s) * exchange_on_face(b, eps, c, s, u[c] - v[c]) * (u[c] - v[c]) /
+          rate[c] -= face_mean(phi, c, s) * Form::at(b, eps, c, s, u[c] - v[c]) * (u[c] - v[c]) /
                      (std::max(face_mean(eps, c, s), voidage_floor) * density.on_face(c, s));
       }
     });
@@ -68,6 +68,7 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
                     const Interphase& solids, const FluidState& fluid, const core::FaceField& acceleration,
                     FluxRate& out) {
   const double* eps = fluid.voidage.data();
+  const double alone = solids.carry_pressure ? 0 : 1;  // the fluid takes the whole gradient, not its share
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     const Index s = grid.stride(axis);
@@ -77,7 +78,7 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
 #pragma GCC ivdep
       for (Index c = begin; c < end; ++c) {
         free[c] = face_mean(eps, c, s) * a_f[c];
-        mobility[c] = face_mean(eps, c, s) / density.on_face(c, s);
+        mobility[c] = std::max(face_mean(eps, c, s), alone) / density.on_face(c, s);
       }
     });
     core::for_each_row(grid, boundaries.with_solids(boundaries.moving_faces(axis, true)), [&](Index begin, Index end) {
@@ -90,11 +91,11 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
     core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
       for (std::size_t j = 0; j < solids.species(); ++j) {
         const double *phi = solids.fraction[j].data(), *a_j = solids.acceleration[j][a].data();
-        const double per_density = 1 / solids.density[j];
+        const double response = solids.response(j);
 #pragma GCC ivdep
         for (Index c = begin; c < end; ++c) {
           free[c] += face_mean(phi, c, s) * a_j[c];
-          mobility[c] += face_mean(phi, c, s) * per_density;
+          mobility[c] += face_mean(phi, c, s) * response;
         }
       }
     });
@@ -110,7 +111,9 @@ void fluid_velocity(const core::Grid& grid, const Interphase& solids, FluidState
 void subtract_exchange(const core::Grid& grid, const Boundaries& boundaries, const Interphase& solids,
                        const FluidState& fluid, double density, core::FaceField& acceleration) {
   with_density(fluid, density, [&]<class Density>(const Density& local) {
-    core::in_vectors<subtract_exchange_with<Density>>(local, grid, boundaries, solids, fluid, acceleration);
+    with_form(solids, [&]<class Form>(Form) {
+      core::in_vectors<subtract_exchange_with<Form, Density>>(local, grid, boundaries, solids, fluid, acceleration);
+    });
   });
 }
 

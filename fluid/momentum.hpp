@@ -5,6 +5,8 @@
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p,
 //       B = eps/rho_f + sum_j phi_j/rho_j
 //
+// In form B the gradient of the pressure is in the fluid's momentum alone: B = 1/rho_f.
+//
 // J = eps U_f + sum phi_j U_j is the unknown, because its constraint div J = 0 is linear with constant coefficients.
 #pragma once
 
@@ -50,6 +52,31 @@ struct FluxRate {
                                              double slip) {
   const double ratio = std::max(core::face_mean(eps, c, s), voidage_floor) / voidage_upstream(eps, c, s, slip);
   return core::LimitedFace::at(b, c, s, slip) * ratio * ratio;
+}
+
+/// The same of form B, in which b_j is over the voidage and the pressure gradient of drag is in it.
+[[nodiscard]] inline double net_exchange_on_face(const double* b, const double* eps, core::Index c, core::Index s,
+                                                 double slip) {
+  return core::LimitedFace::at(b, c, s, slip) * std::max(core::face_mean(eps, c, s), voidage_floor) /
+         voidage_upstream(eps, c, s, slip);
+}
+
+/// How b_j of the cells comes to a face, for loops that are compiled for each form.
+struct FormA {
+  static double at(const double* b, const double* eps, core::Index c, core::Index s, double slip) {
+    return exchange_on_face(b, eps, c, s, slip);
+  }
+};
+struct FormB {
+  static double at(const double* b, const double* eps, core::Index c, core::Index s, double slip) {
+    return net_exchange_on_face(b, eps, c, s, slip);
+  }
+};
+
+/// Calls act(FormA) or act(FormB).
+template <class Act>
+void with_form(const Interphase& solids, Act&& act) {
+  solids.carry_pressure ? act(FormA()) : act(FormB());
 }
 
 /// Voidage from the solids fractions; the ghosts of the fractions must be filled.

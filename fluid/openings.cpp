@@ -142,7 +142,8 @@ void Openings::hold(const Interphase& solids, core::FaceField& mobility) const {
   if (!open_) return;
   for_each_fed_face([&](const Gate& gate, std::size_t, std::size_t face, std::size_t inside, std::size_t beyond) {
     const Field& phi = solids.fraction[gate.species];
-    if (gate.side == top) mobility[1][face] -= 0.5 * (phi[inside] + phi[beyond]) / solids.density[gate.species];
+    if (gate.side == top && solids.carry_pressure)
+      mobility[1][face] -= 0.5 * (phi[inside] + phi[beyond]) / solids.density[gate.species];
   });
 }
 

@@ -159,28 +159,6 @@ EffectRow charge(const core::Scene& scene, const Survey& survey) {
   return row;
 }
 
-EffectRow capillary(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = effect_row("capillary_bridges", "capillary", "pull of a bridge over weight", Kind::unmodelled);
-  row.threshold = scene.chooser.tolerance;
-  if (survey.has_fluid && !survey.is_gas) {
-    row.neglected = 0;
-    row.reason = "immersed particles have no liquid bridges";
-    return row;
-  }
-  if (!scene.chooser.free_liquid) {
-    row.neglected = 0;
-    row.reason = "dry: chooser.free_liquid names no liquid";
-    return row;
-  }
-  Supremum greatest;
-  for (const Situation& s : survey.touching())
-    greatest.add(s, closures::capillary_relevance(*scene.chooser.free_liquid, s.diameter, s.reference()));
-  greatest.fill(row);
-  row.is_force = true;
-  row.not_built = "no role has it yet";
-  return row;
-}
-
 EffectRow sintering() {
   EffectRow row = effect_row("sintering", "none", no_number, Kind::unmodelled);
   row.state = State::unknown;
@@ -205,7 +183,6 @@ std::vector<EffectRow> weigh_conditions(const core::Scene& scene, const Survey& 
     rows.push_back(temperature(scene, survey));
   }
   rows.push_back(charge(scene, survey));
-  rows.push_back(capillary(scene, survey));
   rows.push_back(sintering());
   return rows;
 }

@@ -31,7 +31,8 @@ FastDrag::FastDrag(const Constants& constants, const fluid::Boundaries& boundari
     faces.voidage.assign(entry.size, 1.0);
     faces.mobility.assign(entry.size, 1 / constants.fluid.density);
   }
-  for (const double density : constants.density) lighter_.push_back(1 / density - 1 / constants.fluid.density);
+  for (const double density : constants.density)
+    lighter_.push_back(constants.form_b ? 0 : 1 / density - 1 / constants.fluid.density);
 }
 
 void FastDrag::hold(const Fields& fields) {
@@ -60,12 +61,14 @@ void FastDrag::hold(const Fields& fields) {
                        *v = fields.solids.velocity[n][a].data();
           double *phi_on = faces.phi[n].data() + to, *b_on = faces.b[n].data() + to;
           const double per_density = 1 / constants_.density[n];
-          for (Index f = 0; f < count; ++f) {
-            const Index c = from + f;
-            phi_on[f] = face_mean(phi, c, s);
-            b_on[f] = fluid::exchange_on_face(b, eps, c, s, u[c] - v[c]);
-            mobility[f] += phi_on[f] * per_density;
-          }
+          fluid::with_form(fields.solids, [&]<class Form>(Form) {
+            for (Index f = 0; f < count; ++f) {
+              const Index c = from + f;
+              phi_on[f] = face_mean(phi, c, s);
+              b_on[f] = Form::at(b, eps, c, s, u[c] - v[c]);
+              mobility[f] += phi_on[f] * per_density;
+            }
+          });
         }
       }
     }

@@ -6,7 +6,8 @@
 //
 // G is the gradient of pressure that holds the total flux against the drag where flow goes along one axis. The rate at
 // which the rest relaxes has the square of the difference of densities in it, sum_k phi_k b_k (1/rho_f - 1/rho_k)^2/B:
-// a few hundredths of that of the drag in a liquid, about all of it in a gas.
+// a few hundredths of that of the drag in a liquid, about all of it in a gas. In form B, G is 0: it acts on the fluid
+// alone, whose flux is held.
 #pragma once
 
 #include <span>
@@ -69,7 +70,7 @@ class FastDrag {
   const fluid::Boundaries& boundaries_;
   const StateLayout& layout_;
   std::vector<Faces> axes_;
-  std::vector<double> lighter_;  ///< 1/rho_k - 1/rho_f, m3/kg
+  std::vector<double> lighter_;  ///< 1/rho_k - 1/rho_f, m3/kg; 0 in form B
 };
 
 }  // namespace polybed::tfm

@@ -23,6 +23,7 @@ struct Constants {
   std::vector<double> diameter;   ///< D_j, m
   std::vector<double> density;    ///< rho_j, kg/m3
   std::vector<double> bed_share;  ///< X_j: share of the species in the whole bed
+  bool form_b = false;            ///< the pressure's gradient acts on the fluid alone
   std::vector<std::string> name;
   fluid::Openings openings;  ///< where solids cross the ends of the column
 

@@ -20,6 +20,7 @@ Fields::Fields(const Constants& constants)
       slip_superficial(constants.species(), core::make_field(constants.grid)),
       fluid_acceleration(core::make_face_field(constants.grid)),
       flux_rate(constants.grid) {
+  solids.carry_pressure = !constants.form_b;
   if (!constants.openings.present()) return;
   solids.passed.assign(constants.species(), core::make_field(constants.grid));
   solids.passed_rate = solids.passed;

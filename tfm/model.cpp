@@ -30,6 +30,7 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   constants.down = scene.column.down;
   constants.fluid = relevance::fluid_constants(scene.fluid);
   constants.bed_share = scene.bed.volume_share;
+  constants.form_b = scene.tfm.form == core::PressureForm::B;
   for (const core::Species& species : scene.species) {
     constants.diameter.push_back(species.diameter);
     constants.density.push_back(species.density);

@@ -95,8 +95,10 @@ void Preconditioner::invert_face(const Fields& fields, double fluid_density, int
   for (std::size_t j = 0; j < n; ++j) {
     if (!moves_[j]) continue;
     const double slip = fields.fluid.velocity[a][at] - fields.solids.velocity[j][a][at];
-    const double b =
-        fluid::exchange_on_face(fields.solids.exchange[j].data(), fields.fluid.voidage.data(), face, stride, slip);
+    double b = 0;
+    fluid::with_form(fields.solids, [&]<class Form>(Form) {
+      b = Form::at(fields.solids.exchange[j].data(), fields.fluid.voidage.data(), face, stride, slip);
+    });
     const double phi = fraction_[a][j][at];
     const double on_solid = b / constants_.density[j];
     const double on_flux = phi * b * (1 / fluid_density - 1 / constants_.density[j]);
@@ -132,8 +134,8 @@ void Preconditioner::respond(const Fields& fields, int axis, Index face) {
   Vector pressure = Vector::Zero(Eigen::Index(rows_)), stress = pressure;
   for (std::size_t j = 0; j < n; ++j) {
     const auto row = Eigen::Index(j);
-    pressure[row] = moves_[j] ? 1 / constants_.density[j] : 0;
-    stress[row] = pressure[row] / phi;
+    pressure[row] = moves_[j] ? fields.solids.response(j) : 0;
+    stress[row] = (moves_[j] ? 1 / constants_.density[j] : 0) / phi;
     stress[Eigen::Index(n)] += fraction_[a][j][at] * stress[row];
   }
   pressure[Eigen::Index(n)] = fields.flux_rate.mobility[a][at];

@@ -17,9 +17,9 @@ void subtract_pressure_gradient(const Constants& constants, const fluid::Boundar
                                  [&](Index begin, Index end, auto gradient) {
                                    for (Index c = begin; c < end; ++c) flux[c] -= mobility[c] * gradient(c);
                                  });
-    for (std::size_t j = 0; j < constants.species(); ++j) {
+    for (std::size_t j = 0; j < constants.species() && fields.solids.carry_pressure; ++j) {
       double* acceleration = fields.solids.acceleration[j][a].data();
-      const double per_density = 1 / constants.density[j];
+      const double per_density = fields.solids.response(j);
       fluid::for_each_gradient_row(grid, boundaries.moving_faces(axis, false), axis, p,
                                    [&](Index begin, Index end, auto gradient) {
                                      for (Index c = begin; c < end; ++c) acceleration[c] -= per_density * gradient(c);

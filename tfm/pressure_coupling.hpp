@@ -9,7 +9,7 @@
 
 namespace polybed::tfm {
 
-/// Turns a_j into dU_j/dt and the free rate of J into dJ/dt: subtracts grad p / rho_j and B grad p, in place.
+/// Turns a_j into dU_j/dt and the free rate of J into dJ/dt: subtracts grad p / rho_j (form A) and B grad p, in place.
 /// fields.fluid.pressure is read; its ghosts are set.
 void subtract_pressure_gradient(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields);
 

@@ -97,6 +97,12 @@ std::vector<core::Rule> key_rules() {
       {{"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"},
        "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
        bed_below_onset},
+      {{"tfm.form", "fluid.equation_of_state"},
+       "tfm.form = \"B\" is for incompressible fluids: the pressure that follows a gas would not hold up the solids",
+       [](const Scene& scene) {
+         return core::broken_if(scene.tfm.form == core::PressureForm::B &&
+                                scene.fluid.equation_of_state != core::Compressibility::incompressible);
+       }},
       {{"tfm.fixed_step", "tfm.integrator"},
        "tfm.fixed_step works with explicit and imex steps only",
        [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }},

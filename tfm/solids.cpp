@@ -55,6 +55,7 @@ void subtract(const core::FaceField& flux, core::FaceField& from) {
     for (std::size_t f = 0; f < flux[a].size(); ++f) from[a][f] -= flux[a][f];
 }
 
+template <class Form>
 void add_exchange_loops(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
   for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
     const auto d = std::size_t(axis);
@@ -64,8 +65,7 @@ void add_exchange_loops(const Constants& constants, const fluid::Boundaries& bou
     double* a = fields.solids.acceleration[j][d].data();
     const double per_density = 1 / constants.density[j];
 #pragma GCC ivdep
-    for (Index c = begin; c < end; ++c)
-      a[c] += fluid::exchange_on_face(b, eps, c, s, u[c] - v[c]) * per_density * (u[c] - v[c]);
+    for (Index c = begin; c < end; ++c) a[c] += Form::at(b, eps, c, s, u[c] - v[c]) * per_density * (u[c] - v[c]);
   });
 }
 
@@ -168,7 +168,9 @@ void add_gravity(const Constants& constants, const fluid::Boundaries& boundaries
 }
 
 void add_exchange(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
-  core::in_vectors<add_exchange_loops>(constants, boundaries, fields);
+  fluid::with_form(fields.solids, [&]<class Form>(Form) {
+    core::in_vectors<add_exchange_loops<Form>>(constants, boundaries, fields);
+  });
 }
 
 void subtract_stress(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {

@@ -73,6 +73,7 @@ Block look_at_block(const Constants& constants, const Fields& fields) {
 }  // namespace
 
 WellPosedness well_posedness(const Constants& constants, const Fields& fields) {
+  if (constants.form_b) return {};
   const core::Grid& grid = constants.grid;
   const Block block = look_at_block(constants, fields);
   WellPosedness nearest = block.nearest;

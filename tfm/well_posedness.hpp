@@ -26,7 +26,7 @@ struct WellPosedness {
   }
 };
 
-/// Of fields of a finished evaluation. Collective.
+/// Of fields of a finished evaluation. Nothing in form B, whose waves G_crit does not know. Collective.
 [[nodiscard]] WellPosedness well_posedness(const Constants& constants, const Fields& fields);
 
 }  // namespace polybed::tfm

@@ -55,6 +55,10 @@ constexpr std::array<std::string_view, 5> names(Momentum) {
   return {"auto", "upwind", "limited", "conservative", "conservative_limited"};
 }
 
+/// Whose momentum the gradient of the pressure is in: all phases' or the fluid's.
+enum class PressureForm { A, B };
+constexpr std::array<std::string_view, 2> names(PressureForm) { return {"A", "B"}; }
+
 /// Velocity of the solids along walls.
 enum class SolidsWall { free_slip, no_slip, johnson_jackson };
 constexpr std::array<std::string_view, 3> names(SolidsWall) { return {"free_slip", "no_slip", "johnson_jackson"}; }

@@ -62,8 +62,11 @@ inline constexpr double usual_friction = 0.3, usual_restitution = 0.9;
 /// What walls are made of, and species that do not say otherwise; keys of [dem].
 struct Material {
   double friction = usual_friction, restitution = usual_restitution;
-  double hamaker_constant = 0;  ///< A, J; 0: not known
-  double roughness = 1e-7;      ///< least thickness of a film between surfaces, m
+  double hamaker_constant = 0;            ///< A, J; 0: not known
+  double roughness = 1e-7;                ///< least thickness of a film between surfaces, m
+  std::optional<double> surface_tension;  ///< of a liquid that wets particles in a gas, N/m
+  double contact_angle = 0;               ///< of that liquid on particles and walls, degrees
+  double liquid_fraction = 0;             ///< volume of that liquid on a particle over the particle's own
 };
 
 struct Species {
@@ -159,6 +162,7 @@ struct Tfm {
   TfmIntegrator integrator = TfmIntegrator::automatic;
   bool follow_bed = true;
   double rtol = 1e-4;
+  PressureForm form = PressureForm::A;
   FractionFlux flux = FractionFlux::limited;
   SolidsWall solids_wall = SolidsWall::free_slip;
   MaxPacking max_packing = PackingRule::automatic;

@@ -16,6 +16,11 @@ Table tfm_table() {
               help("ask the equations of the solids in the rows that hold solids, and eight above, not in the whole "
                    "column; explicit and imex steps only")),
           key(&Tfm::rtol, "rtol", range(1e-12, 0.1), help("relative tolerance of the time integration")),
+          key(&Tfm::form, "form",
+              help("where the gradient of the pressure acts: A: on every phase by its volume; B: on the fluid alone, "
+                   "with the net force on particles (drag over voidage, of one species) in place of the drag; the same "
+                   "for a uniform bed in balance, other waves and bubbles"),
+              equation("B: b_j + sum phi_k b_k/eps in place of b_j, no grad p in dU_j/dt")),
           key(&Tfm::flux, "flux", help("solids fractions at faces: second order with a limiter, or first order")),
           shared<Tfm>(
               &Scene::scheme,
@@ -150,6 +155,19 @@ Table dem_table() {
           key(&Dem::asperity_radius, "asperity_radius", dimension::length, above(0, 1),
               help("R* of the van der Waals force of rough surfaces; default: that of the spheres"),
               equation("F = A R*/(6 max(z, z_0)^2)")),
+          shared<Dem>(&Scene::material,
+                      key(&Material::surface_tension, "surface_tension", dimension::stiffness, above(0, 10),
+                          help("gamma of a liquid that wets particles in a gas, for liquid bridges"),
+                          equation("F = 2 pi R gamma cos(theta)/(1 + 1.05 s + 2.5 s^2), s = gap sqrt(R/V), R = 2 R*"))),
+          shared<Dem>(&Scene::material, key(&Material::contact_angle, "contact_angle", range(0, 90),
+                                            help("theta of that liquid on particles and walls, in degrees"),
+                                            equation("bridges break at a gap of (1 + theta/2) V^(1/3)"))),
+          shared<Dem>(
+              &Scene::material,
+              key(&Material::liquid_fraction, "liquid_fraction", range(0, 0.1),
+                  help("volume of that liquid on each particle over the particle's own; a bridge takes the part "
+                       "of both films that each sphere covers as seen from the other's centre"),
+                  equation("V = sum of a_i liquid_fraction V_i, a_i = [1 - sqrt(1 - (R_j/(R_i + R_j))^2)]/2"))),
           shared<Dem>(&Scene::material,
                       key(&Material::roughness, "roughness", dimension::length, above(0, 1),
                           help("of surfaces: the film between them is not thinner (effects.lubrication = film)"),

@@ -11,7 +11,7 @@ namespace polybed::dem {
 
 struct ContactBatch {
   static constexpr int width = 64;  ///< contacts
-  static constexpr int most_memory = 24;
+  static constexpr int most_memory = 25;
   using Row = double[width];
 
   int count = 0;  ///< contacts; loops run to padded(), over finite values

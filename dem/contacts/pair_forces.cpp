@@ -113,7 +113,7 @@ void PairForces::act(double dt) {
   if (laws_.rolling) laws_.rolling->act(batch_, dt);
   if (laws_.reach() > 0) core::in_vectors<forget_open>(batch_, laws_.contact_memory());
   if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
-  if (laws_.cohesion) laws_.cohesion->act(batch_);
+  laws_.each_attraction([&](const CohesionLaw& law) { law.act(batch_); });
   if (laws_.film) add_film(dt);
   core::in_vectors<count_units>(batch_, force_.per_unit, torque_.per_unit);
   if (laws_.rolling) core::in_vectors<add_moment>(batch_, torque_.per_unit);

@@ -10,6 +10,7 @@
 #include "core/vectors.hpp"
 #include "dem/effects.hpp"
 #include "dem/effects/maker.hpp"
+#include "dem/effects/rows.hpp"
 #include "relevance/effect_rules.hpp"
 #include "relevance/effects/cohesion.hpp"
 
@@ -24,9 +25,6 @@ void dmt(ContactBatch& b, const Row& pull) {
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) b.normal[c] += closures::dmt_force(pull[c], b.overlap[c]);
 }
-
-/// Whether two surfaces hold after this step, 1 or 0: they touch, or held and the neck is not broken.
-double holds(double held, double overlap, double gap) { return overlap >= 0 ? 1.0 : (overlap >= -gap ? held : 0.0); }
 
 void jkr(ContactBatch& b, int place, const Row& force, const Row& gap) {
   const int n = b.padded();

@@ -6,7 +6,7 @@ namespace polybed::dem {
 namespace makers {
 
 extern const Maker drag, partition, fluid_stress, gas_slip, added_mass, lift, magnus, history, brownian, lubrication,
-    contact, rolling, cohesion;
+    contact, rolling, cohesion, liquid_bridge;
 
 }  // namespace makers
 
@@ -15,7 +15,7 @@ const std::vector<const Maker*>& effects() {
   // A law around the normal force comes before the normal force.
   static const std::vector<const Maker*> all{
       &drag,    &partition, &fluid_stress, &gas_slip, &added_mass, &lift,     &magnus,
-      &history, &brownian,  &lubrication,  &contact,  &rolling,    &cohesion,
+      &history, &brownian,  &lubrication,  &contact,  &rolling,    &cohesion, &liquid_bridge,
   };
   return all;
 }

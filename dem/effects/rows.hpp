@@ -20,6 +20,12 @@ inline void put(ContactBatch::Row* rows, int c, const closures::Vec3& v) {
 /// What stands for a stiffness or a radius of nothing when something is divided by it.
 inline constexpr double tiny = 1e-300;
 
+/// Whether a neck or bridge between two surfaces is there after this step, 1 or 0: they touch, or it was there and the
+/// gap at which it breaks is not reached.
+[[nodiscard]] inline double holds(double held, double overlap, double gap) {
+  return overlap >= 0 ? 1.0 : (overlap >= -gap ? held : 0.0);
+}
+
 /// Part of this step in which a contact has touched, s. With the thesis' integrator the batch has the velocity that
 /// moved the bodies, and this is exact. The synchronised one has U'' = U' + F_old dt/(2m), in which F_old is without
 /// the force of a contact that is new: of two bodies alone it is exact too, and of more it errs by the share of v_n

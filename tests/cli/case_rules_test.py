@@ -217,6 +217,12 @@ BROKEN = {
         "effects.rolling=epsd", "effects.contact=hertz", "dem.rolling_friction=0.1"],
     **{f'dem.cohesion_energy: effects.cohesion = "{law}" needs it, as in "50 mJ/m2"': [f"effects.cohesion={law}"] for law in ("dmt", "jkr")},
     'dem.hamaker_constant: effects.cohesion = "van_der_waals" needs it, as in 1e-19': ["effects.cohesion=van_der_waals"],
+    "effects.liquid_bridge: a fluid of {} kg/m3 is a liquid, in which particles have no liquid bridges: leave it out": [
+        "effects.liquid_bridge=willett", "dem.surface_tension=0.07", "dem.liquid_fraction=0.01"],
+    'dem.surface_tension: effects.liquid_bridge = "{}" needs it, as in "72 mN/m"': [
+        "effects.liquid_bridge=willett", "dem.liquid_fraction=0.01"],
+    'dem.liquid_fraction: effects.liquid_bridge = "{}" needs it, above 0, as in 0.01': [
+        "effects.liquid_bridge=willett", "dem.surface_tension=0.07"],
     'effects.cohesion = "{}" cannot be with effects.contact = "linear": '
     "it stands in place of Hertz' force, which linear springs have not": ["effects.cohesion=jkr", "effects.contact=linear"],
     'effects.contact = "linear" cannot be with effects.cohesion = "{}"': ["effects.cohesion=jkr", "effects.contact=linear"],
@@ -224,6 +230,8 @@ BROKEN = {
         "dem.held=true", "effects.drag=none"],
     'tfm.solids_wall = "johnson_jackson" acts through a viscosity of the solids: effects.solids_viscosity, or '
     'effects.solids_stress = "kinetic"': ["tfm.solids_wall=johnson_jackson"],
+    'tfm.form = "B" is for incompressible fluids: the pressure that follows a gas would not hold up the solids': [
+        "tfm.form=B", "fluid.equation_of_state=tait"],
     'tfm.max_packing = "fedors_landel" is for two species; yu_standish is for any number': ["tfm.max_packing=fedors_landel"],
     "tfm.max_packing = {} must lie above tfm.frictional_onset = {}": ["tfm.max_packing=0.4"],
     'bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = "auto"': ["bed.solids_fraction=0.45"],

@@ -30,7 +30,7 @@ every = "0.05 s"
 """
 KEYS = {"effect", "model", "on", "number", "value", "threshold", "neglected_bound", "reason"}
 CATALOGUE = {"drag", "added_mass", "history", "lift", "magnus", "brownian", "gas_slip", "fluid_stress", "solids_stress",
-             "granular_temperature", "species_exchange", "contact", "rolling", "lubrication", "cohesion", "weight",
+             "granular_temperature", "species_exchange", "contact", "rolling", "lubrication", "cohesion", "liquid_bridge", "weight",
              "pressure_gradient", "equation_of_state", "coupling", "walls", "level", "turbulence", "clusters",
              "temperature", "charge", "sintering"}
 
@@ -171,7 +171,7 @@ class Auto(Scratch):
         self.assertNotIn("drag", resolved.split("[effects]")[1].split("[")[0])
         rows = {row["effect"]: row for row in strict_json(self.ends(
             DONE, "effects", case, "--json", "--set", "chooser.charge=1e-15", "--set", "chooser.free_liquid=0.07").stdout)["effects"]}
-        for effect in ("charge", "capillary_bridges"):
+        for effect in ("charge", "liquid_bridge"):
             self.assertIsNotNone(rows[effect]["value"], effect)
             self.assertTrue(rows[effect]["reason"], effect)
 

@@ -305,6 +305,22 @@ class DemRanks(Scratch):
             self.assertGreater(records[ranks]["work"]["cuts"], 0, ranks)
         self.assertEqual(records[1]["work"]["cuts"], 0)
 
+    def test_liquid_bridges(self):
+        """Bridges across ranks stretch and rupture; whether one is there is in the history of its contact."""
+        wet = CORNER.replace("cells = [10, 10]", 'cells = [10, 10]\ndepth = "2.4 mm"') + 'surface_tension = "72 mN/m"\nliquid_fraction = 0.02\n'
+        case = self.scene(wet, in_corner(), COMMON.replace("[effects]", '[effects]\nliquid_bridge = "willett"'))
+        self.check_same(case, restart=(2, 1), numbers=(1, 2))
+        particles, contacts = (h5py.File(self.folder / "on1/checkpoint.h5")[f"arrays/{name}"][()] for name in ("particles", "contacts"))
+        particles, contacts = particles.reshape(-1, 23), contacts.reshape(-1, 12)  # ids, 3 of friction, bridge, 6 of the ledger
+        place = {int(p[0]): p[2:5] for p in particles}
+        pairs = contacts[contacts[:, 1] >= 0]
+        gap = np.array([np.linalg.norm(place[int(a)] - place[int(b)]) - 1e-3 for a, b in pairs[:, :2]])
+        held = pairs[:, 5]
+        self.assertLessEqual(set(held), {0, 1})
+        self.assertTrue(np.all(held[gap < 0] == 1))
+        self.assertGreater(np.count_nonzero(held[gap > 0]), 20)  # stretched
+        self.assertGreater(np.count_nonzero(held[gap > 0] == 0), 0)  # near, and never touched or ruptured
+
     def test_unequal_sizes(self):
         records = self.check_same(self.scene(UNEQUAL), restart=(2, 4))
         self.assertEqual(records[1]["integrator"], "synchronised")

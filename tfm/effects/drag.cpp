@@ -1,7 +1,10 @@
 // Slot Exchange, fluid with solids: the drag on every species, by any law of the menu, one closure pass per cell.
 #include "relevance/effects/drag.hpp"
 
+#include <algorithm>
+
 #include "closures/drag.hpp"
+#include "fluid/fluid_state.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/effects/gas_slip.hpp"
 #include "relevance/effects/partition.hpp"
@@ -15,7 +18,8 @@ namespace {
 using core::Index;
 
 /// b_j = 18 mu eps f_j / D_j^2, T(1.49), with f_j from the polydisperse law at the cell's voidage,
-/// composition and the superficial slip of species j.
+/// composition and the superficial slip of species j. In form B the net force stands in its place, with the pressure
+/// gradient of a uniform bed: b_j + sum_k phi_k b_k/eps, for one species b/eps.
 class Drag : public FluidExchange {
  public:
   /// \param divisors  of the drag on each species by the slip of a gas; 1 without it
@@ -42,6 +46,7 @@ class Drag : public FluidExchange {
         const double factor = scale / (constants_.diameter[j] * constants_.diameter[j] * divisors_[j]);
         for (std::size_t c = 0; c < cells; ++c) result_[j][c] *= factor * eps[c];
       }
+      if (constants_.form_b) add_pressure_gradient(fields, row, cells);
     });
     boundaries_.fill_cells(fields.solids.exchange);
   }
@@ -49,6 +54,15 @@ class Drag : public FluidExchange {
   [[nodiscard]] ClosureUse use() const override { return {"drag " + name_, count_.evaluations, count_.guarded}; }
 
  private:
+  void add_pressure_gradient(const Fields& fields, std::size_t row, std::size_t cells) const {
+    for (std::size_t c = 0; c < cells; ++c) {
+      double sum = 0;
+      for (std::size_t k = 0; k < constants_.species(); ++k) sum += fields.solids.fraction[k][row + c] * result_[k][c];
+      sum /= std::max(fields.fluid.voidage[row + c], fluid::voidage_floor);
+      for (std::size_t j = 0; j < constants_.species(); ++j) result_[j][c] += sum;
+    }
+  }
+
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
   std::string name_;

@@ -77,7 +77,7 @@ TEST(Relevance, OfPhasesIsAShareOfWidthOrDrag) {
 
 TEST(Relevance, OfSurfacesIsTheirPull) {
   EXPECT_NEAR(van_der_waals_relevance(1e-19, 1e-7, 1), 5.2083e-9, 5.2083e-9 * digits);
-  EXPECT_NEAR(capillary_relevance(0.072, 1e-3, 1), 2.2619e-4, 2.2619e-4 * digits);  // 2 pi x 0.5 mm x 72 mN/m
+  EXPECT_NEAR(capillary_relevance(0.072, 0, 1e-3, 1), 2.2619e-4, 2.2619e-4 * digits);  // 2 pi x 0.5 mm x 72 mN/m
 }
 
 // With f = 1 the balance is 18 mu u/D^2 = excess g eps: u = 1e-6 x 1500 x 9.81 eps/0.018 = 0.8175 eps m/s.

@@ -57,7 +57,8 @@ TEST(ParticleCase, KeysOfDemReachTheScene) {
       "tangential_ratio = 0.5\nrolling_friction = 0.01\nrolling_damping = 0.3\nskin = \"0.1 mm\"\nmax_overlap = \"2 "
       "%\"\n"
       "fixed_step = \"1 us\"\ngreatest_speed = \"2 m/s\"\nstart_speed = \"1 cm/s\"\nshear_rate = \"3 1/s\"\n"
-      "ledger = false\ncohesion_energy = \"50 mJ/m2\"\nhamaker_constant = 1e-19\ncohesion_gap = \"1 nm\"\n";
+      "ledger = false\ncohesion_energy = \"50 mJ/m2\"\nhamaker_constant = 1e-19\ncohesion_gap = \"1 nm\"\n"
+      "surface_tension = \"72 mN/m\"\ncontact_angle = 30\nliquid_fraction = \"1 %\"\n";
   const Scene scene = parse_case(dry_case(lines), "case.toml", {}, {});
   const Dem& dem = scene.dem;
   EXPECT_EQ(dem.tangential, Tangential::mindlin);
@@ -77,6 +78,9 @@ TEST(ParticleCase, KeysOfDemReachTheScene) {
   EXPECT_EQ(dem.cohesion_energy, 0.05);
   EXPECT_EQ(scene.material.hamaker_constant, 1e-19);
   EXPECT_EQ(dem.cohesion_gap, 1e-9);
+  EXPECT_EQ(scene.material.surface_tension, 0.072);
+  EXPECT_EQ(scene.material.contact_angle, 30);
+  EXPECT_EQ(scene.material.liquid_fraction, 0.01);
   const std::string resolved = resolved_case(scene);
   EXPECT_EQ(resolved_case(parse_case(resolved, "again.toml", {}, {})), resolved);
 }
@@ -183,6 +187,9 @@ INSTANTIATE_TEST_SUITE_P(
                     dem("cohesion_energy = -1", "dem.cohesion_energy = -1 is out of range: at least 0"),
                     dem("hamaker_constant = \"1 N\"", "expected a value in J, this one is in"),
                     dem("cohesion_gap = 0", "dem.cohesion_gap = 0 is out of range: above 0, at most 1 m"),
+                    dem("surface_tension = 0", "dem.surface_tension = 0 is out of range: above 0, at most 10 N/m"),
+                    dem("contact_angle = 91", "dem.contact_angle = 91 is out of range: at least 0, at most 90"),
+                    dem("liquid_fraction = 0.2", "dem.liquid_fraction = 0.2 is out of range: at least 0, at most 0.1"),
                     dem("shear_rate = 2", "dem.shear_rate = 2 1/s needs column.sides = \"periodic\""),
                     dem("shear_rate = 2", "dem.shear_rate = 2 1/s needs column.ends = \"periodic\""),
                     dem("shear_rate = 2", "dem.shear_rate = 2 1/s needs column.gravity = 0, it is 9.81 m/s2")));

@@ -81,7 +81,9 @@ INSTANTIATE_TEST_SUITE_P(Laws, Ledger,
                                          Named{"dmt", "cohesion = \"dmt\"", "cohesion_energy = \"100 mJ/m2\""},
                                          Named{"jkr", "cohesion = \"jkr\"", "cohesion_energy = \"100 mJ/m2\""},
                                          Named{"van_der_waals", "cohesion = \"van_der_waals\"",
-                                               "hamaker_constant = 1e-14\ncohesion_gap = \"100 nm\""}),
+                                               "hamaker_constant = 1e-14\ncohesion_gap = \"100 nm\""},
+                                         Named{"liquid_bridge", "liquid_bridge = \"willett\"",
+                                               "surface_tension = \"72 mN/m\"\nliquid_fraction = 0.01"}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -20,6 +20,7 @@ TEST(Slots, AnAbsentLawHasNothing) {
   EXPECT_EQ(bare.tangential, nullptr);
   EXPECT_EQ(bare.rolling, nullptr);
   EXPECT_EQ(bare.cohesion, nullptr);
+  EXPECT_EQ(bare.bridge, nullptr);
   EXPECT_EQ(bare.memory_size(), 0);
   EXPECT_EQ(bare.reach(), 0);
   EXPECT_EQ(Ledger::memory_size(bare), 2);
@@ -49,9 +50,14 @@ TEST(Slots, EachLawHasItsOwnMemory) {
   EXPECT_EQ(laws_of(scene).memory_size(), 12);
   EXPECT_EQ(laws_of(scene).contact_memory(), 11);
   EXPECT_LE(laws_of(scene).memory_size() + Ledger::memory_size(laws_of(scene)), ContactBatch::most_memory);
-  scene.fluid.name = "test liquid";
-  scene.fluid.density = 1000;
-  scene.fluid.viscosity = 1e-3;
+  scene.material.surface_tension = 0.07;
+  scene.material.liquid_fraction = 0.01;
+  scene.effects["liquid_bridge"] = "willett";
+  EXPECT_EQ(laws_of(scene).memory_size(), 13);
+  EXPECT_EQ(laws_of(scene).contact_memory(), 11);
+  scene.fluid.name = "test gas";
+  scene.fluid.density = 1.2;
+  scene.fluid.viscosity = 1.8e-5;
   for (const char* law : {"wet_restitution", "film"}) {
     scene.effects["lubrication"] = law;
     EXPECT_LE(laws_of(scene).memory_size() + Ledger::memory_size(laws_of(scene)), ContactBatch::most_memory) << law;

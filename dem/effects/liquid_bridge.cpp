@@ -1,0 +1,128 @@
+// Capillary force of liquid bridges between wet particles in a gas, closures/liquid_bridge_willett.hpp.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "closures/liquid_bridge_willett.hpp"
+#include "closures/sphere.hpp"
+#include "core/vectors.hpp"
+#include "dem/effects.hpp"
+#include "dem/effects/maker.hpp"
+#include "dem/effects/rows.hpp"
+#include "relevance/effects/liquid_bridge.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+using Row = ContactBatch::Row;
+
+/// Of a pair of materials.
+struct BridgeConstants {
+  double pull = 0;     ///< greatest force, N
+  double stretch = 0;  ///< sqrt(R/V), 1/m
+  double rupture = 1;  ///< gap, m
+};
+
+struct BridgeRows {
+  alignas(64) Row pull = {}, stretch = {}, rupture;
+  BridgeRows() { std::fill_n(rupture, ContactBatch::width, 1.0); }
+};
+
+void pull_together(ContactBatch& b, int place, const BridgeRows& bridge) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c) {
+    const double held = holds(b.memory[place][c], b.overlap[c], bridge.rupture[c]);
+    b.memory[place][c] = held;
+    b.normal[c] += held * closures::liquid_bridge_force(bridge.pull[c], bridge.stretch[c], -b.overlap[c]);
+  }
+}
+
+/// A bridge forms where two surfaces touch and lives until their gap exceeds the rupture distance: the memory is
+/// whether it is there. Every bridge of a pair of materials has the same volume; the liquid of a bridge that ruptures
+/// returns to where it came from. The energy that a bridge releases where it forms is lost, and counted there.
+class WillettBridge final : public CohesionLaw {
+ public:
+  /// \param place  of its memory in a batch
+  WillettBridge(const Materials& materials, const core::Material& liquid, int place)
+      : place_(place), constants_(materials.kinds().size()) {
+    const double angle = liquid.contact_angle * std::numbers::pi / 180;
+    const auto& species = materials.species();
+    const auto film = [&](const Species& s, double partner) {
+      return liquid.liquid_fraction * closures::sphere_volume(s.radius) * closures::covered_share(s.radius, partner);
+    };
+    const auto set = [&](std::int32_t kind, double volume) {
+      const double radius = 2 * materials.kinds()[std::size_t(kind)].radius;
+      constants_[std::size_t(kind)] = {closures::liquid_bridge_pull(radius, *liquid.surface_tension, angle),
+                                       std::sqrt(radius / volume), closures::liquid_bridge_rupture(volume, angle)};
+    };
+    for (std::int32_t a = 0; a < std::int32_t(species.size()); ++a) {
+      const Species& s = species[std::size_t(a)];
+      set(materials.wall_kind(a), film(s, std::numeric_limits<double>::infinity()));
+      for (std::int32_t b = 0; b < std::int32_t(species.size()); ++b) {
+        const Species& other = species[std::size_t(b)];
+        set(materials.kind(a, b), film(s, other.radius) + film(other, s.radius));
+      }
+    }
+  }
+
+  void act(ContactBatch& batch) const override {
+    BridgeRows rows;
+    for (int c = 0; c < batch.count; ++c) {
+      const BridgeConstants& k = constants_[std::size_t(batch.kind[c])];
+      rows.pull[c] = k.pull;
+      rows.stretch[c] = k.stretch;
+      rows.rupture[c] = k.rupture;
+    }
+    core::in_vectors<pull_together>(batch, place_, rows);
+  }
+
+  [[nodiscard]] int memory_size() const override { return 1; }
+  void add_energy(const ContactBatch& batch, Row& stored) const override {
+    for (int c = 0; c < batch.count; ++c) {
+      const BridgeConstants& k = constants_[std::size_t(batch.kind[c])];
+      stored[c] +=
+          batch.memory[place_][c] * closures::liquid_bridge_energy(k.pull, k.stretch, k.rupture, -batch.overlap[c]);
+    }
+  }
+  void add_loss(const ContactBatch& batch, Row& lost) const override {
+    for (int c = 0; c < batch.count; ++c) {
+      const BridgeConstants& k = constants_[std::size_t(batch.kind[c])];
+      const double held = batch.memory[place_][c];
+      if (holds(held, batch.overlap[c], k.rupture) > held)
+        lost[c] -= closures::liquid_bridge_energy(k.pull, k.stretch, k.rupture, 0);
+    }
+  }
+  [[nodiscard]] double reach() const override {
+    double most = 0;
+    for (const BridgeConstants& k : constants_) most = std::max(most, k.rupture);
+    return most;
+  }
+  [[nodiscard]] double pull_off() const override {
+    double most = 0;
+    for (const BridgeConstants& k : constants_) most = std::max(most, k.pull);
+    return most;
+  }
+
+ private:
+  int place_;
+  std::vector<BridgeConstants> constants_;
+};
+
+}  // namespace
+
+namespace makers {
+
+extern const Maker liquid_bridge;
+const Maker liquid_bridge{&relevance::effects::liquid_bridge, "Pair", MakePair([](const PairMaking& m) {
+                            m.laws.bridge =
+                                std::make_unique<WillettBridge>(m.materials, m.scene.material, m.laws.memory_size());
+                          })};
+
+}  // namespace makers
+
+}  // namespace polybed::dem

@@ -1,0 +1,78 @@
+// Liquid bridges between wet particles in a gas.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "closures/relevance.hpp"
+#include "core/case/scene.hpp"
+#include "core/error.hpp"
+#include "relevance/effect.hpp"
+#include "relevance/effect_rules.hpp"
+#include "relevance/fluid_properties.hpp"
+#include "relevance/supremum.hpp"
+
+namespace polybed::relevance::effects {
+
+inline std::optional<EffectRow> weigh_liquid_bridge(const Weighing& by, EffectRow row) {
+  row = as_force(row, by.scene);
+  const core::Material& liquid = by.scene.material;
+  const std::optional<double> tension = liquid.surface_tension ? liquid.surface_tension : by.scene.chooser.free_liquid;
+  row.neglected = 0;
+  if (by.survey.has_fluid && !by.survey.is_gas) {
+    row.reason = "immersed particles have no liquid bridges";
+    return row;
+  }
+  if (!tension) {
+    row.reason = "dry: dem.surface_tension names no liquid";
+    return row;
+  }
+  if (!(liquid.liquid_fraction > 0)) row.not_built = "needs dem.liquid_fraction, how much liquid there is";
+  const double angle = liquid.contact_angle * std::numbers::pi / 180;
+  Supremum greatest;
+  for (const Situation& s : by.survey.touching())
+    greatest.add(s, closures::capillary_relevance(*tension, angle, s.diameter, s.reference()));
+  row.neglected.reset();
+  greatest.fill(row);
+  return row;
+}
+
+inline void set_liquid_bridge_keys(core::Scene& scene, const Surfaces&) {
+  if (!scene.material.surface_tension) scene.material.surface_tension = scene.chooser.free_liquid;
+}
+
+/// Broken by a liquid; a fluid without known properties breaks a rule of its own.
+inline core::Broken bridges_in_a_liquid(const core::Scene& scene) {
+  if (!core::names_law(scene, "liquid_bridge") || !scene.fluid.present()) return {};
+  try {
+    const double density = fluid_constants(scene.fluid).density;
+    return density > lightest_liquid ? core::Broken({fmt::format("{:.4g}", density)}) : core::Broken();
+  } catch (const core::CaseError&) {
+    return {};
+  }
+}
+
+inline const Effect liquid_bridge{
+    .role = "liquid_bridge",
+    .help = "pull of liquid between wet particles in a gas",
+    .absent = "DEM only",
+    .laws = {{"willett",
+              "pendular bridges that form at contact and rupture apart: dem.surface_tension, dem.liquid_fraction",
+              "2 pi R gamma cos(theta)/(1 + 1.05 s + 2.5 s^2), s = gap sqrt(R/V); Willett et al. 2000"}},
+    .rules =
+        {{{"effects.liquid_bridge", "fluid."},
+          "effects.liquid_bridge: a fluid of {} kg/m3 is a liquid, in which particles have no liquid bridges: leave "
+          "it out",
+          bridges_in_a_liquid},
+         rule_of("liquid_bridge", {"dem.surface_tension"},
+                 "dem.surface_tension: effects.liquid_bridge = \"{}\" needs it, as in \"72 mN/m\"",
+                 [](const core::Scene& scene) { return !scene.material.surface_tension; }),
+         rule_of("liquid_bridge", {"dem.liquid_fraction"},
+                 "dem.liquid_fraction: effects.liquid_bridge = \"{}\" needs it, above 0, as in 0.01",
+                 [](const core::Scene& scene) { return !(scene.material.liquid_fraction > 0); })},
+    .number = "pull of a bridge over weight (Bond number)",
+    .weigh = weigh_liquid_bridge,
+    .set_keys = set_liquid_bridge_keys};
+
+}  // namespace polybed::relevance::effects
