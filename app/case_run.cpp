@@ -171,6 +171,8 @@ void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
   add_case(state, scene_);
+  // A power cut must not take rows before the checkpoint: a run that goes on from it does not write them again.
+  core::on_first(ranks_.get(), [&] { core::flush_file(directory_ / "history.csv"); });
   core::write_checkpoint(checkpoint_path(directory_), std::move(state), ranks_.get(), checkpoint_rows());
   (void)record("running");
 }
