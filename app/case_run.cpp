@@ -138,18 +138,23 @@ void CaseRun::say(const std::vector<std::string>& lines) const {
   for (const std::string& line : lines) core::print(stderr, "{}\n", line);
 }
 
+std::string CaseRun::command_to_resume(const std::vector<std::string>& more) const {
+  std::string command =
+      fmt::format("polybed {} {} -o {} --resume", model_name_, options_.case_path.string(), directory_.string());
+  for (const auto& settings : {options_.overrides, more})
+    for (const std::string& setting : settings) command += fmt::format(" --set '{}'", setting);
+  return command;
+}
+
 std::string CaseRun::advice_of(const Monitor& monitor) const {
   if (monitor.settings().empty())
     return "the effect cannot be added to a run that has begun: begin anew with it, or raise chooser.tolerance";
-  std::string command =
-      fmt::format("polybed {} {} -o {} --resume", model_name_, options_.case_path.string(), directory_.string());
   std::vector<std::string> chosen;  // which the added effect might change
   for (const std::string& role : scene_.chooser.chosen)
     if (!find_entry(role)->effect->set_keys)
       chosen.push_back(fmt::format("effects.{}={}", role, core::law_of(scene_, role)));
-  for (const auto& settings : {options_.overrides, chosen, monitor.settings()})
-    for (const std::string& setting : settings) command += fmt::format(" --set '{}'", setting);
-  return "to go on with the effect: " + command;
+  chosen.insert(chosen.end(), monitor.settings().begin(), monitor.settings().end());
+  return "to go on with the effect: " + command_to_resume(chosen);
 }
 
 std::optional<Neglected> CaseRun::promise_of(const Monitor* monitor) {
@@ -171,6 +176,8 @@ void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
   add_case(state, scene_);
+  // A power cut must not take rows before the checkpoint: a run that goes on from it does not write them again.
+  core::on_first(ranks_.get(), [&] { core::flush_file(directory_ / "history.csv"); });
   core::write_checkpoint(checkpoint_path(directory_), std::move(state), ranks_.get(), checkpoint_rows());
   (void)record("running");
 }
@@ -233,6 +240,10 @@ void CaseRun::print_end(const std::string& record) {
       card_line("run",
                 fmt::format("{}, {:.4g} s of {} in {}", state, simulation().time(), model_name_, directory_.string())));
   for (const std::string& line : result_lines(card_)) core::print(stderr, "{}\n", line);
+  if (card_.seen.steady && !*card_.seen.steady)
+    core::print(
+        stderr, "{}\n",
+        card_line("to go on", fmt::format("{} --until \"{:.4g} s\"", command_to_resume({}), 2 * scene_.run.until)));
 }
 
 void print_invariants(std::span<const measures::WorstInvariant> worst) {

@@ -123,6 +123,8 @@ class CaseRun {
   void record_if_possible(const std::string& state);
   void finish(const std::string& state);
   void print_end(const std::string& record);
+  /// The command that resumes this run. \param more  settings beside those that it has
+  [[nodiscard]] std::string command_to_resume(const std::vector<std::string>& more) const;
   [[noreturn]] void fail(const core::NumericsError& error);
 
   BedOfCase expected_;                     ///< on the first rank

@@ -1,8 +1,10 @@
 // polybed check: what to expect of a case and what it will need, on one screen; nothing is run.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
@@ -77,6 +79,16 @@ void note_drag(const core::Scene& scene, Derived& derived) {
                               "that of the pressure drop, which is therefore not exact");
 }
 
+/// What the case has on and the two-fluid model has no law of, by what it does without.
+void note_roles_of_particles(const core::Scene& scene, Derived& derived) {
+  std::map<std::string, std::vector<std::string>> roles;
+  for (const core::Role& role : all_roles())
+    if (scene.effects.contains(role.name) && role.models.find("tfm") == std::string::npos)
+      roles[role.absent].push_back(role.name);
+  for (const auto& [absent, names] : roles)
+    derived.notes.push_back(fmt::format("{} in polybed dem alone: {}", fmt::join(names, ", "), absent));
+}
+
 /// What flows in: its greatest speed, m/s, and what becomes of particles that fall more slowly.
 struct Inflow {
   std::string name;
@@ -120,9 +132,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
                                             inflow.fate));
   }
   note_drag(scene, derived);
-  for (const core::Role& role : all_roles())
-    if (scene.effects.contains(role.name) && role.models.find("tfm") == std::string::npos)
-      derived.notes.push_back(role.name + " = \"" + scene.effects.at(role.name) + "\": " + role.absent);
+  note_roles_of_particles(scene, derived);
   return derived;
 }
 
@@ -241,6 +251,15 @@ void add_left_out(const core::Scene& scene, const std::string& model, std::vecto
   lines.push_back(card_line("left out", model + ": " + left_out_text(left_out(scene, model))));
 }
 
+/// Effects that make a run of particles much longer.
+void note_costs(const core::Scene& scene, std::vector<std::string>& notes) {
+  constexpr double much = 1.25;
+  for (const auto& [role, law] : scene.effects)
+    if (const double times = steps_by(scene, role); times > much)
+      notes.push_back(fmt::format("{} = \"{}\" makes polybed dem take {:.2g} times as long: its steps are shorter",
+                                  role, law, times));
+}
+
 /// What was chosen for the case, and what it has off but needs, by each model that runs it.
 void note_choice(const core::Scene& scene, const std::vector<std::string>& models, std::vector<std::string>& notes) {
   if (std::string line = chosen_line(scene); !line.empty()) notes.push_back(std::move(line));
@@ -257,6 +276,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   notes.insert(notes.end(), reasons.begin(), reasons.end());
   for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
   note_choice(scene, {"dem"}, notes);
+  note_costs(scene, notes);
   if (options.json) {
     const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text}, {"hash", core::case_hash(scene)}};
@@ -286,10 +306,15 @@ std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::
   try {
     if (reasons.empty()) return particle_requirements_of(scene);
   } catch (const core::CaseError& error) {
-    reasons.emplace_back(error.what());
+    reasons.push_back(fmt::format("polybed dem cannot run it: {}", error.what()));
   }
-  for (const std::string& reason : reasons) notes.push_back("polybed dem cannot run it: " + reason);
+  notes.insert(notes.end(), reasons.begin(), reasons.end());
   return {};
+}
+
+/// The models that the case is for, of those that can run it: the continuum, and particles where they can.
+std::vector<std::string> advised_models(const core::Scene& scene, bool particles) {
+  return particles ? models_of(scene) : std::vector<std::string>{"tfm"};
 }
 
 /// What follows from the case and what it takes, all of it.
@@ -326,8 +351,9 @@ void run_check(const RunOptions& options) {
   if (particles)
     for (const std::string& warning : particles->warnings()) derived.notes.push_back(warning);
   derived.notes.insert(derived.notes.end(), hindrances.begin(), hindrances.end());
-  note_choice(scene, particles ? std::vector<std::string>{"tfm", "dem"} : std::vector<std::string>{"tfm"},
-              derived.notes);
+  const std::vector<std::string> models = advised_models(scene, particles.has_value());
+  note_choice(scene, models, derived.notes);
+  if (particles) note_costs(scene, derived.notes);
   if (options.json) {
     const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text},
@@ -349,8 +375,7 @@ void run_check(const RunOptions& options) {
       "weight", fmt::format("{:.4g} Pa in the fluid: the pressure drop of the fluidised bed", derived.weight)));
   add_continuum(scene, need, lines);
   if (particles) add_particles(scene, *particles, lines);
-  add_left_out(scene, "tfm", lines);
-  if (particles) add_left_out(scene, "dem", lines);
+  for (const std::string& model : models) add_left_out(scene, model, lines);
   print_screen(scene, lines, derived.notes);
 }
 

@@ -79,7 +79,7 @@ class DemRun final : public CaseRun {
             model_.limits().dt,
             model_.limits().limited_by,
             observers_->bed_height(),
-            energy != nullptr ? fmt::format("energy {:.0e} of {:.0e}", energy->value, energy->limit)
+            energy != nullptr ? fmt::format("energy at {:.1g} % of its limit", 100 * energy->share())
                               : fmt::format("{} contacts", observers_->totals().contacts)};
   }
 

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/options.hpp"
 #include "core/error.hpp"
@@ -26,6 +28,20 @@ core::Json json_of_key(const core::Key& key) {
   if (!key.standard.empty()) json["default"] = key.standard;
   if (!key.equation.empty()) json["equation"] = key.equation;
   return json;
+}
+
+std::string beside(std::string line, std::size_t indent, const std::string& text) {
+  constexpr std::size_t width = 100;
+  std::string lines;
+  std::stringstream words(text);
+  for (std::string word; words >> word;) {
+    if (line.size() + 1 + word.size() > width) {
+      lines += line + "\n";
+      line = std::string(indent - 1, ' ');
+    }
+    line += " " + word;
+  }
+  return lines + line + "\n";
 }
 
 namespace {
@@ -55,13 +71,30 @@ Meaning meaning_of(const core::Table& table) {
   return {text, {{"table", std::string(table.name)}}};
 }
 
+/// The laws of a role, those to take first.
+std::vector<core::Law> in_order(const core::Role& role) {
+  const auto place = [&](const core::Law& law) {
+    return std::find_if(role.advice.begin(), role.advice.end(), [&](const auto& one) { return one.law == law.name; }) -
+           role.advice.begin();
+  };
+  std::vector<core::Law> laws = role.laws;
+  std::stable_sort(laws.begin(), laws.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  return laws;
+}
+
 Meaning meaning_of(const core::Role& role) {
   std::string text = title_of("effects." + role.name, "role in [effects]; acts in " + role.models);
   text += fmt::format("  {}\n", role.help);
-  if (!role.absent.empty()) text += fmt::format("  elsewhere: {}\n", role.absent);
+  if (!role.absent.empty()) text += fmt::format("  in the other model: {}\n", role.absent);
+  core::Json advice = core::Json::array();
+  if (!role.advice.empty()) text += "  which to take:\n";
+  for (const core::Advice& one : role.advice) {
+    text += beside(fmt::format("    {:17}", one.law), 22, one.bed);
+    advice.push_back({{"law", one.law}, {"bed", one.bed}});
+  }
   text += "  laws, or \"none\", or \"auto\" for what polybed effects recommends:\n";
-  for (const core::Law& law : role.laws) text += fmt::format("  {:20} {}\n", law.name, law.help);
-  return {text, {{"role", role.name}, {"models", role.models}, {"help", role.help}}};
+  for (const core::Law& law : in_order(role)) text += beside(fmt::format("    {:17}", law.name), 22, law.help);
+  return {text, {{"role", role.name}, {"models", role.models}, {"help", role.help}, {"advice", advice}}};
 }
 
 Meaning meaning_of(const core::Role& role, const core::Law& law) {

@@ -19,6 +19,9 @@ struct Term {
 /// All of them, app/terms.cpp.
 [[nodiscard]] const std::vector<Term>& terms();
 
+/// A text behind another one, on lines of at most 100 columns; those that follow are indented.
+[[nodiscard]] std::string beside(std::string line, std::size_t indent, const std::string& text);
+
 /// A key as polybed schema --json has it.
 [[nodiscard]] core::Json json_of_key(const core::Key& key);
 

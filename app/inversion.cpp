@@ -156,6 +156,70 @@ void print_methods(std::vector<MethodRow> rows, const core::Scene& scene) {
       "(mixtures): a law made for several sizes; (one size): applied to each species as if it were alone\n");
 }
 
+/// A line for each point of a row, or one that it has none.
+void print_row(const MethodRow& row, const std::string& name, bool of_case) {
+  const std::string front = fmt::format("{} {:34}", of_case ? "*" : " ", name);
+  if (row.points.empty()) core::print("{} {:>8} {:>8}\n", front, "-", "-");
+  for (const InversionPoint& p : row.points) core::print("{} {:8.2f} {:8.4f}\n", front, 1e3 * p.velocity, p.voidage);
+}
+
+std::string name_of(const MethodRow& row) { return row.partition.empty() ? row.law : row.law + " x " + row.partition; }
+
+/// Drag laws to take first, with their partition, and why: docs/guide/choose-a-drag-law.md.
+struct Recommended {
+  const char* why;
+  std::vector<std::pair<std::string, std::string>> pairs;
+};
+
+const std::vector<Recommended>& recommended() {
+  static const std::vector<Recommended> all{
+      {"laws of expanded beds, shared between the sizes",
+       {{"wen_yu", "brinkman_oseen"}, {"richardson_zaki", "brinkman_oseen"}, {"di_felice", "brinkman_oseen"}}},
+      {"laws of mixtures, fitted to spheres that are fixed",
+       {{"cello", ""}, {"vbk_theory", ""}, {"brinkman_oseen", ""}}}};
+  return all;
+}
+
+/// The rows to look at first, on one screen.
+void print_best_methods(const std::vector<MethodRow>& rows, const core::Scene& scene) {
+  const std::string drag = core::law_of(scene, "drag");
+  const std::string partition = scene.effects.contains("partition") ? core::law_of(scene, "partition") : "";
+  const std::string balance = inversion_methods().front().name;
+  const auto is_pair = [](const MethodRow& row, const std::string& law, const std::string& shared_by) {
+    return row.law == law && row.partition == shared_by;
+  };
+  bool shown = false;
+  core::print("{:36} {:>8} {:>8}\n", "force balance, with", "mm/s", "voidage");
+  for (const Recommended& group : recommended()) {
+    core::print("{}:\n", group.why);
+    for (const auto& [law, shared_by] : group.pairs)
+      for (const MethodRow& row : rows)
+        if (row.method == balance && is_pair(row, law, shared_by)) {
+          print_row(row, name_of(row), is_pair(row, drag, partition));
+          shown = shown || is_pair(row, drag, partition);
+        }
+  }
+  std::vector<double> velocities;
+  for (const MethodRow& row : rows) {
+    if (row.method != balance) continue;
+    if (!row.points.empty()) velocities.push_back(1e3 * row.points.back().velocity);
+    if (!shown && is_pair(row, drag, partition)) {
+      core::print("the law of the case:\n");
+      print_row(row, name_of(row), true);
+    }
+  }
+  std::sort(velocities.begin(), velocities.end());
+  const std::size_t n = velocities.size();
+  if (n > 0)
+    core::print("all {} laws and pairs: {:.4g} to {:.4g} mm/s, half of them {:.3g} to {:.3g}\n", n, velocities.front(),
+                velocities.back(), velocities[n / 4], velocities[(3 * n) / 4]);
+  core::print("other methods:\n");
+  for (const MethodRow& row : rows)
+    if (row.method != balance && (row.law.empty() || row.law == drag))
+      print_row(row, row.method + (row.law.empty() ? "" : " with " + row.law), false);
+  core::print("*: the law of the case; -: no inversion point; every method, law and pair: --details\n");
+}
+
 /// By how much the drag of all species together departs from the mean law at a root.
 void print_deviation(const BinaryBed& bed, const closures::DragLaw& law, const InversionPoint& at) {
   std::array<double, 2> f{}, slope{};
@@ -206,7 +270,8 @@ void run_without_a_run(const InversionOptions& options) {
   const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
   if (options.method == "all") {
     const std::vector<MethodRow> rows = all_methods(binary_bed(scene));
-    return options.json ? print_methods_json(rows) : print_methods(rows, scene);
+    if (options.json) return print_methods_json(rows);
+    return options.details ? print_methods(rows, scene) : print_best_methods(rows, scene);
   }
   const auto named = scene.effects.find("drag");
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
@@ -261,6 +326,7 @@ void add_inversion(CLI::App& app, Commands& commands) {
                      "what shares it among the species in place of the case's; none");
   command.add_option("--temperature", options->temperature, "in place of the case's, e.g. \"20 degC\"");
   command.add_option("--method", options->method, "force_balance | bulk_density | expansion | density_maximum | all");
+  command.add_flag("--details", options->details, "of --method all: every row, not the ones to look at first");
   command.add_flag("--composition", options->composition, "a table over the share of the second species");
   command.add_flag("--seen", options->seen,
                    "the force balance also with the averages that particles see, dem.own_share = kept");

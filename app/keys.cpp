@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 #include <span>
-#include <sstream>
 
 #include "app/commands.hpp"
 #include "app/explain.hpp"
@@ -99,18 +98,8 @@ void print_markdown() {
   }
 }
 
-/// A text behind another one, on lines of at most 100 columns; those that follow are indented.
-void print_beside(std::string line, std::size_t indent, const std::string& text) {
-  constexpr std::size_t width = 100;
-  std::stringstream words(text);
-  for (std::string word; words >> word;) {
-    if (line.size() + 1 + word.size() > width) {
-      core::print("{}\n", line);
-      line = std::string(indent - 1, ' ');
-    }
-    line += " " + word;
-  }
-  core::print("{}\n", line);
+void print_beside(const std::string& line, std::size_t indent, const std::string& text) {
+  core::print("{}", beside(line, indent, text));
 }
 
 void run_schema(bool json, bool markdown) {

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "app/commands.hpp"
+#include "app/measure_text.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
@@ -24,6 +24,7 @@ namespace {
 
 using measures::Profile;
 using Values = std::vector<measures::Value>;
+using Column = MeasuredColumn;
 
 /// The request.
 struct Asked {
@@ -200,12 +201,6 @@ Asked read_run(const std::filesystem::path& run) {
 
 // ---- measuring
 
-/// A measure of each of the profiles.
-struct Column {
-  std::string name, unit, help, heading;
-  Values values;
-};
-
 /// \param of  what a measure is read off, by the bed
 template <class Source, class Of>
 std::vector<Column> columns_of(const measures::Table<Source>& table, const Asked& asked, const Of& of) {
@@ -285,83 +280,15 @@ void print_in_si(const Asked& asked, bool of_run) {
   }
 }
 
-/// A column as people read it: words of its name, a unit with the prefix that suits its greatest number, entries.
-struct ShownColumn {
-  std::vector<std::string> words;
-  std::string unit;
-  std::vector<std::string> entries;
-  std::size_t width = 0;
-};
-
-ShownColumn for_people(const Column& column) {
-  double greatest = 0;
-  for (const measures::Value& value : column.values) greatest = std::max(greatest, std::abs(value.value_or(0)));
-  const bool prefixed = column.unit == "m" || column.unit == "s" || column.unit == "Pa";
-  const double least = prefixed && greatest > 0 ? greatest : 1;
-  const auto [scale, prefix] = least >= 1e3    ? std::pair(1e-3, "k")
-                               : least >= 1    ? std::pair(1.0, "")
-                               : least >= 1e-3 ? std::pair(1e3, "m")
-                                               : std::pair(1e6, "µ");
-  ShownColumn result;
-  std::string name = column.name;
-  std::replace(name.begin(), name.end(), '_', ' ');
-  std::stringstream words(name);
-  for (std::string word; words >> word;) result.words.push_back(word);
-  result.unit = column.unit == "1" ? "" : prefix + column.unit;
-  for (const measures::Value& value : column.values)
-    result.entries.push_back(value ? fmt::format("{:.4g}", scale * *value) : "-");
-  for (const std::string& word : result.words) result.width = std::max(result.width, word.size());
-  for (const std::string& entry : result.entries) result.width = std::max(result.width, entry.size());
-  result.width = std::max(result.width, result.unit.size() - (prefix == std::string("µ") ? 1 : 0));  // two bytes
-  return result;
-}
-
-void print_block(const std::vector<const ShownColumn*>& columns) {
-  std::size_t heading = 0;
-  for (const ShownColumn* column : columns) heading = std::max(heading, column->words.size());
-  const auto print_line = [&](auto&& entry) {
-    std::string line;
-    for (const ShownColumn* column : columns) line += fmt::format("{:>{}}  ", entry(*column), column->width);
-    core::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
-  };
-  for (std::size_t n = 0; n < heading; ++n)
-    print_line([&](const ShownColumn& column) {
-      const std::size_t above = heading - column.words.size();
-      return n < above ? std::string() : column.words[n - above];
-    });
-  print_line([](const ShownColumn& column) { return column.unit; });
-  for (std::size_t row = 0; row < columns.front()->entries.size(); ++row)
-    print_line([row](const ShownColumn& column) { return column.entries[row]; });
-}
-
-/// In blocks of columns beside the first, which is the time, as many as fit.
-void print_table(const Asked& asked, bool of_run) {
-  constexpr std::size_t width = 100;
-  std::vector<ShownColumn> columns;
-  for (const Column& column : all_columns(asked, of_run)) columns.push_back(for_people(column));
-  if (columns.empty()) return;
-  std::vector<const ShownColumn*> block{&columns.front()};
-  std::size_t used = columns.front().width;
-  for (std::size_t n = 1; n < columns.size(); ++n) {
-    if (block.size() > 1 && used + 2 + columns[n].width > width) {
-      print_block(block);
-      core::print("\n");
-      block.resize(of_run ? 1 : 0);
-      used = of_run ? columns.front().width : 0;
-    }
-    block.push_back(&columns[n]);
-    used += 2 + columns[n].width;
-  }
-  print_block(block);
-  core::print("definitions: polybed measure --list; --csv, --json: SI units, all digits\n");
-}
-
 void run_measure(const MeasureOptions& options) {
   if (options.list) return print_measures(options);
   const bool of_run = options.profiles.empty();
   const Asked asked = of_run ? read_run(options.run) : read_profiles_of(options.profiles);
   if (options.json) return print_json(asked, of_run);
-  options.csv ? print_in_si(asked, of_run) : print_table(asked, of_run);
+  if (options.csv) return print_in_si(asked, of_run);
+  if (options.details || !of_run || asked.time.empty()) return print_table(all_columns(asked, of_run), of_run);
+  const bool has_history = std::filesystem::exists(options.run / "history.csv");
+  print_summary(asked.time, measured(asked), has_history ? core::read_history(options.run) : core::History{});
 }
 
 }  // namespace
@@ -377,6 +304,7 @@ void add_measure(CLI::App& app, Commands& commands) {
   command.add_flag("--markdown", options->markdown, "of the list: the page of the documentation")->needs(list);
   CLI::Option* json = command.add_flag("--json", options->json, "one JSON object");
   command.add_flag("--csv", options->csv, "comma-separated, in SI units")->excludes(json);
+  command.add_flag("--details", options->details, "of a run: every stored time instead of means over its last quarter");
   commands.push_back({&command, doing([options] { run_measure(*options); })});
 }
 

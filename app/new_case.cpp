@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/commands.hpp"
+#include "app/explain.hpp"
 #include "core/case/keys.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
@@ -122,9 +123,12 @@ void run_list_cases(bool json) {
     if (one.is_template && !templates) core::print("templates: polybed new NAME --from TEMPLATE\n");
     if (!one.is_template && templates) core::print("\nshipped cases, each with a README; polybed new takes them too\n");
     templates = one.is_template;
-    core::print("{}  {}\n", core::painted(stdout, core::Colour::bold, fmt::format("{:25}", one.name)), one.title);
+    const std::size_t title = 27;
+    core::print("{}{}", core::painted(stdout, core::Colour::bold, fmt::format("{:26}", one.name)),
+                beside(std::string(title - 1, ' '), title, one.title).substr(title - 1));
     if (!one.takes.empty()) core::print("{:25}  takes {}\n", "", one.takes);
   }
+  core::print("\ntimes are of one core of the machine that they were measured on, with the pictures at the end\n");
 }
 
 void add_new(CLI::App& app, Commands& commands) {

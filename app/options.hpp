@@ -35,7 +35,7 @@ struct MeasureOptions {
   std::filesystem::path run;  ///< a run directory
   std::string profiles;       ///< a JSON file of profiles; "-": standard input
   bool list = false;          ///< the measures themselves
-  bool markdown = false, json = false, csv = false;
+  bool markdown = false, json = false, csv = false, details = false;
 };
 
 /// Options of the inversion point; those of a run are for the runs of a scan.

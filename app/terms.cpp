@@ -26,6 +26,7 @@ const std::vector<Term>& terms() {
        "bed height and centres do not drift, or another run as long would move them by less than a thousandth of the "
        "bed height",
        "if not: a longer run.until with --resume"},
+      {"to go on", "line of the card", "of a bed that is not steady: the command that runs it for as long again", ""},
       {"expect", "line of the card", "the bed by the balance of forces, without a run: its state and height", ""},
       {"fluidises at", "line of the card",
        "minimum fluidisation velocity of each species alone and of the mixture, and the inlet's velocity over it",

@@ -95,7 +95,7 @@ class TfmRun final : public CaseRun {
             step.step,
             step.limited_by,
             observers_->bed_height(),
-            fmt::format("{} {:.0e} of {:.0e}", worst.name, worst.value, worst.limit)};
+            fmt::format("{} at {:.1g} % of its limit", worst.name, 100 * worst.share())};
   }
 
   core::Checkpoint checkpoint() override {

@@ -24,12 +24,12 @@ std::vector<core::Rule> key_rules() {
 const std::vector<core::Rule>& model_rules() {
   static const std::vector<core::Rule> all{
       {{"column.outlet"},
-       "column.outlet = \"open\" is for the TFM only: particles leave through dem.opening, where there is no fluid; "
-       "use "
-       "\"screen\", which holds them",
+       "column.outlet = \"open\": polybed tfm can run it, polybed dem cannot: particles leave through dem.opening, "
+       "where there is no fluid; use \"screen\", which holds them",
        [](const core::Scene& scene) { return core::broken_if(scene.column.outlet == core::Outlet::open); }},
       {{"feed.species"},
-       "[[feed]] is for the TFM only: particles cannot enter the column yet; give them all in [bed]",
+       "[[feed]]: polybed tfm can run it, polybed dem cannot: particles cannot enter the column yet; give them all in "
+       "[bed]",
        [](const core::Scene& scene) { return core::broken_if(!scene.feeds.empty()); }}};
   return all;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/case/particle_list.hpp"
+#include "core/error.hpp"
 #include "core/memory.hpp"
 #include "core/numerics/blocks.hpp"
 #include "core/print.hpp"
@@ -155,6 +156,17 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   need.least = need.expected / band;
   need.most = need.expected * band;
   return need;
+}
+
+double steps_by(const core::Scene& scene, const std::string& role) {
+  if (role == relevance::effects::contact.role) return 1;
+  core::Scene without = scene;
+  without.effects.erase(role);
+  try {
+    return particle_requirements_of(without).limits.dt / particle_requirements_of(scene).limits.dt;
+  } catch (const core::CaseError&) {
+    return 1;
+  }
 }
 
 void choose_stiffness(core::Scene& scene) {

@@ -44,6 +44,10 @@ struct ParticleRequirements {
 /// core::CaseError for what the particle model could not build.
 [[nodiscard]] ParticleRequirements particle_requirements_of(const core::Scene& scene, const ParticleSpeed& speed = {});
 
+/// How many times as many steps a run of particles takes with an effect that the scene has on: 1 where the effect does
+/// not shorten the step, or a run without it is not known.
+[[nodiscard]] double steps_by(const core::Scene& scene, const std::string& role);
+
 /// Gives a scene whose particles touch after Hertz and that states no modulus one: core::least_modulus, or more where
 /// the speeds to expect need it to keep overlaps within dem.max_overlap. Steps are the longer the softer contacts are.
 void choose_stiffness(core::Scene& scene);

@@ -25,6 +25,10 @@ namespace polybed::multiscale {
 /// Their roles.
 [[nodiscard]] std::vector<core::Role> all_roles();
 
+/// The models that a case is for, "tfm", "dem" or both: what only one can run is for that one, and so is a case whose
+/// solids have a stress but no contacts, or the other way round.
+[[nodiscard]] std::vector<std::string> models_of(const core::Scene& scene);
+
 /// relevance::choose and relevance::with_choice of the whole menu.
 [[nodiscard]] relevance::Choice choose(const core::Scene& scene);
 [[nodiscard]] core::Scene with_choice(core::Scene scene);

@@ -82,7 +82,7 @@ std::vector<std::string> drift_lines(const measures::Drifts& drifts) {
   std::vector<std::string> lines;
   for (const measures::DriftOfMeasure& d : drifts.judge())
     if (!d.steady)
-      lines.push_back(fmt::format("not steady: drift of {} {:.3g} mm/s, within {:.2g}, over the last {:.3g} s", d.name,
+      lines.push_back(fmt::format("not steady: drift of {} {:.3g} ± {:.2g} mm/s over the last {:.3g} s", d.name,
                                   1e3 * d.drift.rate, 1e3 * d.drift.error, drifts.window()));
   return lines;
 }

@@ -61,8 +61,11 @@ EffectRow coupling(const Survey& survey) {
   row.state = State::on;
   row.value = survey.mean_fraction;
   row.threshold = 1e-3;
-  row.model = *row.value < 1e-6 ? "one-way" : (*row.value < 1e-3 ? "two-way" : "four-way");
-  row.reason = row.model + " would do; a run with a fluid always has all four";
+  const bool few = *row.value < 1e-6, apart = *row.value < 1e-3;
+  row.model = few ? "one-way" : (apart ? "two-way" : "four-way");
+  row.reason = few     ? "so few particles hardly move the fluid; a run counts that all the same"
+               : apart ? "particles hardly meet; a run counts their contacts all the same"
+                       : "the fluid moves the particles, they move the fluid and each other";
   return row;
 }
 
@@ -88,8 +91,9 @@ EffectRow level(const Survey& survey) {
   for (const Situation& s : survey.situations)
     if (s.zone != Zone::freeboard) greatest.add(s, s.relaxation_time() * s.slip / survey.height);
   greatest.fill(row);
-  row.reason = row.value && *row.value < 0.02 ? "algebraic slip would do; it is not in the product"
-                                              : "each phase needs its own momentum";
+  row.reason = row.value && *row.value < 0.02
+                   ? "particles follow the fluid at once; a run computes their momentum all the same"
+                   : "particles lag behind the fluid: each has a momentum of its own";
   return row;
 }
 
@@ -97,7 +101,7 @@ EffectRow turbulence(const Survey& survey) {
   EffectRow row = effect_row("turbulence", "none", "Re of the column, freeboard", Kind::unmodelled);
   row.threshold = 2000;
   row.value = survey.fluid_density * survey.greatest_velocity * survey.width / survey.viscosity;
-  row.reason = *row.value > 2000 ? "not modelled: the freeboard is turbulent" : "laminar above the bed";
+  row.reason = *row.value > 2000 ? "not modelled: the flow above the bed is turbulent" : "laminar above the bed";
   return row;
 }
 
@@ -131,7 +135,7 @@ EffectRow temperature(const core::Scene& scene, const Survey& survey) {
   warmer.temperature = survey.temperature + 1;
   try {
     row.value = std::abs(fluid_constants(warmer).viscosity / survey.viscosity - 1);
-    row.reason = "not modelled: an uncertainty of the input";
+    row.reason = "not modelled: by a kelvin more or less the viscosity changes by " + percent(*row.value);
   } catch (const core::CaseError&) {
     row.state = State::unknown;
     row.reason = "unknown: the fluid's properties end at this temperature";
@@ -162,16 +166,16 @@ EffectRow charge(const core::Scene& scene, const Survey& survey) {
 EffectRow sintering() {
   EffectRow row = effect_row("sintering", "none", no_number, Kind::unmodelled);
   row.state = State::unknown;
-  row.reason = "unknown: needs how the material softens; not modelled";
+  row.reason = "unknown: depends on how the material softens; not modelled";
   return row;
 }
 
 }  // namespace
 
 std::vector<EffectRow> weigh_conditions(const core::Scene& scene, const Survey& survey) {
-  std::vector<EffectRow> rows{always("weight", "no cost")};
+  std::vector<EffectRow> rows{always("weight", "always on")};
   if (survey.has_fluid) {
-    rows.push_back(always("pressure_gradient", "no cost"));
+    rows.push_back(always("pressure_gradient", "always on"));
     rows.push_back(equation_of_state(scene, survey));
     rows.push_back(coupling(survey));
   }

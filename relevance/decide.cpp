@@ -14,27 +14,54 @@ using Kind = EffectRow::Kind;
 /// Whether the value itself is the top of a band.
 bool is_uncertain(const EffectRow& row) { return row.band && row.band->most == row.value; }
 
-std::string number_text(double value) { return fmt::format("{:.2g}", value); }
+/// A number without a power of ten.
+std::string plain(double value) {
+  constexpr double least = 1e-3, hundred = 100;
+  if (value < least) return "less than 0.001";
+  return value < hundred ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
+/// A value of a row as its phrase has it.
+std::string value_text(const EffectRow& row, double value) {
+  constexpr double many = 10;  // as a share: "30 times"
+  if (row.below) return plain(value);
+  return value < many ? percent(value) + " of" : fmt::format("{:.0f} times", value);
+}
+
+/// The number of a row in words.
+std::string in_words(const EffectRow& row, const std::string& value) {
+  return row.phrase.empty() ? row.number : fmt::format(fmt::runtime(row.phrase), value);
+}
+
+std::string in_words(const EffectRow& row) { return in_words(row, value_text(row, *row.value)); }
+
+std::string band_in_words(const EffectRow& row) {
+  return in_words(row, fmt::format("{} to {}", percent(row.band->least), value_text(row, row.band->most)));
+}
+
+/// What a value is compared with.
+std::string limit_text(const EffectRow& row, bool beyond) {
+  if (row.below) return fmt::format("{} {:.4g}", beyond ? "below" : "not below", *row.threshold);
+  return fmt::format("{} the {} that may be left out", beyond ? "more than" : "within", percent(*row.threshold));
+}
 
 void decide_steady(EffectRow& row) {
   row.state = State::off;
   row.neglected = 0;
-  row.reason = "steady: the mean of what goes with acceleration vanishes";
-  if (row.band)
-    row.reason += fmt::format("; in a transient {:.2g} to {:.2g}", row.band->least, row.band->most);
-  else if (row.value)
-    row.reason += "; in a transient " + number_text(*row.value);
+  row.reason = "no part in a steady mean";
+  if (row.band || row.value)
+    row.reason += "; while the flow changes, " + (row.band ? band_in_words(row) : in_words(row));
 }
 
 /// What a run may reach beside the scales of the choice: told, and not switched.
 void tell_greatest(EffectRow& row) {
   if (row.up_to && row.threshold && row.state == State::off && *row.up_to > *row.threshold)
-    row.reason += fmt::format("; in a run up to {:.2g}, a scale that switches nothing", *row.up_to);
+    row.reason += fmt::format("; in places of a run up to {}", percent(*row.up_to));
 }
 
 void decide_by_number(EffectRow& row) {
   if (!row.value || !row.threshold) {
-    if (row.reason.empty()) row.reason = "no number: nothing moves through a fluid";
+    if (row.reason.empty()) row.reason = "nothing moves through a fluid";
     row.neglected = row.neglected.value_or(0);
     return;
   }
@@ -42,15 +69,16 @@ void decide_by_number(EffectRow& row) {
   const bool beyond = row.below ? *row.value < *row.threshold : *row.value > *row.threshold;
   if (beyond && !uncertain) {
     row.state = State::on;
-    row.reason = fmt::format("{} {} {}", number_text(*row.value), row.below ? "<" : ">", number_text(*row.threshold));
+    row.reason = fmt::format("{}, {}", in_words(row), limit_text(row, true));
     return;
   }
   row.neglected = row.below ? 0 : *row.value;
-  row.reason = fmt::format("{} {} {}", number_text(*row.value), row.below ? ">=" : "<=", number_text(*row.threshold));
+  row.reason = fmt::format("{}, {}", in_words(row), limit_text(row, false));
   if (!row.band) return;
   const bool known_small = !row.below && row.band->most <= *row.threshold;
-  if (uncertain && !known_small) row.neglected.reset();
-  row.reason = fmt::format("band {:.2g} to {:.2g}, uncertain there: not switched", row.band->least, row.band->most);
+  if (known_small) return;
+  if (uncertain) row.neglected.reset();
+  row.reason = band_in_words(row) + ", too uncertain to decide";
 }
 
 /// Bound on what leaving a row out neglects. What is always on has a number that chooses its law and bounds nothing,
@@ -78,7 +106,7 @@ void take_from_case(EffectRow& row, bool on, bool transient) {
     row.neglected.reset();
   else if (row.value && !row.below && !is_uncertain(row))
     row.neglected = vanishes ? 0 : *row.value;
-  row.reason = fmt::format("the case says {}{}", on ? "on" : "off", row.reason.empty() ? "" : ": " + row.reason);
+  row.reason = fmt::format("{} in the case{}", on ? "on" : "off", row.reason.empty() ? "" : "; " + row.reason);
 }
 
 void limit_sum(std::vector<EffectRow>& rows, const DecisionRule& rule) {
@@ -97,8 +125,8 @@ void limit_sum(std::vector<EffectRow>& rows, const DecisionRule& rule) {
     if (sum <= rule.tolerance || largest == nullptr) return;
     largest->state = State::on;
     largest->neglected.reset();
-    largest->reason = fmt::format("{} alone is small, but the sum of what is left out would be {}",
-                                  number_text(*largest->value), number_text(sum));
+    largest->reason =
+        fmt::format("{}; little by itself, but all that is left out would be {}", in_words(*largest), percent(sum));
   }
 }
 

@@ -1,10 +1,17 @@
 #include "relevance/effect.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace polybed::relevance {
+
+std::string percent(double share) {
+  if (share > 0 && share < 1e-5) return "less than 0.001 %";
+  return share < 0.995 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
 
 bool Encountered::certain() const {
   return !(fluid_density * std::sqrt(closures::dot(slip, slip)) * diameter / viscosity > greatest_certain_reynolds);
@@ -38,7 +45,7 @@ void add(Menu& menu, const Effect& effect, const std::string& model, const std::
 std::vector<core::Role> roles_of(const Menu& menu) {
   std::vector<core::Role> roles;
   for (const auto& [effect, models, slot] : menu)
-    roles.push_back({effect->role, models, slot, effect->help, effect->absent, effect->laws});
+    roles.push_back({effect->role, models, slot, effect->help, effect->absent, effect->laws, effect->advice});
   return roles;
 }
 
@@ -51,6 +58,7 @@ std::vector<core::Rule> rules_of(const Menu& menu) {
 EffectRow row_of(const MenuEntry& entry) {
   EffectRow row =
       effect_row(entry.effect->role.c_str(), entry.effect->laws.front().name.c_str(), entry.effect->number.c_str());
+  row.phrase = entry.effect->phrase;
   row.models = entry.models;
   row.of_acceleration = entry.effect->of_acceleration;
   return row;

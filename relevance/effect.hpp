@@ -57,12 +57,14 @@ struct LawsWith {
 };
 
 struct Effect {
-  std::string role;                    ///< key in [effects]
-  std::string help = {};               ///< one line
-  std::string absent = {};             ///< what the other model does without it, e.g. "reaches the TFM through a table"
-  std::vector<core::Law> laws = {};    ///< the first is the one that is weighed; "none" need not be listed
-  std::vector<core::Rule> rules = {};  ///< what it needs, and what it cannot stand beside
-  std::string number = {};             ///< what decides, in words
+  std::string role;                  ///< key in [effects]
+  std::string help = {};             ///< one line
+  std::string absent = {};           ///< what the other model does without it, e.g. "reaches the TFM through a table"
+  std::vector<core::Law> laws = {};  ///< the first is the one that is weighed; "none" need not be listed
+  std::vector<core::Advice> advice = {};  ///< which law to take, the best first
+  std::vector<core::Rule> rules = {};     ///< what it needs, and what it cannot stand beside
+  std::string number = {};                ///< what decides, as a formula
+  std::string phrase = {};                ///< the same in plain words, with {} for the value: "2 % of" or "30 times"
   /// The row of the table with its number; nothing if a scene has no such row. A function of its arguments alone.
   std::function<std::optional<EffectRow>(const Weighing&, EffectRow)> weigh = {};
   /// Why it cannot act beside what all effects have been weighed to be; empty: it can.

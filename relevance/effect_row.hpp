@@ -15,6 +15,12 @@ struct NumberBand {
 /// In place of a number in words, where none decides.
 inline constexpr const char* no_number = "-";
 
+/// Why a row of the two-fluid model is off where nothing flows.
+inline constexpr const char* without_a_fluid = "no fluid: particles touch instead";
+
+/// A share in per cent with two digits, e.g. "0.14 %", "120 %"; what nobody counts is "less than 0.001 %".
+[[nodiscard]] std::string percent(double share);
+
 struct EffectRow {
   enum class State { on, off, unknown };
   enum class Kind {
@@ -25,7 +31,8 @@ struct EffectRow {
   std::string effect;               ///< role, or what it is called
   std::string model;                ///< the law chosen; or the one that was weighed
   std::string models = "tfm, dem";  ///< where it acts
-  std::string number;               ///< what decides, in words
+  std::string number;               ///< what decides, as a formula
+  std::string phrase;               ///< the same in plain words, with {} for the value: "2 % of" or "30 times"
   std::optional<double> value;      ///< its greatest; least where `below`
   std::optional<double> threshold;
   bool below = false;                   ///< on where the value is below the threshold

@@ -59,8 +59,11 @@ Broken start_above_packing(const Scene& scene) {
   return Broken({fmt::format("{}", given), fmt::format("{:.4g}", start), fmt::format("{:g}", most_above_packing)});
 }
 
+/// The end of a message.
+constexpr const char* only_particles = ": polybed dem can run it, polybed tfm cannot";
+
 core::Rule for_particles(std::vector<std::string> keys, const std::string& what, bool (*is_so)(const Scene&)) {
-  return {std::move(keys), what + " is for the DEM only, the two-fluid model cannot run it",
+  return {std::move(keys), what + only_particles,
           [is_so](const Scene& scene) { return core::broken_if(is_so(scene)); }};
 }
 
@@ -71,10 +74,9 @@ bool leans(const Scene& scene) {
 
 /// Of a column that leans: it needs walls to lean on and a start that does not ask where down is.
 core::Rule for_leaning_particles(const std::string& key, const std::string& where, bool (*is_so)(const Scene&)) {
-  return {
-      {"column.gravity_direction", key},
-      "column.gravity_direction other than down " + where + " is for the DEM only, the two-fluid model cannot run it",
-      [is_so](const Scene& scene) { return core::broken_if(leans(scene) && is_so(scene)); }};
+  return {{"column.gravity_direction", key},
+          "column.gravity_direction other than down " + where + only_particles,
+          [is_so](const Scene& scene) { return core::broken_if(leans(scene) && is_so(scene)); }};
 }
 
 }  // namespace
@@ -134,7 +136,7 @@ const std::vector<core::Rule>& model_rules() {
       for_particles({"dem.shear_rate"}, "dem.shear_rate other than 0",
                     [](const Scene& s) { return s.column.shear_rate != 0; }),
       {{"bed.start"},
-       "bed.start = \"{}\" is for the DEM only, the two-fluid model cannot run it",
+       std::string("bed.start = \"{}\"") + only_particles,
        [](const Scene& s) {
          const StartKind kind = s.bed.start.kind;
          return kind == StartKind::random || kind == StartKind::list ? Broken({text_of(s.bed.start)}) : Broken();

@@ -14,13 +14,19 @@ struct Law {
   std::string note = {};    ///< what several laws of a role share; `polybed list` prints it once
 };
 
+/// A law to take, and in which bed.
+struct Advice {
+  std::string law, bed;
+};
+
 struct Role {
-  std::string name;       ///< key in [effects]
-  std::string models;     ///< "tfm", "dem" or "tfm, dem"
-  std::string slot;       ///< place in the discrete equation: Exchange, Stress, Pair ...
-  std::string help;       ///< one line
-  std::string absent;     ///< what the other model does without it, e.g. "reaches the TFM through a table"
-  std::vector<Law> laws;  ///< "none" is always allowed and need not be listed
+  std::string name;                 ///< key in [effects]
+  std::string models;               ///< "tfm", "dem" or "tfm, dem"
+  std::string slot;                 ///< place in the discrete equation: Exchange, Stress, Pair ...
+  std::string help;                 ///< one line
+  std::string absent;               ///< what the other model does without it, e.g. "particles have contacts instead"
+  std::vector<Law> laws;            ///< "none" is always allowed and need not be listed
+  std::vector<Advice> advice = {};  ///< the best first; empty: what the laws are says it
 };
 
 }  // namespace polybed::core

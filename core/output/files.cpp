@@ -106,6 +106,12 @@ void LineFile::append(std::string_view line) {
   if (const int reason = write_all(file_, bytes_of(line)); reason != 0) cannot("write", path_, reason);
 }
 
+void flush_file(const fs::path& path) {
+  if (!fs::exists(path)) return;
+  const Descriptor file = opened_to_append(path);
+  if (::fsync(file.number()) != 0) cannot("write", path, errno);
+}
+
 void flush_directory(const fs::path& directory) {
   const Descriptor handle(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (handle.number() >= 0) ::fsync(handle.number());

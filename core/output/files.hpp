@@ -40,6 +40,10 @@ void put_in_place(const std::filesystem::path& written, const std::filesystem::p
 /// costs nothing but that.
 void flush_directory(const std::filesystem::path& directory);
 
+/// Makes what a file contains survive a power cut, whoever has it open. One that was removed is left alone. Throws
+/// FileError.
+void flush_file(const std::filesystem::path& path);
+
 /// A new, empty file, open for writing. What had its name is removed first, and no link is ever followed: in a
 /// directory that others may write, such a link could lead to any file of the user. Throws FileError.
 [[nodiscard]] Descriptor new_file(const std::filesystem::path& path);

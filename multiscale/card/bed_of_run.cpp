@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "closures/sphere.hpp"
 #include "measures/drift.hpp"
 
 namespace polybed::multiscale {
@@ -64,6 +65,15 @@ Inventory inventory_of(const core::Scene& scene, const Window& window) {
   }
   all.centre = all.last > 0 ? moment / all.last : 0;
   return all;
+}
+
+/// How many particles there were at the first row.
+double particles_in(const core::Scene& scene, const Window& window) {
+  double count = 0;
+  for (const core::Species& species : scene.species)
+    if (const Series* mass = column(window.history, "mass_" + species.name + "_kg"))
+      count += mass->front() / (species.density * closures::sphere_volume(species.diameter / 2));
+  return count;
 }
 
 Fluidisation state_of(const core::Scene& scene, const Window& window, const BedOfRun& bed) {
@@ -175,6 +185,8 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   bed.window = judged_share * (time->back() - time->front());
   const auto first = std::lower_bound(time->begin(), time->end(), time->back() - bed.window);
   const Window window{history, *time, first - time->begin()};
+  constexpr double least_particles = 10;  // placed one by one, fewer are no bed
+  if (scene.bed.start.kind == core::StartKind::list && particles_in(scene, window) < least_particles) return bed;
   bed.height = window.mean("bed_height_m");
   bed.drop = drop_over_weight(window);
   if (scene.species.size() > 1)

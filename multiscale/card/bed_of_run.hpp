@@ -37,7 +37,7 @@ struct BedOfRun {
 /// part is averaged, and parts count as independent. Empty where no entry is finite.
 [[nodiscard]] std::optional<Mean> mean_of_parts(const std::vector<double>& time, const std::vector<double>& value);
 
-/// What the rows say; entries that a history lacks are empty.
+/// What the rows say; entries that a history lacks are empty, and all of fewer than ten listed particles.
 /// Packed and fluidised are told apart by the pressure drop, 95 % of the weight; carried out is a bed of which less
 /// than 1 % is left, or whose centre is above three quarters of the column. Mixed are centres closer than a tenth of
 /// the bed height. The discharge is the mean rate between a tenth and nine tenths of what has left.

@@ -9,7 +9,6 @@
 
 #include "closures/hopper_discharge.hpp"
 #include "core/progress.hpp"
-#include "multiscale/effects/effects_text.hpp"
 
 namespace polybed::multiscale {
 
@@ -38,13 +37,6 @@ std::string with_prefix(double value, const char* unit) {
 
 std::string one_digit(double value) {
   return value < 9.5 ? fmt::format("{:.1g}", value) : fmt::format("{:.0f}", value);
-}
-
-std::string text_of(const Mean& mean, double scale, const std::string& unit) {
-  constexpr double shown = 1e-4;  // of the value: four digits
-  const bool tells = mean.interval && *mean.interval > shown * std::abs(mean.value);
-  const std::string interval = tells ? " ± " + one_digit(scale * *mean.interval) : "";
-  return fmt::format("{:.4g}{}{}", scale * mean.value, interval, unit);
 }
 
 /// In words; empty if it is not known.
@@ -117,9 +109,9 @@ std::string bed_text(const BedOfRun& bed) {
   std::vector<std::string> parts;
   for (const std::string& word : {words_of(bed.state), bed.layers})
     if (!word.empty()) parts.push_back(word);
-  if (bed.height && bed.state != Fluidisation::carried_out) parts.push_back(text_of(*bed.height, 1e3, " mm high"));
+  if (bed.height && bed.state != Fluidisation::carried_out) parts.push_back(mean_text(*bed.height, 1e3, " mm high"));
   if (bed.drop && bed.state != Fluidisation::unknown)
-    parts.push_back("pressure drop " + text_of(*bed.drop, 1, " of the weight"));
+    parts.push_back("pressure drop " + mean_text(*bed.drop, 1, " of the weight"));
   return each(parts);
 }
 
@@ -138,14 +130,22 @@ std::string card_line(const std::string& heading, const std::string& text) {
   return fmt::format("{:13} {}", heading, text);
 }
 
+std::string mean_text(const Mean& mean, double scale, const std::string& unit) {
+  constexpr double shown = 1e-4;  // of the value: four digits
+  const bool tells = mean.interval && *mean.interval > shown * std::abs(mean.value);
+  const std::string interval = tells ? " ± " + one_digit(scale * *mean.interval) : "";
+  return fmt::format("{:.4g}{}{}", scale * mean.value, interval, unit);
+}
+
 std::string short_time(double seconds) {
   constexpr double rounds_to_one_digit = 9.5;
   return seconds < rounds_to_one_digit ? fmt::format("{:.2g} s", seconds) : core::duration_text(seconds);
 }
 
 std::string left_out_text(const LeftOut& left_out) {
-  std::string text = "forces of " + percent(left_out.sum) + " of the weight";
-  if (!matters(left_out)) return text + ", within the " + percent(left_out.promise) + " allowed: does not matter";
+  std::string text = "forces of " + relevance::percent(left_out.sum) + " of the weight";
+  if (!matters(left_out))
+    return text + ", within the " + relevance::percent(left_out.promise) + " allowed: does not matter";
   std::vector<const LeftOutEffect*> forces;
   for (const LeftOutEffect& one : left_out.effects)
     if ((one.row.summed || one.row.share_off) && one.bound && *one.bound > 0) forces.push_back(&one);
@@ -153,7 +153,7 @@ std::string left_out_text(const LeftOut& left_out) {
   constexpr std::size_t most_named = 2;
   std::vector<std::string> names;
   for (std::size_t n = 0; n < std::min(forces.size(), most_named); ++n) names.push_back(forces[n]->row.effect);
-  return text + ", above the " + percent(left_out.promise) + " allowed: matters, mostly " + each(names) +
+  return text + ", above the " + relevance::percent(left_out.promise) + " allowed: matters, mostly " + each(names) +
          "; see polybed effects";
 }
 
@@ -211,7 +211,7 @@ std::vector<std::string> result_lines(const Card& card) {
   if (seen.mixing) lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", *seen.mixing)));
   if (!seen.out.empty()) lines.push_back(card_line("has left", out_text(seen)));
   if (seen.discharge) lines.push_back(card_line("discharge", in_kilograms(*seen.discharge) + "/s"));
-  lines.push_back(card_line("steady", steady_text(seen)));
+  if (seen.height || seen.steady) lines.push_back(card_line("steady", steady_text(seen)));
   if (!card.limited_by.empty()) lines.push_back(card_line("step", "limited by " + card.limited_by));
   std::string left_out = left_out_text(card.left_out);
   if (card.in_bound && !*card.in_bound && !matters(card.left_out))

@@ -34,6 +34,9 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card);
 /// What a model leaves out, and whether that matters, in one line without its heading.
 [[nodiscard]] std::string left_out_text(const LeftOut& left_out);
 
+/// A time mean with its interval, where that shows in four digits. \param scale  from SI to the unit
+[[nodiscard]] std::string mean_text(const Mean& mean, double scale, const std::string& unit);
+
 /// A computing time for people.
 [[nodiscard]] std::string short_time(double seconds);
 

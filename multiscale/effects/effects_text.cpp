@@ -8,6 +8,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "multiscale/particle_requirements.hpp"
+#include "multiscale/roles.hpp"
+
 namespace polybed::multiscale {
 
 namespace {
@@ -15,7 +18,11 @@ namespace {
 using State = relevance::EffectRow::State;
 using Kind = relevance::EffectRow::Kind;
 
-std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.2g}", *value) : "-"; }
+std::string number(const std::optional<double>& value) {
+  constexpr double hundred = 100, million = 1e6;
+  if (!value) return "-";
+  return *value >= hundred && *value < million ? fmt::format("{:.0f}", *value) : fmt::format("{:.2g}", *value);
+}
 
 std::string value_text(const relevance::EffectRow& row) {
   if (row.band && row.band->most == row.value) return fmt::format("{:.2g}..{:.2g}", row.band->least, row.band->most);
@@ -35,9 +42,22 @@ std::string case_text(const core::Scene& scene, const relevance::EffectRow& row)
   return core::is_off(law) ? "off" : law;
 }
 
+/// Where a value is the greatest, "fine, freeboard", in plain words.
+std::string place_text(const std::string& where) {
+  using relevance::Zone;
+  constexpr std::array<std::pair<Zone, const char*>, 4> places{{{Zone::packed, "in the settled bed"},
+                                                                {Zone::bulk, "in the bed"},
+                                                                {Zone::wall, "at the walls"},
+                                                                {Zone::freeboard, "above the bed"}}};
+  for (const auto& [zone, words] : places)
+    if (const std::string name = ", " + relevance::name_of(zone); where.ends_with(name))
+      return where.substr(0, where.size() - name.size()) + " " + words;
+  return where;
+}
+
 std::string reason_text(const relevance::EffectRow& row) {
   std::string text = row.reason;
-  if (!row.where.empty()) text += " (" + row.where + ")";
+  if (!row.where.empty()) text += " (" + place_text(row.where) + ")";
   if (row.state == State::on && !row.not_built.empty()) text += "; called for, but not built: " + row.not_built;
   return text;
 }
@@ -49,7 +69,8 @@ std::string wrapped(const std::string& text, const std::string& front) {
   std::string lines, line = front;
   std::size_t from = 0;
   while (from < text.size()) {
-    const std::size_t end = std::min(text.find(' ', from), text.size());
+    std::size_t end = std::min(text.find(' ', from), text.size());
+    if (text.compare(end, 2, " %") == 0) end = std::min(text.find(' ', end + 1), text.size());  // stays with its number
     const std::string word = text.substr(from, end - from);
     if (line.size() > front.size() && line.size() + 1 + word.size() > width) {
       lines += line + "\n";
@@ -65,12 +86,21 @@ std::string indented(const std::string& text, std::size_t by) { return wrapped(t
 
 constexpr std::string_view off = "off";  // as case_text() has it
 
+using Models = std::vector<std::string>;
+
+/// Whether a row acts in one of the models.
+bool acts_in(const relevance::EffectRow& row, const Models& models) {
+  return std::any_of(models.begin(), models.end(),
+                     [&](const std::string& model) { return row.models.find(model) != std::string::npos; });
+}
+
 /// What the table advises of a row.
 enum class Advice { none, add, replace, may_leave_out };
 
 Advice advice_of(const core::Scene& scene, const relevance::EffectRow& row) {
   const std::string has = case_text(scene, row);
-  if (row.kind != Kind::role || has.empty() || has == core::automatic || row.state == State::unknown)
+  if (row.kind != Kind::role || has.empty() || has == core::automatic || row.state == State::unknown ||
+      !acts_in(row, models_of(scene)))
     return Advice::none;
   if (row.state == State::on) return has == off ? Advice::add : has != row.model ? Advice::replace : Advice::none;
   return has != off && row.neglected ? Advice::may_leave_out : Advice::none;
@@ -81,29 +111,12 @@ const char* mark_of(Advice advice) {
   return marks[std::size_t(advice)];
 }
 
-std::string advised_law(const relevance::EffectRow& row) { return row.state == State::on ? row.model : "off"; }
+std::string advised_law(const relevance::EffectRow& row) {
+  return row.state == State::on ? row.model : row.has_number() ? "off" : "-";  // of what no number decides nothing
+}
 
 std::string limit_text(const relevance::EffectRow& row) {
   return row.threshold ? (row.below ? "< " : "> ") + number(row.threshold) : "-";
-}
-
-/// "number: reason" of a row.
-std::string why(const relevance::EffectRow& row) {
-  return (!row.has_number() ? "" : row.number + ": ") + reason_text(row);
-}
-
-/// The same in words, for who knows no symbols; --details has those.
-std::string why_in_words(const relevance::EffectRow& row) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> words{
-      {{"St*", "Stokes number of impacts"},
-       {"shear rate x tau_p", "shear rate x relaxation time"},
-       {", 2 sqrt(mu/beta)/min(L/10, 10 d)", ""},
-       {"1.257 Kn", "mean free path over diameter"},
-       {"C_m s/(1 + C_m s)", "added mass over all mass"}}};
-  std::string text = why(row);
-  for (const auto& [symbol, word] : words)
-    if (const std::size_t at = text.find(symbol); at != std::string::npos) text.replace(at, symbol.size(), word);
-  return text;
 }
 
 std::string role_line(const core::Scene& scene, const relevance::EffectRow& row) {
@@ -118,34 +131,54 @@ std::string other_line(const relevance::EffectRow& row) {
 }
 
 /// A sum of forces beside what is allowed.
-std::string share_text(double sum, double allowed) { return percent(sum) + (sum > allowed ? " (too much)" : ""); }
+std::string share_text(double sum, double allowed) {
+  return relevance::percent(sum) + (sum > allowed ? " (too much)" : "");
+}
 
 std::string sums_text(const core::Scene& scene, const relevance::Choice& choice) {
-  bool less_in_particles = false;
+  const Models models = models_of(scene);
   const auto by_model = [&](const std::vector<relevance::EffectRow>& rows) {
-    const double dem = relevance::neglected_sum(rows, "dem"), tfm = relevance::neglected_sum(rows, "tfm");
-    less_in_particles = less_in_particles || dem < tfm;
-    return fmt::format("dem {}, tfm {}\n", share_text(dem, choice.tolerance), share_text(tfm, choice.tolerance));
+    std::vector<std::string> sums;
+    for (const std::string& model : models)
+      sums.push_back(model + " " + share_text(relevance::neglected_sum(rows, model), choice.tolerance));
+    return fmt::format("{}\n", fmt::join(sums, ", "));
   };
   std::string text = fmt::format("forces left out, of the weight; {} allowed (chooser.tolerance, {}):\n",
-                                 percent(choice.tolerance), core::name_of(scene.chooser.purpose));
+                                 relevance::percent(choice.tolerance), core::name_of(scene.chooser.purpose));
   text += "  as recommended: " + by_model(choice.rows);
   if (!relevance::has_auto(scene)) text += "  as the case is: " + by_model(choice.of_case);
-  if (less_in_particles)
-    text += "  more is left out by the two-fluid model, which has no law of some forces on particles\n";
+  std::vector<std::string> of_particles;
+  for (const relevance::EffectRow& row : choice.rows)
+    if (row.state == State::on && row.on_particles && !acts_in(row, {"tfm"})) of_particles.push_back(row.effect);
+  if (!of_particles.empty() && std::find(models.begin(), models.end(), "tfm") != models.end())
+    text += indented(fmt::format("the two-fluid model has no law of {}: it leaves that out in any case",
+                                 fmt::join(of_particles, ", ")),
+                     2);
   if (choice.sum_up_to > choice.tolerance)
     text += indented(fmt::format("in a run up to {}, where the fluid is sheared within a cell or impacts spin "
                                  "particles; polybed effects audit RUN measures it",
-                                 percent(choice.sum_up_to)),
+                                 relevance::percent(choice.sum_up_to)),
                      2);
   return text;
 }
 
+/// What an effect that is to be switched on costs, where that is known: empty where it hardly costs.
+std::string cost_text(const core::Scene& scene, const relevance::Choice& choice, const relevance::EffectRow& row) {
+  constexpr double much = 1.25;
+  const relevance::MenuEntry* entry = find_entry(row.effect);
+  if (entry == nullptr || !acts_in(row, {"dem"})) return "";
+  core::Scene with = with_choice(scene);
+  with.effects[row.effect] = row.model;
+  if (entry->effect->set_keys) entry->effect->set_keys(with, choice.surfaces);
+  const double times = steps_by(with, row.effect);
+  return times > much ? fmt::format("; polybed dem takes {:.2g} times as long with it", times) : "";
+}
+
 /// A line for the case with its reason, beside it where that fits. A change that is a choice stands behind #.
-std::string line_for_case(Advice advice, const relevance::EffectRow& row) {
+std::string line_for_case(Advice advice, const relevance::EffectRow& row, const std::string& cost) {
   const std::string law = row.state == State::on ? row.model : "none";
   const std::string line = fmt::format("{}{} = \"{}\"", advice == Advice::add ? "" : "# ", row.effect, law);
-  const std::string reason = why_in_words(row), beside = fmt::format("{:36}  # {}\n", line, reason);
+  const std::string reason = reason_text(row) + cost, beside = fmt::format("{:36}  # {}\n", line, reason);
   return beside.size() <= width + 1 ? beside : wrapped(reason, "# ") + line + "\n";
 }
 
@@ -157,7 +190,7 @@ std::string lines_for_case(const core::Scene& scene, const relevance::Choice& ch
     const Advice advice = advice_of(scene, row);
     if (advice == Advice::none) continue;
     chosen = chosen || advice != Advice::add;
-    lines += line_for_case(advice, row);
+    lines += line_for_case(advice, row, advice == Advice::add ? cost_text(scene, choice, row) : "");
   }
   if (lines.empty()) return "Nothing to change: the case has what is recommended.\n";
   return fmt::format("lines for [effects] of the case, or effects = \"auto\" at its top{}:\n\n",
@@ -173,9 +206,11 @@ std::string names_line(const std::string& front, const std::vector<std::string>&
 /// The rows that the case has or should have; of the others their names.
 std::string short_table(const core::Scene& scene, const relevance::Choice& choice) {
   std::string lines;
+  const Models models = models_of(scene);
   std::vector<std::string> unneeded, missing, unknown;
   for (const relevance::EffectRow& row : choice.rows) {
     const bool acts = row.state == State::on || (case_text(scene, row) != off && !case_text(scene, row).empty());
+    if (row.kind == Kind::role && !acts_in(row, models)) continue;
     if (row.kind == Kind::role && acts)
       lines += role_line(scene, row);
     else if (row.kind == Kind::role)
@@ -185,8 +220,8 @@ std::string short_table(const core::Scene& scene, const relevance::Choice& choic
     else if (row.kind == Kind::unmodelled && row.state == State::unknown)
       unknown.push_back(row.effect);
   }
-  return lines + names_line("off, and not needed", unneeded) + names_line("not modelled, but of weight here", missing) +
-         names_line("not modelled, and not known", unknown);
+  return lines + names_line("off, and not needed", unneeded) +
+         names_line("not modelled, but it matters here", missing) + names_line("not modelled, and not known", unknown);
 }
 
 std::string whole_table(const core::Scene& scene, const relevance::Choice& choice) {
@@ -197,17 +232,14 @@ std::string whole_table(const core::Scene& scene, const relevance::Choice& choic
     if (kind == Kind::unmodelled) text += "\nnot modelled, estimated:\n";
     for (const relevance::EffectRow& row : choice.rows) {
       if (row.kind != kind) continue;
-      text += (kind == Kind::role ? role_line(scene, row) : other_line(row)) + indented(why(row), 6);
+      text += (kind == Kind::role ? role_line(scene, row) : other_line(row)) + indented(reason_text(row), 6);
+      if (row.has_number()) text += indented("number: " + row.number, 6);
     }
   }
   return text;
 }
 
 }  // namespace
-
-std::string percent(double share) {
-  return share < 0.995 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
-}
 
 std::string effects_table(const core::Scene& scene, const relevance::Choice& choice, bool details) {
   return lines_for_case(scene, choice) + "\n" + sums_text(scene, choice) + "\n" +
@@ -260,6 +292,7 @@ void write_effects(core::Json& json, const core::Scene& scene, const relevance::
   };
   json["neglected_sum_by_model"] = by_model(choice.rows);
   json["neglected_sum_of_case_by_model"] = by_model(choice.of_case);
+  json["models"] = models_of(scene);
   json["tolerance"] = choice.tolerance;
   json["purpose"] = core::name_of(scene.chooser.purpose);
 }

@@ -14,9 +14,6 @@ namespace polybed::multiscale {
 /// \param details  every effect with its reason instead
 [[nodiscard]] std::string effects_table(const core::Scene& scene, const relevance::Choice& choice, bool details);
 
-/// A share in per cent with two digits, e.g. "0.14 %", "120 %".
-[[nodiscard]] std::string percent(double share);
-
 /// The members "effects", "neglected_sum" and what belongs to them, into an open object.
 void write_effects(core::Json& json, const core::Scene& scene, const relevance::Choice& choice);
 

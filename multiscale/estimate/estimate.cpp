@@ -173,7 +173,7 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
                                          [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
   const bool by_accuracy = need.integrator == core::TfmIntegrator::implicit_steps ||
                            (shortest != scales.end() && e.step < 0.99 * tfm::explicit_step(scales));
-  e.limited_by = by_accuracy                ? fmt::format("accuracy, tfm.rtol = {:.2g}", scene.tfm.rtol)
+  e.limited_by = by_accuracy                ? fmt::format("the relative tolerance, tfm.rtol = {:.2g}", scene.tfm.rtol)
                  : shortest != scales.end() ? shortest->process
                                             : "accuracy";
   if (probe > 0) {

@@ -26,7 +26,7 @@ struct TimeBand {
 
 /// A way to make a run cheaper, and what it loses.
 struct Way {
-  std::string change;    ///< e.g. "tfm.rtol = 0.01"
+  std::string change;    ///< e.g. "relative tolerance tfm.rtol = 0.01"
   double time = 0.5;     ///< of what the run takes, as a share
   std::string loss;      ///< in words
   std::string evidence;  ///< measured | extrapolated | literature

@@ -46,7 +46,7 @@ std::vector<Way> tfm_ways(const core::Scene& scene, bool implicit, int ranks, in
     ways.push_back(more_ranks(ranks, 0.58, ", 1.7 times as fast"));
   constexpr double loosest = 1e-2, factor = 8;  // steps of a second-order method go with the third root of rtol
   if (implicit && scene.tfm.rtol * factor <= loosest)
-    ways.push_back({fmt::format("tfm.rtol = {:.2g}", factor * scene.tfm.rtol), 0.5,
+    ways.push_back({fmt::format("relative tolerance tfm.rtol = {:.2g}", factor * scene.tfm.rtol), 0.5,
                     "error of the time integration 8 times as large", "extrapolated"});
   ways.push_back(coarser(scene, implicit));
   ways.push_back(shorter(scene));

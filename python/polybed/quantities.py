@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import pathlib
 from typing import TYPE_CHECKING, Any
@@ -77,7 +78,9 @@ def find(run: Run, name: str, source: str | None = None) -> Quantity:
         quantity = look(run, name) if source in (None, key) else None
         if quantity is not None:
             return quantity
-    raise KeyError(f"{run.directory} holds no {name}; it holds {', '.join(names(run))}")
+    known = names(run)
+    near = difflib.get_close_matches(name, known, 1)
+    raise KeyError(f"{run.directory} has no {name}{f'; did you mean {near[0]}?' if near else ''}; it has {', '.join(known)}")
 
 
 def of_history(run: Run, name: str) -> Quantity | None:

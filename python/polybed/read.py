@@ -127,6 +127,12 @@ class Run:
         return self._folder.record()
 
     @property
+    def card(self) -> dict[str, Any]:
+        """The result card, `card` of run.json: bed height and pressure drop with their intervals, whether the bed is steady, ...; empty if
+        there is none yet. Keys end in their unit; what a case lacks is None."""
+        return self.record.get("card", {})
+
+    @property
     def species(self) -> list[str]:
         """Names of the species, in the order of the case, which the columns of the history keep."""
         stored = [name[len("phi_") :] for name in self.fields if name.startswith("phi_")] or self.particles.species

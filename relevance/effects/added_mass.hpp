@@ -25,7 +25,7 @@ inline std::optional<EffectRow> weigh_added_mass(const Weighing& by, EffectRow r
   greatest.fill(row);
   if (ratio >= 1) {
     row.state = EffectRow::State::on;
-    row.reason = fmt::format("always with a fluid as dense as the particles or denser (s = {:.3g})", ratio);
+    row.reason = fmt::format("the fluid is as dense as the particles or denser, {:.3g} times: always on", ratio);
   }
   return row;
 }
@@ -33,11 +33,12 @@ inline std::optional<EffectRow> weigh_added_mass(const Weighing& by, EffectRow r
 inline const Effect added_mass{
     .role = "added_mass",
     .help = "fluid that a particle drags along when it accelerates",
-    .absent = "not in this version",
+    .absent = "no law of it in the two-fluid model",
     .laws = {{"zuber", "of a sphere among others", "C_m = (1 + 2 phi)/(2 (1 - phi)), Zuber 1964"},
              {"half", "of one sphere: half the mass of the fluid that it displaces", "C_m = 1/2"}},
     .rules = {needs_a_fluid("added_mass"), idle_in_a_sheared_box("added_mass")},
     .number = "C_m s/(1 + C_m s)",
+    .phrase = "fluid that speeds up with the particles: {} the mass in motion",
     .weigh = weigh_added_mass,
     .of_acceleration = true};
 

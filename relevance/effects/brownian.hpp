@@ -30,7 +30,7 @@ inline std::optional<EffectRow> weigh_brownian(const Weighing& by, EffectRow row
 inline const Effect brownian{
     .role = "brownian",
     .help = "heat motion of small particles, with fluid.temperature",
-    .absent = "not in this version",
+    .absent = "no law of it in the two-fluid model",
     .laws = {{"langevin", "random force in balance with the drag",
               "variance 2 k_B T k/dt, k the drag over the slip; Langevin 1908"}},
     .rules = {needs_a_fluid("brownian"),
@@ -42,6 +42,7 @@ inline const Effect brownian{
                       "leave out dem.held",
                       [](const core::Scene& scene) { return scene.bed.held || !core::acts(scene, "drag"); })},
     .number = "1/Pe",
+    .phrase = "random motion by heat: {} the settling of a particle",
     .weigh = weigh_brownian};
 
 }  // namespace polybed::relevance::effects

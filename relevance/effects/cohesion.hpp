@@ -17,7 +17,7 @@ inline std::optional<EffectRow> weigh_cohesion(const Weighing& by, EffectRow row
     greatest.add(s, closures::van_der_waals_relevance(surfaces.hamaker, surfaces.roughness, s.reference()));
   greatest.fill(row);
   constexpr double powder = 10;  // pull over weight from which beds are not the ones that drag laws are known of
-  if (row.value.value_or(0) > powder) row.remark = "cohesive: outside the validated range";
+  if (row.value.value_or(0) > powder) row.remark = "so cohesive a powder is outside the validated range";
   return row;
 }
 
@@ -30,7 +30,7 @@ inline void set_cohesion_keys(core::Scene& scene, const Surfaces& surfaces) {
 inline const Effect cohesion{
     .role = "cohesion",
     .help = "attraction of particles that touch or nearly do",
-    .absent = "DEM only; reaches the TFM through the solids stress",
+    .absent = "part of the solids stress in the two-fluid model",
     .laws = {{"dmt", "constant pull in contact: hard small spheres, dem.cohesion_energy", "2 pi W R*"},
              {"jkr", "pull that enlarges the contact: soft large spheres, dem.cohesion_energy",
               "Johnson, Kendall and Roberts, in place of Hertz"},
@@ -41,6 +41,7 @@ inline const Effect cohesion{
                      excludes("cohesion", "jkr", "contact", "linear",
                               "it stands in place of Hertz' force, which linear springs have not")}),
     .number = "pull of rough surfaces over weight",
+    .phrase = "attraction of surfaces that touch: {} the weight",
     .weigh = weigh_cohesion,
     .share = [](const Encountered& met) -> std::optional<double> {
       return closures::van_der_waals_relevance(met.surfaces.hamaker, met.surfaces.roughness, met.weight);

@@ -20,8 +20,9 @@ inline std::optional<EffectRow> weigh_contact(const Weighing& by, EffectRow row)
   for (const core::ContactPair& p : scene.contact_pairs) friction = std::max(friction, p.friction.value_or(0));
   const bool rubs = friction > 0 && (*row.value > 0.3 || scene.column.sides == core::Boundary::wall);
   if (!rubs) row.model = "hertz";
-  row.reason = fmt::format("{}; {}", *row.value > 1e-3 ? "particles meet" : (walls ? "walls" : "never left out"),
-                           rubs ? "friction: dense, or sheared by walls" : "no friction: neither dense nor sheared");
+  row.reason = fmt::format(
+      "{}; {}", *row.value > 1e-3 ? "particles touch" : (walls ? "particles touch walls" : "never left out"),
+      rubs ? "they rub, being dense or sheared by walls" : "they do not rub: neither dense nor sheared");
   return row;
 }
 
@@ -32,7 +33,7 @@ inline constexpr Trait elastic_spheres{"by Young's modulus"};
 inline const Effect contact{
     .role = "contact",
     .help = "forces of touching particles",
-    .absent = "DEM only; reaches the TFM through the solids stress",
+    .absent = "part of the solids stress in the two-fluid model",
     .laws = {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential"},
              {"hertz", "Hertz's normal force alone: no friction, no rotation"},
              {"linear", "linear springs, dem.normal_stiffness"}},

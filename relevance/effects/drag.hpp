@@ -1,6 +1,8 @@
 // The force of the fluid on every species or particle.
 #pragma once
 
+#include <fmt/format.h>
+
 #include "closures/drag.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
@@ -26,14 +28,22 @@ inline std::optional<EffectRow> weigh_drag(const Weighing& by, EffectRow row) {
   row.value = by.survey.mixture_part;
   row.threshold = tolerance;
   row.share_off = 1;
-  row.reason = by.survey.mixture_part > tolerance ? "always on; a law with a mixture part"
-                                                  : "always on; its mixture part hardly matters";
+  row.reason = "always on";
+  if (by.scene.species.size() > 1)
+    row.reason += fmt::format("; the sizes are dragged up to {} apart from their mean: {}", percent(*row.value),
+                              *row.value > tolerance ? "take a law for mixtures" : "any law will do");
   return row;
 }
 
 inline const Effect drag{.role = "drag",
                          .help = "force of the fluid on every species or particle",
                          .laws = laws_of_drag(),
+                         .advice = {{"wen_yu", "fluidised bed; of several sizes with partition = \"brinkman_oseen\""},
+                                    {"richardson_zaki", "the same, in a liquid that expands the bed evenly"},
+                                    {"gidaspow", "bubbling gas bed"},
+                                    {"brinkman_oseen", "fixed or packed bed, of one size or several"},
+                                    {"cello", "liquid bed as in the thesis of Cello (2009), and in most shipped cases"},
+                                    {"turton_levenspiel", "a single sphere"}},
                          .rules = {needs_a_fluid("drag")},
                          .number = "mixture part, max |f_j/f_mean - 1|",
                          .weigh = weigh_drag};

@@ -30,6 +30,7 @@ inline const Effect fluid_stress{
     .laws = {{"newtonian", "of a Newtonian fluid", "mu (grad U + grad U^T - 2/3 div U I); Cello 2009, eq. 1.16"}},
     .rules = {needs_a_fluid("fluid_stress"), idle_in_a_sheared_box("fluid_stress")},
     .number = "share of a shear length, 2 sqrt(mu/beta)/min(L/10, 10 d)",
+    .phrase = "the fluid's viscosity reaches across {} the distance over which the flow is sheared",
     .weigh = weigh_fluid_stress};
 
 }  // namespace polybed::relevance::effects

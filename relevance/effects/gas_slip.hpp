@@ -51,6 +51,7 @@ inline const Effect gas_slip{
                "effects.gas_slip: a fluid of {} kg/m3 is a liquid, which does not slip: leave it out",
                slips_on_a_liquid}},
     .number = "1.257 Kn",
+    .phrase = "the gas slips along small particles: less drag by {} its value",
     .weigh = weigh_gas_slip};
 
 }  // namespace polybed::relevance::effects

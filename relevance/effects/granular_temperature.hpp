@@ -16,7 +16,7 @@ inline std::optional<EffectRow> weigh_granular_temperature(const Weighing& by, E
   const EffectRow* stress = find_row(by.rows, "solids_stress");
   if (stress == nullptr || !solids_stress.law_has(stress->model, kinetic_theory)) {
     row.neglected = 0;
-    row.reason = "acts only with kinetic solids_stress";
+    row.reason = "acts with solids_stress = \"kinetic\" alone";
     return row;
   }
   row.state = EffectRow::State::on;
@@ -27,7 +27,8 @@ inline std::optional<EffectRow> weigh_granular_temperature(const Weighing& by, E
   row.value = longest / by.survey.height;
   const bool far = *row.value > *row.threshold;
   if (far) row.model = "transported";
-  row.reason = far ? "conducted further than collisions let it stay" : "local balance is enough";
+  row.reason = far ? "fluctuations spread further than they last: an equation for each species"
+                   : "fluctuations end where they arise: a balance in each cell is enough";
   return row;
 }
 

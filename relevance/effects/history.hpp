@@ -28,7 +28,7 @@ inline std::optional<EffectRow> weigh_history(const Weighing& by, EffectRow row)
 inline const Effect history{
     .role = "history",
     .help = "vorticity that past accelerations of a particle have left in the fluid",
-    .absent = "not in this version",
+    .absent = "no law of it in the two-fluid model",
     .laws = {{"basset", "of one sphere in creeping flow; adds an inertia", "Basset 1888, summed by exponentials"}},
     .rules = {needs_a_fluid("history"), idle_in_a_sheared_box("history"),
               rule_of("history", {"dem.held"},
@@ -36,9 +36,10 @@ inline const Effect history{
                       "leave one out",
                       [](const core::Scene& scene) { return scene.bed.held; })},
     .number = "Basset force over weight",
+    .phrase = "drag that past accelerations leave behind: {} the weight",
     .weigh = weigh_history,
     .idle = [](const Weighing& by) -> std::string {
-      return by.scene.bed.held ? "dem.held: particles do not accelerate" : "";
+      return by.scene.bed.held ? "the particles are held (dem.held) and do not accelerate" : "";
     },
     .of_acceleration = true};
 

@@ -24,10 +24,11 @@ inline std::optional<double> share_of_lift(const Encountered& met) {
 
 inline const Effect lift{.role = "lift",
                          .help = "force across a sheared fluid's stream",
-                         .absent = "not in this version",
+                         .absent = "no law of it in the two-fluid model",
                          .laws = {{"saffman_mei", "of one sphere", "Saffman 1965 with the share of Mei 1992"}},
                          .rules = {needs_a_fluid("lift"), idle_in_a_sheared_box("lift")},
                          .number = "lift over weight",
+                         .phrase = "side force of the sheared fluid: {} the weight",
                          .weigh = weigh_lift,
                          .share = share_of_lift};
 

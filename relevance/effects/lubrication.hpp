@@ -36,13 +36,14 @@ inline std::optional<EffectRow> weigh_lubrication(const Weighing& by, EffectRow 
 
 inline const Effect lubrication{.role = "lubrication",
                                 .help = "fluid that is squeezed out between particles that meet",
-                                .absent = "DEM only; reaches the TFM through the solids stress",
+                                .absent = "part of the solids stress in the two-fluid model",
                                 .laws = {{"wet_restitution", "lower restitution, by the speed at first touch",
                                           "restitution times exp(-35/St*), Legendre et al. 2005"},
                                          {"film", "force of the film, down to a gap of dem.roughness",
                                           "6 pi mu R*^2 v_n/h from a gap h of 0.1 R*"}},
                                 .rules = {needs_a_fluid("lubrication")},
                                 .number = "least St*",
+                                .phrase = "the fluid between particles damps impacts: Stokes number {}",
                                 .weigh = weigh_lubrication};
 
 }  // namespace polybed::relevance::effects

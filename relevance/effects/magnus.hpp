@@ -43,12 +43,13 @@ inline std::optional<double> share_of_magnus(const Encountered& met) {
 inline const Effect magnus{
     .role = "magnus",
     .help = "force across the stream on spheres that spin, and the torque that ends the spin",
-    .absent = "not in this version",
+    .absent = "no law of it in the two-fluid model",
     .laws = {{"rubinow_keller", "of one sphere", "Rubinow and Keller 1961, times 0.45 above Re_p 1"}},
     .rules = joined(
         {{needs_a_fluid("magnus"), idle_in_a_sheared_box("magnus")},
          excludes("magnus", any_law, "contact", "hertz", "a force of rotation, and nothing rotates without friction")}),
     .number = "Magnus force over weight",
+    .phrase = "side force on particles that spin: {} the weight",
     .weigh = weigh_magnus,
     .idle = magnus_is_idle,
     .share = share_of_magnus};

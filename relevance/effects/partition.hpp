@@ -45,6 +45,8 @@ inline const Effect partition{
     .role = "partition",
     .help = "how a drag law of one size is shared among species; left out: as the drag law does itself",
     .laws = laws_of_partition(),
+    .advice = {{"brinkman_oseen", "fluidised bed of several sizes, with drag = \"wen_yu\" or \"richardson_zaki\""},
+               {"cello", "where the pressure drop must be exactly that of the mean law"}},
     .rules =
         {needs_a_fluid("partition"),
          rule_of("partition", {"effects.drag"},

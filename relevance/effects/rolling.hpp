@@ -10,7 +10,8 @@ inline std::optional<EffectRow> weigh_rolling(const Weighing& by, EffectRow row)
   const bool heap = by.scene.chooser.static_heap;
   row.model = "epsd";
   row.state = heap ? EffectRow::State::on : EffectRow::State::off;
-  row.reason = heap ? "a heap at rest: a spring of rotation, dem.rolling_friction" : "no heap at rest is asked for";
+  row.reason = heap ? "a heap at rest needs resistance to rolling: dem.rolling_friction"
+                    : "only a heap at rest needs it: chooser.static_heap";
   if (!heap) row.neglected = 0;
   return row;
 }
@@ -20,7 +21,7 @@ inline constexpr Trait without_spring{"a constant moment, which has nothing to d
 inline const Effect rolling{
     .role = "rolling",
     .help = "moments that resist rolling, dem.rolling_friction",
-    .absent = "DEM only; reaches the TFM through the solids stress",
+    .absent = "part of the solids stress in the two-fluid model",
     .laws = {{"cdt", "constant moment against the rolling, for contacts that move", "mu_r R* F_n; Ai et al. 2011, A"},
              {"epsd", "spring of rotation with a greatest moment, for heaps at rest, dem.rolling_damping",
               "Ai et al. 2011, C"}},

@@ -28,18 +28,22 @@ inline std::optional<double> inertia_of_shear(const Weighing& by, EffectRow& row
 }
 
 inline std::optional<EffectRow> weigh_solids_stress(const Weighing& by, EffectRow row) {
+  if (!by.survey.has_fluid) {
+    row.neglected = 0;
+    row.reason = without_a_fluid;
+    return row;
+  }
   row.state = EffectRow::State::on;  // without any the model is ill-posed
   row.threshold = 1;
   if (by.survey.solids_fraction > 0.5) row.share_off = 1;  // what carries a packed bed; friction acts from there
   row.value = inertia_of_shear(by, row);
   if (!row.value) {
-    row.reason = "too dilute to shear as a bed; friction acts from solids fraction 0.5";
+    row.reason = "too dilute to shear as a bed; friction acts above a solids fraction of 0.5";
   } else if (*row.value >= 1) {
     row.model = "kinetic";
-    row.reason = "collisions are hardly damped: kinetic theory holds";
+    row.reason = "the fluid hardly damps collisions: kinetic theory holds";
   } else {
-    row.reason =
-        "the fluid damps collisions: kinetic theory does not hold; a table of polybed calibrate, else friction";
+    row.reason = "the fluid damps collisions: take a table of polybed calibrate, else friction alone";
   }
   return row;
 }
@@ -55,6 +59,9 @@ inline const Effect solids_stress{
              {"kinetic", "frictional, and pressure and viscosity by the kinetic theory of collisions"},
              {"table:FILE", "frictional, and what polybed calibrate measured",
               "of a fluidised bed, or of sheared particles"}},
+    .advice = {{"frictional", "liquid bed"},
+               {"kinetic", "bubbling gas bed, whose particles collide freely"},
+               {"table:FILE", "bed whose fluid damps collisions, after polybed calibrate"}},
     .number = "shear rate x tau_p",
     .weigh = weigh_solids_stress,
     .traits = {{&kinetic_theory, {"kinetic"}}, {&with_collisions, {"kinetic", "table:FILE"}}}};

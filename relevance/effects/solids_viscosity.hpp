@@ -22,7 +22,7 @@ inline const Effect solids_viscosity{
                       [](const core::Scene& scene) { return !core::acts(scene, "solids_stress"); })},
     .number = no_number,
     .weigh = [](const Weighing&, EffectRow row) -> std::optional<EffectRow> {
-      row.reason = "by hand: no number decides it";
+      row.reason = "your choice: no number decides it";
       return row;
     },
     .traits = {{&by_inertial_number, {"mu_i"}}}};

@@ -18,7 +18,7 @@ inline std::optional<EffectRow> weigh_species_exchange(const Weighing& by, Effec
   const std::size_t n = scene.species.size();
   if (n < 2 || !survey.has_fluid) {
     row.neglected = 0;
-    row.reason = n < 2 ? "one species" : "no fluid: particles only";
+    row.reason = n < 2 ? "one species: nothing to exchange" : without_a_fluid;
     return row;
   }
   const double eps = survey.voidage_of_difference, phi = 1 - eps;
@@ -60,6 +60,7 @@ inline const Effect species_exchange{
     .laws = {{"syamlal", "collisions, and contact in a packed bed", "Syamlal 1987; Gera 2004"},
              {"table:FILE", "collisions as polybed calibrate measured them in dry boxes"}},
     .number = "contact of species over drag",
+    .phrase = "contacts between the species: {} the drag",
     .weigh = weigh_species_exchange};
 
 }  // namespace polybed::relevance::effects

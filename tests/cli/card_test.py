@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The result card on the screen and in run.json, against the files of the run. Usage: card_test.py PROGRAM"""
 import re
+import shlex
 
 import numpy as np
 
@@ -26,13 +27,21 @@ class Card(Scratch):
             card = self.card(run)
             self.assertEqual(set(card), KEYS)
             self.assertEqual(set(card["u_mf_m_s"]), {"fine", "coarse", "mixture"})
-            last = done.stderr.splitlines()[-len(HEADINGS):]
+            last = [line for line in done.stderr.splitlines() if not line.startswith("to go on ")][-len(HEADINGS):]
             for heading, line in zip(HEADINGS, last):
                 self.assertTrue(line.startswith(heading), (heading, last))
             record = strict_json((run / "run.json").read_text())
             self.assertEqual(card["time_s"], {"taken": record["cpu_s"], "predicted": record["prediction"]["cpu_s"]})
             self.assertIsNone(card["discharge_kg_s"])
             self.assertIsNone(card["geldart"])
+
+    def test_a_bed_that_drifts_comes_with_the_command_that_goes_on(self):
+        run = self.folder / "run"
+        done = self.ends(DONE, "tfm", CASE, *SMALL, "--set", "output.history_every=1e-3", "--until", "0.1 s", "-o", run, "--no-picture")
+        self.assertIs(self.card(run)["steady"], False)
+        command = re.search(r"(?m)^to go on +polybed (.*)$", done.stderr)[1]
+        again = self.ends(DONE, *shlex.split(command), "--quiet", "--no-picture")
+        self.assertEqual(strict_json((run / "run.json").read_text())["time_s"], 0.2, again.stderr)
 
     def test_means_are_those_of_the_history(self):
         """Means of ten equal parts of the last quarter, with Student's interval; summed in another order, so to rounding."""
@@ -78,6 +87,22 @@ class Card(Scratch):
         self.assertAlmostEqual(card["recovery"]["glass"], out[-1] / rows["mass_glass_kg"][0], places=12)
         self.assertIsNone(card["u_mf_m_s"])
         self.assertIsNone(card["state"])
+
+    def test_a_single_sphere_is_no_bed(self):
+        run = self.folder / "sphere"
+        done = self.ends(DONE, "dem", TEMPLATES / "sphere/case.toml", "-o", run, "--until", "10 ms", "--no-picture")
+        card = self.card(run)
+        self.assertEqual([card[key] for key in ("bed_height_m", "state", "steady", "mixing")], [None] * 4)
+        self.assertNotRegex(done.stderr, r"(?m)^(bed|steady|to go on) ")
+        self.assertRegex(done.stderr, r"(?m)^falls at +steel ")
+
+    def test_a_first_bed_of_ones_own_is_steady_at_its_end(self):
+        """The template that the guide begins with, as it is: 2 s of computing."""
+        run = self.folder / "bed"
+        done = self.ends(DONE, "tfm", TEMPLATES / "liquid-bed/case.toml", "-o", run, "--no-picture")
+        self.assertIs(self.card(run)["steady"], True)
+        self.assertNotIn("to go on", done.stderr)
+        self.assertEqual(strict_json((run / "run.json").read_text())["warnings"], [])
 
     def test_a_hopper_is_told_what_to_expect(self):
         """By hand: 1.03 of 0.6 2500 kg/m3 sqrt(9.81) 0.01 m (20 - 1.4 4 mm)^1.5 is 83.6 g/s; 800 spheres of 4 mm are 67.0 g."""

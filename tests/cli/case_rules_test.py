@@ -159,7 +159,7 @@ KEYS = {
 
 # What one model asks and the other does not, which check notes of a case that the other runs.
 NO_FLUID = [DRY, "fluid.temperature=!", "inlet.superficial_velocity=!", "effects.drag=none"]
-TFM_CANNOT = " is for the DEM only, the two-fluid model cannot run it"
+TFM_CANNOT = ": polybed dem can run it, polybed tfm cannot"
 ONE_MODEL = {
     'fluid.name = "none"' + TFM_CANNOT: NO_FLUID,
     'column.ends = "periodic"' + TFM_CANNOT: [*NO_FLUID, JOINED],
@@ -168,9 +168,9 @@ ONE_MODEL = {
     "column.gravity_direction other than down without column.closed = true" + TFM_CANNOT: [*NO_FLUID, TILTED],
     'column.gravity_direction other than down with column.sides = "periodic"' + TFM_CANNOT: [*NO_FLUID, TILTED, "column.sides=periodic"],
     'column.gravity_direction other than down with bed.start = "settled"' + TFM_CANNOT: [*NO_FLUID, TILTED, "bed.start=settled"],
-    'column.outlet = "open" is for the TFM only: particles leave through dem.opening, where there is no fluid; use "screen", which holds '
-    "them": ["column.outlet=open"],
-    "[[feed]] is for the TFM only: particles cannot enter the column yet; give them all in [bed]": [feeds("")],
+    'column.outlet = "open": polybed tfm can run it, polybed dem cannot: particles leave through dem.opening, where there is no fluid; '
+    'use "screen", which holds them': ["column.outlet=open"],
+    "[[feed]]: polybed tfm can run it, polybed dem cannot: particles cannot enter the column yet; give them all in [bed]": [feeds("")],
 }
 
 # For each rule that the program lists what breaks it, in words of --set. {} stands for a word of the scene.

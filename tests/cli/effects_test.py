@@ -58,10 +58,37 @@ class Table(Scratch):
             lines = self.ends(DONE, "effects", case).stdout.splitlines()
             self.assertLessEqual(len(lines), 40, name)
             self.assertLessEqual(max(map(len, lines)), 100, name)
-            added = [row for row in answer["effects"] if row["kind"] == "role" and row["on"] and row["in_case"] == "off"]
+            added = [row for row in answer["effects"] if row["kind"] == "role" and row["on"] and row["in_case"] == "off"
+                     and set(answer["models"]) & set(row["models"].split(", "))]
             for row in added:
                 self.assertTrue(any(line.startswith(f'{row["effect"]} = "{row["model"]}"') for line in lines[:2 + 3 * len(added)]),
                                 f"{name}: {row['effect']}")
+
+    def test_reasons_are_in_plain_words(self):
+        for name in ("matsuura-akehata", "templates/gas-bed", "templates/sphere", "thesis-a"):
+            answer, _ = self.table(ROOT / "cases" / name / "case.toml", "--set", "chooser.purpose=transient")
+            for row in answer["effects"]:
+                self.assertNotRegex(row["reason"], r"St\*|C_m|tau_p|Kn\b|[<>=]=? *[\d.]|bulk|freeboard|\(.*, (packed|wall)\)|e[+-]\d\d")
+
+    def test_a_case_for_one_model_is_advised_about_that_model(self):
+        for name, model, other in (("hopper", "dem", "solids_stress"), ("gas-bed", "tfm", "contact"), ("sphere", "dem", "solids_stress")):
+            case = ROOT / "cases/templates" / name / "case.toml"
+            self.assertEqual(self.table(case)[0]["models"], [model])
+            text = self.ends(DONE, "effects", case).stdout
+            self.assertNotRegex(text, rf"\b{other}\b")
+            self.assertRegex(text, rf"as the case is: {model} [^,]*\n")
+        self.assertFalse(self.table(ROOT / "cases/templates/hopper/case.toml")[1]["solids_stress"]["on"])
+        self.assertEqual(self.table(ROOT / "cases/templates/binary-both-scales/case.toml")[0]["models"], ["tfm", "dem"])
+
+    def test_what_shortens_the_steps_is_told_before_it_is_switched_on_and_after(self):
+        case, off = ROOT / "cases/templates/binary-both-scales/case.toml", ["--set", "effects.lubrication=none"]
+        steps = [strict_json(self.ends(DONE, "check", case, "--json", *words).stdout)["dem"]["step"]["dt_s"] for words in ([], off)]
+        told = re.search(r'lubrication = "wet_restitution" makes polybed dem take ([\d.]+) times as long', self.ends(DONE, "check", case).stdout)[1]
+        self.assertEqual(told, f"{steps[1] / steps[0]:.2g}")
+        self.assertGreater(float(told), 1.25)
+        text = re.sub(r"\s+#?\s*", " ", self.ends(DONE, "effects", case, *off).stdout)
+        self.assertIn(f"polybed dem takes {told} times as long with it", text)
+        self.assertNotIn("times as long", self.ends(DONE, "check", case, *off).stdout)
 
     def test_the_two_fluid_model_leaves_out_what_only_particles_have(self):
         case = self.write("hand.toml", BY_HAND)
@@ -77,7 +104,7 @@ class Table(Scratch):
             self.assertAlmostEqual(of_choice["tfm"] - of_choice["dem"], on, places=12)
             self.assertAlmostEqual(of_case["tfm"] - of_case["dem"], bounds["lift"] if words else 0, places=12)
             self.assertGreater(bounds["lift"], 0)
-        self.assertIn("by the two-fluid model", self.ends(DONE, "effects", case).stdout)
+        self.assertIn("the two-fluid model has no law of", self.ends(DONE, "effects", case).stdout)
 
     def test_missing_data_are_said_to_be_unknown(self):
         rows = self.table(CASE)[1]

@@ -91,6 +91,16 @@ class EveryWrite(Scratch):
         """The last call of each kind on each file, the steps of a series being one file."""
         return sorted({(name, re.sub(r"\d{6}", "N", path)): int(number) for number, name, path in calls}.values())
 
+    def test_rows_reach_the_disk_before_a_checkpoint_that_is_later(self):
+        for model in ("tfm", "dem"):
+            directory, calls = self.whole(model)
+            calls = [(name, path.removeprefix(f"{directory}/")) for _, name, path in calls]
+            placed = [n for n, call in enumerate(calls) if call == ("rename", "checkpoint.h5")]
+            self.assertGreater(len(placed), 1)
+            for n in placed:
+                before = [name for name, path in calls[:n] if path == "history.csv" and name in ("write", "fsync")]
+                self.assertEqual(before[-1], "fsync", model)
+
     def test_continuum(self):
         whole, calls = self.whole("tfm")
         self.try_all("tfm", range(1, len(calls) + 1), calls, whole)

@@ -162,11 +162,27 @@ class WithoutARun(Scratch):
         # 37.3730 mm/s of tests/data/lbm/systems_ABC_macro.csv, for shares of 0.431 where these are of whole particles
         [theory] = [row for row in rows if row["law"] == "vbk_theory" and row["partition"] is None and row["method"] == "force_balance"]
         self.assertAlmostEqual(theory["roots"][-1]["velocity_m_s"], 37.373e-3, delta=0.01 * 37.373e-3)
-        table = self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all").stdout
+        table = self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all", "--details").stdout
+        self.assertGreaterEqual(len(table.splitlines()), len(rows))
         velocities = [float(line.split()[-2]) for line in table.splitlines() if re.match(". bulk_density .*[0-9]$", line)]
         self.assertEqual(velocities, sorted(velocities))
         self.assertEqual(len(re.findall(r"(?m)^\* force_balance ", table)), 1, "the law of the case")
         self.assertRegex(table, r"(?m)^. force_balance +vbk_theory +\(mixtures\) +37\.\d\d +0\.\d{4}$")
+
+    def test_all_methods_fit_on_a_screen_with_the_best_first(self):
+        every = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all", "--json").stdout)["methods"]
+        for words, marked in (([], "cello"), (["--law", "wen_yu", "--partition", "brinkman_oseen"], "wen_yu x brinkman_oseen"),
+                              (["--law", "gidaspow"], "gidaspow")):
+            lines = self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all", *words).stdout.splitlines()
+            self.assertLessEqual(len(lines), 25)
+            self.assertLessEqual(max(map(len, lines)), 100)
+            self.assertEqual([re.match(r"\* (.+?)  ", line)[1] for line in lines if line.startswith("* ")], [marked])
+            self.assertIn("--details", lines[-1])
+            self.assertIn("wen_yu x brinkman_oseen", lines[2])
+            for line in lines:
+                if found := re.match(r"[ *] (\w+) x (\w+) +([\d.]+) ", line):
+                    [row] = [row for row in every if (row["law"], row["partition"]) == found.groups()[:2]]
+                    self.assertAlmostEqual(float(found[3]), 1e3 * row["roots"][-1]["velocity_m_s"], delta=5.1e-3)  # as printed
 
     def test_a_mean_law_with_a_partition(self):
         # mm/s and voidage of an evaluation apart from this program, as printed: a unit of the last digit, for rounding and for B's shares of

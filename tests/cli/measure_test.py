@@ -1,5 +1,6 @@
 """polybed measure as studies use it: of a run of either model, and of profiles. Usage: measure_test.py PROGRAM"""
 import json
+import re
 import sys
 import time
 
@@ -45,13 +46,29 @@ class OfRun(Scratch):
             table = self.ends(DONE, "measure", run, "--csv").stdout.splitlines()
             self.assertIn("centre_fine_m", table[0])
             self.assertEqual([float(row.split(",")[0]) for row in table[1:]], found["time_s"])
-            screen = self.ends(DONE, "measure", run).stdout.splitlines()
-            self.assertLessEqual(max(map(len, screen)), 100)
-            self.assertRegex("\n".join(screen), r"\bmm\b")
+            for words in ([], ["--details"]):
+                screen = self.ends(DONE, "measure", run, *words).stdout.splitlines()
+                self.assertLessEqual(max(map(len, screen)), 100)
+                self.assertRegex("\n".join(screen), r"\bmm\b")
 
             listed = strict_json(self.ends(DONE, "measure", "--list", "--json").stdout)
             columns = {line["column"] for section in ("bed", model) for line in listed[section]}
             self.assertLessEqual({c.replace("fine", "<name>").replace("coarse", "<name>") for c in rows}, columns)
+
+    def test_the_screen_has_means_over_the_last_quarter_as_the_card_has_them(self):
+        run = self.folder / "run"
+        self.ends(DONE, "tfm", program.CASE, *program.SMALL, "--until", "0.4 s", "--set",
+                  "output.history_every=5e-3", "-o", run, "--quiet", "--no-picture")
+        card = strict_json((run / "run.json").read_text())["card"]["bed_height_m"]
+        lines = self.ends(DONE, "measure", run).stdout.splitlines()
+        self.assertIn("mean, 0.3 to 0.4 s", lines[0])
+        mean, interval, last, unit = re.match(r"bed height +([\d.]+) ± ([\d.]+) +([\d.]+)  (\w+)$", lines[1]).groups()
+        self.assertEqual((mean, unit), (f"{1e3 * card['value']:.4g}", "mm"))
+        self.assertEqual(float(interval), float(f"{1e3 * card['interval']:.1g}"))
+        self.assertEqual(last, f"{1e3 * history(run)['bed_height_m'][-1]:.4g}")
+        self.assertLessEqual(len(lines), 25)
+        self.assertIn("all 5 stored times: --details", lines[-1])
+        self.assertRegex(self.ends(DONE, "measure", run, "--details").stdout, r"(?m)^ *100 (.*\n) *200 (.*\n) *300 (.*\n) *400 ")
 
     def test_the_python_package_has_the_table_as_it_is(self):
         """If not: polybed measure --list --json | python3 -m json.tool --indent 1 > python/polybed/measures.json"""

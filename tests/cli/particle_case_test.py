@@ -29,7 +29,7 @@ class ParticleCase(Scratch):
         text, details = (self.ends(DONE, "check", case, word).stdout for word in ("--resolved", "--details"))
         self.assertIn(f'start = "list:{case.parent / "beads.csv"}"', text)
         for key in ("fluid.name", "column.gravity_direction", "bed.start"):
-            self.assertRegex(details, f"{key}.* is for the DEM only")
+            self.assertRegex(details, f"{key}.* polybed tfm cannot")
         answer = strict_json(self.ends(DONE, "check", case, "--json").stdout)
         self.assertEqual(len(answer["notes"]), 3)
 
@@ -37,7 +37,7 @@ class ParticleCase(Scratch):
         case = self.write("case.toml", DRY)
         done = self.ends(WRONG_CASE, "tfm", case, "-o", self.folder / "run")
         for key in ("fluid.name", "column.gravity_direction", "bed.start"):
-            self.assertRegex(done.stderr, f"{key}.* is for the DEM only")
+            self.assertRegex(done.stderr, f"{key}.* polybed tfm cannot")
         self.ends(WRONG_CASE, "inversion", case)
 
     def test_every_key_is_refused_alone(self):

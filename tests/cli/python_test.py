@@ -51,7 +51,10 @@ class Package(Scratch):
         self.assertEqual((run.quantity("u_coarse").unit, run.quantity("p").unit), ("m/s", "Pa"))
         last = height.values[height.time >= 0.0075 - 1e-12]
         self.assertEqual(height.last(), (last.mean(), last.std()))
-        with self.assertRaisesRegex(KeyError, "holds no heat; it holds .*bed_height_m"):
+        with self.assertRaisesRegex(KeyError, "has no bed_heigth; did you mean bed_height.*; it has .*bed_height_m"):
+            run.quantity("bed_heigth")
+        self.assertEqual(run.card, run.record["card"])
+        with self.assertRaisesRegex(KeyError, "has no heat; it has .*bed_height_m"):
             run.quantity("heat")
         self.assertTrue(set(run.names()) > {"bed_height_m", "phi_fine", "u_fluid"})
 

@@ -36,6 +36,8 @@ class Templates(Scratch):
         self.assertEqual({case["name"] for case in listed if not case["template"]},
                          {p.parent.name for p in ROOT.glob("cases/*/case.toml")})
         text = self.ends(DONE, "list", "cases").stdout
+        self.assertLessEqual(max(map(len, text.splitlines())), WIDTH)
+        text = re.sub(r"\s+", " ", text)  # long titles go on in the next line
         for case in listed:
             self.assertTrue(case["title"] and case["takes"], case)
             self.assertIn(case["title"], text)
@@ -74,6 +76,19 @@ class Explain(Scratch):
         words = {role["role"] for role in listed} | {f"effects.{role['role']}" for role in listed}
         words |= {law["law"] for role in listed for law in role["laws"] if "FILE" not in law["law"]}
         self.explained(sorted(words | {keys[n].split(".")[-1] for n in range(0, len(keys), 7)}))
+
+    def test_laws_to_take_come_first_with_the_bed_that_they_are_for(self):
+        laws = {role["role"]: [law["law"] for law in role["laws"]] for role in strict_json(self.ends(DONE, "list", "--json").stdout)["roles"]}
+        for role in ("drag", "partition", "solids_stress"):
+            text = self.ends(DONE, "explain", role).stdout
+            advice = strict_json(self.ends(DONE, "explain", role, "--json").stdout)["advice"]
+            self.assertLessEqual(max(map(len, text.splitlines())), WIDTH)
+            named = re.findall(r"(?m)^    (\S+) ", text.split("laws, or")[1])
+            self.assertEqual(named[:len(advice)], [one["law"] for one in advice])
+            self.assertEqual(sorted(named), sorted(laws[role]))
+            for one in advice:
+                self.assertRegex(text, rf"(?m)^    {one['law']} +{re.escape(one['bed'])}$")
+        self.assertEqual(strict_json(self.ends(DONE, "explain", "contact", "--json").stdout)["advice"], [])
 
     def test_every_word_that_runs_and_studies_print(self):
         case = self.write("case.toml", small_bed("10 ms"))

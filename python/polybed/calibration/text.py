@@ -37,35 +37,51 @@ def table_toml(table, plan, boxes, coefficients):
 
 
 def measured(mean, per=1.0):
-    return f"{mean[0] / per:.4g}+-{mean[1] / per:.1g}"
+    return f"{mean[0] / per:.4g}±{mean[1] / per:.1g}"
+
+
+# Column of a box: (heading, width, its number or text)
+PLACE = (("phi", 5, lambda box: f"{box['solids_fraction']:g}"), ("St", 5, lambda box: f"{box['stokes']:g}"),
+         ("e", 5, lambda box: f"{box['restitution']:g}"), ("mu_p", 5, lambda box: f"{box['friction']:g}"),
+         ("x2", 5, lambda box: f"{box['share']:g}"), ("seed", 4, lambda box: f"{box['seed']}"))
+SHEARED = (("theta/(g d)^2", 14, lambda box: measured(box["theta_m2_s2"], math.pow(box["shear_rate_1_s"] * box["diameter_m"], 2))),
+           ("p", 14, lambda box: measured(box["pressure_Pa"], unit_of(box) * box["shear_rate_1_s"])),
+           ("mu", 14, lambda box: measured(box["viscosity_Pa_s"], unit_of(box))),
+           ("p/ref", 5, lambda box: f"{box['p_ratio'][0]:.3g}"), ("mu/ref", 6, lambda box: f"{box['mu_ratio'][0]:.3g}"),
+           ("G/ref", 5, lambda box: f"{box['gamma_ratio'][0]:.3g}"))
+OF_TWO = (("T_2/T_1", 15, lambda box: measured(box["temperature_ratio"])),
+          ("beta_12/ref", 15, lambda box: measured(box["exchange_ratio"]) if box["pushed"] else ""),
+          ("slip", 8, lambda box: f"{box['slip_over_sqrt_theta']:.3f}"))
+MEANING = """phi: solids fraction; St: Stokes number of the shear; e, mu_p: restitution and friction of particles
+x2: share of the second species; theta: granular temperature; g, d: shear rate and diameter
+p, mu: pressure and viscosity of the solids over density, g and d; ref: by kinetic theory
+G: energy lost in collisions
+"""
+
+
+def unit_of(box):
+    return box["density_kg_m3"] * box["diameter_m"] ** 2 * box["shear_rate_1_s"]
+
+
+def table_lines(boxes, quantities):
+    """A line for each box, at most 100 columns wide, below what is the same in all of them."""
+    texts = {name: [text(box) for box in boxes] for name, _, text in PLACE + quantities}
+    same = [name for name, _, _ in PLACE[1:-1] if len(set(texts[name])) == 1]
+    columns = [(name, width) for name, width, _ in PLACE + quantities if name not in same]
+    lines = [f"in all boxes {', '.join(f'{name} {texts[name][0]}' for name in same)}"] if same else []
+    lines.append(" ".join(f"{name:>{width}}" for name, width in columns))
+    lines += [" ".join(f"{texts[name][n]:>{width}}" for name, width in columns) for n in range(len(boxes))]
+    return "\n".join(lines) + "\n"
+
+
+def between(values, digits):
+    return f"{min(values):.{digits}g} to {max(values):.{digits}g}"
 
 
 def box_lines(boxes):
-    """One line for each box, with a header; of two species also their temperatures and what they exchange."""
-    lines = (f"{'phi':>6} {'St':>6} {'e':>6} {'mu_p':>5} {'x2':>5} {'seed':>4} {'S':>7} {'theta/(g d)^2':>16} {'p':>16} {'mu':>16} "
-             f"{'p/ref':>7} {'mu/ref':>7} {'G/ref':>7} {'balance':>8}\n")
-    for box in boxes:
-        if box["pushed"]:
-            continue
-        rate, diameter = box["shear_rate_1_s"], box["diameter_m"]
-        unit = box["density_kg_m3"] * diameter * diameter * rate
-        lines += (f"{box['solids_fraction']:>6g} {box['stokes']:>6g} {box['restitution']:>6g} {box['friction']:>5g} {box['share']:>5g} "
-                  f"{box['seed']:>4} {shear_number(box):>7.4g} {measured(box['theta_m2_s2'], math.pow(rate * diameter, 2)):>16} "
-                  f"{measured(box['pressure_Pa'], unit * rate):>16} {measured(box['viscosity_Pa_s'], unit):>16} {box['p_ratio'][0]:>7.4g} "
-                  f"{box['mu_ratio'][0]:>7.4g} {box['gamma_ratio'][0]:>7.4g} {box['balance']:>8.5f}\n")
-    return lines + ("phi: solids fraction; St: Stokes number of the shear; e, mu_p: restitution and friction of particles; x2: share of the second "
-                    "species\nS: number of the shear in the fit; theta/(g d)^2: granular temperature over (shear rate x diameter)^2; p, mu: solids "
-                    "pressure and viscosity over density,\n  shear rate and diameter; p, mu, G over ref: over kinetic theory, G the dissipation; "
-                    "balance: work of the shear over dissipation\n") + species_lines(boxes)
-
-
-def species_lines(boxes):
-    binary = [box for box in boxes if box["binary"]]
-    if not binary:
-        return ""
-    lines = f"{'phi':>6} {'e':>6} {'x2':>5} {'seed':>4} {'T_2/T_1':>16} {'beta_12/ref':>16} {'slip':>8} {'balance':>8}\n"
-    for box in binary:
-        exchange = measured(box["exchange_ratio"]) if box["pushed"] else ""
-        lines += (f"{box['solids_fraction']:>6g} {box['restitution']:>6g} {box['share']:>5g} {box['seed']:>4} "
-                  f"{measured(box['temperature_ratio']):>16} {exchange:>16} {box['slip_over_sqrt_theta']:>8.3f} {box['balance']:>8.5f}\n")
-    return lines
+    """One line for each sheared box, with a header; of two species also their temperatures and what they exchange."""
+    sheared, binary = [box for box in boxes if not box["pushed"]], [box for box in boxes if box["binary"]]
+    lines = table_lines(sheared, SHEARED) + MEANING
+    lines += (f"number of the shear in the fit (S) {between([shear_number(box) for box in sheared], 4)}; "
+              f"work of the shear over dissipation {between([box['balance'] for box in sheared], 5)}\n")
+    return lines + ("\n" + table_lines(binary, OF_TWO) if binary else "")

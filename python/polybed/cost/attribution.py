@@ -6,6 +6,7 @@ from polybed.cost.axes import acting_axes, setting
 from polybed.cost.front import line_error
 from polybed.cost.judge import distance_of, scale_of
 from polybed.cost.sweep import INPUT, MODEL, SOLVER, Share
+from polybed.cost.words import in_words
 
 
 def run_solver(sweeper):
@@ -43,7 +44,7 @@ def of_line(sweeper, row, names):
     for axis in filter(None, map(sweep.axis, names if sweep.outcome == "done" else ())):
         error = line_error(sweeper, axis.name, axis.given)
         if isfinite(error):
-            share = Share(row, max(error, share.value or 0.0), f"{axis.name} {axis.levels[axis.given].label}")
+            share = Share(row, max(error, share.value or 0.0), in_words(axis.name, axis.levels[axis.given].label))
     return share
 
 

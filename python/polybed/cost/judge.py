@@ -6,7 +6,7 @@ from polybed.cost.axes import NUMERICS
 from polybed.cost.fit import Priced, pareto_front
 from polybed.cost.quantities import LENGTH, SHARE
 from polybed.cost.sweep import CANDIDATE, REFERENCE, Recommendation, RowQuantity
-from polybed.cost.words import part
+from polybed.cost.words import in_words, part
 from polybed.study.measured import measures_of
 
 FLOOR_FACTOR = 10  # of the disagreement of two references
@@ -118,10 +118,10 @@ def level_of(row, axis):
 
 
 def settings_text(sweep, row):
-    """Settings of a row in words: "rtol 1e-3, grid 9x64"."""
+    """Settings of a row in words: "relative tolerance (tfm.rtol) 1e-3, cells 9x64"."""
     if not row.settings:
         return row.note
-    shown = [f"{axis.name} {axis.levels[level_of(row, axis)].label}" for axis in sweep.axes
+    shown = [in_words(axis.name, axis.levels[level_of(row, axis)].label) for axis in sweep.axes
              if axis.kind == NUMERICS or level_of(row, axis) != axis.given]
     return ", ".join(shown + ([row.note] if row.note else [])) or "as given"
 

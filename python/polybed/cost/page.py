@@ -5,7 +5,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
-from polybed.cost.words import REFERENCE, STATUS, part
+from polybed.cost.words import REFERENCE, STATUS, in_words, part
 from polybed.drawing import cost
 from polybed.drawing.style import NAMES, STYLE
 from polybed.drawing.units import text
@@ -29,7 +29,7 @@ def quantity_words(name):
 
 def settings_words(run):
     """The settings of a row, and what is special about it."""
-    words = [f"{axis} {level}" for axis, level in run["settings"].items() if axis in ("rtol", "grid", "scheme")]
+    words = [in_words(axis, level) for axis, level in run["settings"].items() if axis in ("rtol", "grid", "scheme")]
     return escaped(", ".join([*words, run["note"]] if run["note"] else words) or run["kind"])
 
 

@@ -12,7 +12,15 @@ REFERENCE = {"exact": "the force balance of a uniform bed", "self": "the same mo
 PARTS = {"space": "size of the cells", "solver and coupling tolerance": "tolerance of the pressure solver or of the coupling to the fluid",
          "statistics": "fluctuations of the bed", "closure spread": "choice of drag law, stress or stiffness",
          "level": "choice of the model: force balance, 1-D, 2-D, particles"}
+# what a sweep varies
+AXES = {"rtol": "relative tolerance (tfm.rtol)", "grid": "cells", "steps": "steps per contact (dem.steps_per_contact)",
+        "coupling": "steps of the particles in one of the fluid (dem.fluid_every)"}
 CLOCKS = {"work": "counted work", "cpu": "CPU time", "wall": "wall time"}
+
+
+def in_words(axis, level):
+    """A level of an axis: "relative tolerance (tfm.rtol) 0.001"."""
+    return f"{AXES.get(axis, axis)} {level}"
 
 
 def part(row):

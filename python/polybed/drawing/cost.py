@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 
-from polybed.cost.words import CLOCKS
+from polybed.cost.words import AXES, CLOCKS
 from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, fitted, shortened
 from polybed.record import title_of_case
 
@@ -78,7 +78,7 @@ def draw(sweep):
         for n, (name, runs) in enumerate(lines_of(sweep["runs"], quantity["id"]).items()):
             places = sorted(p for p in (point(run, quantity["id"]) for run in runs) if p)
             axes.plot([p[0] for p in places], [p[2] for p in places], color=COLOURS[n % len(COLOURS)], lw=1,
-                      marker=MARKS[n % len(MARKS)], markersize=3, label=name)
+                      marker=MARKS[n % len(MARKS)], markersize=3, label=AXES.get(name, name))
         draw_points(axes, sweep["runs"], quantity["id"])
         draw_front(axes, sweep, quantity["id"])
         floor = sweep["reference"]["floor"].get(quantity["id"], 0)

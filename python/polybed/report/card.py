@@ -39,7 +39,8 @@ def bed_of(card):
 
 def recorded(card):
     """The card of the record as HTML, with the words of the card on the screen."""
-    rows = [["bed", bed_of(card)]]
+    bed = bed_of(card)
+    rows = [["bed", bed]] if bed else []
     if card["u_mf_m_s"]:
         ratio = card["u_over_u_mf"]
         inlet = f"; the inlet's velocity is {ratio:.2g} times that" if ratio else ""
@@ -57,8 +58,9 @@ def recorded(card):
         rows.append(["discharge", text(1e3 * card["discharge_kg_s"], "g/s")])
     moving = "the bed still changes; the numbers above are not final" if card["discharge_kg_s"] is None else \
         "particles still left, or what remains still moves"
-    rows.append(["steady", {True: "yes", False: f"no: {moving}",
-                            None: "not known: too few rows in history.csv"}[card["steady"]]])
+    if card["bed_height_m"] or card["steady"] is not None:
+        rows.append(["steady", {True: "yes", False: f"no: {moving}",
+                                None: "not known: too few rows in history.csv"}[card["steady"]]])
     if card["limited_by"]:
         rows.append(["step", "limited by " + escaped(card["limited_by"])])
     rows.append(["left out", escaped(card["left_out"])])

@@ -128,6 +128,9 @@ def commands(run, record):
     ranks = f"-n {record['ranks']} " if record.get("ranks", 1) > 1 else ""
     lines = ["# again: save the case above as case.toml", f"polybed {ranks}{model} case.toml -o again", "# more of this run",
              f"polybed plot {folder}", f"polybed measure {folder}", f"polybed report {folder}"]
+    goes_on = f"polybed {ranks}{model} case.toml -o {folder} --resume"
     if record.get("state") != "done":
-        lines.insert(2, f"# or go on with it\npolybed {ranks}{model} case.toml -o {folder} --resume")
+        lines.insert(2, f"# or go on with it\n{goes_on}")
+    elif record.get("card", {}).get("steady") is False and record.get("time_s"):
+        lines.insert(2, f'# not steady: go on for as long again\n{goes_on} --until "{2 * record["time_s"]:.4g} s"')
     return listing("\n".join(lines) + f'\n# in Python\nimport polybed\nrun = polybed.read({str(run.directory)!r})')

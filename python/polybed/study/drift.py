@@ -36,5 +36,5 @@ def drift_lines(time, heights):
         drift = drift_of(time[late], values[late])
         if drift is None or not np.isfinite(drift[0]) or abs(drift[0]) <= drift[1] or abs(drift[0]) * span <= MATTERS * bed:
             continue
-        lines.append(f"not steady: drift of {name} {1e3 * drift[0]:.3g} mm/s, within {1e3 * drift[1]:.2g}, over the last {window:.3g} s")
+        lines.append(f"not steady: drift of {name} {1e3 * drift[0]:.3g} ± {1e3 * drift[1]:.2g} mm/s over the last {window:.3g} s")
     return lines

@@ -165,7 +165,7 @@ TEST(GoldenChoice, IsThatOfTheTable) {
   EXPECT_EQ(choice_of(rows_of(species({8}), "steady")), "fluid_stress lubrication cohesion frictional");
   const auto powder = rows_of(species({9}), "steady"), catalyst = rows_of(species({8}), "steady");
   EXPECT_EQ(choice_of(powder), "gas_slip " + choice_of(catalyst));  // 0.017, by the sum
-  const std::string told = "cohesive: outside the validated range";
+  const std::string told = "so cohesive a powder is outside the validated range";
   EXPECT_NE(row_named(powder, "cohesion").reason.find(told), std::string::npos);
   EXPECT_EQ(row_named(catalyst, "cohesion").reason.find(told), std::string::npos);
   EXPECT_EQ(choice_of(rows_of(species({10}), "steady")), "added_mass fluid_stress lubrication frictional");

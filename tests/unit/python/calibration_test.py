@@ -20,6 +20,7 @@ from polybed.calibration.boxes import MEANS, SINGLE, Pool, read_box
 from polybed.calibration.check import deviation, deviation_lines, points_between
 from polybed.calibration.plan import Plan, Point
 from polybed.calibration.service import NUMBERS, Failure, Service
+from polybed.calibration.text import box_lines
 
 DRY = {"regime": "dry", "reference": "GD-CS e_eff", "binary": False, "seeds": 2,
        "axes": {"phi": [0.1, 0.2, 0.3, 0.4, 0.45], "stokes": [0], "e": [0.8, 0.9], "mu_p": [0], "x2": [0]}}
@@ -168,6 +169,28 @@ class Fits(unittest.TestCase):
         table["beta_12_ratio"][1, 0, 1, 0, 0] = -0.1  # species that are sped up by each other
         with self.assertRaisesRegex(Failure, "at phi = 0.2 beta_12 is -0.1 of its form"):
             fit.require_exchange(table)
+
+
+class Texts(unittest.TestCase):
+    def test_tables_fit_on_a_screen_whatever_varies(self):
+        full = {"pressure_Pa": [3.243e-5, 6e-7], "viscosity_Pa_s": [0.003243, 6e-5], "density_kg_m3": 2500.0, "balance": 0.99923,
+                "mu_ratio": [1.2345, 0.01], "exchange_ratio": [1.299, 0.05], "slip_over_sqrt_theta": 0.153, "binary": True}
+        boxes = [box_of(Point("dry", 0.1 * n, 0.5 * n, 0.9 + 0.01 * n, 0.1 * n, 0.25 * n), restitution=0.9 + 0.01 * n, friction=0.1 * n,
+                        share=0.25 * n, pushed=pushed, **full) for n in (1, 2, 3) for pushed in (False, True)]
+        lines = box_lines(boxes).splitlines()
+        self.assertLessEqual(max(map(len, lines)), 100)
+        self.assertEqual(lines[0].split()[:6], ["phi", "St", "e", "mu_p", "x2", "seed"])
+        self.assertEqual(lines[1].split()[:6], ["0.1", "0.5", "0.91", "0.1", "0.25", "1"])
+        self.assertEqual(sum("1.23" in line for line in lines), 3, "pushed boxes are in the table of two species alone")
+        self.assertEqual(sum("1.299±0.05" in line for line in lines), 3)
+        self.assertIn("work of the shear over dissipation 0.99923 to 0.99923", "\n".join(lines))
+
+    def test_what_all_boxes_share_is_said_once(self):
+        boxes = [box_of(Point("dry", phi, 0, 0.9, 0, 0, False, False, 1), restitution=0.9, friction=0, share=0, pushed=False, binary=False,
+                        balance=1.0, density_kg_m3=1.0, pressure_Pa=[1, 0.1], viscosity_Pa_s=[1, 0.1]) for phi in (0.3, 0.45)]
+        lines = box_lines(boxes).splitlines()
+        self.assertEqual(lines[0], "in all boxes St 0, e 0.9, mu_p 0, x2 0")
+        self.assertEqual(lines[1].split()[:3], ["phi", "seed", "theta/(g"])
 
 
 class Bed(unittest.TestCase):

@@ -49,7 +49,7 @@ class Pages(unittest.TestCase):
 
     def test_cost(self):
         shown = self.written("cost.json", SWEEP, cost_page.write_page)
-        for words in ("What to use", "error of at most 1 %", "rtol 0.001, grid 1x15", "error 0.4 \u00b1 0.1 %", "20 ms of computing",
+        for words in ("What to use", "error of at most 1 %", "relative tolerance (tfm.rtol) 0.001, cells 1x15", "error 0.4 \u00b1 0.1 %", "20 ms of computing",
                       "--set tfm.rtol=0.001", "another is cheaper and as accurate", "1 more were not run", "not measured: fluctuations of the bed"):
             self.assertIn(words, shown)
         self.assertIn(EVIL, shown)

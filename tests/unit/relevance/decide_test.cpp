@@ -27,6 +27,20 @@ TEST(Decision, TurnsTheLargestOnWhileTheSumIsTooGreat) {
   EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.015);
 }
 
+// Reasons are for who knows no formula: shares in per cent, more than ten in times.
+TEST(Decision, SaysWhyInPlainWords) {
+  std::vector<EffectRow> rows{force("a", 0.015), force("b", 0.012), force("c", 30), force("d", 0.11)};
+  for (EffectRow& row : rows) row.phrase = "push: {} the weight";
+  rows[3].phrase = "Stokes number {}";
+  rows[3].below = true;
+  rows[3].threshold = 1750;
+  decide(rows, {0.02, false, {}, {}});
+  EXPECT_EQ(rows[0].reason, "push: 1.5 % of the weight; little by itself, but all that is left out would be 2.7 %");
+  EXPECT_EQ(rows[1].reason, "push: 1.2 % of the weight, within the 2 % that may be left out");
+  EXPECT_EQ(rows[2].reason, "push: 30 times the weight, more than the 2 % that may be left out");
+  EXPECT_EQ(rows[3].reason, "Stokes number 0.11, below 1750");
+}
+
 TEST(Decision, LeavesWhatTheCaseDecidesAndCountsIt) {
   std::vector<EffectRow> rows{force("a", 0.5), force("b", 0.012), force("c", 0.001)};
   decide(rows, {0.02, false, {"c"}, {"a"}});
@@ -56,10 +70,11 @@ TEST(Decision, CountsSharesOfWhatIsNoForce) {
 TEST(Decision, SwitchesNothingByABand) {
   std::vector<EffectRow> rows{force("a", 0.5)};
   rows[0].band = NumberBand{0.001, 0.5};
+  rows[0].phrase = "push: {} the weight";
   decide(rows, {0.02, false, {}, {}});
   EXPECT_FALSE(on(rows[0]));
   EXPECT_FALSE(rows[0].neglected.has_value());
-  EXPECT_NE(rows[0].reason.find("band 0.001 to 0.5"), std::string::npos);
+  EXPECT_EQ(rows[0].reason, "push: 0.1 % to 50 % of the weight, too uncertain to decide");
 }
 
 TEST(Decision, CountsWhatIsCalledForAndNotBuilt) {
@@ -104,8 +119,8 @@ TEST(Decision, TellsWhatARunMayReach) {
   rows[1].up_to = 0.4;
   decide(rows, {0.02, false, {}, {}});
   EXPECT_TRUE(!on(rows[0]) && on(rows[1]));
-  EXPECT_NE(rows[0].reason.find("in a run up to 0.3"), std::string::npos);
-  EXPECT_EQ(rows[1].reason.find("in a run"), std::string::npos);
+  EXPECT_NE(rows[0].reason.find("in places of a run up to 30 %"), std::string::npos);
+  EXPECT_EQ(rows[1].reason.find("of a run"), std::string::npos);
   EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.01);
   EXPECT_DOUBLE_EQ(neglected_up_to(rows), 0.3);
 }

@@ -1,0 +1,28 @@
+// The measures of profiles as tables on the screen, at most 100 columns wide.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/studies.hpp"
+#include "core/output/history.hpp"
+#include "measures/table.hpp"
+
+namespace polybed::app {
+
+/// A measure of each of the profiles.
+struct MeasuredColumn {
+  std::string name, unit, help, heading;
+  std::vector<measures::Value> values;
+};
+
+/// All values, in blocks of as many columns as fit. \param of_run  the first column is the time, and stands in each block
+void print_table(const std::vector<MeasuredColumn>& columns, bool of_run);
+
+/// Of each measure of a run its mean over the last quarter with the interval, and its value at the end: those of its
+/// result card, by the rows of the history where these have the measure, else by the stored profiles.
+/// \param time  s, of each value of the columns; not empty  \param history  empty: the run has none
+void print_summary(const std::vector<double>& time, const std::vector<MeasuredColumn>& columns,
+                   const core::History& history);
+
+}  // namespace polybed::app
