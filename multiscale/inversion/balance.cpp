@@ -1,6 +1,7 @@
 #include "multiscale/inversion/balance.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace polybed::multiscale {
 
@@ -15,6 +16,7 @@ std::vector<double> roots(const Residual& residual, double low, double high, int
       double a = last_at, b = at;
       for (int k = 0; k < 100; ++k) {
         const double middle = 0.5 * (a + b);
+        if (middle == a || middle == b) break;
         const std::optional<double> value = residual(middle);
         if (!value) break;
         (*value * *last > 0 ? a : b) = middle;
@@ -27,12 +29,38 @@ std::vector<double> roots(const Residual& residual, double low, double high, int
   return found;
 }
 
+namespace {
+
+/// Ridders' method: a root of a function that is below 0 at low and above 0 at high, to its last digits.
+double ridders(const std::function<double(double)>& f, double low, double high, double at_low, double at_high) {
+  double last = low;
+  for (int n = 0; n < 60; ++n) {
+    const double middle = 0.5 * (low + high), at_middle = f(middle);
+    const double next = middle - (middle - low) * at_middle / std::sqrt(at_middle * at_middle - at_low * at_high);
+    const double at_next = f(next);
+    if (at_next == 0 || std::abs(next - last) <= 1e-15 * next) return next;
+    for (const auto& [at, value] : {std::pair(middle, at_middle), std::pair(next, at_next)}) {
+      if (value < 0 && at >= low) low = at, at_low = value;
+      if (value >= 0 && at <= high) high = at, at_high = value;
+    }
+    last = next;
+  }
+  return last;
+}
+
+}  // namespace
+
 double velocity_of(const std::function<double(double)>& load, double target) {
   double low = 1e-12, high = 1e3;
-  for (int n = 0; n < 200 && high / low > 1 + 1e-15; ++n) {
+  const auto halve = [&] {
     const double middle = std::sqrt(low * high);
     (load(middle) < target ? low : high) = middle;
-  }
+  };
+  while (high / low > 2) halve();
+  const double at_low = load(low) - target, at_high = load(high) - target;
+  if (at_low < 0 && at_high > 0 && std::isfinite(at_low * at_high))
+    return ridders([&](double u) { return load(u) - target; }, low, high, at_low, at_high);
+  for (int n = 0; n < 200 && high / low > 1 + 1e-15; ++n) halve();
   return std::sqrt(low * high);
 }
 

@@ -17,7 +17,7 @@ inline constexpr double least_voidage = 0.2;
 /// Roots of a residual that may be undefined in places, in (low, high): sign changes of a scan, refined by bisection.
 [[nodiscard]] std::vector<double> roots(const Residual& residual, double low, double high, int intervals);
 
-/// u > 0 with load(u) = target, for a load that grows with u; bisection in the logarithm.
+/// u > 0 with load(u) = target, for a load that grows with u: bisection in the logarithm, then Ridders' method.
 [[nodiscard]] double velocity_of(const std::function<double(double)>& load, double target);
 
 /// Of solids and fluid together, kg/m3; T(5.6).

@@ -37,6 +37,7 @@ std::optional<double> pure_voidage(const BinaryBed& bed, const DragLaw& law, dou
   if (!(weight > 0) || excess(low) < 0 || excess(high) > 0) return std::nullopt;
   for (int n = 0; n < 100; ++n) {
     const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
     (excess(middle) > 0 ? low : high) = middle;
   }
   return 0.5 * (low + high);
@@ -102,6 +103,7 @@ std::vector<InversionPoint> by_density_maximum(const BinaryBed& bed) {
     double low = std::max(near - 0.02, 0.1), high = std::min(near + 0.02, 1.2);
     for (int n = 0; n < 100; ++n) {
       const double middle = 0.5 * (low + high);
+      if (middle == low || middle == high) break;
       (gibilaro(bed, x, middle, u) > 0 ? low : high) = middle;
     }
     return 0.5 * (low + high);
