@@ -21,6 +21,7 @@
 #include "fluid/inlet.hpp"
 #include "multiscale/card/card.hpp"
 #include "multiscale/effects/left_out.hpp"
+#include "multiscale/estimate/estimate.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
@@ -217,8 +218,7 @@ constexpr std::size_t screen = 25;  // lines
 std::string memory_text(double bytes) { return fmt::format("{:.0f} MB of memory", 1e-6 * bytes); }
 
 void add_continuum(const core::Scene& scene, const Requirements& need, std::vector<std::string>& lines) {
-  const std::string time = need.time ? fmt::format("about {} of computing, {} to {}", short_time(need.time->expected),
-                                                   short_time(need.time->least), short_time(need.time->most))
+  const std::string time = need.time ? computing_text(tfm_time(scene, need, known_machine()))
                                      : "time not known: the numbers failed in a sample";
   lines.push_back(card_line("polybed tfm", fmt::format("{:.4g} s on {} cells: {}; {}", scene.run.until, need.cells,
                                                        time, memory_text(need.memory.total()))));
@@ -226,9 +226,9 @@ void add_continuum(const core::Scene& scene, const Requirements& need, std::vect
 
 void add_particles(const core::Scene& scene, const ParticleRequirements& need, std::vector<std::string>& lines) {
   lines.push_back(card_line(
-      "polybed dem", fmt::format("{:.4g} s of {} particle{}: about {} of computing, {} to {}; {}", scene.run.until,
-                                 need.count(), need.count() == 1 ? "" : "s", short_time(need.expected),
-                                 short_time(need.least), short_time(need.most), memory_text(need.memory()))));
+      "polybed dem",
+      fmt::format("{:.4g} s of {} particle{}: {}; {}", scene.run.until, need.count(), need.count() == 1 ? "" : "s",
+                  computing_text(dem_time(scene, known_machine())), memory_text(need.memory()))));
   lines.push_back(card_line("", fmt::format("step {:.2g} s, limited by {}", need.limits.dt, need.limits.limited_by)));
 }
 

@@ -17,6 +17,7 @@
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "relevance/effect_row.hpp"
 
 namespace polybed::app {
 
@@ -79,7 +80,7 @@ class DemRun final : public CaseRun {
             model_.limits().dt,
             model_.limits().limited_by,
             observers_->bed_height(),
-            energy != nullptr ? fmt::format("energy at {:.1g} % of its limit", 100 * energy->share())
+            energy != nullptr ? fmt::format("energy at {} of its limit", relevance::percent(energy->share()))
                               : fmt::format("{} contacts", observers_->totals().contacts)};
   }
 

@@ -11,7 +11,7 @@ namespace polybed::app {
 
 /// A word that the program prints beside keys, roles and laws.
 struct Term {
-  std::string name, kind;  ///< status | line of the card | invariant | limit of the step | outcome | exit code
+  std::string name, kind;  ///< kind: "status", "line of the card", "invariant" ...
   std::string help;        ///< what it means
   std::string todo;        ///< what to choose or to do; may be empty
 };

@@ -177,6 +177,7 @@ std::vector<std::string> species_of(const std::filesystem::path& run, const core
 }
 
 Asked read_run(const std::filesystem::path& run) {
+  if (!std::filesystem::is_directory(run)) throw core::FileError(run.string() + ": no such run directory");
   const core::Profiles stored = core::read_profiles(run);
   Asked asked{species_of(run, stored), stored.time, {}, {}};
   const std::size_t slabs = stored.height.size();

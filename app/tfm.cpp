@@ -12,6 +12,7 @@
 #include "fluid/inlet.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/tfm_record.hpp"
+#include "relevance/effect_row.hpp"
 #include "tfm/evenness.hpp"
 #include "tfm/observers.hpp"
 
@@ -95,7 +96,7 @@ class TfmRun final : public CaseRun {
             step.step,
             step.limited_by,
             observers_->bed_height(),
-            fmt::format("{} at {:.1g} % of its limit", worst.name, 100 * worst.share())};
+            fmt::format("{} at {} of its limit", worst.name, relevance::percent(worst.share()))};
   }
 
   core::Checkpoint checkpoint() override {

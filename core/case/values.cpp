@@ -92,7 +92,9 @@ std::optional<double> CaseValues::number(const Key& key, const toml::node& node)
   } else if (const auto text = node.value<std::string_view>()) {
     const auto parsed = parse_quantity(*text);
     if (!parsed) {
-      expected(key, node, fmt::format("a number with a unit such as \"1 {}\"", unit_name(key.dimension)));
+      expected(key, node,
+               fmt::format("a number with a unit such as \"1 {}\"; polybed schema lists the units",
+                           unit_name(key.dimension)));
       return std::nullopt;
     }
     q = *parsed;

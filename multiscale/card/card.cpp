@@ -142,6 +142,11 @@ std::string short_time(double seconds) {
   return seconds < rounds_to_one_digit ? fmt::format("{:.2g} s", seconds) : core::duration_text(seconds);
 }
 
+std::string computing_text(const TimeBand& time) {
+  return fmt::format("about {} of computing, {} to {}", short_time(time.expected), short_time(time.least),
+                     short_time(time.most));
+}
+
 std::string left_out_text(const LeftOut& left_out) {
   std::string text = "forces of " + relevance::percent(left_out.sum) + " of the weight";
   if (!matters(left_out))

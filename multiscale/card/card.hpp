@@ -40,6 +40,9 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card);
 /// A computing time for people.
 [[nodiscard]] std::string short_time(double seconds);
 
+/// A time that is predicted, with its band.
+[[nodiscard]] std::string computing_text(const TimeBand& time);
+
 /// A line of a card: its heading, and what it says.
 [[nodiscard]] std::string card_line(const std::string& heading, const std::string& text);
 

@@ -144,6 +144,10 @@ TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machi
                     scene, machine);
 }
 
+TimeBand tfm_time(const core::Scene& scene, const Requirements& need, const Machine& machine) {
+  return with_start(band_of(need.time.value().expected, tfm_middle(need.integrator), tfm_factor), scene, machine);
+}
+
 TimeBand dem_time(const core::Scene& scene, const Machine& machine) {
   const ParticleRequirements need = particle_requirements_of(scene, machine.particles);
   return with_start(band_of(need.expected - need.before, dem_middle, factor_of(dem_factor, machine)), scene, machine,
@@ -159,7 +163,7 @@ CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, doub
   e.ranks = ranks;
   e.memory = need.memory.total() + (ranks - 1) * need.memory.program;
   if (need.time) {
-    e.time = with_start(band_of(need.time->expected, tfm_middle(need.integrator), tfm_factor), scene, machine);
+    e.time = tfm_time(scene, need, machine);
     e.steps = need.time->steps;
     e.basis = "time scales of the bed, and a few steps timed on a part of it";
   } else {

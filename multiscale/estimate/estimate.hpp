@@ -15,6 +15,8 @@ class Model;  // a run of particles does not see it
 
 namespace polybed::multiscale {
 
+struct Requirements;
+
 /// CPU seconds that hold the truth in 80 of 100 runs, and their middle.
 struct TimeBand {
   double least = 0, expected = 0, most = 0;
@@ -47,6 +49,9 @@ struct CostEstimate {
 /// A run of the two-fluid model whose model is there: from the time scales of its bed and what a step costs. Nothing is
 /// stepped.
 [[nodiscard]] TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine);
+
+/// The same with what a step costs, measured on a part of the bed. \param need  with its time
+[[nodiscard]] TimeBand tfm_time(const core::Scene& scene, const Requirements& need, const Machine& machine);
 
 /// A run of particles, likewise.
 [[nodiscard]] TimeBand dem_time(const core::Scene& scene, const Machine& machine);

@@ -1,5 +1,7 @@
 #!/usr/bin/python3
 """What `polybed check` says a case will need, against runs of it. Usage: check_test.py PROGRAM"""
+import re
+
 import program
 from program import CASE, DONE, SMALL, Scratch, peak_memory, run, strict_json
 
@@ -63,6 +65,11 @@ class Needs(Scratch):
                 self.assertAlmostEqual(sum(parts.values()), need["memory_MB"], delta=1e-9 * need["memory_MB"])
                 held = 1e-6 * peak_memory("tfm", CASE, *words, "--quiet", "-o", self.folder / f"{integrator}{scale}")
                 self.assertAlmostEqual(need["memory_MB"], held, delta=0.2 * held)
+
+    def test_the_screen_has_the_time_of_the_estimate(self):
+        case = program.ROOT / "cases/templates/hopper/case.toml"
+        told = [re.search("about (.*?) of computing", self.ends(DONE, command, case).stdout)[1] for command in ("check", "estimate")]
+        self.assertEqual(*told)
 
     def test_time_is_of_the_order_of_that_of_a_run(self):
         """A loose test: the machine is shared. The band is a factor of 4 either way; a factor of 10 is asked for."""

@@ -78,6 +78,7 @@ class OfRun(Scratch):
     def test_what_is_no_run_is_named(self):
         for words in (["measure", self.folder], ["measure", "--profiles", self.folder / "none.json"]):
             self.assertIn(str(self.folder), self.ends(FILE, *words).stderr)
+        self.assertIn("no such run directory", self.ends(FILE, "measure", self.folder / "none").stderr)
         self.ends(WRONG_CASE, "measure")
         self.ends(WRONG_CASE, "measure", self.folder, "--profiles", "-")
         self.ends(WRONG_CASE, "measure", self.folder, "--markdown")

@@ -75,6 +75,7 @@ class Explain(Scratch):
         keys = [key["key"] for key in strict_json(self.ends(DONE, "schema", "--json").stdout)["keys"]]
         words = {role["role"] for role in listed} | {f"effects.{role['role']}" for role in listed}
         words |= {law["law"] for role in listed for law in role["laws"] if "FILE" not in law["law"]}
+        words |= {row["effect"] for row in strict_json(self.ends(DONE, "effects", CASE, "--json").stdout)["effects"]}
         self.explained(sorted(words | {keys[n].split(".")[-1] for n in range(0, len(keys), 7)}))
 
     def test_laws_to_take_come_first_with_the_bed_that_they_are_for(self):

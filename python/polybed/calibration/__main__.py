@@ -132,6 +132,14 @@ def tested_by(table, plan):
             "left_out_residual": table.attributes["left_out_residual"] if by_curve else None}
 
 
+def tested_lines(tested):
+    """The same for people."""
+    error, residual, left_out = (None if share is None else f"{100 * share:.2f} %" for share in tested.values())
+    return ["standard errors not known: one box at each point" if error is None else f"standard errors up to {error}",
+            "fit not tested: too few solids fractions to leave one out" if left_out is None else
+            f"with a solids fraction left out the fit is {left_out} off, {residual} beyond two standard errors"]
+
+
 def finish_sheared(options, service, plan, boxes, table):
     """Sheared boxes: what they have measured, and the fitted table if it may be used."""
     if options.bed:
@@ -142,9 +150,7 @@ def finish_sheared(options, service, plan, boxes, table):
     say(lines, options.people)
     put_text(options.output / "boxes.txt", lines, "surrogateescape")
     tested = tested_by(table, plan)
-    error, residual, left_out = ("-" if share is None else f"{100 * share:.2f} %" for share in tested.values())
-    say(f"standard errors up to {error}; with a solids fraction left out {left_out} off, {residual} beyond two standard errors\n",
-        options.people)
+    say("".join(f"{line}\n" for line in tested_lines(tested)), options.people)
     identify(table, plan)
     table.attributes |= {"size_ratio": float(plan.case["size_ratio"]), "units": "ratios to the reference; p_bed over |rho_p - rho_f| g D"}
     fit.require_exchange(table)

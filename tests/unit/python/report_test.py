@@ -269,6 +269,13 @@ class Written(unittest.TestCase):
         self.assertEqual(sections.reason_of("error test: u_fine.y (0, 1)"), "error test: u_fine.y")
         self.assertEqual(sections.reason_of("stop at output"), "stop at output")
 
+    def test_a_run_that_drifts_has_the_command_that_goes_on(self):
+        run = types.SimpleNamespace(directory=Path("runs/bed"))
+        for state, steady, told in (("done", False, '--resume --until "40 s"'), ("done", True, None), ("stopped by the user", None, "--resume\n")):
+            text = sections.commands(run, {"model": "tfm", "state": state, "time_s": 20, "card": {"steady": steady}}).replace("&quot;", '"')
+            self.assertEqual("--resume" in text, told is not None)
+            self.assertIn(told or "polybed plot", text)
+
     def test_shares_of_steps(self):
         with tempfile.TemporaryDirectory() as scratch:
             path = Path(scratch) / "steps.csv"
