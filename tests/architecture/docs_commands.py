@@ -2,14 +2,17 @@
 """Every command in a ```sh block of the README, the docs and the cases runs and ends with 0; so does every ```python block.
 
 A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
-`polybed tfm` line gets `--until 0.1s` in place of its own end, a `polybed dem` or `polybed compare` line 1 ms, and replaces an earlier run of the same page;
-a sweep of `polybed cost` has runs of 0.01 s; a scan for the inversion velocity is by the two-fluid model, of runs of 0.8 s. Each page
-has a folder of its own, so that it must stand alone; what only answers on a shipped case is run once for all pages.
+`polybed tfm` line gets `--until 0.06s` in place of its own end, a `polybed dem` or `polybed compare` line 1 ms, and replaces an earlier run of the same page;
+a sweep of `polybed cost` has runs of 0.01 s; a scan for the inversion velocity is by the two-fluid model, of runs of 0.8 s; a fit
+draws its rows anew once.
+Each page has a folder of its own, so that it must stand alone; what only answers on a shipped case is run once for all pages, and so is a
+run of a shipped case, of which the next page that asks for it in the same words gets a copy, with the pictures drawn of it.
 Usage: docs_commands.py PROGRAM
 """
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -21,12 +24,13 @@ import open_mpi  # noqa: E402
 
 PYTHON = "/usr/bin/python3"
 MOST_NOT_RUN = 6
-SHORT = ["--until", "0.1 s", "--quiet", "--no-picture"]
+SHORT = ["--until", "0.06 s", "--quiet", "--no-picture"]
 SHORT_SCAN = ["--until", "0.8 s", "--set", 'output.history_every="2 ms"', *SHORT[2:]]
 ALONE = {"tfm", "dem", "compare", "check", "inversion"}  # commands that start no ranks of their own
 ANSWERS = {"check", "drag", "effects", "estimate", "explain", "inversion", "list", "schema"}
 SHORT_DEM = ["--until", "1 ms", *SHORT[2:]]  # its steps are microseconds
 SHORT_COST = ["--until", "0.01 s"]  # a sweep runs the case a dozen times
+SHORT_FIT = ["--bootstrap", "1"]
 
 
 def blocks(text):
@@ -52,6 +56,9 @@ def shortened(command, program):
     if words[:2] == [program, "cost"] and "--until" in words:
         at = words.index("--until")
         words[at:at + 2] = SHORT_COST
+    if words[:2] == [program, "fit"] and "--bootstrap" in words:
+        at = words.index("--bootstrap")
+        words[at:at + 2] = SHORT_FIT
     if "--scan" in words:
         words[words.index("--scan") + 1] = "tfm"
         words += SHORT_SCAN
@@ -66,6 +73,49 @@ def answered(words, before):
     known = tuple(words) in before
     before.add(tuple(words))
     return known
+
+
+def runs_of(words):
+    """The folder that a run of a shipped case writes, or that of a run in its usual place that is drawn; None for any other command."""
+    del words[1:3 if words[1:2] == ["-n"] else 1]
+    if len(words) < 3 or "-o" in words:
+        return None
+    model, case = words[1:3]
+    if model in ("tfm", "dem") and re.fullmatch(r"cases/[\w-]+/case\.toml", case):
+        return f"runs/{case.split('/')[1]}-{model}"
+    return case if words[1] == "plot" and len(words) == 3 and case.startswith("runs/") else None
+
+
+class Runs:
+    """Runs that an earlier page has made, by the folder that they write and the commands that wrote it."""
+
+    def __init__(self, folder):
+        self.folder, self.kept, self.done = folder, {}, {}
+
+    def begin_page(self):
+        self.done = {}  # commands that have written into a folder of this page
+
+    def before(self, words, scratch):
+        """Whether the same was run for an earlier page: its folder is put in place."""
+        place = runs_of(list(words))
+        if place is None:
+            return False
+        key = self.done.get(place, ()) + (tuple(words),)
+        if key not in self.kept:
+            return False
+        shutil.rmtree(os.path.join(scratch, place), ignore_errors=True)
+        shutil.copytree(self.kept[key], os.path.join(scratch, place))
+        self.done[place] = key
+        return True
+
+    def keep(self, words, scratch):
+        """After a command that ended well."""
+        place = runs_of(list(words))
+        if place is None or not os.path.isdir(os.path.join(scratch, place)):
+            return
+        key = self.done[place] = self.done.get(place, ()) + (tuple(words),)
+        self.kept[key] = os.path.join(self.folder, str(len(self.kept)))
+        shutil.copytree(os.path.join(scratch, place), self.kept[key])
 
 
 def run(command, program, scratch):
@@ -93,12 +143,33 @@ def self_test():
     assert [answered(["p", *words.split()], before) for words in ("check cases/a", "check cases/b", "check my-bed/a", "check cases/a",
                                                                   "check my-bed/a")] == [False, False, False, True, False]
     assert run("false", "p", ".")
+    assert runs_of(["p", "-n", "2", "tfm", "cases/a/case.toml", *SHORT]) == "runs/a-tfm"
+    assert runs_of(["p", "plot", "runs/a-tfm"]) == "runs/a-tfm"
+    assert [runs_of(["p", *words.split()]) for words in ("dem cases/a/case.toml -o b", "tfm my-bed/case.toml", "plot a --what fields",
+                                                         "check cases/a/case.toml")] == 4 * [None]
+    with tempfile.TemporaryDirectory() as folder:
+        runs, words = Runs(os.path.join(folder, "kept")), [["p", "tfm", "cases/a/case.toml"], ["p", "plot", "runs/a-tfm"]]
+        written = os.path.join(folder, "runs/a-tfm")
+        os.makedirs(written)
+        for again in (False, True):
+            runs.begin_page()
+            for n, asked in enumerate(words):
+                assert runs.before(asked, folder) == again
+                if not again:
+                    open(os.path.join(written, str(n)), "w").close()
+                    runs.keep(asked, folder)
+                assert sorted(os.listdir(written)) == ["0", "1"][:n + 1]
+        runs.begin_page()
+        assert not runs.before(words[1], folder), "nothing to draw on this page"
 
 
 if __name__ == "__main__":
     self_test()
     problems, ran, left, before = [], 0, 0, set()
+    kept = tempfile.TemporaryDirectory()
+    runs = Runs(kept.name)
     for path in tracked(".md"):
+        runs.begin_page()
         with tempfile.TemporaryDirectory() as scratch:
             for name in ("cases", "docs", "python"):
                 os.symlink(ROOT / name, os.path.join(scratch, name))
@@ -110,9 +181,13 @@ if __name__ == "__main__":
                     continue
                 ran += len(commands)
                 for command in commands:
-                    if answered(shortened(command, sys.argv[1]), before):
+                    words = shortened(command, sys.argv[1])
+                    if answered(words, before) or runs.before(words, scratch):
                         continue
-                    problems += [f"{path.relative_to(ROOT)}: {p}" for p in run(command, sys.argv[1], scratch)]
+                    wrong = run(command, sys.argv[1], scratch)
+                    problems += [f"{path.relative_to(ROOT)}: {p}" for p in wrong]
+                    if not wrong:
+                        runs.keep(words, scratch)
     if left > MOST_NOT_RUN:
         problems.append(f"{left} commands are marked no-run, at most {MOST_NOT_RUN}")
     print(f"{ran} commands run, {left} marked no-run")

@@ -74,7 +74,7 @@ class Comparison(Scratch):
 
     def given(self, *words, code=DONE):
         return self.ends(code, "compare", self.case, "--tfm", self.folder / "both/tfm", "--dem", self.folder / "both/dem",
-                         "-o", self.folder / "again", *words)
+                         "-o", self.folder / "again", "--no-picture", *words)
 
     def test_runs_both_and_says_the_same_of_them_afterwards(self):
         found = self.found

@@ -21,7 +21,7 @@ class Scan(Scratch):
     def runs(self):
         return {path.name: (path / "run.json").stat().st_mtime_ns for path in (self.folder / "scan/tfm").iterdir()}
 
-    def test_a_scan_its_file_and_what_is_reused(self):
+    def test_a_scan_its_file_what_is_reused_and_what_was_killed(self):
         told = self.scan(DONE).stdout
         found = strict_json((self.folder / "scan/inversion.json").read_text())
         scan = found["models"]["tfm"]
@@ -49,6 +49,7 @@ class Scan(Scratch):
         self.assertEqual(self.runs(), before)  # nothing was run again
         self.assertEqual(strict_json(again), found)
         self.assertEqual(self.scan(DONE).stdout.count("finished before"), len(lines))
+        self.what_was_killed_is_gone_on_with(found)
 
     def means_are_those_of_its_history(self, run):
         rows = history(self.folder / "scan" / run["directory"])
@@ -58,8 +59,7 @@ class Scan(Scratch):
         self.assertAlmostEqual(run["centre_difference"], mean, delta=1e-12)
         self.assertAlmostEqual(run["bed_height_m"], sum(rows["bed_height_m"][n] for n in at) / len(at), delta=1e-12)
 
-    def test_what_was_killed_is_gone_on_with(self):
-        whole = strict_json(self.scan(DONE, "--json").stdout)
+    def what_was_killed_is_gone_on_with(self, whole):
         last = self.folder / "scan" / whole["models"]["tfm"]["runs"][-1]["directory"]
         record = last / "run.json"
         record.write_text(record.read_text().replace('"state":"done"', '"state":"running"'))
