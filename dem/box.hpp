@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "dem/particles.hpp"
 
@@ -28,20 +29,44 @@ struct Opening {
   }
 };
 
-/// A flat wall, at rest, on one face of the box.
+/// A flat wall inside the box, along z from end to end and without thickness, that is met from either side and from its
+/// edges.
+struct Plate {
+  double x = 0, y = 0;              ///< of one edge, m
+  double along_x = 1, along_y = 0;  ///< to the other edge, m
+  double per_square = 1;            ///< 1 over the square of their distance, 1/m2
+
+  Plate() = default;
+  Plate(double x0, double y0, double x1, double y1)
+      : x(x0), y(y0), along_x(x1 - x0), along_y(y1 - y0), per_square(1 / (along_x * along_x + along_y * along_y)) {}
+
+  /// To a centre from the point of the plate that is nearest to it, m.
+  [[nodiscard]] Vector to(const Vector& centre) const {
+    const double dx = centre[0] - x, dy = centre[1] - y, share = (dx * along_x + dy * along_y) * per_square;
+    const double within = share < 0 ? 0 : (share > 1 ? 1 : share);
+    return {dx - within * along_x, dy - within * along_y, 0};
+  }
+};
+
+/// A flat wall, at rest, on one face of the box, or a plate inside it.
 struct Wall {
   int axis = 0;      ///< 0, 1, 2
   int side = 0;      ///< 0: at 0, 1: at the far end
   double place = 0;  ///< m
+  int plate = -1;    ///< which; -1: a face, and of a plate the rest is without meaning
   [[nodiscard]] bool is_bottom() const { return axis == 1 && side == 0; }
 };
 
 struct Box {
   Vector size{};  ///< along x, y (up), z, m
   std::array<bool, 3> periodic{};
-  std::vector<Wall> walls;         ///< of the directions that are not periodic; none where the box is open
+  std::vector<Wall> walls;         ///< of the directions that are not periodic; none where the box is open; then plates
+  std::vector<Plate> plates;       ///< inside
   std::optional<Opening> opening;  ///< in the bottom; absent: it is whole
   double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
+
+  /// Whether all its walls are whole faces.
+  [[nodiscard]] bool plain() const { return !opening && plates.empty(); }
 
   /// What is added to x and v_x of the image of a particle one box up, at a time, m and m/s. The first within +-L/2.
   [[nodiscard]] double image_shift(double time) const {

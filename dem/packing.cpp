@@ -55,6 +55,13 @@ double start_fraction(const core::Scene& scene) {
   return scene.bed.start_solids_fraction > 0 ? std::min(loose, scene.bed.start_solids_fraction) : loose;
 }
 
+/// Height above which the particles are placed, m: the top of the walls inside.
+double floor_of(const core::Scene& scene) {
+  double top = 0;
+  for (const core::InnerWall& wall : scene.walls) top = std::max({top, wall.from[1], wall.to[1]});
+  return top;
+}
+
 /// Height of each species by itself, at the solids fraction of the start, m.
 std::vector<double> heights(const core::Scene& scene, const Materials& materials, const Box& box,
                             const std::vector<std::int64_t>& numbers) {
@@ -72,14 +79,15 @@ std::vector<Layer> layers(const core::Scene& scene, const Materials& materials, 
   const std::vector<double> height = heights(scene, materials, box, numbers);
   double sum = std::accumulate(height.begin(), height.end(), 0.0);
   if (scene.bed.start.kind == core::StartKind::random) sum = box.size[1];
-  if (sum > box.size[1])
+  const double floor = floor_of(scene);
+  if (floor + sum > box.size[1])
     throw core::StartError(fmt::format(
         "column.size: the particles fill {:.4g} m of its height at a solids fraction of {:.3g}, which is more than it "
-        "has, {:.4g} m",
-        sum, start_fraction(scene), box.size[1]));
-  std::vector<Layer> layers(numbers.size(), {0, sum});
+        "has{}, {:.4g} m",
+        sum, start_fraction(scene), floor > 0 ? " above the top of [[wall]]" : "", box.size[1] - floor));
+  std::vector<Layer> layers(numbers.size(), {floor, floor + sum});
   if (scene.bed.start.kind != core::StartKind::layered) return layers;
-  double low = 0;
+  double low = floor;
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     layers[j] = {low, low + height[j]};
     low += height[j];
@@ -124,7 +132,7 @@ void place_without_overlap(std::vector<Particle>& particles, const std::vector<L
                            const Materials& materials, std::uint64_t seed) {
   if (particles.empty()) return;
   std::vector<Region> region;
-  double volume = 0, top = 0;
+  double volume = 0, top = 0, bottom = box.size[1];
   std::map<std::pair<double, double>, std::vector<Particle*>> together;
   for (Particle& p : particles) {
     const Layer& own = layer[std::size_t(p.species)];
@@ -133,11 +141,12 @@ void place_without_overlap(std::vector<Particle>& particles, const std::vector<L
     together[{own.low, own.high}].push_back(&p);
     volume += closures::sphere_volume(p.place.radius);
     top = std::max(top, own.high);
+    bottom = std::min(bottom, own.low);
   }
   for (auto& [heights, group] : together) spread(group, region[std::size_t(group.front()->id)], seed);
   HardSpheres spheres(particles, region, box, materials);
   push_apart(spheres, gap * materials.least_diameter());
-  equilibrate(spheres, materials.least_diameter(), volume / (box.size[0] * top * box.size[2]), seed);
+  equilibrate(spheres, materials.least_diameter(), volume / (box.size[0] * (top - bottom) * box.size[2]), seed);
   spheres.give_back(particles);
 }
 
@@ -158,7 +167,7 @@ double start_height(const core::Scene& scene, const Materials& materials, const 
   if (start != core::StartKind::mixed && start != core::StartKind::layered && start != core::StartKind::settled)
     return box.size[1];
   const std::vector<double> height = heights(scene, materials, box, particle_numbers(scene, materials, box));
-  return std::min(box.size[1], std::accumulate(height.begin(), height.end(), 0.0));
+  return std::min(box.size[1], floor_of(scene) + std::accumulate(height.begin(), height.end(), 0.0));
 }
 
 std::vector<Particle> start_particles(const core::Scene& scene, const Materials& materials, const Box& box) {

@@ -25,7 +25,8 @@ double most_contacts(double radius, double partner) {
   return std::max(16.0, 4 * (ratio + 1) * (ratio + 1));
 }
 
-constexpr double most_walls = 3;  ///< that a particle touches at once
+/// Walls that a particle touches at once; of those inside, two beside each other.
+double most_walls(const core::Scene& scene) { return scene.walls.empty() ? 3 : 5; }
 
 /// Speed that a fluid lets particles have: twice the terminal velocity of the fastest, or what they start with, and the
 /// inflow; or that of a channel. \param first  speed at the start, m/s
@@ -91,6 +92,10 @@ Box box_of(const core::Scene& scene) {
     if (axis != 1 || column.closed || scene.fluid.present())
       box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
   }
+  for (const core::InnerWall& wall : scene.walls) {
+    box.walls.push_back({0, 0, 0, int(box.plates.size())});
+    box.plates.emplace_back(wall.from[0], wall.from[1], wall.to[0], wall.to[1]);
+  }
   return box;
 }
 
@@ -142,7 +147,7 @@ FixedPoint force_unit(const core::Scene& scene, const Materials& materials, cons
   double most = 0;
   const auto& species = materials.species();
   for (int i = 0; i < int(species.size()); ++i) {
-    double sum = most_walls * force(materials.wall_kind(i));
+    double sum = most_walls(scene) * force(materials.wall_kind(i));
     for (int j = 0; j < int(species.size()); ++j)
       sum +=
           most_contacts(species[std::size_t(i)].radius, species[std::size_t(j)].radius) * force(materials.kind(i, j));

@@ -112,6 +112,11 @@ struct Jet {
   std::vector<std::pair<double, double>> superficial_velocity;  ///< as of the inlet, over the jet's own area
 };
 
+/// A flat wall inside the column, across its whole depth, that particles meet from either side.
+struct InnerWall {
+  std::vector<double> from, to;  ///< its ends, x and y, m
+};
+
 /// Solids of one species that are fed through the bottom or the top, everywhere or in a part of it.
 struct Feed {
   std::string species;
@@ -273,6 +278,7 @@ struct Scene {
   Inlet inlet;
   std::vector<Jet> jets;
   std::vector<Feed> feeds;
+  std::vector<InnerWall> walls;
   std::map<std::string, std::string> effects;  ///< role -> law; a role left out is off
   Chooser chooser;
   RunPlan run;

@@ -167,6 +167,17 @@ Table feed_table() {
       });
 }
 
+Table wall_table() {
+  return table(
+      "wall", &Scene::walls,
+      {
+          key(&InnerWall::from, "from", dimension::length, range(0, 1e3), Mark::required,
+              help("one end, [x, y] (width, height), of a flat wall inside the column for particles, across the whole "
+                   "depth; needs fluid.name = \"none\". What is placed at the start lies above all of them")),
+          key(&InnerWall::to, "to", dimension::length, range(0, 1e3), Mark::required, help("the other end")),
+      });
+}
+
 Table contact_pair_table() {
   return table(
       "contact_pair", &Scene::contact_pairs,
@@ -187,6 +198,6 @@ std::vector<Table> bed_tables() {
   return {title_table(), column_table(), fluid_table(), species_table(), bed_table(), inlet_table()};
 }
 
-std::vector<Table> part_tables() { return {jet_table(), feed_table(), contact_pair_table()}; }
+std::vector<Table> part_tables() { return {jet_table(), feed_table(), wall_table(), contact_pair_table()}; }
 
 }  // namespace polybed::core::schema

@@ -165,9 +165,17 @@ std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contact
   return p;
 }
 
+std::optional<Vector> ContactLoader::from_nearest(std::int32_t wall, const Vector& centre) const {
+  const Wall& w = box_.walls[std::size_t(wall)];
+  if (w.plate >= 0) return box_.plates[std::size_t(w.plate)].to(centre);
+  if (box_.opening && w.is_bottom()) return box_.opening->from_plate(centre);
+  return {};
+}
+
 double ContactLoader::distance_from(std::int32_t wall, const Place& place) const {
-  if (!box_.walls[std::size_t(wall)].is_bottom()) return height_over(wall, place);
-  const Vector d = box_.opening->from_plate(place.x);
+  const std::optional<Vector> from = from_nearest(wall, place.x);
+  if (!from) return height_over(wall, place);
+  const Vector& d = *from;
   return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
@@ -185,12 +193,12 @@ std::int32_t ContactLoader::find_walls_by(const Distance& distance, const Partic
   return p;
 }
 
-/// Chosen once for a batch: a bottom without an opening has no question to ask of its contacts.
+/// Chosen once for a batch: whole faces have no question to ask of their contacts.
 std::int32_t ContactLoader::find_walls(const Particles& particles, const Contacts& contacts, std::int32_t p,
                                        ContactBatch& b) const {
   const auto flat = [&](std::int32_t wall, const Place& place) { return height_over(wall, place); };
-  const auto open = [&](std::int32_t wall, const Place& place) { return distance_from(wall, place); };
-  return box_.opening ? find_walls_by(open, particles, contacts, p, b) : find_walls_by(flat, particles, contacts, p, b);
+  const auto any = [&](std::int32_t wall, const Place& place) { return distance_from(wall, place); };
+  return box_.plain() ? find_walls_by(flat, particles, contacts, p, b) : find_walls_by(any, particles, contacts, p, b);
 }
 
 void ContactLoader::load_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
@@ -208,11 +216,13 @@ void ContactLoader::load_pairs(const Particles& particles, const Contacts& conta
   core::in_vectors<split_velocity>(b);
 }
 
-/// Contacts with the bottom, loaded as with a flat one: n, arm and overlap as the opening has them.
-void ContactLoader::turn_to_plate(const Particles& particles, ContactBatch& b) const {
+/// Contacts with a bottom that has an opening and with plates, loaded as with a whole face: n, arm and overlap as the
+/// nearest point has them.
+void ContactLoader::turn_to_nearest(const Particles& particles, ContactBatch& b) const {
   for (int c = 0; c < b.count; ++c) {
-    if (!box_.walls[std::size_t(b.second[c])].is_bottom()) continue;
-    const Vector d = box_.opening->from_plate(particles.place[std::size_t(b.first[c])].x);
+    const std::optional<Vector> from = from_nearest(b.second[c], particles.place[std::size_t(b.first[c])].x);
+    if (!from) continue;
+    const Vector& d = *from;
     const double distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     for (std::size_t k = 0; k < 3; ++k) b.distance[k][c] = d[k] / distance;
     b.arm_i[c] = distance;
@@ -236,7 +246,7 @@ void ContactLoader::load_walls(const Particles& particles, const Contacts& conta
     b.arm_j[c] = 0;
     b.overlap[c] = radius - b.arm_i[c];
   }
-  if (box_.opening) turn_to_plate(particles, b);
+  if (!box_.plain()) turn_to_nearest(particles, b);
   core::in_vectors<load_memory>(contacts.memory.data(), contacts.memory_size, b);
   core::in_vectors<split_velocity>(b);
 }

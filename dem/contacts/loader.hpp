@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "dem/box.hpp"
@@ -42,12 +43,15 @@ class ContactLoader {
   };
   /// Distance of a centre from a flat wall, positive inside the box, m.
   [[nodiscard]] double height_over(std::int32_t wall, const Place& place) const;
-  /// The same where the bottom has an opening: of it the distance from what is left, never negative.
+  /// To a centre from the nearest point of what is left of a bottom with an opening, or of a plate; nothing: of a whole
+  /// face.
+  [[nodiscard]] std::optional<Vector> from_nearest(std::int32_t wall, const Vector& centre) const;
+  /// The same where the box is not plain: of these walls the distance from that point, never negative.
   [[nodiscard]] double distance_from(std::int32_t wall, const Place& place) const;
   template <class Distance>
   [[nodiscard]] std::int32_t find_walls_by(const Distance& distance, const Particles& particles,
                                            const Contacts& contacts, std::int32_t p, ContactBatch& batch) const;
-  void turn_to_plate(const Particles& particles, ContactBatch& batch) const;
+  void turn_to_nearest(const Particles& particles, ContactBatch& batch) const;
 
   const Box& box_;
   double reach_;

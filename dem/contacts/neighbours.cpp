@@ -259,8 +259,14 @@ void NeighbourSearch::find_walls(const Particles& particles, std::vector<Contact
   for (std::size_t i = 0; i < particles.owned; ++i)
     for (std::size_t w = 0; w < box_.walls.size(); ++w) {
       const Wall& wall = box_.walls[w];
-      const double s = particles.place[i].x[std::size_t(wall.axis)] - wall.place;
-      if ((wall.side == 0 ? s : -s) < particles.place[i].radius + reach_)
+      const Vector& x = particles.place[i].x;
+      double away = x[std::size_t(wall.axis)] - wall.place;
+      if (wall.side != 0) away = -away;
+      if (wall.plate >= 0) {
+        const Vector d = box_.plates[std::size_t(wall.plate)].to(x);
+        away = std::sqrt(d[0] * d[0] + d[1] * d[1]);
+      }
+      if (away < particles.place[i].radius + reach_)
         pairs.push_back({std::int32_t(i), std::int32_t(w), Images::here, materials_.wall_kind(particles.species[i])});
     }
 }

@@ -101,7 +101,9 @@ void expect(const core::Scene& scene, const Balance& balance, const CarriedBed& 
 std::optional<ExpectedDischarge> expected_discharge(const core::Scene& scene, double gravity) {
   const std::vector<double> share = shares_of(scene);
   const bool counted = scene.bed.particles.size() == scene.species.size();
-  if (!scene.dem.opening || share.empty() || !counted || !(scene.bed.solids_fraction > 0 && gravity > 0)) return {};
+  if (!scene.dem.opening || !scene.walls.empty() || share.empty() || !counted ||
+      !(scene.bed.solids_fraction > 0 && gravity > 0))
+    return {};
   std::vector<double> diameter;
   double mass = 0, density = 0;
   for (std::size_t j = 0; j < share.size(); ++j) {

@@ -92,6 +92,14 @@ KEYS = {
     "two jets overlap: [[jet]] number {} and {}": [jets(([0.01], [0.03]), ([0.02], [0.04]))],
     "feed.from and feed.to have {} and {} numbers: {} here": [feeds(", from=[0.02]")],
     "a feed from {} to {} m does not lie on the bottom, 0 to {} m": [feeds(", from=[0.02], to=[0.01]")],
+    "wall.from and wall.to have {} and {} numbers: 2 here, x and y": ["wall=[{from=[0.01], to=[0.02, 0.01]}]"],
+    "[[wall]] number {} does not lie in the column, {} m wide and {} m high": ["wall=[{from=[0, 0.1], to=[0.5, 0.01]}]"],
+    "[[wall]] number {} has no length: its ends are one point": ["wall=[{from=[0.01, 0.01], to=[0.01, 0.01]}]"],
+    **{f"[[wall]]: {told}": ["wall=[{from=[0, 0.05], to=[0.02, 0.01]}]", *words] for told, words in (
+        ('a fluid would pass through it; set fluid.name = "none"', []),
+        ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
+        ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
+        ('bed.start = "random" would place particles on both sides of it; use "mixed"', ["bed.start=random"]))},
     'feed.species = "{}": no such species': [feeds("", species="fin")],
     "a feed of {} of {} m/s at a velocity of {} m/s would be denser than the settled bed: raise feed.velocity above {} m/s": [
         feeds("", velocity=0.1)],
@@ -219,10 +227,8 @@ BROKEN = {
     'dem.hamaker_constant: effects.cohesion = "van_der_waals" needs it, as in 1e-19': ["effects.cohesion=van_der_waals"],
     "effects.liquid_bridge: a fluid of {} kg/m3 is a liquid, in which particles have no liquid bridges: leave it out": [
         "effects.liquid_bridge=willett", "dem.surface_tension=0.07", "dem.liquid_fraction=0.01"],
-    'dem.surface_tension: effects.liquid_bridge = "{}" needs it, as in "72 mN/m"': [
-        "effects.liquid_bridge=willett", "dem.liquid_fraction=0.01"],
-    'dem.liquid_fraction: effects.liquid_bridge = "{}" needs it, above 0, as in 0.01': [
-        "effects.liquid_bridge=willett", "dem.surface_tension=0.07"],
+    'dem.surface_tension: effects.liquid_bridge = "{}" needs it, as in "72 mN/m"': ["effects.liquid_bridge=willett", "dem.liquid_fraction=0.01"],
+    'dem.liquid_fraction: effects.liquid_bridge = "{}" needs it, above 0, as in 0.01': ["effects.liquid_bridge=willett", "dem.surface_tension=0.07"],
     'effects.cohesion = "{}" cannot be with effects.contact = "linear": '
     "it stands in place of Hertz' force, which linear springs have not": ["effects.cohesion=jkr", "effects.contact=linear"],
     'effects.contact = "linear" cannot be with effects.cohesion = "{}"': ["effects.cohesion=jkr", "effects.contact=linear"],

@@ -347,6 +347,15 @@ class DemRanks(Scratch):
         self.assertGreater(records[1]["particles"], 50)
         self.assertEqual(out + records[1]["particles"], 800)
 
+    def test_inner_walls(self):
+        """The block meets two slopes, whose contacts and friction are in the histories."""
+        sloped = "wall = [{from=[0, 0.006], to=[0.0045, 0]}, {from=[0.016, 0.006], to=[0.0115, 0]}]" + EMPTYING
+        rows = [row.split(",") for row in dropping()]  # 5 mm higher
+        rows = [",".join([a, x, repr(float(y) + 5e-3), *others]) for a, x, y, *others in rows]
+        self.check_same(self.scene(sloped, rows), restart=(2, 1), numbers=(1, 2))
+        contacts = h5py.File(self.folder / "on1/checkpoint.h5")["arrays/contacts"][()].reshape(-1, 11)  # ids, friction, ledger
+        self.assertTrue({-6.0, -7.0} & set(contacts[:, 1]))  # walls 0 to 4 are faces: bottom, sides, front and back
+
     def test_fewer_particles_than_ranks(self):
         rows = [f"a,{x * 1e-3},0.004,0.004,{v},{v},0,30,0,10" for x, v in ((1, 2.0), (3, 0.5), (4.5, -1.0))]
         self.check_same(self.scene(CROSSING, rows), restart=(8, 1), touching=False)

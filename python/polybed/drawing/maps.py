@@ -6,6 +6,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import EMPTY, fitted, length_unit
+from polybed.files import DamagedError
+from polybed.record import case_of
 
 HEIGHT, HEIGHT_IN_ROWS = 5.0, 3.4  # inches, the most, of maps in one row and in several
 WIDEST = 12.0  # inches, a row of maps
@@ -35,6 +37,14 @@ def map_size(run, top, most):
     return width, min(most, width / aspect)
 
 
+def inner_walls(run):
+    """Ends of the walls inside the column, m."""
+    try:
+        return [(wall["from"], wall["to"]) for wall in case_of(run.record).get("wall", [])]
+    except DamagedError:
+        return []
+
+
 def frame(axes, run, title, top, first):
     """Axes that show the column up to a height, to scale, in the unit of the run."""
     factor, unit = length_unit(run)
@@ -46,6 +56,8 @@ def frame(axes, run, title, top, first):
     axes.set_xlabel(f"x ({unit})")
     axes.set_ylim(0, top * factor)
     axes.spines[["top", "right"]].set_visible(True)
+    for start, end in inner_walls(run):
+        axes.plot([start[0] * factor, end[0] * factor], [start[1] * factor, end[1] * factor], color="black", linewidth=1)
     if first:
         axes.set_ylabel(f"y ({unit})")
     else:

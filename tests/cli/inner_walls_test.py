@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+"""A hopper with inclined sides: it empties, where a flat bottom keeps a heap on either side. Usage: inner_walls_test.py PROGRAM"""
+import h5py
+import numpy as np
+
+import program
+from program import DONE, WRONG_CASE, Scratch, strict_json
+
+BED = """title = "a hopper"
+[column]
+size = ["30 mm", "60 mm"]
+cells = [6, 12]
+[fluid]
+name = "none"
+[[species]]
+name = "beads"
+diameter = "1.5 mm"
+density = 2500
+[bed]
+particles = [300]
+solids_fraction = 0.6
+start = "mixed"
+[effects]
+contact = "hertz_mindlin"
+others = "none"
+[dem]
+opening = "9 mm"
+friction = 0.2
+restitution = 0.7
+[run]
+until = "0.5 s"
+[output]
+every = "50 ms"
+history_every = "5 ms"
+"""
+# Sides of 60 degrees to the rim of the opening; friction 0.2 holds nothing beyond 11 degrees.
+SIDES = """[[wall]]
+from = ["0 mm", "18.2 mm"]
+to = ["10.5 mm", "0 mm"]
+[[wall]]
+from = ["30 mm", "18.2 mm"]
+to = ["19.5 mm", "0 mm"]
+"""
+
+
+class Hopper(Scratch):
+    def run_of(self, name, text, *words):
+        case = self.write(f"{name}.toml", text)
+        directory = self.folder / name
+        return strict_json(self.ends(DONE, "dem", case, "--quiet", "--json", "-o", directory, *words).stdout), directory
+
+    def test_inclined_sides_empty_it(self):
+        flat, _ = self.run_of("flat", BED)
+        steep, directory = self.run_of("steep", BED + SIDES)
+        self.assertGreater(flat["particles"], 15)  # what rests beside the opening
+        self.assertEqual(steep["particles"], 0)
+        self.assertEqual(steep["outflow"]["beads"]["particles"], 300)
+        for record in (flat, steep):
+            self.assertLess(record["energy"]["worst_error"], record["energy"]["limit"])
+        # on the way no centre passes a side: all are at least their radius, less the greatest overlap of 5 %, above it
+        with h5py.File(directory / "particles.h5") as file:
+            seen = 0
+            for step in file["step"].values():
+                x, y, _ = step["position"][()].reshape(-1, 3).T
+                x = np.minimum(x, 0.03 - x)  # both sides as the left one, whose plane is 18.2 x + 10.5 y = 10.5 18.2 mm2
+                distance = (18.2 * x + 10.5 * y - 10.5 * 18.2e-3) / np.hypot(18.2, 10.5)
+                held = y > 0.75e-3
+                seen += np.count_nonzero(held)
+                self.assertGreater(np.min(distance[held], initial=1), 0.675e-3)
+        self.assertGreater(seen, 300)
+
+    def test_a_wall_needs_a_dry_column(self):
+        wet = BED.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"') + SIDES
+        told = self.ends(WRONG_CASE, "dem", self.write("wet.toml", wet), "-o", self.folder / "wet").stderr
+        self.assertIn('a fluid would pass through it; set fluid.name = "none"', told)
+
+    def test_the_resolved_case_keeps_them(self):
+        resolved = strict_json(self.ends(DONE, "check", self.write("a.toml", BED + SIDES), "--json").stdout)["case"]
+        self.assertEqual(resolved.count("[[wall]]"), 2)
+
+
+if __name__ == "__main__":
+    program.main()
