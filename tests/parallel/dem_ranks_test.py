@@ -188,21 +188,17 @@ WITH_FLUID = BRIEF.replace('name = "none"', 'name = "water"\ntemperature = "20 d
 def in_corner():
     """A block of 12 by 24 particles that all fly towards the other end of the column."""
     spread = random.Random(1)
-    rows = [f"a,{(1.02 * i + 0.6) * 1e-3},{(1.02 * j + 0.6) * 1e-3},{0.0011 + spread.uniform(-2e-4, 2e-4)},"
+    return [f"a,{(1.02 * i + 0.6) * 1e-3},{(1.02 * j + 0.6) * 1e-3},{0.0011 + spread.uniform(-2e-4, 2e-4)},"
             f"{spread.uniform(0.5, 1.5)},{spread.uniform(-0.5, 0.5)},{spread.uniform(-0.1, 0.1)},0,0,0"
             for i in range(12) for j in range(24)]
-    return rows
 
 
 def crossing():
     """A crowd that drifts along the diagonal once around the box, in motion and spinning."""
     spread = random.Random(2)
-    rows = []
-    for n in range(125):
-        place = [(1.1 * k + 0.3) * 1e-3 for k in (n % 5, n // 5 % 5, n // 25)]
-        velocity = [0.8 + spread.uniform(-0.4, 0.4) for _ in range(3)]
-        rows.append(",".join(map(str, ["a", *place, *velocity, *(spread.uniform(-300, 300) for _ in range(3))])))
-    return rows
+    return [",".join(map(str, ["a", *((1.1 * k + 0.3) * 1e-3 for k in (n % 5, n // 5 % 5, n // 25)),
+                               *(0.8 + spread.uniform(-0.4, 0.4) for _ in range(3)),
+                               *(spread.uniform(-300, 300) for _ in range(3))])) for n in range(125)]
 
 
 def dropping():
