@@ -121,13 +121,14 @@ class Ranks(Scratch):
         residual, 1e-12, moves it by some 1e-13, and the pressure, which starts each stage anew, by a hundred times as
         much (measured: 1e-10 of p, 1e-11 of the velocities)."""
         self.check_equal(*FLAT, *TIGHT, "--set", 'tfm.integrator="explicit"', "--set", "run.until=0.05",
-                         "--set", "output.every=0.05", same=1e-9)
+                         "--set", "output.every=0.05", "--set", "output.history_every=0.05", same=1e-9)
 
     def test_implicit_steps_agree_within_the_tolerance(self):
         """The algebraic multigrid coarsens each block by itself, so that Newton stops elsewhere within its tolerance,
         which is below rtol; fields may differ by rtol and no more."""
         self.check_equal(*FLAT, "--quiet", "--set", 'tfm.integrator="implicit"', "--set", "tfm.rtol=1e-5",
-                         "--set", "run.until=0.02", "--set", "output.every=0.02", same=1e-4)
+                         "--set", "run.until=0.02", "--set", "output.every=0.02", "--set", "output.history_every=0.02",
+                         same=1e-4)
 
     def test_restart_on_other_ranks(self):
         words = [CASE, *FLAT, *FIXED, *TIGHT]
