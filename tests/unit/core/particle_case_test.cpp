@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
                     dem("cohesion_gap = 0", "dem.cohesion_gap = 0 is out of range: above 0, at most 1 m"),
                     dem("surface_tension = 0", "dem.surface_tension = 0 is out of range: above 0, at most 10 N/m"),
                     dem("contact_angle = 91", "dem.contact_angle = 91 is out of range: at least 0, at most 90"),
-                    dem("liquid_fraction = 0.2", "dem.liquid_fraction = 0.2 is out of range: at least 0, at most 0.1"),
+                    dem("liquid_fraction = 2", "dem.liquid_fraction = 2 is out of range: at least 0, at most 0.1"),
                     dem("shear_rate = 2", "dem.shear_rate = 2 1/s needs column.sides = \"periodic\""),
                     dem("shear_rate = 2", "dem.shear_rate = 2 1/s needs column.ends = \"periodic\""),
                     dem("shear_rate = 2", "dem.shear_rate = 2 1/s needs column.gravity = 0, it is 9.81 m/s2")));
