@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/numerics/random.hpp"
+#include "dem/contacts/batch.hpp"
 
 namespace polybed::dem {
 
@@ -64,9 +65,10 @@ void push_all(HardSpheres& spheres, const std::vector<Push>& pushes) {
     const Vector d{a.x[0] - b.x[0] - shift[0], a.x[1] - b.x[1] - shift[1], a.x[2] - b.x[2] - shift[2]};
     if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < double(p.distance) * double(p.distance)) push(a, b, d, p);
   }
+  const auto& bounds = spheres.bounds();
+  POLYBED_INDEPENDENT
   for (std::size_t i = 0; i < place.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      place[i].x[k] = std::clamp(place[i].x[k], spheres.bounds()[i].low[k], spheres.bounds()[i].high[k]);
+    for (std::size_t k = 0; k < 3; ++k) place[i].x[k] = std::clamp(place[i].x[k], bounds[i].low[k], bounds[i].high[k]);
 }
 
 double touching(HardSpheres& spheres, const Contacts::Pair& pair) {
