@@ -76,8 +76,8 @@ class Resolve(Scratch):
         self.resolve("--resume", code=FILE)
 
     def test_a_box_goes_on_where_it_was_stopped(self):
-        # Double precision, whose limit of change it takes a second or two to reach; 36 spheres in one box.
-        words = ["--set", "resolve.reynolds=[5]", "--set", "resolve.packings=1", "--set", "resolve.spheres=36",
+        # Double precision, whose limit of change it takes a second to reach; 22 spheres in one box.
+        words = ["--set", "resolve.reynolds=[5]", "--set", "resolve.packings=1", "--set", "resolve.spheres=22",
                  "--set", 'resolve.precision="double"', "--set", 'resolve.checkpoint_every="1 ms"']
         rows = self.resolve(*words).stdout
         self.assertFalse((self.out / "box.h5").exists())

@@ -19,7 +19,8 @@ TEST(ContinuumScene, IsToldWithAllItsKeysAtOnce) {
     refuse_continuum_scene(scene);
     FAIL() << "not refused";
   } catch (const core::CaseError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("column.outlet = \"open\": polybed tfm can run it, polybed dem cannot"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("column.outlet = \"open\": polybed tfm can run it, polybed dem cannot"));
     EXPECT_THAT(error.what(), testing::HasSubstr("[[feed]]: polybed tfm can run it, polybed dem cannot"));
   }
 }
