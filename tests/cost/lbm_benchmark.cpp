@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
-#include <random>
 
 #include "lbm/flow.hpp"
+#include "tests/cost/lbm_boxes.hpp"
 
 namespace {
 
@@ -51,26 +51,10 @@ double copy_rate(std::size_t bytes, int copies) {
   return double(bytes) * copies / seconds;
 }
 
-/// Spheres of ten cells on a jittered lattice: about this many links and gaps a random packing of that voidage has.
-std::vector<Sphere> spheres(int edge, double solids) {
-  std::vector<Sphere> made;
-  const int across = std::max(1, int(edge / (10 * std::cbrt(0.5236 / solids))));
-  const double pitch = double(edge) / across, radius = pitch * std::cbrt(3 * solids / (4 * M_PI));
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> jitter(-0.1 * pitch, 0.1 * pitch);
-  for (int i = 0; i < across; ++i)
-    for (int j = 0; j < across; ++j)
-      for (int k = 0; k < across; ++k)
-        made.push_back({{(i + 0.5) * pitch + jitter(random), (j + 0.5) * pitch + jitter(random),
-                         (k + 0.5) * pitch + jitter(random)},
-                        radius});
-  return made;
-}
-
 template <class Real>
 void measure(const char* name, int edge, double solids, bool inertia) {
   const FlowSetup setup{{edge, edge, edge}, 1.0 / 6, inertia, Wall::interpolated};
-  Flow<Real> flow(setup, Spheres(solids > 0 ? spheres(edge, solids) : std::vector<Sphere>{}, setup.box));
+  Flow<Real> flow(setup, Spheres(jittered_spheres<Sphere>(edge, solids), setup.box));
   const double sites = double(edge) * edge * edge, moved = 2.0 * directions * sizeof(Real);
   const int steps = std::max(2, int(4e6 / sites));
   std::vector<double> rate, copied, part;

@@ -7,8 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <random>
 #include <vector>
+
+#include "lbm_boxes.hpp"
 
 using Real = PRECISION;
 #define LATTICE plb::descriptors::ForcedD3Q19Descriptor
@@ -20,23 +21,6 @@ using Lattice = plb::MultiBlockLattice3D<Real, LATTICE>;
 struct Sphere {
   double centre[3], radius;
 };
-
-/// As in lbm_benchmark.cpp.
-std::vector<Sphere> spheres(int edge, double solids) {
-  std::vector<Sphere> made;
-  if (solids == 0) return made;
-  const int across = std::max(1, int(edge / (10 * std::cbrt(0.5236 / solids))));
-  const double pitch = double(edge) / across, radius = pitch * std::cbrt(3 * solids / (4 * M_PI));
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> jitter(-0.1 * pitch, 0.1 * pitch);
-  for (int i = 0; i < across; ++i)
-    for (int j = 0; j < across; ++j)
-      for (int k = 0; k < across; ++k)
-        made.push_back({{(i + 0.5) * pitch + jitter(random), (j + 0.5) * pitch + jitter(random),
-                         (k + 0.5) * pitch + jitter(random)},
-                        radius});
-  return made;
-}
 
 /// Whether a site is in a sphere, the box being periodic.
 class Covered : public plb::DomainFunctional3D {
@@ -89,7 +73,7 @@ Lattice make(const std::vector<char>& covered, int edge, Real force) {
 double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 double rate(int edge, double solids) {
-  Lattice lattice = make(sites_in(spheres(edge, solids), edge), edge, Real(1e-6));
+  Lattice lattice = make(sites_in(jittered_spheres<Sphere>(edge, solids), edge), edge, Real(1e-6));
   const double sites = double(edge) * edge * edge;
   const int steps = std::max(4, int(8e6 / sites));
   lattice.collideAndStream();
