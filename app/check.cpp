@@ -253,9 +253,8 @@ void add_left_out(const core::Scene& scene, const std::string& model, std::vecto
 
 /// Effects that make a run of particles much longer.
 void note_costs(const core::Scene& scene, std::vector<std::string>& notes) {
-  constexpr double much = 1.25;
   for (const auto& [role, law] : scene.effects)
-    if (const double times = steps_by(scene, role); times > much)
+    if (const double times = steps_by(scene, role); times > many_more_steps)
       notes.push_back(fmt::format("{} = \"{}\" makes polybed dem take {:.2g} times as long: its steps are shorter",
                                   role, law, times));
 }

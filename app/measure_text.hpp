@@ -16,7 +16,7 @@ struct MeasuredColumn {
   std::vector<measures::Value> values;
 };
 
-/// All values, in blocks of as many columns as fit. \param of_run  the first column is the time, and stands in each block
+/// All values, in blocks of as many columns as fit. \param of_run  the first column is the time, which each block repeats
 void print_table(const std::vector<MeasuredColumn>& columns, bool of_run);
 
 /// Of each measure of a run its mean over the last quarter with the interval, and its value at the end: those of its

@@ -98,8 +98,6 @@ const std::vector<Term>& terms() {
        "smaller cells"},
       {"charge", "row of polybed effects", "force between charged particles, which polybed does not model",
        "chooser.charge weighs it"},
-      {"capillary_bridges", "row of polybed effects",
-       "pull of liquid between moist particles, which polybed does not model", "chooser.free_liquid weighs it"},
       {"sintering", "row of polybed effects", "particles that soften and stick, which polybed does not model", ""},
       {"pareto", "outcome", "of polybed cost: no other setting is both cheaper and nearer to the reference", ""},
       {"dominated", "outcome", "of polybed cost: another setting is cheaper and at least as near to the reference", ""},

@@ -44,6 +44,9 @@ struct ParticleRequirements {
 /// core::CaseError for what the particle model could not build.
 [[nodiscard]] ParticleRequirements particle_requirements_of(const core::Scene& scene, const ParticleSpeed& speed = {});
 
+/// Of steps_by: from here on people are told.
+inline constexpr double many_more_steps = 1.25;
+
 /// How many times as many steps a run of particles takes with an effect that the scene has on: 1 where the effect does
 /// not shorten the step, or a run without it is not known.
 [[nodiscard]] double steps_by(const core::Scene& scene, const std::string& role);

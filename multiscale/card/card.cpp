@@ -132,8 +132,8 @@ std::string card_line(const std::string& heading, const std::string& text) {
 
 std::string mean_text(const Mean& mean, double scale, const std::string& unit) {
   constexpr double shown = 1e-4;  // of the value: four digits
-  const bool tells = mean.interval && *mean.interval > shown * std::abs(mean.value);
-  const std::string interval = tells ? " ± " + one_digit(scale * *mean.interval) : "";
+  const bool is_seen = mean.interval && *mean.interval > shown * std::abs(mean.value);
+  const std::string interval = is_seen ? " ± " + one_digit(scale * *mean.interval) : "";
   return fmt::format("{:.4g}{}{}", scale * mean.value, interval, unit);
 }
 

@@ -164,14 +164,13 @@ std::string sums_text(const core::Scene& scene, const relevance::Choice& choice)
 
 /// What an effect that is to be switched on costs, where that is known: empty where it hardly costs.
 std::string cost_text(const core::Scene& scene, const relevance::Choice& choice, const relevance::EffectRow& row) {
-  constexpr double much = 1.25;
   const relevance::MenuEntry* entry = find_entry(row.effect);
   if (entry == nullptr || !acts_in(row, {"dem"})) return "";
   core::Scene with = with_choice(scene);
   with.effects[row.effect] = row.model;
   if (entry->effect->set_keys) entry->effect->set_keys(with, choice.surfaces);
   const double times = steps_by(with, row.effect);
-  return times > much ? fmt::format("; polybed dem takes {:.2g} times as long with it", times) : "";
+  return times > many_more_steps ? fmt::format("; polybed dem takes {:.2g} times as long with it", times) : "";
 }
 
 /// A line for the case with its reason, beside it where that fits. A change that is a choice stands behind #.

@@ -56,7 +56,7 @@ inline core::Broken bridges_in_a_liquid(const core::Scene& scene) {
 inline const Effect liquid_bridge{
     .role = "liquid_bridge",
     .help = "pull of liquid between wet particles in a gas",
-    .absent = "DEM only",
+    .absent = "no law of it in the two-fluid model",
     .laws = {{"willett",
               "pendular bridges that form at contact and rupture apart: dem.surface_tension, dem.liquid_fraction",
               "2 pi R gamma cos(theta)/(1 + 1.05 s + 2.5 s^2), s = gap sqrt(R/V); Willett et al. 2000"}},
@@ -72,6 +72,7 @@ inline const Effect liquid_bridge{
                  "dem.liquid_fraction: effects.liquid_bridge = \"{}\" needs it, above 0, as in 0.01",
                  [](const core::Scene& scene) { return !(scene.material.liquid_fraction > 0); })},
     .number = "pull of a bridge over weight (Bond number)",
+    .phrase = "pull of liquid between particles: {} the weight",
     .weigh = weigh_liquid_bridge,
     .set_keys = set_liquid_bridge_keys};
 
