@@ -244,7 +244,7 @@ struct Resolve {
   int grids = 2;                             ///< each coarser by 1.5
   int packings = 5, spheres = 50;            ///< per row; in a box
   Precision precision = Precision::one;
-  double checkpoint_every = 600;  ///< s of time on the clock
+  double checkpoint_every = 600;  ///< s on the clock, between checkpoints of a box
 };
 
 struct ContactPair {

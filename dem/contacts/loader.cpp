@@ -137,7 +137,7 @@ double ContactLoader::height_over(std::int32_t wall, const Place& place) const {
 std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
                                        std::int32_t p, std::int32_t end, ContactBatch& b) const {
   // The processor does not see coming which particles a pair names. With more of them than its caches hold it would
-  // wait for their places here, and for what the rest of the batch's way needs of them.
+  // wait for their places here, and for their motion and loads in what follows.
   constexpr std::int32_t ahead = 16;
   const Place* place = particles.place.data();
   const Motion* motion = particles.motion.data();

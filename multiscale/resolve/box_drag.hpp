@@ -45,7 +45,7 @@ struct BoxNeed {
 using StillWanted = std::function<bool(double steps, double change)>;
 
 /// Collective. The flow stops when its drag changes by less than 1e-5 (single precision: 1e-4) while a pore forgets its
-/// past, or after 200 such times: `change` tells what is left. Throws core::Stopped if it is not wanted any more,
+/// past, or after 200 such times: `change` tells what is left. Throws core::Stopped once `wanted` returns false,
 /// core::NumericsError. \param kept  where the flow is kept from time to time, when it is stopped, and taken up again
 [[nodiscard]] BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                                std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted,

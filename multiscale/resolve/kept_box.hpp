@@ -11,8 +11,8 @@ namespace polybed::multiscale {
 
 struct KeptBox {
   std::filesystem::path path;
-  std::string name;    ///< box_name: the file of another box is left alone
-  double every = 600;  ///< s of time on the clock, between two writings
+  std::string name;  ///< box_name: the file of another box is left alone
+  double every = 0;  ///< s on the clock between two writings
 
   /// How far the flow in the file has come.
   struct Stand {
