@@ -69,8 +69,7 @@ double product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b
 
 }  // namespace
 
-Totals totals_of(const Model& model) {
-  Totals totals;
+TotalsOfRanks::TotalsOfRanks(const Model& model) : model_(model) {
   const FixedPoint unit = model.energy_unit(), momentum_unit = model.momentum_unit();
   Sum kinetic(unit), rotational(unit), potential(unit), elastic(unit), highest(unit);
   std::array<Sum, 3> momentum{Sum(momentum_unit), Sum(momentum_unit), Sum(momentum_unit)};
@@ -89,34 +88,52 @@ Totals totals_of(const Model& model) {
     for (std::size_t k = 0; k < 3; ++k) momentum[k].add(m.v[k] / m.inverse_mass);
     fastest = std::max(fastest, vv);
   }
-  totals.greatest_speed = std::sqrt(fastest);
+  greatest_.greatest_speed = std::sqrt(fastest);
   for (std::size_t j = 0; j < number.size(); ++j)
     highest.add(far / (1 / model.materials().species()[j].mass), number[j]);
-  add_contacts(model, model.pairs(), false, elastic, totals);
-  add_contacts(model, model.walls(), true, elastic, totals);
+  add_contacts(model, model.pairs(), false, elastic, greatest_);
+  add_contacts(model, model.walls(), true, elastic, greatest_);
   const CountedEnergy counted = model.counted_energy();
   EnergySum work = counted.flow_work;
   work.add(counted.fluid_work);
-  std::array<EnergySum, 10> sums{
+  const std::array<EnergySum, energies> sums{
       kinetic.sum(), rotational.sum(),  potential.sum(),   elastic.sum(),     counted.dissipated,
       work,          momentum[0].sum(), momentum[1].sum(), momentum[2].sum(), highest.sum()};
-  add_over_ranks(model.ranks(), sums);
-  std::array<std::int64_t, 1> contacts{totals.contacts};
-  core::add_over_ranks(model.ranks(), contacts);
-  totals.kinetic = sums[0].units() * unit.unit;
-  totals.rotational = sums[1].units() * unit.unit;
-  totals.potential = sums[2].units() * unit.unit;
-  totals.elastic = sums[3].units() * unit.unit;
-  totals.dissipated = sums[4].units() * unit.unit;
-  totals.work = sums[5].units() * unit.unit;
-  if (model.outflow() != nullptr) totals.carried_out = model.outflow()->energy.units() * unit.unit;
-  totals.rounding = rounding_of_places(sums[9].units() * unit.unit, model.steps());
-  totals.contacts = contacts[0];
-  for (std::size_t k = 0; k < 3; ++k) totals.momentum[k] = sums[6 + k].units() * momentum_unit.unit;
-  totals.max_overlap = core::greatest_of_ranks(model.ranks(), totals.max_overlap);
-  totals.max_force = core::greatest_of_ranks(model.ranks(), totals.max_force);
-  totals.greatest_speed = core::greatest_of_ranks(model.ranks(), totals.greatest_speed);
+  for (std::size_t n = 0; n < energies; ++n) {
+    sums_[2 * n] = sums[n].whole();
+    sums_[2 * n + 1] = sums[n].part();
+  }
+  sums_.back() = greatest_.contacts;
+}
+
+void TotalsOfRanks::put_greatest_into(core::Reduction& all) {
+  for (double* value : {&greatest_.max_overlap, &greatest_.max_force, &greatest_.greatest_speed}) all.greatest(*value);
+}
+
+Totals TotalsOfRanks::totals() const {
+  const auto units = [this](std::size_t n) { return EnergySum(sums_[2 * n], sums_[2 * n + 1]).units(); };
+  const double unit = model_.energy_unit().unit, momentum_unit = model_.momentum_unit().unit;
+  Totals totals = greatest_;
+  totals.kinetic = units(0) * unit;
+  totals.rotational = units(1) * unit;
+  totals.potential = units(2) * unit;
+  totals.elastic = units(3) * unit;
+  totals.dissipated = units(4) * unit;
+  totals.work = units(5) * unit;
+  if (model_.outflow() != nullptr) totals.carried_out = model_.outflow()->energy.units() * unit;
+  totals.rounding = rounding_of_places(units(9) * unit, model_.steps());
+  totals.contacts = sums_.back();
+  for (std::size_t k = 0; k < 3; ++k) totals.momentum[k] = units(6 + k) * momentum_unit;
   return totals;
+}
+
+Totals totals_of(const Model& model) {
+  TotalsOfRanks of_ranks(model);
+  core::Reduction all;
+  of_ranks.put_greatest_into(all);
+  of_ranks.put_sums_into(all);
+  all.over(model.ranks());
+  return of_ranks.totals();
 }
 
 EnergySum energy_leaving(const Model& model) {

@@ -1,9 +1,11 @@
 // What is measured of the particles as a whole.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "core/numerics/reduction.hpp"
 #include "dem/model.hpp"
 
 namespace polybed::dem {
@@ -43,7 +45,23 @@ struct Totals {
   return miss > 0 ? miss / greatest_energy : 0;
 }
 
-/// Collective: the same on every rank, and on any number of ranks to the bit.
+/// Of this rank's particles and contacts, then of all ranks' once reductions have put them together: the same on every
+/// rank, and on any number of ranks to the bit.
+class TotalsOfRanks {
+ public:
+  explicit TotalsOfRanks(const Model& model);
+  void put_greatest_into(core::Reduction& all);
+  void put_sums_into(core::Reduction& all) { all.sum(sums_); }
+  [[nodiscard]] Totals totals() const;
+
+ private:
+  static constexpr std::size_t energies = 10;  ///< and momenta, each in whole units and parts of one
+  const Model& model_;
+  Totals greatest_;                                    ///< overlap, force and speed
+  std::array<std::int64_t, 2 * energies + 1> sums_{};  ///< those of EnergySum, then contacts
+};
+
+/// Those of all ranks. Collective.
 [[nodiscard]] Totals totals_of(const Model& model);
 
 /// In the unit of energy: what this rank's particles that are about to leave hold, of motion, spin and gravity, and the

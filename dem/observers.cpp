@@ -49,17 +49,14 @@ std::vector<double> slab_centres(const measures::Slabs& slabs) {
   return y;
 }
 
-/// The bed of particles as a profile, summed by every rank over its own particles: nothing is gathered.
-struct BedSums {
-  measures::ParticleProfile profile;
-  std::vector<std::optional<double>> centre;  ///< mean height of the centres of a species, m
-  std::vector<std::int64_t> number;           ///< of its particles
-};
-
-/// What fixes the units of the sums, of all ranks.
+/// What fixes the units of the sums over particles: of this rank's, of all once a reduction has put them together.
 struct Greatest {
   measures::ParticleExtremes of;
   double height = 0;  ///< m
+
+  void put_into(core::Reduction& all) {
+    for (double* value : {&of.volume, &of.momentum, &of.energy, &height}) all.greatest(*value);
+  }
 };
 
 Greatest greatest_of(const Model& model) {
@@ -73,37 +70,66 @@ Greatest greatest_of(const Model& model) {
     most.height = std::max(most.height, std::abs(particles.place[i].x[1]));
   }
   most.of.particles = model.particle_count();
-  for (double* value : {&most.of.volume, &most.of.momentum, &most.of.energy, &most.height})
-    *value = core::greatest_of_ranks(model.ranks(), *value);
   return most;
 }
 
-/// Collective: the same on every rank, and on any number of ranks to the bit.
-BedSums bed_sums(const Model& model, const measures::Slabs& slabs) {
-  const Particles& particles = model.particles();
-  const std::size_t species = model.materials().species().size();
-  const Greatest most = greatest_of(model);
-  measures::ParticleAdder adder(species, slabs, most.of);
-  std::vector<measures::SteadySum> height(species, {model.particle_count(), most.height});
-  std::vector<std::int64_t> number(species, 0);
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    const auto j = std::size_t(particles.species[i]);
-    const Place& place = particles.place[i];
-    adder.add(j, place.radius, place.x[1], particles.motion[i].v);
-    height[j].add(place.x[1]);
-    ++number[j];
+/// The bed of particles as a profile, summed by every rank over its own particles: nothing is gathered. Once a
+/// reduction has put the sums together the same on every rank, and on any number of ranks to the bit.
+class BedSums {
+ public:
+  /// \param most  of all ranks
+  BedSums(const Model& model, const measures::Slabs& slabs, const Greatest& most)
+      : slabs_(slabs),
+        species_(model.materials().species().size()),
+        height_unit_(model.particle_count(), most.height),
+        heights_(species_, 0),
+        number_(species_, 0) {
+    const Particles& particles = model.particles();
+    measures::ParticleAdder adder(species_, slabs, most.of);
+    std::vector<measures::SteadySum> height(species_, height_unit_);
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      const auto j = std::size_t(particles.species[i]);
+      const Place& place = particles.place[i];
+      adder.add(j, place.radius, place.x[1], particles.motion[i].v);
+      height[j].add(place.x[1]);
+      ++number_[j];
+    }
+    sums_ = adder.take();
+    for (std::size_t j = 0; j < species_; ++j) heights_[j] = height[j].units();
   }
-  measures::ParticleSums sums = adder.take();
-  core::add_over_ranks(model.ranks(), sums.sum);
-  std::vector<std::int64_t> heights;
-  for (const measures::SteadySum& h : height) heights.push_back(h.units());
-  core::add_over_ranks(model.ranks(), heights);
-  core::add_over_ranks(model.ranks(), number);
-  BedSums bed{measures::particle_profile(sums, species, slabs), {}, number};
-  for (std::size_t j = 0; j < species; ++j)
-    bed.centre.push_back(number[j] > 0 ? std::optional(height[j].value_of(heights[j]) / double(number[j]))
-                                       : std::nullopt);
-  return bed;
+  void put_into(core::Reduction& all) {
+    for (std::vector<std::int64_t>* sums : {&sums_.sum, &heights_, &number_}) all.sum(*sums);
+  }
+
+  [[nodiscard]] measures::ParticleProfile profile() const { return particle_profile(sums_, species_, slabs_); }
+  /// Of particles of each species.
+  [[nodiscard]] const std::vector<std::int64_t>& number() const { return number_; }
+  /// Mean height of the centres of each species, m.
+  [[nodiscard]] std::vector<std::optional<double>> centre() const {
+    std::vector<std::optional<double>> found(species_);
+    for (std::size_t j = 0; j < species_; ++j)
+      if (number_[j] > 0) found[j] = height_unit_.value_of(heights_[j]) / double(number_[j]);
+    return found;
+  }
+
+ private:
+  measures::Slabs slabs_;
+  std::size_t species_;
+  measures::SteadySum height_unit_;
+  measures::ParticleSums sums_;
+  std::vector<std::int64_t> heights_, number_;
+};
+
+/// Collective.
+measures::ParticleProfile profile_of(const Model& model, const measures::Slabs& slabs) {
+  Greatest most = greatest_of(model);
+  core::Reduction greatest, all;
+  most.put_into(greatest);
+  greatest.over(model.ranks());
+  BedSums sums(model, slabs, most);
+  sums.put_into(all);
+  all.over(model.ranks());
+  return sums.profile();
 }
 
 }  // namespace
@@ -132,14 +158,27 @@ void Observers::see_step() {
 }
 
 void Observers::write_history(double time) {
-  totals_ = totals_of(model_);
   see_step();
-  const BedSums sums = bed_sums(model_, slabs_);
-  invariants_.see(totals_, sums.number, fluid());
-  const double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
-  measures::Bed bed{.profile = sums.profile.solids, .time = time, .step = model_.limits().dt, .centre = sums.centre};
-  for (std::size_t j = 0; j < sums.number.size(); ++j)
-    bed.mass.push_back(double(sums.number[j]) * model_.materials().species()[j].mass);
+  TotalsOfRanks totals(model_);
+  Greatest most = greatest_of(model_);
+  double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
+  core::Reduction greatest, all;
+  totals.put_greatest_into(greatest);
+  most.put_into(greatest);
+  greatest.greatest(most_solids);
+  greatest.over(model_.ranks());
+  BedSums sums(model_, slabs_, most);
+  totals.put_sums_into(all);
+  sums.put_into(all);
+  all.over(model_.ranks());
+
+  totals_ = totals.totals();
+  const std::vector<std::int64_t>& number = sums.number();
+  invariants_.see(totals_, number, fluid());
+  measures::Bed bed{
+      .profile = sums.profile().solids, .time = time, .step = model_.limits().dt, .centre = sums.centre()};
+  for (std::size_t j = 0; j < number.size(); ++j)
+    bed.mass.push_back(double(number[j]) * model_.materials().species()[j].mass);
   // Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
   bed.pressure_drop = fluid_ ? fluid_->pressure_drop() : 0;
   bed.buoyant_weight = weight_of(model_, bed.mass, slabs_.area);
@@ -175,7 +214,7 @@ void Observers::write_all_particles(double time) {
 }
 
 void Observers::write_particles(double time) {
-  const measures::ParticleProfile profile = bed_sums(model_, slabs_).profile;
+  const measures::ParticleProfile profile = profile_of(model_, slabs_);
   std::optional<Coupling::Column> column;
   if (model_.coupling() != nullptr) column = model_.coupling()->column();
   core::on_first(model_.ranks(), [&] {

@@ -155,6 +155,7 @@ bool Openings::holds(std::size_t j, Index face) const {
 
 std::vector<Passed> Openings::passed(const Interphase& solids) const {
   std::vector<Passed> result(solids.species());
+  if (!present()) return result;
   const double area = grid_.spacing[0] * grid_.spacing[2];
   for (const Passage& passage : passages_)
     for_each_boundary_row(grid_, 1, passage.side, [&](Index begin, Index end) {

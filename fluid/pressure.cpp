@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/numerics/operators.hpp"
-#include "core/numerics/ranks.hpp"
 
 namespace polybed::fluid {
 
@@ -44,8 +43,7 @@ double divergence_error(const core::Grid& grid, const core::FaceField& flux, dou
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) worst = std::max(worst, std::abs(div[std::size_t(c)]));
   });
-  const double h = grid.smallest_spacing();
-  return core::greatest_of_ranks(grid, worst) * h / velocity_scale;
+  return worst * grid.smallest_spacing() / velocity_scale;
 }
 
 }  // namespace polybed::fluid

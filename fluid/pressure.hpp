@@ -45,7 +45,7 @@ void for_each_gradient_row(const core::Grid& grid, const core::Box& box, int axi
 /// p = 0 half a cell above the outlet, and what other cells own beyond the block. Collective.
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, core::Field& pressure);
 
-/// Largest |div J| h / U over the column's cells: how well volume is conserved. U: a velocity scale, m/s.
+/// Largest |div J| h / U over the block's cells: how well volume is conserved. U: a velocity scale, m/s.
 [[nodiscard]] double divergence_error(const core::Grid& grid, const core::FaceField& flux, double velocity_scale);
 
 }  // namespace polybed::fluid

@@ -67,7 +67,10 @@ const WorstInvariant& Invariants::nearest() const {
                            [](const auto& a, const auto& b) { return a.share() < b.share(); });
 }
 
-std::vector<double> species_volumes(const core::Grid& grid, const fluid::Interphase& solids) {
+namespace {
+
+/// In the block, m3.
+std::vector<double> volumes_here(const core::Grid& grid, const fluid::Interphase& solids) {
   std::vector<double> result;
   for (const core::Field& phi : solids.fraction) {
     double sum = 0, lost = 0;
@@ -80,41 +83,55 @@ std::vector<double> species_volumes(const core::Grid& grid, const fluid::Interph
     });
     result.push_back(sum * grid.cell_volume());
   }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> species_volumes(const core::Grid& grid, const fluid::Interphase& solids) {
+  std::vector<double> result = volumes_here(grid, solids);
   core::add_over_ranks(grid, result);
   return result;
+}
+
+Watched::Watched(const core::Grid& grid, const fluid::Interphase& solids, const fluid::FluidState& fluid,
+                 double packing_above, double velocity_scale)
+    : volume(volumes_here(grid, solids)),
+      packing_above(packing_above),
+      divergence(fluid::divergence_error(grid, fluid.flux, velocity_scale)) {
+  core::for_each_row(grid, [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      for (const core::Field& phi : solids.fraction) fraction_below = std::max(fraction_below, -phi[c]);
+      most_solids = std::max(most_solids, 1 - fluid.voidage[c]);
+    }
+  });
+}
+
+void Watched::put_into(core::Reduction& all) {
+  all.sum(volume);
+  for (double* value : {&fraction_below, &most_solids, &packing_above, &divergence}) all.greatest(*value);
 }
 
 double ledger_error(double start, double in, double out, double now) {
   return start + in > 0 ? std::abs((now + out - in) - start) / (start + in) : 0;
 }
 
-InvariantValues Invariants::see(const core::Grid& grid, const fluid::Interphase& solids, const fluid::FluidState& fluid,
-                                double packing_above, double velocity_scale, double force_balance, double time,
-                                std::span<const fluid::Passed> passed, double fluid_error) {
-  InvariantValues now;
-  const std::vector<double> volume_now = species_volumes(grid, solids);
-  for (std::size_t j = 0; j < solids.species(); ++j) {
-    const double error =
-        ledger_error(initial_mass_[j], passed.empty() ? 0 : passed[j].in * solids.density[j],
-                     passed.empty() ? 0 : passed[j].out * solids.density[j], volume_now[j] * solids.density[j]);
+InvariantValues Invariants::see(const Watched& column, std::span<const double> density, double force_balance,
+                                double time, std::span<const fluid::Passed> passed, double fluid_error) {
+  InvariantValues now{.fraction_below = column.fraction_below,
+                      .most_solids = column.most_solids,
+                      .packing_above = column.packing_above,
+                      .divergence = column.divergence,
+                      .fluid_error = fluid_error,
+                      .force_balance = force_balance};
+  for (std::size_t j = 0; j < density.size(); ++j) {
+    const double error = ledger_error(initial_mass_[j], passed.empty() ? 0 : passed[j].in * density[j],
+                                      passed.empty() ? 0 : passed[j].out * density[j], column.volume[j] * density[j]);
     now.mass_error = std::max(now.mass_error, error);
     worst_[mass].keep(error, time, "species " + species_[j]);
   }
-  double least = 0, most = 0;
-  core::for_each_row(grid, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-      for (const core::Field& phi : solids.fraction) least = std::min(least, phi[c]);
-      most = std::max(most, 1 - fluid.voidage[c]);
-    }
-  });
-  now.fraction_below = -core::least_of_ranks(grid, least);
-  now.most_solids = core::greatest_of_ranks(grid, most);
-  now.packing_above = packing_above;
-  now.divergence = fluid::divergence_error(grid, fluid.flux, velocity_scale);
-  now.force_balance = force_balance;
   worst_[bounds].keep(now.fraction_below, time);
   worst_[packing].keep(now.packing_above, time);
-  now.fluid_error = fluid_error;
   worst_[volume].keep(compressible_ ? now.fluid_error : now.divergence, time);
   return now;
 }

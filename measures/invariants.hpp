@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/numerics/field.hpp"
+#include "core/numerics/reduction.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
 #include "fluid/openings.hpp"
@@ -21,6 +22,20 @@ struct InvariantValues {
   double divergence = 0;      ///< max |div J| h / U
   double fluid_error = 0;     ///< of a compressible fluid: what its mass has changed by without flowing, relative
   double force_balance = 0;   ///< pressure drop over buoyant weight per area, less 1
+};
+
+/// What the invariants are measured on: of a block, and of the column once a reduction has put the blocks together.
+struct Watched {
+  std::vector<double> volume;  ///< of each species, m3
+  double fraction_below = 0;   ///< the others as in InvariantValues
+  double most_solids = 0;
+  double packing_above = 0;
+  double divergence = 0;
+
+  /// \param packing_above  as the solids stress of the block tells  \param velocity_scale  U, m/s
+  Watched(const core::Grid& grid, const fluid::Interphase& solids, const fluid::FluidState& fluid, double packing_above,
+          double velocity_scale);
+  void put_into(core::Reduction& all);
 };
 
 /// Largest value an invariant has had, when and where it was, against its limit.
@@ -56,11 +71,11 @@ class Invariants {
   Invariants(std::vector<double> initial_mass, std::vector<std::string> species, double rtol,
              bool compressible = false);
 
-  /// Measures and keeps what is worst in the column. Collective.
+  /// Measures and keeps what is worst.
+  /// \param column       of all ranks  \param density  of each species, kg/m3
   /// \param passed       what each species has passed through open ends; empty: nothing
   /// \param fluid_error  of the mass of a compressible fluid; else 0
-  InvariantValues see(const core::Grid& grid, const fluid::Interphase& solids, const fluid::FluidState& fluid,
-                      double packing_above, double velocity_scale, double force_balance, double time,
+  InvariantValues see(const Watched& column, std::span<const double> density, double force_balance, double time,
                       std::span<const fluid::Passed> passed = {}, double fluid_error = 0);
 
   [[nodiscard]] const std::vector<double>& initial_mass() const { return initial_mass_; }

@@ -26,7 +26,7 @@ Profile on_slabs(const Profile& profile, double slab, std::size_t count) {
   return other;
 }
 
-std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field) {
+std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field) {
   std::vector<double> mean(std::size_t(grid.column_cells(1)), 0.0);
   const double layer_cells = double(grid.column_cells(0)) * grid.column_cells(2);
   for (int y = 0; y < grid.cells[1]; ++y) {
@@ -37,6 +37,11 @@ std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double>
     });
     mean[std::size_t(grid.before[1] + y)] = sum / layer_cells;
   }
+  return mean;
+}
+
+std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field) {
+  std::vector<double> mean = part_of_lateral_mean(grid, field);
   core::add_over_ranks(grid, mean);
   return mean;
 }

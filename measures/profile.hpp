@@ -28,7 +28,10 @@ struct Profile {
 /// stay what they were; what lies above the last slab is left out. \param slab  thickness, m, > 0
 [[nodiscard]] Profile on_slabs(const Profile& profile, double slab, std::size_t count);
 
-/// Mean over each horizontal layer of the column of a padded cell field; [layer from the bottom]. Collective.
+/// What the block's cells are of the mean over each horizontal layer of the column of a padded cell field; [layer from
+/// the bottom]. The sum over the ranks is the mean.
+[[nodiscard]] std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field);
+/// That mean. Collective.
 [[nodiscard]] std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field);
 
 }  // namespace polybed::measures

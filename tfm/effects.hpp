@@ -59,7 +59,7 @@ class StressEffect {
   [[nodiscard]] virtual double max_packing() const = 0;
   /// The same for a composition: shares of the species as closures see them.
   [[nodiscard]] virtual double packing_of(std::span<const double> share) const = 0;
-  /// How far phi lies above the maximum packing of its cell, where that is furthest; 0 if nowhere.
+  /// How far phi lies above the maximum packing of its cell, where in the block that is furthest; 0 if nowhere.
   [[nodiscard]] virtual double packing_above(const Fields& fields) const = 0;
   /// Pressure, Pa, of solids at rest at a solids fraction, for the whole bed's composition.
   [[nodiscard]] virtual double pressure_at(double solids_fraction) const = 0;

@@ -6,7 +6,7 @@ measures::Table<Told> history_table(bool compressible, bool openings) {
   measures::Table<Told> table{
       {"max_solids_fraction", "1", "greatest phi of a cell", [](const Told& t) { return t.invariants.most_solids; }},
       {"min_fraction", "1", "0, or how far the least phi_j of a cell lies below, negative",
-       [](const Told& t) { return -t.invariants.fraction_below; }},
+       [](const Told& t) { return 0 - t.invariants.fraction_below; }},  // not -0
       {"divergence", "1", "max of abs(div J) h / U; not 0 in a compressible fluid",
        [](const Told& t) { return t.invariants.divergence; }}};
   if (compressible) {

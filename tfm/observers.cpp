@@ -103,14 +103,20 @@ std::vector<double> masses(const Model& model) {
   return mass;
 }
 
-measures::Profile profile_of(const Model& model) {
+namespace {
+
+/// What the block adds to the profile of the fields last shown.
+measures::Profile part_of_profile(const Model& model) {
+  const core::Grid& grid = model.constants().grid;
   measures::Profile profile;
-  profile.slab = model.constants().grid.spacing[1];
+  profile.slab = grid.spacing[1];
   for (const core::Field& phi : model.fields().solids.fraction)
-    profile.fraction.push_back(measures::lateral_mean(model.constants().grid, phi));
-  profile.pressure = measures::lateral_mean(model.constants().grid, model.fields().fluid.pressure);
+    profile.fraction.push_back(measures::part_of_lateral_mean(grid, phi));
+  profile.pressure = measures::part_of_lateral_mean(grid, model.fields().fluid.pressure);
   return profile;
 }
+
+}  // namespace
 
 Observers::Observers(const Model& model, const std::filesystem::path& directory, double rtol,
                      std::vector<double> initial_mass, std::optional<double> resume_time)
@@ -137,30 +143,40 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
 
 void Observers::write_history(double time) {
   const Constants& constants = model_.constants();
-  measures::Bed bed{
-      .profile = profile_of(model_), .time = time, .step = model_.last_step().step, .mass = masses(model_)};
+  const Fields& fields = model_.fields();
+  const auto& stress = model_.effects().solids_stress;
+  measures::Bed bed{.profile = part_of_profile(model_), .time = time, .step = model_.last_step().step};
+  measures::Watched watched(constants.grid, fields.solids, fields.fluid, stress ? stress->packing_above(fields) : 0.0,
+                            model_.velocity_scale());
+  WellPosednessOfBlocks well_posed(constants, fields);
+  core::Reduction all;
+  for (std::vector<double>& phi : bed.profile.fraction) all.sum(phi);
+  all.sum(bed.profile.pressure);
+  watched.put_into(all);
+  well_posed.put_into(all);
+  all.over(ranks_);
+
   const double area = constants.grid.spacing[0] * constants.grid.column_cells(0) * constants.grid.spacing[2] *
                       constants.grid.column_cells(2);
-  for (std::size_t j = 0; j < constants.species(); ++j)
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    bed.mass.push_back(watched.volume[j] * constants.density[j]);
     bed.buoyant_weight += bed.mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity *
                           -constants.down[1] / area;
+  }
   force_balance_ = bed.buoyant_weight != 0 ? measures::pressure_drop(bed.profile) / bed.buoyant_weight : 0;
   bed_height_ = measures::bed_height(bed.profile);
-  const std::vector<measures::Value> row = history_.row(bed, told(time));
-  watch(bed);
+  const std::vector<measures::Value> row = history_.row(bed, told(watched, time));
+  watch(bed, well_posed.column());
   core::on_first(ranks_, [&] { files_->history.write_row(row); });
 }
 
-Told Observers::told(double time) {
+Told Observers::told(const measures::Watched& column, double time) {
   const Constants& constants = model_.constants();
-  const Fields& fields = model_.fields();
-  const double above = model_.effects().solids_stress ? model_.effects().solids_stress->packing_above(fields) : 0.0;
   const auto account = model_.fluid_account(time);
-  const double fluid_mass = account ? fluid::fluid_mass(constants.grid, fields.fluid) : 0;
+  const double fluid_mass = account ? fluid::fluid_mass(constants.grid, model_.fields().fluid) : 0;
   const std::vector<fluid::Passed> passed = model_.passed();
-  const measures::InvariantValues now =
-      invariants_.see(constants.grid, fields.solids, fields.fluid, above, model_.velocity_scale(), force_balance_ - 1,
-                      time, passed, account ? account->error(fluid_mass) : 0);
+  const measures::InvariantValues now = invariants_.see(column, constants.density, force_balance_ - 1, time, passed,
+                                                        account ? account->error(fluid_mass) : 0);
   Told told{now, fluid_mass, account.value_or(fluid::MassAccount{}), {}, {}};
   for (std::size_t j = 0; j < passed.size(); ++j) {
     told.in.push_back(passed[j].in * constants.density[j]);
@@ -169,9 +185,8 @@ Told Observers::told(double time) {
   return told;
 }
 
-void Observers::watch(const measures::Bed& bed) {
+void Observers::watch(const measures::Bed& bed, const WellPosedness& now) {
   drifts_.see(bed.time, measures::values(heights_, bed));
-  const WellPosedness now = well_posedness(model_.constants(), model_.fields());
   LeastWellPosed& least = least_well_posed_;
   least.share_below_now = now.share_below;
   if (now.lacks_more_than(least.cell)) {
@@ -183,8 +198,14 @@ void Observers::watch(const measures::Bed& bed) {
 void Observers::write_fields(double time) {
   const core::Grid& grid = model_.constants().grid;
   const Fields& fields = model_.fields();
-  std::vector<std::vector<double>> rows{measures::lateral_mean(grid, fields.fluid.voidage),
-                                        measures::lateral_mean(grid, fields.fluid.pressure)};
+  std::vector<std::vector<double>> rows;
+  core::Reduction all;
+  const auto add_mean = [&](const core::Field& field) {
+    rows.push_back(measures::part_of_lateral_mean(grid, field));
+    all.sum(rows.back());  // its numbers stay where they are when others come
+  };
+  add_mean(fields.fluid.voidage);
+  add_mean(fields.fluid.pressure);
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));
   std::vector<core::Field> temperatures;
@@ -193,8 +214,8 @@ void Observers::write_fields(double time) {
   std::vector<core::FieldValues> values{
       {fields.fluid.voidage}, {fields.fluid.pressure}, components(grid, velocities[0])};
   for (std::size_t j = 0; j < fields.solids.species(); ++j) {
-    rows.push_back(measures::lateral_mean(grid, fields.solids.fraction[j]));
-    rows.push_back(measures::lateral_mean(grid, velocities[j + 1][1]));
+    add_mean(fields.solids.fraction[j]);
+    add_mean(velocities[j + 1][1]);
     values.push_back({fields.solids.fraction[j]});
     values.push_back(components(grid, velocities[j + 1]));
     if (!knows_temperature(model_)) continue;
@@ -208,6 +229,7 @@ void Observers::write_fields(double time) {
     values.push_back({total});
     values.push_back({fields.fluid.compression.density});
   }
+  all.over(ranks_);
   core::on_first(ranks_, [&] { files_->profiles.write_row(time, rows); });
   fields_->write_step(time, values);
 }

@@ -16,9 +16,6 @@
 
 namespace polybed::tfm {
 
-/// The vertical profile of the fields last shown. Collective.
-[[nodiscard]] measures::Profile profile_of(const Model& model);
-
 /// The smallest margin to ill-posedness that a run has had in a row of its history, and the share of cells in the last.
 struct LeastWellPosed {
   WellPosedness cell;
@@ -60,9 +57,9 @@ class Observers {
   };
 
   /// What does not go into a row: the drift of its heights, and how well-posed the equations are.
-  void watch(const measures::Bed& bed);
-  /// Measures the invariants, and what else the model alone knows.
-  Told told(double time);
+  void watch(const measures::Bed& bed, const WellPosedness& now);
+  /// The invariants, and what else the model alone knows.
+  Told told(const measures::Watched& column, double time);
 
   const Model& model_;
   const core::Ranks* ranks_;

@@ -72,20 +72,40 @@ Block look_at_block(const Constants& constants, const Fields& fields) {
 
 }  // namespace
 
-WellPosedness well_posedness(const Constants& constants, const Fields& fields) {
-  if (constants.form_b) return {};
-  const core::Grid& grid = constants.grid;
+namespace {
+constexpr std::size_t counts = 2, per_rank = 5;
+}
+
+WellPosednessOfBlocks::WellPosednessOfBlocks(const Constants& constants, const Fields& fields) {
+  if (constants.form_b) return;
   const Block block = look_at_block(constants, fields);
-  WellPosedness nearest = block.nearest;
-  const double least = core::least_of_ranks(grid, nearest.least);
-  const int rank = core::rank_of_greatest(grid, nearest.least == least ? nearest.critical_slope : -1.0);
-  const bool mine = !grid.ranks || grid.ranks->rank() == rank;
-  nearest.least = least;
-  nearest.critical_slope = core::greatest_of_ranks(grid, mine ? nearest.critical_slope : 0.0);
-  for (double& x : nearest.place) x = core::greatest_of_ranks(grid, mine ? x : 0.0);
-  const double cells = core::sum_of_ranks(grid, block.cells), below = core::sum_of_ranks(grid, block.below);
-  nearest.share_below = cells > 0 ? below / cells : 0;
+  const core::Ranks* ranks = constants.grid.ranks.get();
+  const auto rank = std::size_t(ranks != nullptr ? ranks->rank() : 0);
+  numbers_.assign(counts + per_rank * std::size_t(ranks != nullptr ? ranks->count() : 1), 0.0);
+  numbers_[0] = block.cells;
+  numbers_[1] = block.below;
+  const WellPosedness& here = block.nearest;
+  const std::array own{here.least, here.critical_slope, here.place[0], here.place[1], here.place[2]};
+  std::copy(own.begin(), own.end(), &numbers_[counts + per_rank * rank]);
+}
+
+WellPosedness WellPosednessOfBlocks::column() const {
+  WellPosedness nearest;
+  for (std::size_t n = counts; n < numbers_.size(); n += per_rank) {
+    const double* own = &numbers_[n];
+    const WellPosedness found{own[0], own[1], {own[2], own[3], own[4]}};
+    if (found.lacks_more_than(nearest)) nearest = found;
+  }
+  if (!numbers_.empty() && numbers_[0] > 0) nearest.share_below = numbers_[1] / numbers_[0];
   return nearest;
+}
+
+WellPosedness well_posedness(const Constants& constants, const Fields& fields) {
+  WellPosednessOfBlocks blocks(constants, fields);
+  core::Reduction all;
+  blocks.put_into(all);
+  all.over(constants.grid.ranks.get());
+  return blocks.column();
 }
 
 }  // namespace polybed::tfm

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <limits>
+#include <vector>
 
+#include "core/numerics/reduction.hpp"
 #include "tfm/fields.hpp"
 
 namespace polybed::tfm {
@@ -26,7 +28,20 @@ struct WellPosedness {
   }
 };
 
-/// Of fields of a finished evaluation. Nothing in form B, whose waves G_crit does not know. Collective.
+/// Of the block, from fields of a finished evaluation; of the column once a reduction has put the blocks together.
+/// Nothing in form B, whose waves G_crit does not know.
+class WellPosednessOfBlocks {
+ public:
+  WellPosednessOfBlocks(const Constants& constants, const Fields& fields);
+  void put_into(core::Reduction& all) { all.sum(numbers_); }
+  [[nodiscard]] WellPosedness column() const;
+
+ private:
+  /// Cells of bed, those of them below 1, then of each rank the smallest of its block: all 0 but this rank's own.
+  std::vector<double> numbers_;
+};
+
+/// Collective.
 [[nodiscard]] WellPosedness well_posedness(const Constants& constants, const Fields& fields);
 
 }  // namespace polybed::tfm

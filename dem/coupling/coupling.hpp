@@ -75,7 +75,7 @@ class Coupling final : public StepPart {
   [[nodiscard]] double kernel_width() const { return width_; }
   /// Mean net pressure on the distributor, less that at the outlet, Pa. Collective.
   [[nodiscard]] double pressure_drop() const;
-  /// Largest solids fraction of a cell. Collective.
+  /// Largest solids fraction of a cell of this rank's block.
   [[nodiscard]] double most_solids() const;
   /// The fluid of the whole column, on every rank. Collective.
   struct Column {

@@ -10,6 +10,7 @@
 #include "core/numerics/halo.hpp"
 #include "core/numerics/linear_solver.hpp"
 #include "core/numerics/mpi.hpp"
+#include "core/numerics/reduction.hpp"
 
 namespace polybed::core {
 namespace {
@@ -141,6 +142,30 @@ TEST(Ranks, ReduceAndAgree) {
   std::vector<double> numbers{double(rank), 1};
   add_over_ranks(block, numbers);
   EXPECT_EQ(numbers, (std::vector<double>{count * (count - 1) / 2.0, double(count)}));
+}
+
+TEST(Ranks, ReduceManyNumbersInOneGo) {
+  const auto ranks = Ranks::of_program();
+  const int count = ranks ? ranks->count() : 1, rank = ranks ? ranks->rank() : 0;
+  std::vector<double> mine{double(rank), 1}, nothing;
+  std::vector<std::int64_t> whole{rank, 2}, more{(std::int64_t(1) << 60) / count};
+  double high = rank, low = -rank, flat = 3;
+  Reduction all;
+  all.sum(mine);
+  all.greatest(high);
+  all.sum(whole);
+  all.sum(nothing);
+  all.greatest(low);
+  all.sum(more);
+  all.greatest(flat);
+  all.over(ranks.get());
+  const int sum = count * (count - 1) / 2;
+  EXPECT_EQ(mine, (std::vector<double>{double(sum), double(count)}));
+  EXPECT_EQ(whole, (std::vector<std::int64_t>{sum, 2 * count}));
+  EXPECT_EQ(more, (std::vector<std::int64_t>{(std::int64_t(1) << 60) / count * count}));
+  EXPECT_EQ(high, count - 1);
+  EXPECT_EQ(low, 0);
+  EXPECT_EQ(flat, 3);
 }
 
 TEST(Ranks, AnErrorOfTheFirstIsThrownOnAll) {

@@ -35,7 +35,7 @@ TWO = FINE + '[[species]]\nname = "b"\ndiameter = "0.5 mm"\ndensity = 1600\n'
 FEED = '[[feed]]\nspecies = "a"\nat = "top"\nsuperficial_velocity = "1 mm/s"\nvelocity = "20 mm/s"\n'
 
 
-# A row of the history takes 22 sums over all ranks, and a run has 400 unless told otherwise: more than its steps take.
+# A run has 400 rows of the history unless told otherwise, for each of which ranks wait for each other: more than for its steps.
 # Even starts: from uneven ones an open bed of water finds no first step at a tolerance of 1e-9.
 def scene(cells, size, fluid, species, height, until, inlet=None, start=None, more="", outlet=""):
     closed = "" if inlet else "closed = true\n"

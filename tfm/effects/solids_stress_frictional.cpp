@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/numerics/ranks.hpp"
 #include "tfm/initial.hpp"
 #include "tfm/step_estimate.hpp"
 
@@ -101,7 +100,7 @@ double FrictionalStress::packing_above(const Fields& fields) const {
   for_each_cell_with_packing(fields, [&](Index c, double packing) {
     most = std::max(most, fields.solids_fraction[std::size_t(c)] - packing);
   });
-  return core::greatest_of_ranks(constants_.grid, most);
+  return most;
 }
 
 double FrictionalStress::pressure_at(double solids_fraction) const { return law_(solids_fraction).pressure; }

@@ -31,9 +31,10 @@ class Watch : public testing::Test {
     for (auto& phi : solids_.fraction) phi.assign(phi.size(), 0.3);
     fluid_.voidage.assign(fluid_.voidage.size(), 0.7);
   }
+  Watched now() { return {grid_, solids_, fluid_, above_, 0.1}; }
   InvariantValues see(double rtol = 1e-3) {
     invariants_ = Invariants({0.3 * 2000 * 24 * grid_.cell_volume()}, {"sand"}, rtol);
-    return invariants_.see(grid_, solids_, fluid_, above_, 0.1, 0.0, 2.0);
+    return invariants_.see(now(), solids_.density, 0.0, 2.0);
   }
   core::Grid grid_ = small();
   fluid::Interphase solids_;
@@ -99,10 +100,10 @@ TEST_F(Watch, TheSpeciesThatLosesMassIsNamed) {
   fluid_.voidage.assign(fluid_.voidage.size(), 0.4);
   const double volume = 0.3 * 24 * grid_.cell_volume();
   Invariants invariants({2000 * volume, 1000 * volume}, {"heavy", "light"}, 1e-3);
-  (void)invariants.see(grid_, solids_, fluid_, 0, 0.1, 0.0, 1.0);
+  (void)invariants.see(now(), solids_.density, 0.0, 1.0);
   EXPECT_EQ(broken_law(invariants.worst()), nullptr);
   solids_.fraction[1][std::size_t(grid_.index(1, 1))] -= 1e-6;
-  (void)invariants.see(grid_, solids_, fluid_, 0, 0.1, 0.0, 2.0);
+  (void)invariants.see(now(), solids_.density, 0.0, 2.0);
   ASSERT_NE(broken_law(invariants.worst()), nullptr);
   EXPECT_EQ(broken_law(invariants.worst())->place, "species light");
 }
