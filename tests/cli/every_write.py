@@ -14,14 +14,14 @@ import program
 from program import DONE, FILE, Scratch, same_bits, small_bed, strict_json
 
 LIBRARY = os.path.abspath(sys.argv.pop(2))
-EVERY = ["--set", "output.every=0.002", "--set", "output.history_every=0.002", "--set", "output.checkpoint_every=0.002"]
+EVERY = ["--set", "output.every=0.0005", "--set", "output.history_every=0.0005", "--set", "output.checkpoint_every=0.0005"]
 RECORDED = "run.json"
 
 
 class EveryWrite(Scratch):
     def setUp(self):
         super().setUp()
-        self.case = self.write("case.toml", small_bed("0.004 s"))
+        self.case = self.write("case.toml", small_bed("0.001 s"))  # three outputs, two checkpoints, and steps between them
 
     def words(self, model, directory):
         return [model, self.case, *EVERY, "--quiet", "--no-picture", "-o", directory]
