@@ -286,12 +286,8 @@ class DemRanks(Scratch):
             records[ranks] = json.loads((run / "run.json").read_text())
             self.assertEqual(records[ranks]["work"]["steps"], steps)
             self.assertGreater(sizes[1], 0 if touching else -1)
-        cut = self.folder / "cut"  # after its first checkpoint, in the middle
-        shutil.copytree(self.folder / f"on{restart[0]}", cut)
-        (cut / "checkpoint.previous.h5").replace(cut / "checkpoint.h5")
-        with h5py.File(cut / "checkpoint.h5") as file:
-            self.assertAlmostEqual(file["numbers/time"][()], 0.5 * steps * STEP, delta=0.1 * STEP)
-        middle, *_ = hash_of(cut / "checkpoint.h5")
+        cut = shutil.copytree(self.folder / f"on{restart[0]}", self.folder / "cut")  # goes on from its first checkpoint, in the middle
+        middle, *_ = hash_of((cut / "checkpoint.previous.h5").replace(cut / "checkpoint.h5"))
         self.on(restart[1], case, "--resume", "-o", cut)
         hashes[f"restarted, {restart}"], *_ = hash_of(cut / "checkpoint.h5")
         self.assertEqual(len(set(hashes.values())), 1, hashes)
