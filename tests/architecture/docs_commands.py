@@ -2,8 +2,8 @@
 """Every command in a ```sh block of the README, the docs and the cases runs and ends with 0; so does every ```python block.
 
 A block marked ```sh no-run is not run: installation, the tests themselves, what needs a display. Runs are shortened: a
-`polybed tfm` line gets `--until 0.06s` in place of its own end, a `polybed dem` or `polybed compare` line 1 ms, and replaces an earlier run of the same page;
-a sweep of `polybed cost` has runs of 0.01 s; a scan for the inversion velocity is by the two-fluid model, of runs of 0.8 s; a fit
+`polybed tfm` line gets `--until 0.06s` in place of its own end, a `polybed dem` or `polybed compare` line 0.2 ms, and replaces an earlier run of the same page;
+a sweep of `polybed cost` has runs of 2 ms; a scan for the inversion velocity is by the two-fluid model, of runs of 0.8 s; a fit
 draws its rows anew once.
 Each page has a folder of its own, so that it must stand alone; what only answers on a shipped case is run once for all pages, and so is a
 run of a shipped case, of which the next page that asks for it in the same words gets a copy, with the pictures drawn of it.
@@ -28,8 +28,8 @@ SHORT = ["--until", "0.06 s", "--quiet", "--no-picture"]
 SHORT_SCAN = ["--until", "0.8 s", "--set", 'output.history_every="2 ms"', *SHORT[2:]]
 ALONE = {"tfm", "dem", "compare", "check", "inversion"}  # commands that start no ranks of their own
 ANSWERS = {"check", "drag", "effects", "estimate", "explain", "inversion", "list", "schema"}
-SHORT_DEM = ["--until", "1 ms", *SHORT[2:]]  # its steps are microseconds
-SHORT_COST = ["--until", "0.01 s"]  # a sweep runs the case a dozen times
+SHORT_DEM = ["--until", "0.2 ms", *SHORT[2:]]  # its steps are microseconds
+SHORT_COST = ["--until", "2 ms"]  # a sweep runs the case a dozen times
 SHORT_FIT = ["--bootstrap", "1"]
 
 
