@@ -91,6 +91,13 @@ class CollisionalStress {
   [[nodiscard]] virtual std::optional<ClosureUse> use() const { return {}; }
 };
 
+/// Slot Force: adds to fields.force.on_solids in the cells of the solids; ghosts are filled afterwards.
+class ForceEffect {
+ public:
+  virtual ~ForceEffect() = default;
+  virtual void add(Fields& fields) = 0;
+};
+
 /// What walls do to solids that slip along them, where that is neither nothing nor all.
 class SolidsWall {
  public:
@@ -111,6 +118,7 @@ struct Effects {
   std::unique_ptr<StressEffect> solids_stress;
   std::unique_ptr<SolidsViscosity> solids_viscosity;
   std::unique_ptr<CollisionalStress> collisions;
+  std::vector<std::unique_ptr<ForceEffect>> forces;  ///< on single particles
   std::unique_ptr<SolidsWall> solids_wall;
   std::unique_ptr<fluid::Compressible> compressible;  ///< of an incompressible fluid: null
   std::vector<std::string> warnings;                  ///< where the scene is not what an effect was measured for

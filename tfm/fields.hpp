@@ -53,6 +53,13 @@ struct Granular {
   std::vector<core::Field> decay;         ///< rate at which a disturbance of theta_j in one cell decays, 1/s
 };
 
+/// What forces on single particles need; empty where none acts.
+struct ParticleForce {
+  std::vector<core::Field> on_solids;  ///< force per volume of the species, N/m3, cells: [species * dimensions + axis]
+  std::array<core::Field, 3> vorticity;  ///< curl U_f, 1/s, owned cells; in 2-D the third component alone is not 0
+  [[nodiscard]] bool present() const { return !on_solids.empty(); }
+};
+
 struct Fields {
   fluid::Interphase solids;
   fluid::FluidState fluid;
@@ -64,6 +71,7 @@ struct Fields {
   fluid::FluxRate flux_rate;
   SolidsStress stress;
   Granular granular;
+  ParticleForce force;
   /// K_jk / (phi_j phi_k), kg/(m3 s), pairs j < k; empty if absent.
   std::vector<core::Field> species_exchange;
 

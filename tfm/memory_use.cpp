@@ -41,7 +41,7 @@ std::size_t bytes_of(const Fields& fields) {
       entries(fields.stress.pressure) + entries(fields.stress.slope) + entries(fields.stress.damping) +
       entries(fields.stress.viscosity) + entries(fields.stress.strain) + entries(fields.stress.contact) +
       entries(fields.stress.wall) + entries(fields.granular.conductivity) + entries(fields.granular.decay) +
-      entries(fields.species_exchange);
+      entries(fields.species_exchange) + entries(fields.force.on_solids) + entries(fields.force.vorticity);
   return (solids + fluid + working) * sizeof(double);
 }
 

@@ -9,6 +9,7 @@
 #include "fluid/pressure.hpp"
 #include "tfm/granular_temperature.hpp"
 #include "tfm/mixture.hpp"
+#include "tfm/particle_forces.hpp"
 #include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
@@ -42,11 +43,12 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //   (1) dphi_j/dt = -div(phi_j U_j)
 //   (2) dU_j/dt   = a_j - grad p / rho_j
 //       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
-//             + div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
-//   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
+//             + div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j) + f_j/rho_j
+//   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j [b_j (U_f - U_j) + f_j]/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
 //
-// and, of a compressible fluid, (5) of fluid/compressible.hpp. rho_f in (2) stands for rho_0 there, and (3) has its
+// f_j is the force of closures on single particles (lift) over their volume. Of a compressible fluid there is
+// (5) of fluid/compressible.hpp. rho_f in (2) stands for rho_0 there, and (3) has its
 // -(1 - rho_0/rho_f) g besides.
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
   const auto timed = [&](const char* term, auto&& work) {
@@ -87,6 +89,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       effects_.species_exchange->evaluate(fields_);
       add_species_exchange(constants_, boundaries_, fields_);
     });
+  if (!effects_.forces.empty()) timed("particle forces", [&] { add_particle_forces(); });
   timed("volume flux", [&] { set_flux_rate(t); });
   if (effects_.compressible)
     timed("fluid continuity", [&] { effects_.compressible->set_pressure_rate(fields_.solids, fields_.fluid); });
@@ -149,6 +152,13 @@ void RightHandSide::add_solids_stress() {
   if (boundaries_.open())  // nothing presses back from beyond
     fluid::set_outlet_pressure(constants_.grid, boundaries_, stress.pressure);
   subtract_stress(constants_, boundaries_, fields_);
+}
+
+/// Forces of closures on single particles, on the solids and in the opposite direction on the fluid.
+void RightHandSide::add_particle_forces() {
+  for (core::Field& force : fields_.force.on_solids) std::fill(force.begin(), force.end(), 0.0);
+  for (const auto& effect : effects_.forces) effect->add(fields_);
+  share_particle_forces(constants_, boundaries_, fields_);
 }
 
 void RightHandSide::set_flux_rate(double t) {
