@@ -60,6 +60,15 @@ struct ParticleForce {
   [[nodiscard]] bool present() const { return !on_solids.empty(); }
 };
 
+/// What added mass needs, on the faces where solids move; empty where it is absent.
+struct Inertia {
+  std::vector<core::FaceField> convection;  ///< -(U.grad)U of each species and, last, of the fluid, m/s2
+  std::vector<core::FaceField> share;       ///< k_j = C_m rho_f/(rho_j + C_m rho_f): of the fluid's in a solid's motion
+  std::vector<core::FaceField> response;    ///< what a unit gradient of the pressure does to U_j, m3/kg
+  core::FaceField fluid_response;           ///< and to U_f, m3/kg
+  [[nodiscard]] bool present() const { return !share.empty(); }
+};
+
 struct Fields {
   fluid::Interphase solids;
   fluid::FluidState fluid;
@@ -72,6 +81,7 @@ struct Fields {
   SolidsStress stress;
   Granular granular;
   ParticleForce force;
+  Inertia inertia;
   /// K_jk / (phi_j phi_k), kg/(m3 s), pairs j < k; empty if absent.
   std::vector<core::Field> species_exchange;
 

@@ -47,7 +47,8 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j [b_j (U_f - U_j) + f_j]/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
 //
-// f_j is the force of closures on single particles (lift) over their volume. Of a compressible fluid there is
+// f_j is the force of closures on single particles (lift) over their volume. Added mass couples the accelerations and
+// takes other numbers than 1/rho_j and 1/rho_f into (2) and B: effects/added_mass.cpp. Of a compressible fluid there is
 // (5) of fluid/compressible.hpp. rho_f in (2) stands for rho_0 there, and (3) has its
 // -(1 - rho_0/rho_f) g besides.
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
@@ -71,6 +72,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
                conservative_ ? &*conservative_ : nullptr);
     if (!conservative_) convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
+  if (effects_.inertia) timed("added mass", [&] { effects_.inertia->keep_convection(fields_); });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
   timed("gravity", [&] {
     add_gravity(constants_, boundaries_, fields_);
@@ -90,6 +92,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       add_species_exchange(constants_, boundaries_, fields_);
     });
   if (!effects_.forces.empty()) timed("particle forces", [&] { add_particle_forces(); });
+  if (effects_.inertia) timed("added mass", [&] { effects_.inertia->couple(fields_); });
   timed("volume flux", [&] { set_flux_rate(t); });
   if (effects_.compressible)
     timed("fluid continuity", [&] { effects_.compressible->set_pressure_rate(fields_.solids, fields_.fluid); });
@@ -123,6 +126,8 @@ void RightHandSide::hold_solids_above(int row) {
   clear_all(stress.strain);
   clear_all(fields_.granular.conductivity);
   clear_all(fields_.granular.decay);
+  std::for_each(fields_.inertia.share.begin(), fields_.inertia.share.end(), clear_all);
+  std::for_each(fields_.inertia.response.begin(), fields_.inertia.response.end(), clear_all);
 }
 
 std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLayout& layout,
@@ -166,7 +171,10 @@ void RightHandSide::set_flux_rate(double t) {
   if (openings) constants_.openings.hold(fields_.solids.acceleration);
   fluid::flux_rate(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
                    fields_.fluid_acceleration, fields_.flux_rate);
-  if (openings) constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
+  if (effects_.inertia)
+    effects_.inertia->set_mobility(fields_);
+  else if (openings)
+    constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
   set_inlet_rate(t);
 }
 
