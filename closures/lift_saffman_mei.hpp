@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "closures/elementary.hpp"
 #include "closures/vec3.hpp"
 
 namespace polybed::closures {
@@ -14,10 +15,11 @@ namespace polybed::closures {
 /// The fit jumps by (1 - 0.3314 sqrt a) e^-4 < 0.018 at Re_p 40, and by less than 0.01 at 0.1.
 /// \param reynolds Re_p = rho_f w d/mu, w the speed of slip  \param shear a = d |omega|/(2 w), held in 0.005-0.4
 [[nodiscard]] inline double lift_share_mei(double reynolds, double shear) {
+  // Selects and no branches, so that a loop over cells runs at vector speed.
   const double a = std::clamp(shear, 0.005, 0.4), floor = 0.3314 * std::sqrt(a);
-  if (reynolds < 0.1) return 1;
-  if (reynolds <= 40) return (1 - floor) * std::exp(-0.1 * reynolds) + floor;
-  return std::min(0.0524 * std::sqrt(a * reynolds), 1.0);
+  const double low = (1 - floor) * plain_exp(-0.1 * std::min(reynolds, 40.0)) + floor;
+  const double high = std::min(0.0524 * std::sqrt(a * reynolds), 1.0);
+  return reynolds < 0.1 ? 1.0 : reynolds <= 40 ? low : high;
 }
 
 /// 1.615 d^2 sqrt(mu rho_f/|omega|) (u_f - v) x omega M, N (Saffman, J. Fluid Mech. 22, 1965, 385, and 31, 1968, 624; M

@@ -2,10 +2,11 @@
 #include "relevance/effects/lift.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "closures/lift_saffman_mei.hpp"
 #include "closures/sphere.hpp"
+#include "core/vectors.hpp"
+#include "fluid/density.hpp"
 #include "fluid/vorticity.hpp"
 #include "tfm/effects/maker.hpp"
 
@@ -13,11 +14,49 @@ namespace polybed::tfm {
 
 namespace {
 
+using core::face_mean;
 using core::Index;
 
+/// The component of U_f - U_j along an axis at the centre of a cell, m/s: like drag it is that which the flux through
+/// both faces has at the cell's voidage, which a surface beside the cell does not change.
+struct Slip {
+  const double *eps, *u, *v;
+  Index s;
+  [[nodiscard]] double at(Index c) const {
+    return 0.5 / std::max(eps[c], fluid::voidage_floor) *
+           (face_mean(eps, c, s) * (u[c] - v[c]) + face_mean(eps, c + s, s) * (u[c + s] - v[c + s]));
+  }
+};
+
+template <int dimensions, class Density>
+void lift_loops(const Density& density, const Constants& constants, const fluid::Boundaries& boundaries, std::size_t j,
+                Fields& fields) {
+  const auto along = [&](int axis) {
+    return Slip{fields.fluid.voidage.data(), fields.fluid.velocity[std::size_t(axis)].data(),
+                fields.solids.velocity[j][std::size_t(axis)].data(), constants.grid.stride(axis)};
+  };
+  const Slip x = along(0), y = along(1), z = along(dimensions - 1);
+  const auto& omega = fields.force.vorticity;
+  const double *about_x = omega[0].data(), *about_y = omega[1].data(), *about_z = omega[2].data();
+  core::Field* const forces = &fields.force.on_solids[j * dimensions];
+  double *to_x = forces[0].data(), *to_y = forces[1].data(), *to_z = forces[dimensions - 1].data();
+  const double diameter = constants.diameter[j], viscosity = constants.fluid.viscosity;
+  const double per_volume = 1 / closures::sphere_volume(0.5 * diameter);
+  core::for_each_row(constants.grid, boundaries.solids_cells(), [&](Index begin, Index end) {
+#pragma GCC ivdep
+    for (Index c = begin; c < end; ++c) {
+      const closures::Vec3 slip{x.at(c), y.at(c), dimensions == 3 ? z.at(c) : 0.0},
+          vorticity{dimensions == 3 ? about_x[c] : 0.0, dimensions == 3 ? about_y[c] : 0.0, about_z[c]};
+      const closures::Vec3 force = closures::lift_saffman_mei(slip, vorticity, diameter, density.in_cell(c), viscosity);
+      to_x[c] += per_volume * force.x;
+      to_y[c] += per_volume * force.y;
+      if constexpr (dimensions == 3) to_z[c] += per_volume * force.z;
+    }
+  });
+}
+
 /// Saffman's lift with the share of Mei on each species, from slip and vorticity at the centres of cells: that of one
-/// sphere, at any voidage. Like drag it sees the slip that the flux through both faces has at the cell's voidage, which
-/// a surface beside the cell does not change, and the local density of a compressible fluid.
+/// sphere, at any voidage, with the local density of a compressible fluid.
 class Lift final : public ForceEffect {
  public:
   Lift(const Constants& constants, const fluid::Boundaries& boundaries)
@@ -25,41 +64,15 @@ class Lift final : public ForceEffect {
 
   void add(Fields& fields) override {
     fluid::find_vorticity(constants_.grid, fields.fluid.velocity, fields.force.vorticity);
-    const double* density = fields.fluid.compression.present() ? fields.fluid.compression.density.data() : nullptr;
-    const auto dimensions = std::size_t(constants_.grid.dimensions);
-    for (std::size_t j = 0; j < constants_.species(); ++j) {
-      const double diameter = constants_.diameter[j], per_volume = 1 / closures::sphere_volume(0.5 * diameter);
-      core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c) {
-          const auto at = std::size_t(c);
-          const std::array<core::Field, 3>& omega = fields.force.vorticity;
-          const closures::Vec3 force = closures::lift_saffman_mei(
-              slip(fields, j, c), {omega[0][at], omega[1][at], omega[2][at]}, diameter,
-              density == nullptr ? constants_.fluid.density : density[c], constants_.fluid.viscosity);
-          const std::array<double, 3> parts{force.x, force.y, force.z};
-          for (std::size_t a = 0; a < dimensions; ++a)
-            fields.force.on_solids[j * dimensions + a][at] += per_volume * parts[a];
-        }
-      });
-    }
+    fluid::with_density(fields.fluid, constants_.fluid.density, [&]<class Density>(const Density& local) {
+      for (std::size_t j = 0; j < constants_.species(); ++j)
+        constants_.grid.dimensions == 3
+            ? core::in_vectors<lift_loops<3, Density>>(local, constants_, boundaries_, j, fields)
+            : core::in_vectors<lift_loops<2, Density>>(local, constants_, boundaries_, j, fields);
+    });
   }
 
  private:
-  /// U_f - U_j, m/s.
-  [[nodiscard]] closures::Vec3 slip(const Fields& fields, std::size_t j, Index c) const {
-    std::array<double, 3> w{};
-    const double* eps = fields.fluid.voidage.data();
-    const double scale = 0.5 / std::max(eps[c], fluid::voidage_floor);
-    for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
-      const auto a = std::size_t(axis);
-      const Index s = constants_.grid.stride(axis);
-      const double *u = fields.fluid.velocity[a].data(), *v = fields.solids.velocity[j][a].data();
-      w[a] =
-          scale * (core::face_mean(eps, c, s) * (u[c] - v[c]) + core::face_mean(eps, c + s, s) * (u[c + s] - v[c + s]));
-    }
-    return {w[0], w[1], w[2]};
-  }
-
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
 };
