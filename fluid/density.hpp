@@ -11,7 +11,6 @@ namespace polybed::fluid {
 struct EvenDensity {
   double value;  ///< kg/m3
   [[nodiscard]] double on_face(core::Index, core::Index) const { return value; }
-  [[nodiscard]] double in_cell(core::Index) const { return value; }
 };
 
 /// rho_f of a compressible fluid, which follows the pressure.
@@ -19,7 +18,6 @@ struct LocalDensity {
   const double* cells;  ///< kg/m3, ghosts filled
   /// Mean of the cells c - s and c on the face between them.
   [[nodiscard]] double on_face(core::Index c, core::Index s) const { return core::face_mean(cells, c, s); }
-  [[nodiscard]] double in_cell(core::Index c) const { return cells[c]; }
 };
 
 /// Calls body(density) with the density that the fluid has.

@@ -91,11 +91,11 @@ class CollisionalStress {
   [[nodiscard]] virtual std::optional<ClosureUse> use() const { return {}; }
 };
 
-/// Slot Force: adds to fields.force.on_solids in the cells of the solids; ghosts are filled afterwards.
+/// Slot Force: adds the force along an axis to fields.force.on_solids, on the faces where solids move.
 class ForceEffect {
  public:
   virtual ~ForceEffect() = default;
-  virtual void add(Fields& fields) = 0;
+  virtual void add(int axis, Fields& fields) = 0;
 };
 
 /// Slot Inertia: what forces and the pressure do to velocities. Owns and fills fields.inertia.

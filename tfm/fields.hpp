@@ -53,10 +53,9 @@ struct Granular {
   std::vector<core::Field> decay;         ///< rate at which a disturbance of theta_j in one cell decays, 1/s
 };
 
-/// What forces on single particles need; empty where none acts.
+/// Of forces on single particles; empty where none acts.
 struct ParticleForce {
-  std::vector<core::Field> on_solids;  ///< force per volume of the species, N/m3, cells: [species * dimensions + axis]
-  std::array<core::Field, 3> vorticity;  ///< curl U_f, 1/s, owned cells; in 2-D the third component alone is not 0
+  std::vector<core::Field> on_solids;  ///< f_j: over the particles' volume, N/m3, [species][face] of the axis at hand
   [[nodiscard]] bool present() const { return !on_solids.empty(); }
 };
 

@@ -161,9 +161,11 @@ void RightHandSide::add_solids_stress() {
 
 /// Forces of closures on single particles, on the solids and in the opposite direction on the fluid.
 void RightHandSide::add_particle_forces() {
-  for (core::Field& force : fields_.force.on_solids) std::fill(force.begin(), force.end(), 0.0);
-  for (const auto& effect : effects_.forces) effect->add(fields_);
-  share_particle_forces(constants_, boundaries_, fields_);
+  for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
+    for (core::Field& force : fields_.force.on_solids) std::fill(force.begin(), force.end(), 0.0);
+    for (const auto& effect : effects_.forces) effect->add(axis, fields_);
+    share_particle_forces(constants_, boundaries_, axis, fields_);
+  }
 }
 
 void RightHandSide::set_flux_rate(double t) {
