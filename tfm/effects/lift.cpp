@@ -79,8 +79,9 @@ void lift_loops(const Density& density, const Constants& constants, const fluid:
     core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
 #pragma GCC ivdep
       for (Index c = begin; c < end; ++c)
-        to[c] += per_volume *
-                 closures::lift_saffman_mei(slip(c), vorticity(c), diameter, density.on_face(c, s), viscosity).x;
+        to[c] += per_volume * closures::lift_saffman_mei(slip(c), vorticity(c), diameter, density.on_face(c, s),
+                                                         viscosity, closures::lift_least_shear_mei)
+                                  .x;
     });
   };
   using closures::Vec3;
@@ -113,7 +114,8 @@ void lift_loops(const Density& density, const Constants& constants, const fluid:
 }
 
 /// Saffman's lift with the share of Mei on each species: that of one sphere, at any voidage, with the local density of
-/// a compressible fluid.
+/// a compressible fluid. Below the shear that the share is known from it is linear in the vorticity: through the slope
+/// of a root round-off would grow into streams where the flow is even or symmetric.
 class Lift final : public ForceEffect {
  public:
   Lift(const Constants& constants, const fluid::Boundaries& boundaries)

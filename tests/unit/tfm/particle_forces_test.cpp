@@ -59,8 +59,8 @@ struct Shear {
                                slope[1][0] - slope[0][1]},
         slip{flow(0, at) - solid[j][0], flow(1, at) - solid[j][1], deep ? flow(2, at) - solid[j][2] : 0};
     const double d = constants.diameter[j], volume = std::numbers::pi / 6 * d * d * d;
-    const closures::Vec3 force =
-        closures::lift_saffman_mei(slip, omega, d, constants.fluid.density, constants.fluid.viscosity);
+    const closures::Vec3 force = closures::lift_saffman_mei(slip, omega, d, constants.fluid.density,
+                                                            constants.fluid.viscosity, closures::lift_least_shear_mei);
     return {force.x / volume, force.y / volume, force.z / volume};
   }
 
