@@ -91,6 +91,26 @@ class CollisionalStress {
   [[nodiscard]] virtual std::optional<ClosureUse> use() const { return {}; }
 };
 
+/// Slot Force: adds the force along an axis to fields.force.on_solids, on the faces where solids move.
+class ForceEffect {
+ public:
+  virtual ~ForceEffect() = default;
+  virtual void add(int axis, Fields& fields) = 0;
+};
+
+/// Slot Inertia: what forces and the pressure do to velocities. Owns and fills fields.inertia.
+class InertiaEffect {
+ public:
+  virtual ~InertiaEffect() = default;
+  /// Called while the accelerations of all phases are their convection alone.
+  virtual void keep_convection(Fields& fields) = 0;
+  /// Turns the accelerations that forces would give each phase alone into those that they have together; sets the
+  /// responses to the pressure.
+  virtual void couple(Fields& fields) = 0;
+  /// Sets the mobility B of the volume flux. Collective.
+  virtual void set_mobility(Fields& fields) = 0;
+};
+
 /// What walls do to solids that slip along them, where that is neither nothing nor all.
 class SolidsWall {
  public:
@@ -111,6 +131,8 @@ struct Effects {
   std::unique_ptr<StressEffect> solids_stress;
   std::unique_ptr<SolidsViscosity> solids_viscosity;
   std::unique_ptr<CollisionalStress> collisions;
+  std::vector<std::unique_ptr<ForceEffect>> forces;  ///< on single particles
+  std::unique_ptr<InertiaEffect> inertia;
   std::unique_ptr<SolidsWall> solids_wall;
   std::unique_ptr<fluid::Compressible> compressible;  ///< of an incompressible fluid: null
   std::vector<std::string> warnings;                  ///< where the scene is not what an effect was measured for

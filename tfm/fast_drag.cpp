@@ -37,6 +37,7 @@ FastDrag::FastDrag(const Constants& constants, const fluid::Boundaries& boundari
 
 void FastDrag::hold(const Fields& fields) {
   const core::Grid& grid = constants_.grid;
+  inertia_ = fields.inertia.present();
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     Faces& faces = axes_[a];
@@ -44,6 +45,7 @@ void FastDrag::hold(const Fields& fields) {
     const core::Box box = boundaries_.moving_faces(axis, false);
     faces.runs.clear();
     for (std::vector<double>& b : faces.b) std::fill(b.begin(), b.end(), 0.0);
+    if (inertia_ && faces.share.empty()) faces.share = faces.b;
     const Index s = grid.stride(axis), row = all.hi[0] - all.lo[0], layer = row * (all.hi[1] - all.lo[1]);
     const double *eps = fields.fluid.voidage.data(), *u = fields.fluid.velocity[a].data();
     for (int k = box.lo[2]; k < box.hi[2]; ++k) {
@@ -69,6 +71,7 @@ void FastDrag::hold(const Fields& fields) {
               mobility[f] += phi_on[f] * per_density;
             }
           });
+          if (inertia_) std::copy_n(fields.inertia.share[n][a].data() + from, count, faces.share[n].data() + to);
         }
       }
     }
@@ -149,15 +152,86 @@ void FastDrag::solve_in_block(const Faces& faces, std::size_t begin, std::size_t
   }
 }
 
+void FastDrag::add_with_inertia(const Faces& faces, std::size_t begin, std::size_t count, double factor,
+                                const double* y, double* rates) const {
+  const std::size_t species = constants_.species();
+  const double on_solids = constants_.form_b ? 0 : 1;
+  for (std::size_t f = begin; f < begin + count; ++f) {
+    const double eps = faces.voidage[f];
+    double fluid = y[faces.begin + f], mass = eps * constants_.fluid.density, push = 0,
+           pressed = constants_.form_b ? 1 : eps;
+    for (std::size_t n = 0; n < species; ++n) fluid -= faces.phi[n][f] * y[faces.velocity[n] + f];
+    fluid /= eps;
+    for (std::size_t n = 0; n < species; ++n) {
+      const double phi = faces.phi[n][f], k = faces.share[n][f];
+      mass += phi * k * constants_.density[n];
+      push -= phi * (1 - k) * faces.b[n][f] * (fluid - y[faces.velocity[n] + f]);
+      pressed += phi * k * on_solids;
+    }
+    // What drag, and what a unit gradient of pressure, do to the total flux: the gradient holds it.
+    double flux = eps * push / mass, mobility = eps * pressed / mass;
+    for (std::size_t n = 0; n < species; ++n) {
+      const double phi = faces.phi[n][f], k = faces.share[n][f], free = (1 - k) / constants_.density[n];
+      flux += phi * (free * faces.b[n][f] * (fluid - y[faces.velocity[n] + f]) + k * push / mass);
+      mobility += phi * (free * on_solids + k * pressed / mass);
+    }
+    const double gradient = flux / mobility, of_fluid = (push - pressed * gradient) / mass;
+    for (std::size_t n = 0; n < species; ++n) {
+      const double k = faces.share[n][f], free = (1 - k) / constants_.density[n];
+      rates[faces.velocity[n] + f] +=
+          factor * (free * (faces.b[n][f] * (fluid - y[faces.velocity[n] + f]) - on_solids * gradient) + k * of_fluid);
+    }
+  }
+}
+
+// With gamma a_f = u - u_r, u_r = (r_J - sum phi_k r_k)/eps, and g = gamma G:
+// x_k = [r_k - k_k u_r + (c_k b_k + k_k) u - (1 - k_k) s_k g/rho_k] / (1 + c_k b_k),  c_k = gamma (1 - k_k)/rho_k,
+// in eps u + sum phi_k x_k = r_J and in the fluid's equation: uu u + ug g = ur and gu u + gg g = gr.
+void FastDrag::solve_with_inertia(const Faces& faces, std::size_t begin, std::size_t count, double gamma,
+                                  double* x) const {
+  const std::size_t species = constants_.species();
+  const double on_solids = constants_.form_b ? 0 : 1;
+  for (std::size_t f = begin; f < begin + count; ++f) {
+    const double eps = faces.voidage[f];
+    double rest = x[faces.begin + f], mass = eps * constants_.fluid.density;
+    for (std::size_t n = 0; n < species; ++n) {
+      rest -= faces.phi[n][f] * x[faces.velocity[n] + f];
+      mass += faces.phi[n][f] * faces.share[n][f] * constants_.density[n];
+    }
+    rest /= eps;
+    double uu = eps, ug = 0, ur = x[faces.begin + f], gu = mass, gg = constants_.form_b ? 1 : eps, gr = mass * rest;
+    for (std::size_t n = 0; n < species; ++n) {
+      const double phi = faces.phi[n][f], k = faces.share[n][f], b = faces.b[n][f];
+      const double free = (1 - k) / constants_.density[n], c = gamma * free, own = 1 / (1 + c * b);
+      const double known = own * (x[faces.velocity[n] + f] - k * rest), pull = phi * (1 - k) * b * own;
+      uu += phi * own * (c * b + k);
+      ug -= phi * own * free * on_solids;
+      ur -= phi * known;
+      gu += gamma * pull * (1 - k);
+      gg += phi * k * on_solids + pull * c * on_solids;
+      gr += gamma * phi * (1 - k) * b * known;
+    }
+    const double det = uu * gg - ug * gu;
+    const double u = (ur * gg - ug * gr) / det, g = (uu * gr - gu * ur) / det;
+    for (std::size_t n = 0; n < species; ++n) {
+      const double k = faces.share[n][f], b = faces.b[n][f], free = (1 - k) / constants_.density[n], c = gamma * free;
+      double& v = x[faces.velocity[n] + f];
+      v = (v - k * rest + (c * b + k) * u - free * on_solids * g) / (1 + c * b);
+    }
+  }
+}
+
 void FastDrag::add_loops(const FastDrag& drag, double factor, const double* y, double* rates) {
   drag.in_blocks([&](const Faces& faces, std::size_t begin, std::size_t count) {
-    drag.add_in_block(faces, begin, count, factor, y, rates);
+    drag.inertia_ ? drag.add_with_inertia(faces, begin, count, factor, y, rates)
+                  : drag.add_in_block(faces, begin, count, factor, y, rates);
   });
 }
 
 void FastDrag::solve_loops(const FastDrag& drag, double gamma, double* x) {
   drag.in_blocks([&](const Faces& faces, std::size_t begin, std::size_t count) {
-    drag.solve_in_block(faces, begin, count, gamma, x);
+    drag.inertia_ ? drag.solve_with_inertia(faces, begin, count, gamma, x)
+                  : drag.solve_in_block(faces, begin, count, gamma, x);
   });
 }
 

@@ -8,6 +8,11 @@
 // which the rest relaxes has the square of the difference of densities in it, sum_k phi_k b_k (1/rho_f - 1/rho_k)^2/B:
 // a few hundredths of that of the drag in a liquid, about all of it in a gas. In form B, G is 0: it acts on the fluid
 // alone, whose flux is held.
+//
+// With added mass, k_j = C_m rho_f/(rho_j + C_m rho_f), and s_j = 1, s_f = eps (form A) or s_j = 0, s_f = 1 (form B):
+//
+//   dU_j/dt = (1 - k_j) [ b_j (U_f - U_j) - s_j G ] / rho_j + k_j a_f,    eps a_f + sum_k phi_k dU_k/dt = 0
+//   (eps rho_f + sum_k phi_k k_k rho_k) a_f = -sum_k phi_k (1 - k_k) b_k (U_f - U_k) - (s_f + sum_k phi_k k_k s_k) G
 #pragma once
 
 #include <span>
@@ -54,6 +59,7 @@ class FastDrag {
     std::size_t begin = 0, size = 0;                        ///< of the flux in the state, and faces
     std::vector<std::size_t> velocity;                      ///< begin of U_j in the state
     std::vector<std::vector<double>> phi, b;                ///< [species][face]; b is 0 where solids do not move
+    std::vector<std::vector<double>> share;                 ///< k_j; empty without added mass
     std::vector<double> voidage, mobility;                  ///< eps, and B in m3/kg
     std::vector<std::pair<std::size_t, std::size_t>> runs;  ///< faces where solids move, one after the other
   };
@@ -63,6 +69,9 @@ class FastDrag {
   void add_in_block(const Faces& faces, std::size_t begin, std::size_t count, double factor, const double* y,
                     double* rates) const;
   void solve_in_block(const Faces& faces, std::size_t begin, std::size_t count, double gamma, double* x) const;
+  void add_with_inertia(const Faces& faces, std::size_t begin, std::size_t count, double factor, const double* y,
+                        double* rates) const;
+  void solve_with_inertia(const Faces& faces, std::size_t begin, std::size_t count, double gamma, double* x) const;
   static void add_loops(const FastDrag& drag, double factor, const double* y, double* rates);
   static void solve_loops(const FastDrag& drag, double gamma, double* x);
 
@@ -70,6 +79,7 @@ class FastDrag {
   const fluid::Boundaries& boundaries_;
   const StateLayout& layout_;
   std::vector<Faces> axes_;
+  bool inertia_ = false;
   std::vector<double> lighter_;  ///< 1/rho_k - 1/rho_f, m3/kg; 0 in form B
 };
 

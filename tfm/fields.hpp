@@ -53,6 +53,21 @@ struct Granular {
   std::vector<core::Field> decay;         ///< rate at which a disturbance of theta_j in one cell decays, 1/s
 };
 
+/// Of forces on single particles; empty where none acts.
+struct ParticleForce {
+  std::vector<core::Field> on_solids;  ///< f_j: over the particles' volume, N/m3, [species][face] of the axis at hand
+  [[nodiscard]] bool present() const { return !on_solids.empty(); }
+};
+
+/// What added mass needs, on the faces where solids move; empty where it is absent.
+struct Inertia {
+  std::vector<core::FaceField> convection;  ///< -(U.grad)U of each species and, last, of the fluid, m/s2
+  std::vector<core::FaceField> share;       ///< k_j = C_m rho_f/(rho_j + C_m rho_f): of the fluid's in a solid's motion
+  std::vector<core::FaceField> response;    ///< what a unit gradient of the pressure does to U_j, m3/kg
+  core::FaceField fluid_response;           ///< and to U_f, m3/kg
+  [[nodiscard]] bool present() const { return !share.empty(); }
+};
+
 struct Fields {
   fluid::Interphase solids;
   fluid::FluidState fluid;
@@ -64,6 +79,8 @@ struct Fields {
   fluid::FluxRate flux_rate;
   SolidsStress stress;
   Granular granular;
+  ParticleForce force;
+  Inertia inertia;
   /// K_jk / (phi_j phi_k), kg/(m3 s), pairs j < k; empty if absent.
   std::vector<core::Field> species_exchange;
 

@@ -46,7 +46,9 @@ class Preconditioner {
   void build(const Fields& fields, const Density& density, int axis, const core::Box& box, Place place);
   [[nodiscard]] double viscous_diagonal(int axis) const;
   void invert_face(const Fields& fields, double fluid_density, int axis, core::Index face);
-  void respond(const Fields& fields, int axis, core::Index face);
+  void respond(const Fields& fields, double fluid_density, int axis, core::Index face);
+  template <class Rows>
+  void couple(const Fields& fields, double fluid_density, int axis, core::Index face, Rows& rows) const;
   void unpack(const StateLayout& layout, std::span<const double> r);
   void solve_faces();
   void elliptic_sources();

@@ -65,7 +65,7 @@ void Preconditioner::build(const Fields& fields, const Density& density, int axi
         fraction_[a][j][at] = carried ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
       }
       invert_face(fields, density.on_face(face, s), axis, face);
-      respond(fields, axis, face);
+      respond(fields, density.on_face(face, s), axis, face);
     }
   });
 }
@@ -79,6 +79,32 @@ double Preconditioner::viscous_diagonal(int axis) const {
     sum += (d == axis ? 8.0 / 3 : 2.0) / (h * h);
   }
   return sum;
+}
+
+/// Added mass, as effects/added_mass.cpp has it: turns rows of what forces do to U_1..U_N and J of a face, each phase
+/// by itself, into those of all phases together.
+template <class Rows>
+void Preconditioner::couple(const Fields& fields, double fluid_density, int axis, Index face, Rows& rows) const {
+  const auto a = std::size_t(axis), at = std::size_t(face);
+  const auto flux = Eigen::Index(constants_.species());
+  const double eps =
+      std::max(face_mean(fields.fluid.voidage.data(), face, constants_.grid.stride(axis)), fluid::voidage_floor);
+  double mass = eps * fluid_density;
+  Rows fluid = rows.row(flux);
+  for (std::size_t j = 0; j < constants_.species(); ++j) fluid -= fraction_[a][j][at] * rows.row(Eigen::Index(j));
+  fluid *= fluid_density;
+  for (std::size_t j = 0; j < constants_.species(); ++j) {
+    const double weight = fraction_[a][j][at] * fields.inertia.share[j][a][at] * constants_.density[j];
+    fluid += weight * rows.row(Eigen::Index(j));
+    mass += weight;
+  }
+  fluid /= mass;
+  rows.row(flux) = eps * fluid;
+  for (std::size_t j = 0; j < constants_.species(); ++j) {
+    const double k = moves_[j] ? fields.inertia.share[j][a][at] : 0;
+    rows.row(Eigen::Index(j)) = (1 - k) * rows.row(Eigen::Index(j)) + k * fluid;
+    rows.row(flux) += fraction_[a][j][at] * rows.row(Eigen::Index(j));
+  }
 }
 
 /// S of one face, inverted into its place; the row of a species that is held there is c dU_j.
@@ -122,11 +148,16 @@ void Preconditioner::invert_face(const Fields& fields, double fluid_density, int
       system(row(n), row(k)) -= phi * rate;
     }
   }
+  if (fields.inertia.present()) {
+    system.diagonal().array() -= c_;
+    couple(fields, fluid_density, axis, face, system);
+    system.diagonal().array() += c_;
+  }
   Eigen::Map<Matrix>(inverse_[a].data() + inverse_at(face), row(rows_), row(rows_)) = system.inverse();
 }
 
 /// Responses of a face to unit gradients of dp and of L s, and the coefficients of the elliptic system.
-void Preconditioner::respond(const Fields& fields, int axis, Index face) {
+void Preconditioner::respond(const Fields& fields, double fluid_density, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
   const Index stride = constants_.grid.stride(axis);
   const std::size_t n = constants_.species();
@@ -139,6 +170,10 @@ void Preconditioner::respond(const Fields& fields, int axis, Index face) {
     stress[Eigen::Index(n)] += fraction_[a][j][at] * stress[row];
   }
   pressure[Eigen::Index(n)] = fields.flux_rate.mobility[a][at];
+  if (fields.inertia.present()) {
+    couple(fields, fluid_density, axis, face, stress);
+    for (std::size_t j = 0; j < n; ++j) pressure[Eigen::Index(j)] = moves_[j] ? fields.inertia.response[j][a][at] : 0;
+  }
   const Eigen::Map<const Matrix> inverse(inverse_[a].data() + inverse_at(face), Eigen::Index(rows_),
                                          Eigen::Index(rows_));
   const Vector to_pressure = inverse * pressure, to_stress = inverse * stress;

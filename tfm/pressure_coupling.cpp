@@ -17,7 +17,16 @@ void subtract_pressure_gradient(const Constants& constants, const fluid::Boundar
                                  [&](Index begin, Index end, auto gradient) {
                                    for (Index c = begin; c < end; ++c) flux[c] -= mobility[c] * gradient(c);
                                  });
-    for (std::size_t j = 0; j < constants.species() && fields.solids.carry_pressure; ++j) {
+    for (std::size_t j = 0; j < fields.inertia.response.size(); ++j) {
+      double* acceleration = fields.solids.acceleration[j][a].data();
+      const double* response = fields.inertia.response[j][a].data();
+      fluid::for_each_gradient_row(grid, boundaries.moving_faces(axis, false), axis, p,
+                                   [&](Index begin, Index end, auto gradient) {
+                                     for (Index c = begin; c < end; ++c) acceleration[c] -= response[c] * gradient(c);
+                                   });
+    }
+    const bool by_density = fields.solids.carry_pressure && !fields.inertia.present();
+    for (std::size_t j = 0; j < constants.species() && by_density; ++j) {
       double* acceleration = fields.solids.acceleration[j][a].data();
       const double per_density = fields.solids.response(j);
       fluid::for_each_gradient_row(grid, boundaries.moving_faces(axis, false), axis, p,

@@ -9,8 +9,8 @@
 
 namespace polybed::tfm {
 
-/// Turns a_j into dU_j/dt and the free rate of J into dJ/dt: subtracts grad p / rho_j (form A) and B grad p, in place.
-/// fields.fluid.pressure is read; its ghosts are set.
+/// Turns a_j into dU_j/dt and the free rate of J into dJ/dt: subtracts grad p / rho_j (form A) and B grad p, in place;
+/// with added mass its responses times grad p. fields.fluid.pressure is read; its ghosts are set.
 void subtract_pressure_gradient(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields);
 
 /// Writes the rates of all fields to their places in dydt; entries of the pressure are left alone, unless the fluid is

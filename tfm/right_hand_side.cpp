@@ -9,6 +9,7 @@
 #include "fluid/pressure.hpp"
 #include "tfm/granular_temperature.hpp"
 #include "tfm/mixture.hpp"
+#include "tfm/particle_forces.hpp"
 #include "tfm/solids_viscosity.hpp"
 
 namespace polybed::tfm {
@@ -42,11 +43,13 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //   (1) dphi_j/dt = -div(phi_j U_j)
 //   (2) dU_j/dt   = a_j - grad p / rho_j
 //       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
-//             + div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j)
-//   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j b_j (U_f - U_j)/(eps rho_f)
+//             + div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j) + f_j/rho_j
+//   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j [b_j (U_f - U_j) + f_j]/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
 //
-// and, of a compressible fluid, (5) of fluid/compressible.hpp. rho_f in (2) stands for rho_0 there, and (3) has its
+// f_j is the force of closures on single particles (lift) over their volume. Added mass couples the accelerations and
+// takes other numbers than 1/rho_j and 1/rho_f into (2) and B: effects/added_mass.cpp. Of a compressible fluid there is
+// (5) of fluid/compressible.hpp. rho_f in (2) stands for rho_0 there, and (3) has its
 // -(1 - rho_0/rho_f) g besides.
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
   const auto timed = [&](const char* term, auto&& work) {
@@ -69,6 +72,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
                conservative_ ? &*conservative_ : nullptr);
     if (!conservative_) convection(constants_, boundaries_, discretisation_.momentum, fields_);
   });
+  if (effects_.inertia) timed("added mass", [&] { effects_.inertia->keep_convection(fields_); });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
   timed("gravity", [&] {
     add_gravity(constants_, boundaries_, fields_);
@@ -87,6 +91,8 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
       effects_.species_exchange->evaluate(fields_);
       add_species_exchange(constants_, boundaries_, fields_);
     });
+  if (!effects_.forces.empty()) timed("particle forces", [&] { add_particle_forces(); });
+  if (effects_.inertia) timed("added mass", [&] { effects_.inertia->couple(fields_); });
   timed("volume flux", [&] { set_flux_rate(t); });
   if (effects_.compressible)
     timed("fluid continuity", [&] { effects_.compressible->set_pressure_rate(fields_.solids, fields_.fluid); });
@@ -120,6 +126,8 @@ void RightHandSide::hold_solids_above(int row) {
   clear_all(stress.strain);
   clear_all(fields_.granular.conductivity);
   clear_all(fields_.granular.decay);
+  std::for_each(fields_.inertia.share.begin(), fields_.inertia.share.end(), clear_all);
+  std::for_each(fields_.inertia.response.begin(), fields_.inertia.response.end(), clear_all);
 }
 
 std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLayout& layout,
@@ -151,12 +159,24 @@ void RightHandSide::add_solids_stress() {
   subtract_stress(constants_, boundaries_, fields_);
 }
 
+/// Forces of closures on single particles, on the solids and in the opposite direction on the fluid.
+void RightHandSide::add_particle_forces() {
+  for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
+    for (core::Field& force : fields_.force.on_solids) std::fill(force.begin(), force.end(), 0.0);
+    for (const auto& effect : effects_.forces) effect->add(axis, fields_);
+    share_particle_forces(constants_, boundaries_, axis, fields_);
+  }
+}
+
 void RightHandSide::set_flux_rate(double t) {
   const bool openings = constants_.openings.present();
   if (openings) constants_.openings.hold(fields_.solids.acceleration);
   fluid::flux_rate(constants_.grid, boundaries_, fields_.solids, fields_.fluid, constants_.fluid.density,
                    fields_.fluid_acceleration, fields_.flux_rate);
-  if (openings) constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
+  if (effects_.inertia)
+    effects_.inertia->set_mobility(fields_);
+  else if (openings)
+    constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
   set_inlet_rate(t);
 }
 

@@ -58,6 +58,7 @@ class RightHandSide {
   void set_inlet_velocity(double t);
   void set_inlet_rate(double t);
   void add_solids_stress();
+  void add_particle_forces();
   void set_flux_rate(double t);
   [[nodiscard]] bool admissible() const;
 

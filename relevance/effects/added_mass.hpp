@@ -33,7 +33,6 @@ inline std::optional<EffectRow> weigh_added_mass(const Weighing& by, EffectRow r
 inline const Effect added_mass{
     .role = "added_mass",
     .help = "fluid that a particle drags along when it accelerates",
-    .absent = "no law of it in the two-fluid model",
     .laws = {{"zuber", "of a sphere among others", "C_m = (1 + 2 phi)/(2 (1 - phi)), Zuber 1964"},
              {"half", "of one sphere: half the mass of the fluid that it displaces", "C_m = 1/2"}},
     .rules = {needs_a_fluid("added_mass"), idle_in_a_sheared_box("added_mass")},

@@ -24,7 +24,6 @@ inline std::optional<double> share_of_lift(const Encountered& met) {
 
 inline const Effect lift{.role = "lift",
                          .help = "force across a sheared fluid's stream",
-                         .absent = "no law of it in the two-fluid model",
                          .laws = {{"saffman_mei", "of one sphere", "Saffman 1965 with the share of Mei 1992"}},
                          .rules = {needs_a_fluid("lift"), idle_in_a_sheared_box("lift")},
                          .number = "lift over weight",

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Writes the lists of effects without lift and cohesion of particles and without the exchange of species and the viscosity of packed
-solids of the continuum: bare_sources.py ROOT OUTPUT_FOLDER."""
+"""Writes the lists of effects without lift and cohesion of particles and without lift, added mass, the exchange of species and
+the viscosity of packed solids of the continuum: bare_sources.py ROOT OUTPUT_FOLDER."""
 import pathlib
 import re
 import sys
 
-BARE = {"dem": ("lift", "cohesion"), "tfm": ("species_exchange", "solids_viscosity")}
+BARE = {"dem": ("lift", "cohesion"), "tfm": ("species_exchange", "solids_viscosity", "lift", "added_mass")}
 
 
 def without(text, effects):

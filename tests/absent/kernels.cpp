@@ -1,7 +1,7 @@
 // Small scenes of both models, to be counted instruction by instruction: of particles without lift and cohesion, of a
-// continuum without the exchange of species and the viscosity of packed solids. Built once with the whole models, and
-// once bare, without the lines of those effects in the lists. What it prints is what an absent
-// effect must not change.
+// continuum without lift, added mass, the exchange of species and the viscosity of packed solids. Built once with the
+// whole models, and once bare, without the lines of those effects in the lists. What it prints is what an absent effect
+// must not change.
 #include <fmt/format.h>
 
 #include "absent/control.hpp"

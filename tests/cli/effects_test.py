@@ -92,18 +92,18 @@ class Table(Scratch):
 
     def test_the_two_fluid_model_leaves_out_what_only_particles_have(self):
         case = self.write("hand.toml", BY_HAND)
-        for words in ([], ["--set", "effects.lift=saffman_mei"]):
+        for words in ([], ["--set", "effects.magnus=rubinow_keller"]):
             answer, rows = self.table(case, *words)
             of_choice, of_case = answer["neglected_sum_by_model"], answer["neglected_sum_of_case_by_model"]
             self.assertEqual(of_choice["dem"], answer["neglected_sum"])
             self.assertEqual(of_case["dem"], answer["neglected_sum_of_case"])
             # What is on takes nothing from the sum of a model that has no law of it.
             bounds = {effect: 0 if rows[effect].get("band", [0, None])[1] == rows[effect]["value"] else rows[effect]["value"]
-                      for effect in ("lift", "magnus", "cohesion", "brownian")}  # the top of a band bounds nothing
+                      for effect in ("magnus", "cohesion", "brownian")}  # the top of a band bounds nothing
             on = sum(bound for effect, bound in bounds.items() if rows[effect]["on"])
             self.assertAlmostEqual(of_choice["tfm"] - of_choice["dem"], on, places=12)
-            self.assertAlmostEqual(of_case["tfm"] - of_case["dem"], bounds["lift"] if words else 0, places=12)
-            self.assertGreater(bounds["lift"], 0)
+            self.assertAlmostEqual(of_case["tfm"] - of_case["dem"], bounds["magnus"] if words else 0, places=12)
+            self.assertGreater(bounds["magnus"], 0)
         self.assertIn("the two-fluid model has no law of", self.ends(DONE, "effects", case).stdout)
 
     def test_missing_data_are_said_to_be_unknown(self):

@@ -26,6 +26,7 @@ FIXED = ["--set", "tfm.fixed_step=0.001", "--set", 'tfm.integrator="explicit"', 
 FLAT = ["--set", "column.cells=[12,60]"]
 DEEP = ["--set", 'column.size=["60 mm","24 mm","620 mm"]', "--set", "column.cells=[12,8,40]",
         "--set", 'column.sides="periodic"']
+FORCES = ["--set", 'effects.lift="saffman_mei"', "--set", 'effects.added_mass="zuber"']
 
 
 def case_without(key):
@@ -96,6 +97,13 @@ class Ranks(Scratch):
         words = [w for role, law in effects.items() for w in ("--set", f'effects.{role}="{law}"')]
         self.check_equal(*FLAT, *FIXED, *TIGHT, *words, "--set", 'tfm.solids_wall="johnson_jackson"',
                          "--set", 'tfm.momentum="limited"', on=(4,))
+
+    def test_forces_on_particles_are_the_same(self):
+        """Vorticity takes velocities from across every cut, corners included; added mass changes what a pressure does."""
+        self.check_equal(*FLAT, *FIXED, *TIGHT, *FORCES)
+
+    def test_forces_on_particles_of_a_deep_bed_are_the_same(self):
+        self.check_equal(*DEEP, *FIXED, *TIGHT, *FORCES, case=self.write("deep.toml", case_without("depth")), on=(4,))
 
     def test_a_compressible_fluid_is_the_same(self):
         """Its pressure follows from the density, of which the last bit is c^2 1.1e-13 kg/m3 = 2.5e-7 Pa, 7e-10 of the greatest."""

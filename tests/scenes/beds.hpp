@@ -84,6 +84,13 @@ inline core::Scene two_species_box(int dimensions, int cells, double length, dou
   return scene;
 }
 
+/// With forces on single particles: lift, and the fluid that they drag along.
+inline core::Scene with_particle_forces(core::Scene scene) {
+  scene.effects["lift"] = "saffman_mei";
+  scene.effects["added_mass"] = "zuber";
+  return scene;
+}
+
 /// Advances to a time, step by step, and shows the state there.
 inline void advance(tfm::Model& model, double until) {
   while (model.time() < until) model.step(until);

@@ -21,10 +21,12 @@ SWITCHES = {
     "second order": ["tfm.momentum=conservative_limited"],
     "first order": ["tfm.momentum=conservative"],
     "own share removed": ["dem.own_share=removed"],
+    "lift": ["effects.lift=saffman_mei"],
+    "added mass": ["effects.added_mass=zuber"],
 }
 # Particles take second order by themselves, the two-fluid model first.
 OF_MODEL = {"dem": ("base", "no fluid stress", "own share removed", "first order", "joined sides"),
-            "tfm": ("base", "no fluid stress", "second order", "joined sides")}
+            "tfm": ("base", "no fluid stress", "second order", "joined sides", "lift", "added mass")}
 VELOCITIES = (30, 25, 35)  # mm/s
 UNTIL = 60  # s
 

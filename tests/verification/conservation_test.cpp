@@ -49,6 +49,15 @@ TEST_P(Conservation, ResumedRunGivesTheSameBits) {
   EXPECT_EQ(ends.work_through.steps, ends.work_resumed.steps);
 }
 
+TEST_P(Conservation, ResumedRunWithForcesOnParticlesGivesTheSameBits) {
+  core::Scene scene = with_particle_forces(binary_bed(6, 40, 0.018, 0.12));
+  scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
+  scene.tfm.rtol = 1e-3;
+  const TwoEnds ends = through_and_resumed(scene, 0.2, 0.4);
+  EXPECT_EQ(ends.through.arrays.at("state"), ends.resumed.arrays.at("state"));
+  EXPECT_EQ(ends.work_through.steps, ends.work_resumed.steps);
+}
+
 INSTANTIATE_TEST_SUITE_P(Integrators, Conservation, testing::Values("explicit", "imex", "implicit"));
 
 TEST(Integrators, AgreeAtTightTolerance) {

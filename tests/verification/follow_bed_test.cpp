@@ -42,16 +42,19 @@ class FollowBed : public testing::TestWithParam<std::string> {};
 // Fixed steps: what is left out are traces below 1e-12 and velocities of faces without solids, which have eight rows in
 // which to become those of the flow. 1e-10 of the fraction and of the volume: this project's goal.
 TEST_P(FollowBed, GivesTheWholeColumnsBed) {
-  core::Scene part = rising(GetParam(), true), whole = rising(GetParam(), false);
-  part.tfm.fixed_step = whole.tfm.fixed_step = 2e-3;
-  const End some = run(part), all = run(whole);
-  core::Timers timers;
-  const core::Grid grid = tfm::Model(whole, timers).constants().grid;
-  EXPECT_GE(all.rows, 14 + 8 + 1);
-  record("difference of fractions", distance(grid, some.fraction, all.fraction));
-  EXPECT_LT(distance(grid, some.fraction, all.fraction), 1e-10);
-  for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(some.volume[j] / all.volume[j], 1, 1e-13);
-  EXPECT_EQ(some.evaluations, all.evaluations);
+  for (const bool forces : {false, true}) {
+    core::Scene part = rising(GetParam(), true), whole = rising(GetParam(), false);
+    part.tfm.fixed_step = whole.tfm.fixed_step = 2e-3;
+    if (forces) part = with_particle_forces(part), whole = with_particle_forces(whole);
+    const End some = run(part), all = run(whole);
+    core::Timers timers;
+    const core::Grid grid = tfm::Model(whole, timers).constants().grid;
+    EXPECT_GE(all.rows, 14 + 8 + 1);
+    record("difference of fractions", distance(grid, some.fraction, all.fraction));
+    EXPECT_LT(distance(grid, some.fraction, all.fraction), 1e-10);
+    for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(some.volume[j] / all.volume[j], 1, 1e-13);
+    EXPECT_EQ(some.evaluations, all.evaluations);
+  }
 }
 
 // Steps of their own: within the tolerance, as entries that do not change count in the error's mean.

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "scenes/box_equations.hpp"
 #include "scenes/record.hpp"
@@ -97,8 +99,11 @@ class Box : public BoxEquations {
   }
 };
 
-double imbalance(int dimensions, int cells, tfm::Scheme momentum, bool conservative) {
-  Box box(joined(dimensions, cells), momentum, conservative);
+double imbalance(int dimensions, int cells, tfm::Scheme momentum, bool conservative,
+                 const std::map<std::string, std::string>& besides = {}) {
+  core::Scene scene = joined(dimensions, cells);
+  scene.effects.insert(besides.begin(), besides.end());
+  Box box(scene, momentum, conservative);
   return box.budget(box.waves()).imbalance();
 }
 
@@ -110,6 +115,19 @@ TEST(MomentumBudget, ClosesInSpaceInConservativeForm) {
       record(fmt::format("left over, {}-D, {}", dimensions, scheme == tfm::Scheme::limited ? "limited" : "upwind"),
              left);
       EXPECT_LT(left, 1e-12) << dimensions;
+    }
+}
+
+// What lift and added mass give to the solids they take from the fluid, in the same cells.
+TEST(MomentumBudget, ClosesWithLiftAndAddedMass) {
+  for (const std::map<std::string, std::string>& besides : {std::map<std::string, std::string>{{"lift", "saffman_mei"}},
+                                                            {{"added_mass", "zuber"}},
+                                                            {{"lift", "saffman_mei"}, {"added_mass", "half"}}})
+    for (const int dimensions : {2, 3}) {
+      const double left = imbalance(dimensions, 12, tfm::Scheme::limited, true, besides);
+      record(fmt::format("left over, {}-D, {}", dimensions, besides.size() == 2 ? "both" : besides.begin()->first),
+             left);
+      EXPECT_LT(left, 1e-12) << dimensions << besides.begin()->first;
     }
 }
 

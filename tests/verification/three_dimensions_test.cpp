@@ -72,6 +72,24 @@ TEST(ThreeDimensions, WidthAndDepthMayChangePlaces) {
   EXPECT_GT(spread, 1e-3);
 }
 
+// The same with lift, which no one of its three directions is alike in, and added mass.
+TEST(ThreeDimensions, LiftAndAddedMassKnowNoDirection) {
+  const auto along_x = [f = lump(2, 6)](int i, int j, int) { return f(i, j); };
+  const auto along_z = [f = lump(2, 6)](int, int j, int k) { return f(k, j); };
+  const Finished wide(with_particle_forces(box_bed(6, 24, 4, "wall")), along_x),
+      deep(with_particle_forces(box_bed(4, 24, 6, "wall")), along_z), without(box_bed(6, 24, 4, "wall"), along_x);
+  double worst = 0, moved = 0;
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < 24; ++j)
+      for (int i = 0; i < 6; ++i) {
+        worst = std::max(worst, std::abs(wide.phi(1, i, j, k) - deep.phi(1, k, j, i)));
+        moved = std::max(moved, std::abs(wide.phi(1, i, j, k) - without.phi(1, i, j, k)));
+      }
+  record("greatest difference", worst);
+  EXPECT_LT(worst, 1e-12);
+  EXPECT_GT(moved, 1e-5) << "the forces must be felt, or the test says nothing";
+}
+
 // Joined sides have no beginning: a bed that starts shifted stays shifted.
 TEST(JoinedSides, TheOriginDoesNotMatter) {
   const auto at_0 = [f = lump(0, 1000)](int i, int j, int) { return f(std::min(i, 6 - i), j); };

@@ -6,7 +6,7 @@ namespace polybed::tfm {
 namespace makers {
 
 extern const Maker drag, partition, fluid_stress, gas_slip, solids_stress, granular_temperature, solids_viscosity,
-    species_exchange;
+    species_exchange, added_mass, lift;
 
 }  // namespace makers
 
@@ -21,6 +21,8 @@ const std::vector<const Maker*>& effects() {
       &granular_temperature,
       &solids_viscosity,
       &species_exchange,
+      &added_mass,
+      &lift,
   };
   return all;
 }

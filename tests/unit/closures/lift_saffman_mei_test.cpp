@@ -48,6 +48,18 @@ TEST(LiftSaffmanMei, VanishesWithSlipAndWithVorticity) {
   EXPECT_NE(lift_saffman_mei({1e-20, 0, 0}, {0, 0, 1e-20}, d, rho, mu).y, 0);
 }
 
+// Below the least shear, here omega = 2 x 0.005 x 0.02/1e-3 = 0.2 1/s, half the vorticity is half the force; there and
+// above it is Saffman's.
+TEST(LiftSaffmanMei, IsLinearBelowTheLeastShear) {
+  const auto force = [](double omega, double least) {
+    return lift_saffman_mei({0.02, 0, 0}, {0, 0, -omega}, d, rho, mu, least).y;
+  };
+  EXPECT_NEAR(force(0.1, lift_least_shear_mei) / force(0.2, lift_least_shear_mei), 0.5, 1e-15);
+  EXPECT_NEAR(force(0.1, 0) / force(0.2, 0), std::sqrt(0.5), 1e-15);
+  for (const double omega : {0.2001, 8.0}) EXPECT_EQ(force(omega, lift_least_shear_mei), force(omega, 0));
+  EXPECT_EQ(lift_saffman_mei({0, 0, 0}, {0, 0, 3}, d, rho, mu, lift_least_shear_mei).y, 0);
+}
+
 TEST(LiftSaffmanMei, ShareIsHeldInItsRange) {
   EXPECT_EQ(lift_share_mei(0.09, 0.2), 1);
   EXPECT_EQ(lift_share_mei(10, 0), lift_share_mei(10, 0.005));

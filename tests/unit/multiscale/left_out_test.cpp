@@ -53,16 +53,22 @@ TEST(LeftOut, BoundsAForceThatTheCaseHasOff) {
 }
 
 TEST(LeftOut, IsOfTheModelThatRuns) {
-  const core::Scene scene = scene_of({"effects.lift=saffman_mei"});
+  const core::Scene scene = scene_of({"effects.magnus=rubinow_keller"});
   const LeftOut two_fluid = left_out(scene, "tfm"), particles = left_out(scene, "dem");
-  const LeftOutEffect* lift = find(two_fluid, "lift");
-  ASSERT_TRUE(lift != nullptr && lift->bound);
-  EXPECT_GT(*lift->bound, 0);
-  EXPECT_EQ(lift->why, "no law of it in this model");
-  EXPECT_EQ(find(particles, "lift"), nullptr);
-  EXPECT_NEAR(two_fluid.sum - particles.sum, *lift->bound, 1e-15);
+  const LeftOutEffect* magnus = find(two_fluid, "magnus");
+  ASSERT_TRUE(magnus != nullptr && magnus->bound);
+  EXPECT_GT(*magnus->bound, 0);
+  EXPECT_EQ(magnus->why, "no law of it in this model");
+  EXPECT_EQ(find(particles, "magnus"), nullptr);
+  EXPECT_NEAR(two_fluid.sum - particles.sum, *magnus->bound, 1e-15);
   // The same bound as where the case has it off.
-  EXPECT_EQ(*find(left_out(scene_of(), "dem"), "lift")->bound, *lift->bound);
+  EXPECT_EQ(*find(left_out(scene_of(), "dem"), "magnus")->bound, *magnus->bound);
+  // Lift acts in both.
+  const core::Scene both = scene_of({"effects.lift=saffman_mei"});
+  for (const char* model : {"tfm", "dem"}) {
+    EXPECT_EQ(find(left_out(both, model), "lift"), nullptr);
+    EXPECT_GT(*find(left_out(scene_of(), model), "lift")->bound, 0);
+  }
   // What the other model is made of is not left out of this one.
   EXPECT_EQ(find(two_fluid, "contact"), nullptr);
   EXPECT_EQ(find(particles, "solids_stress"), nullptr);

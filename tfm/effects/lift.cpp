@@ -1,0 +1,155 @@
+// Slot Force: lift of spheres in a sheared fluid, closures/lift_saffman_mei.hpp.
+//
+// It is found on the faces. The vorticity of a face is the mean of those on its edges, each from the four velocities
+// around the edge: differences across one cell see streams that alternate from cell to cell and have the right sign
+// beside walls, where those across two cells do not, and would part the columns of cells.
+#include "relevance/effects/lift.hpp"
+
+#include <algorithm>
+
+#include "closures/lift_saffman_mei.hpp"
+#include "closures/sphere.hpp"
+#include "core/vectors.hpp"
+#include "fluid/density.hpp"
+#include "tfm/effects/maker.hpp"
+
+namespace polybed::tfm {
+
+namespace {
+
+using core::face_mean;
+using core::Index;
+
+/// A component of U_f - U_j on the faces of another axis, m/s: from the fluxes through the four faces around it, at the
+/// voidage of the face, which a surface beside it changes less.
+struct SlipAcross {
+  const double *eps, *u, *v;
+  Index across, along;  ///< strides of the face's axis and of the component's
+  [[nodiscard]] double flux(Index c) const { return face_mean(eps, c, along) * (u[c] - v[c]); }
+  [[nodiscard]] double at(Index c) const {
+    return 0.25 / std::max(face_mean(eps, c, across), fluid::voidage_floor) *
+           (flux(c) + flux(c + along) + flux(c - across) + flux(c - across + along));
+  }
+};
+
+/// A component of curl U_f on the edges along its axis, 1/s: that of index c is the low one of cell c.
+struct EdgeVorticity {
+  const double *u_p, *u_q;
+  Index p, q;  ///< strides of the two other axes, in cyclic order
+  double per_p, per_q;
+  [[nodiscard]] double at(Index c) const { return per_p * (u_q[c] - u_q[c - p]) - per_q * (u_p[c] - u_p[c - q]); }
+  [[nodiscard]] double mean(Index c, Index s) const { return 0.5 * (at(c) + at(c + s)); }
+};
+
+/// The axes of a face in cyclic order, its own first; in 2-D one of them is not active.
+struct Axes {
+  int a, b, d;
+  explicit Axes(int axis) : a(axis), b((axis + 1) % 3), d((axis + 2) % 3) {}
+};
+
+template <int dimensions, class Density>
+void lift_loops(const Density& density, const Constants& constants, const fluid::Boundaries& boundaries, int axis,
+                std::size_t j, Fields& fields) {
+  const core::Grid& grid = constants.grid;
+  const Axes axes(axis);
+  const auto velocity = [&](int of) { return fields.fluid.velocity[std::size_t(of)].data(); };
+  const auto slip_of = [&](int of) {
+    return SlipAcross{fields.fluid.voidage.data(), velocity(of), fields.solids.velocity[j][std::size_t(of)].data(),
+                      grid.stride(axis), grid.stride(of)};
+  };
+  const auto vorticity_about = [&](int of) {
+    const Axes about(of);
+    return EdgeVorticity{velocity(about.b),
+                         velocity(about.d),
+                         grid.stride(about.b),
+                         grid.stride(about.d),
+                         1 / grid.spacing[std::size_t(about.b)],
+                         1 / grid.spacing[std::size_t(about.d)]};
+  };
+  const SlipAcross slip_b = slip_of(axes.b), slip_d = slip_of(axes.d);
+  const EdgeVorticity about_a = vorticity_about(axes.a), about_b = vorticity_about(axes.b),
+                      about_d = vorticity_about(axes.d);
+  const bool has_b = dimensions == 3 || axes.b < 2, has_d = dimensions == 3 || axes.d < 2;
+  const double *u = velocity(axis), *v = fields.solids.velocity[j][std::size_t(axis)].data();
+  double* to = fields.force.on_solids[j].data();
+  const Index s = grid.stride(axis), s_b = grid.stride(axes.b), s_d = grid.stride(axes.d);
+  const double diameter = constants.diameter[j], viscosity = constants.fluid.viscosity;
+  const double per_volume = 1 / closures::sphere_volume(0.5 * diameter);
+  const auto loop = [&](auto&& slip, auto&& vorticity) {
+    core::for_each_row(grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
+#pragma GCC ivdep
+      for (Index c = begin; c < end; ++c)
+        to[c] += per_volume * closures::lift_saffman_mei(slip(c), vorticity(c), diameter, density.on_face(c, s),
+                                                         viscosity, closures::lift_least_shear_mei)
+                                  .x;
+    });
+  };
+  using closures::Vec3;
+  if constexpr (dimensions == 3) {
+    const auto along = [=](Index c) { return about_a.mean(c, s_b) + about_a.mean(c + s_d, s_b); };
+    loop(
+        [=](Index c) {
+          return Vec3{u[c] - v[c], slip_b.at(c), slip_d.at(c)};
+        },
+        [=](Index c) {
+          return Vec3{0.25 * (along(c) + along(c - s)), about_b.mean(c, s_d), about_d.mean(c, s_b)};
+        });
+  } else if (has_b) {
+    loop(
+        [=](Index c) {
+          return Vec3{u[c] - v[c], slip_b.at(c), 0.0};
+        },
+        [=](Index c) {
+          return Vec3{0.0, 0.0, about_d.mean(c, s_b)};
+        });
+  } else if (has_d) {
+    loop(
+        [=](Index c) {
+          return Vec3{u[c] - v[c], 0.0, slip_d.at(c)};
+        },
+        [=](Index c) {
+          return Vec3{0.0, about_b.mean(c, s_d), 0.0};
+        });
+  }
+}
+
+/// Saffman's lift with the share of Mei on each species: that of one sphere, at any voidage, with the local density of
+/// a compressible fluid. Below the shear that the share is known from it is linear in the vorticity: through the slope
+/// of a root round-off would grow into streams where the flow is even or symmetric.
+class Lift final : public ForceEffect {
+ public:
+  Lift(const Constants& constants, const fluid::Boundaries& boundaries)
+      : constants_(constants), boundaries_(boundaries) {}
+
+  void add(int axis, Fields& fields) override {
+    fluid::with_density(fields.fluid, constants_.fluid.density, [&]<class Density>(const Density& local) {
+      for (std::size_t j = 0; j < constants_.species(); ++j)
+        constants_.grid.dimensions == 3
+            ? core::in_vectors<lift_loops<3, Density>>(local, constants_, boundaries_, axis, j, fields)
+            : core::in_vectors<lift_loops<2, Density>>(local, constants_, boundaries_, axis, j, fields);
+    });
+  }
+
+ private:
+  const Constants& constants_;
+  const fluid::Boundaries& boundaries_;
+};
+
+/// One cell across has no vorticity: nothing is made.
+void make_lift(const Making& m) {
+  const core::Grid& grid = m.constants.grid;
+  if (grid.column_cells(0) == 1 && (grid.dimensions < 3 || grid.column_cells(2) == 1)) return;
+  m.fields.force.on_solids.assign(m.constants.species(), core::make_field(grid));
+  m.effects.forces.push_back(std::make_unique<Lift>(m.constants, m.boundaries));
+}
+
+}  // namespace
+
+namespace makers {
+
+extern const Maker lift;
+const Maker lift{&relevance::effects::lift, "Force", make_lift, {"saffman_mei"}};
+
+}  // namespace makers
+
+}  // namespace polybed::tfm
