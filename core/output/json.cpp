@@ -14,12 +14,13 @@ namespace {
 
 constexpr int deepest = 100;  // brackets within brackets: copies and texts of values recurse
 
-/// The library would write null.
-void refuse_not_finite(const Json& value) {
+/// The library would write null. \param where  names and numbers of what the value lies in
+void refuse_not_finite(const Json& value, const std::string& where) {
   if (value.is_number_float() && !std::isfinite(value.get<double>()))
-    throw NumericsError("a number that is not finite was about to be written as JSON");
-  if (value.is_structured())
-    for (const Json& part : value) refuse_not_finite(part);
+    throw NumericsError(fmt::format("{} was about to be written as JSON, and is not finite",
+                                    where.empty() ? "a number" : where.substr(1)));
+  if (!value.is_structured()) return;
+  for (const auto& [name, part] : value.items()) refuse_not_finite(part, where + "." + name);
 }
 
 /// What the library says without the number of the error before it.
@@ -32,7 +33,7 @@ std::string reason_of(const Json::exception& error) {
 }  // namespace
 
 std::string json_text(const Json& value) {
-  refuse_not_finite(value);
+  refuse_not_finite(value, "");
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
