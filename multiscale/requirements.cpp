@@ -90,7 +90,7 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
     const double step = need.integrator == explicit_steps ? tfm::explicit_step(bed.scales)
                         : need.integrator == split_steps  ? tfm::split_step(constants, bed.scales, inside, rtol)
                                                           : tfm::implicit_step(constants, inside, rtol);
-    bed.step = scene.tfm.fixed_step.value_or(step);
+    bed.step = scene.tfm.fixed_step.value_or(std::min(step, scene.run.until));  // where nothing moves it has no end
     return bed;
   };
   const double rest = scene.bed.solids_fraction;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "closures/sphere.hpp"
 #include "measures/drift.hpp"
@@ -43,8 +42,10 @@ std::optional<Mean> drop_over_weight(const Window& window) {
   if (drop == nullptr || weight == nullptr) return {};
   Series ratio = window.of(*drop);
   const Series weights = window.of(*weight);
-  for (std::size_t n = 0; n < ratio.size(); ++n)
-    ratio[n] = weights[n] > 0 ? ratio[n] / weights[n] : std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t n = 0; n < ratio.size(); ++n) {
+    if (weights[n] == 0) return {};  // an empty column, or solids as dense as the fluid
+    ratio[n] /= weights[n];
+  }
   return mean_of_parts(window.of(window.time), ratio);
 }
 

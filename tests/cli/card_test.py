@@ -35,6 +35,15 @@ class Card(Scratch):
             self.assertIsNone(card["discharge_kg_s"])
             self.assertIsNone(card["geldart"])
 
+    def test_a_bed_as_dense_as_its_fluid_bears_no_share_of_its_weight(self):
+        keys = ("fluid.density=1000", "species.0.density=1000", "species.1.density=1000", "tfm.max_packing=0.64", "inlet.superficial_velocity=0",
+                "dem.greatest_speed=0.1")
+        same = [word for key in keys for word in ("--set", key)]
+        case = self.write("case.toml", small_bed("20 ms"))
+        for model in ("tfm", "dem"):
+            self.ends(DONE, model, case, *same, "-o", self.folder / model, "--quiet", "--no-picture")
+            self.assertIsNone(self.card(self.folder / model)["pressure_drop_over_weight"])
+
     def test_a_bed_that_drifts_comes_with_the_command_that_goes_on(self):
         run = self.folder / "run"
         done = self.ends(DONE, "tfm", CASE, *SMALL, "--set", "output.history_every=1e-3", "--until", "0.1 s", "-o", run, "--no-picture")
