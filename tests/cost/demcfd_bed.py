@@ -16,7 +16,8 @@ import openfoam_run
 
 CASE = Path(__file__).parents[2] / "cases/goldschmidt-2004/case.toml"
 SPACING = 3e-3
-# Soft beads fall and lie, then hard ones yield what the softness pressed in: modulus over the case's own, seconds.
+# Soft beads fall and lie, which lets them overlap deeply; then hard ones yield what the softness pressed in: modulus
+# over the case's own, seconds.
 SETTLING = ((0.05, 0.2), (1.0, 0.03))
 
 
@@ -55,7 +56,7 @@ def dry_case(bed, start, modulus, until):
     tables = {"column": {"size": [width, bed["depth"], height], "cells": [nx, bed["layers"], ny]},
               "fluid": {"name": "none"}, "bed": start, "effects": {"contact": "hertz_mindlin"},
               "dem": {"youngs_modulus": modulus, "poisson_ratio": bed["poisson_ratio"], "friction": bed["friction"],
-                      "restitution": 0.5, "greatest_speed": 1.0},
+                      "restitution": 0.5, "greatest_speed": 1.0, "max_overlap": 0.2},
               "run": {"until": until}, "output": {"every": until, "history_every": until}}
     species = {"name": bed["species"], "diameter": bed["diameter"], "density": bed["density"]}
     parts = [("[[species]]", species)] + [(f"[{name}]", keys) for name, keys in tables.items()]
