@@ -28,7 +28,7 @@ constexpr double gap = 0.2;
 
 Particle particle(const Materials& materials, std::int32_t species, std::int64_t id) {
   const Species& s = materials.species()[std::size_t(species)];
-  return {{{0, 0, 0}, s.radius}, {{0, 0, 0}, {0, 0, 0}, 1 / s.mass, 1 / s.inertia}, {}, id, species};
+  return {{{0, 0, 0}, s.radius}, {{0, 0, 0}, 1 / s.mass, {0, 0, 0}, 1 / s.inertia}, {}, id, species};
 }
 
 std::vector<Particle> listed(const core::Scene& scene, const Materials& materials) {

@@ -18,8 +18,8 @@ struct alignas(32) Place {
 
 struct alignas(64) Motion {
   Vector v;                ///< m/s; during a force, at the time that the integrator gives it
-  Vector w;                ///< spin, rad/s
   double inverse_mass;     ///< 1/kg
+  Vector w;                ///< spin, rad/s
   double inverse_inertia;  ///< 1/(kg m2)
 };
 

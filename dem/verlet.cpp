@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.hpp"
+#include "dem/several.hpp"
+
 namespace polybed::dem {
 
 Verlet::Verlet(bool synchronised, double dt, Vector gravity, FixedPoint force, FixedPoint torque, double shear_rate)
@@ -18,17 +21,14 @@ namespace {
 /// A particle under its load and its weight alone.
 struct Free {
   struct Kick {
-    Vector dv;
+    Four dv;
   };
-  Vector gravity;
+  Four gravity;
   double unit;  ///< of forces, N
 
   [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double time) const {
     const double linear = particles.motion[i].inverse_mass * unit * time;
-    const Load& load = particles.load[i];
-    Kick kick;
-    for (std::size_t k = 0; k < 3; ++k) kick.dv[k] = double(load.force[k]) * linear + gravity[k] * time;
-    return kick;
+    return {to_four(particles.load[i].force) * linear + gravity * time};
   }
   void account(const Particles&, std::size_t, const Kick&, double, WorkShare) const {}
 };
@@ -48,7 +48,7 @@ struct Uncounted {
 void turn(Particles& particles, std::size_t i, double unit, double time) {
   Motion& m = particles.motion[i];
   const double angular = m.inverse_inertia * unit * time;
-  for (std::size_t k = 0; k < 3; ++k) m.w[k] += double(particles.load[i].torque[k]) * angular;
+  add_three(to_four(particles.load[i].torque) * angular, m.w);
 }
 
 }  // namespace
@@ -59,25 +59,25 @@ void Verlet::kick(Particles& particles, std::size_t i, Push& push, WorkShare sha
   const double time = 0.5 * dt_;
   const auto given = push.kick(particles, i, time);
   push.account(particles, i, given, time, share);
-  for (std::size_t k = 0; k < 3; ++k) particles.motion[i].v[k] += given.dv[k];
+  add_three(given.dv, particles.motion[i].v);
   turn(particles, i, torque_.unit, time);
 }
 
 template <class Push>
-void Verlet::begin_with(Particles& particles, Push&& push) {
-  const double half = 0.5 * dt_;
+void Verlet::begin_with(Verlet& verlet, Particles& particles, Push& push) {
+  const double half = 0.5 * verlet.dt_;
+  const bool synchronised = verlet.synchronised_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    kick(particles, i, push, WorkShare::before_drift(synchronised_));
-    for (std::size_t k = 0; k < 3; ++k) particles.place[i].x[k] += particles.motion[i].v[k] * dt_;
+    verlet.kick(particles, i, push, WorkShare::before_drift(synchronised));
+    add_three(four_at(particles.motion[i].v) * verlet.dt_, particles.place[i].x);
   }
-  if (synchronised_) {
-    half_.resize(particles.owned);
+  if (synchronised) {
+    verlet.half_.resize(particles.owned);
     for (std::size_t i = 0; i < particles.owned; ++i) {
       Motion& m = particles.motion[i];
-      half_[i] = {m.v, m.w};
-      const Vector dv = push.kick(particles, i, half).dv;  // only looked at: it is not kept
-      for (std::size_t k = 0; k < 3; ++k) m.v[k] += dv[k];
-      turn(particles, i, torque_.unit, half);
+      verlet.half_[i] = {m.v, m.w};
+      add_three(push.kick(particles, i, half).dv, m.v);  // only looked at: it is not kept
+      turn(particles, i, verlet.torque_.unit, half);
     }
   }
   std::fill(particles.load.begin(), particles.load.end(), Load{});
@@ -92,15 +92,16 @@ double Verlet::work_on(const Particles& particles, std::size_t i, const Vector& 
 }
 
 template <class Push>
-void Verlet::end_with(Particles& particles, Push&& push) {
+void Verlet::end_with(Verlet& verlet, Particles& particles, Push& push) {
+  const bool synchronised = verlet.synchronised_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Vector foreseen = particles.motion[i].w;
-    if (synchronised_) {
-      particles.motion[i].v = half_[i].v;
-      particles.motion[i].w = half_[i].w;
+    if (synchronised) {
+      particles.motion[i].v = verlet.half_[i].v;
+      particles.motion[i].w = verlet.half_[i].w;
     }
-    kick(particles, i, push, WorkShare::after_drift(synchronised_));
-    if (synchronised_ && ledger_ != nullptr) ledger_->correct(work_on(particles, i, foreseen));
+    verlet.kick(particles, i, push, WorkShare::after_drift(synchronised));
+    if (synchronised && verlet.ledger_ != nullptr) verlet.ledger_->correct(verlet.work_on(particles, i, foreseen));
   }
 }
 
@@ -112,16 +113,16 @@ auto Verlet::with(Around around, Act&& act) const {
     return act(fluid);
   }
   if (around.flow != nullptr) return act(*around.flow);
-  Free free{gravity_, force_.unit};
+  Free free{{gravity_[0], gravity_[1], gravity_[2], 0}, force_.unit};
   return act(free);
 }
 
 void Verlet::begin(Particles& particles, Around around) {
-  with(around, [&](auto& push) { begin_with(particles, push); });
+  with(around, [&]<class Push>(Push& push) { core::in_vectors<&begin_with<Push>>(*this, particles, push); });
 }
 
 void Verlet::end(Particles& particles, Around around) {
-  with(around, [&](auto& push) { end_with(particles, push); });
+  with(around, [&]<class Push>(Push& push) { core::in_vectors<&end_with<Push>>(*this, particles, push); });
 }
 
 void Verlet::mark(const Particles& particles) {
@@ -130,31 +131,34 @@ void Verlet::mark(const Particles& particles) {
 }
 
 Verlet::Drift Verlet::next_drift(const Particles& particles, double time, Around around) const {
-  return with(around, [&](const auto& push) { return next_drift_with(particles, time, push); });
+  return with(around, [&]<class Push>(const Push& push) {
+    return core::in_vectors<&next_drift_with<Push>>(*this, particles, time, push);
+  });
 }
 
 template <class Push>
-Verlet::Drift Verlet::next_drift_with(const Particles& particles, double time, Push&& push) const {
+Verlet::Drift Verlet::next_drift_with(const Verlet& verlet, const Particles& particles, double time, const Push& push) {
   // Beyond a tenth of a diameter in a step contacts are no longer resolved; far beyond, walls are jumped over.
   constexpr double share_of_diameter = 0.1;
   double most = 0, longest = 0;
   Drift drift;
+  const double dt = verlet.dt_, shear_rate = verlet.shear_rate_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    const Vector &x = particles.place[i].x, &from = marked_[i], &v = particles.motion[i].v,
-                 dv = push.kick(particles, i, 0.5 * dt_).dv;
-    const double sx = (v[0] + dv[0]) * dt_, sy = (v[1] + dv[1]) * dt_, sz = (v[2] + dv[2]) * dt_;
-    const double dx = x[0] - from[0] + sx - shear_rate_ * from[1] * time;
+    const Vector &x = particles.place[i].x, &from = verlet.marked_[i];
+    const Four step = (four_at(particles.motion[i].v) + push.kick(particles, i, 0.5 * dt).dv) * dt;
+    const double sx = step[0], sy = step[1], sz = step[2];
+    const double dx = x[0] - from[0] + sx - shear_rate * from[1] * time;
     const double dy = x[1] - from[1] + sy, dz = x[2] - from[2] + sz;
     const double square = dx * dx + dy * dy + dz * dz;
     // Turned round, so that what is not a number counts as too far, and stays.
     most = square <= most || std::isnan(most) ? most : square;
-    const double against = sx - shear_rate_ * x[1] * dt_, allowed = 2 * share_of_diameter * particles.place[i].radius;
+    const double against = sx - shear_rate * x[1] * dt, allowed = 2 * share_of_diameter * particles.place[i].radius;
     const double length = against * against + sy * sy + sz * sz;
     if (!(length <= allowed * allowed)) drift.hasty = particles.id[i];
     longest = std::max(longest, length);
   }
   drift.distance = std::sqrt(most);
-  drift.speed = std::sqrt(longest) / dt_;
+  drift.speed = std::sqrt(longest) / dt;
   return drift;
 }
 

@@ -53,11 +53,11 @@ class Verlet {
   template <class Act>
   auto with(Around around, Act&& act) const;
   template <class Push>
-  void begin_with(Particles& particles, Push&& push);
+  static void begin_with(Verlet& verlet, Particles& particles, Push& push);
   template <class Push>
-  void end_with(Particles& particles, Push&& push);
+  static void end_with(Verlet& verlet, Particles& particles, Push& push);
   template <class Push>
-  [[nodiscard]] Drift next_drift_with(const Particles& particles, double time, Push&& push) const;
+  static Drift next_drift_with(const Verlet& verlet, const Particles& particles, double time, const Push& push);
   template <class Push>
   void kick(Particles& particles, std::size_t i, Push& push, WorkShare share) const;
 

@@ -56,7 +56,7 @@ void load_motion(const Motion* motion, ContactBatch& b) {
     b.first[c] = b.first[0];
     b.second[c] = b.second[0];
   }
-  static_assert(offsetof(Motion, w) == 3 * sizeof(double) && sizeof(Motion) == 8 * sizeof(double));
+  static_assert(offsetof(Motion, w) == 4 * sizeof(double) && sizeof(Motion) == 8 * sizeof(double));
   for (int c = 0; c < b.count; c += 4) {
     Four velocity[4], spin_i[4], spin_j[4];  // and one number more, which nobody reads
 #pragma GCC unroll 4

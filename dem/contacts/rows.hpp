@@ -5,21 +5,11 @@
 #include <vector>
 
 #include "dem/contacts/batch.hpp"
+#include "dem/several.hpp"
 
 namespace polybed::dem {
 
-/// Four numbers in one register, or two halves of it: element k of four records, or elements k to k + 3 of one.
-using Four = double __attribute__((vector_size(32)));
 using FourPlaces = std::int64_t __attribute__((vector_size(32)));
-
-/// Four numbers where they lie, at any multiple of 8 bytes. A copy by memcpy goes through memory in two halves, and the
-/// processor cannot forward two stores to the one load that follows.
-using FourInMemory = double __attribute__((vector_size(32), aligned(8), may_alias));
-
-[[gnu::always_inline]] inline void get_four(const void* from, Four& four) {
-  four = *static_cast<const FourInMemory*>(from);
-}
-[[gnu::always_inline]] inline void put_four(const Four& four, void* to) { *static_cast<FourInMemory*>(to) = four; }
 
 /// Rows become columns.
 [[gnu::always_inline]] inline void transpose(Four (&m)[4]) {

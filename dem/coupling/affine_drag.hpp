@@ -10,6 +10,7 @@
 #include "dem/kept_sums.hpp"
 #include "dem/particles.hpp"
 #include "dem/scene.hpp"
+#include "dem/several.hpp"
 #include "dem/step_part.hpp"
 
 namespace polybed::dem {
@@ -27,19 +28,17 @@ class AffineDrag final : public StepPart {
   [[nodiscard]] double coefficient(std::size_t species) const { return drag_[species]; }
 
   struct Kick {
-    Vector dv, free;  ///< change of the velocity, and what it would be without drag, m/s
+    Four dv, free;  ///< change of the velocity, and what it would be without drag, m/s; three numbers count
   };
   /// U <- u + (U - u) exp(-x) + free (1 - exp(-x))/x, x = k h/m, u = gamma y e_x. \param h  s
   [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
     const Motion& m = particles.motion[i];
     const double x = drag_[std::size_t(particles.species[i])] * m.inverse_mass * h, mean = mean_decay(x);
     const double linear = m.inverse_mass * force_.unit * h;
-    const Vector flow{shear_rate_ * particles.place[i].x[1], 0, 0};
+    const Four flow{shear_rate_ * particles.place[i].x[1], 0, 0, 0};
     Kick kick;
-    for (std::size_t k = 0; k < 3; ++k) {
-      kick.free[k] = double(particles.load[i].force[k]) * linear;
-      kick.dv[k] = mean * (kick.free[k] + x * (flow[k] - m.v[k]));
-    }
+    kick.free = to_four(particles.load[i].force) * linear;
+    kick.dv = mean * (kick.free + x * (flow - four_at(m.v)));
     return kick;
   }
   /// Keeps the work of the drag in a kick, before the velocity changes.

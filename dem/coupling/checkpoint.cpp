@@ -71,7 +71,7 @@ void write_loads(core::Checkpoint& checkpoint, const std::vector<KeptLoad>& load
 }
 
 FluidLoad read_load(const double* in) {
-  return {{in[0], in[1], in[2]}, in[9], {in[3], in[4], in[5]}, in[10], {in[6], in[7], in[8]}};
+  return {{in[0], in[1], in[2]}, in[9], {in[3], in[4], in[5]}, {in[6], in[7], in[8]}, in[10]};
 }
 
 }  // namespace

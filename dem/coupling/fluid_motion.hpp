@@ -10,6 +10,7 @@
 #include "dem/contacts/materials.hpp"
 #include "dem/energy_sum.hpp"
 #include "dem/particles.hpp"
+#include "dem/several.hpp"
 
 namespace polybed::dem {
 
@@ -18,8 +19,8 @@ struct FluidLoad {
   Vector velocity{};  ///< U_f where it is, m/s
   double drag = 0;    ///< k: pure drag over the slip U_f - U_p, kg/s
   Vector force{};     ///< what else the fluid does: -V grad p, N
-  double added = 0;   ///< added mass, kg
   Vector impulse{};   ///< that drag and added mass have given it since the fluid's last step, kg m/s
+  double added = 0;   ///< added mass, kg; last, for a vector is read with the number behind it
 };
 
 /// With which velocity the work of other forces in a kick is counted: v + share dv, v before the kick and dv its
@@ -53,38 +54,36 @@ class FluidMotion {
       : gravity_(gravity), force_(force), energy_(energy), counts_work_(counts_work) {
     for (const Species& species : materials.species()) {
       mass_.push_back(species.mass);
-      Vector net = gravity;
-      for (double& g : net) g *= 1 - fluid_density / species.density;
-      net_gravity_.push_back(net);
+      net_gravity_.push_back(Four{gravity[0], gravity[1], gravity[2], 0} * (1 - fluid_density / species.density));
     }
   }
 
-  /// What happens to a particle in a time h under a load, the fluid, and its weight less the displaced fluid's.
+  /// What happens to a particle in a time h under a load, the fluid, and its weight less the displaced fluid's. Of each
+  /// the first three numbers count.
   struct Kick {
-    Vector dv;    ///< change of its velocity, m/s
-    Vector free;  ///< what it would be without drag, m/s
+    Four dv;    ///< change of its velocity, m/s
+    Four free;  ///< what it would be without drag, m/s
   };
   /// U_f is frozen: U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa, kappa = k/M, M the mass with the
   /// added one, a the acceleration by everything but drag. \param h  s
   [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
     const Motion& m = particles.motion[i];
-    const Load& given = particles.load[i];
     const FluidLoad& f = load[i];
-    const Vector& weight = net_gravity_[std::size_t(particles.species[i])];
     const double share = 1 / (1 + f.added * m.inverse_mass), per_inertia = m.inverse_mass * share;
     const double x = f.drag * per_inertia * h, mean = mean_decay(x);
+    const Four weight = net_gravity_[std::size_t(particles.species[i])];
     Kick kick;
-    for (std::size_t k = 0; k < 3; ++k) {
-      kick.free[k] = h * ((double(given.force[k]) * force_.unit + f.force[k]) * per_inertia + weight[k] * share);
-      kick.dv[k] = mean * (kick.free[k] + x * (f.velocity[k] - m.v[k]));
-    }
+    kick.free =
+        h * ((to_four(particles.load[i].force) * force_.unit + four_at(f.force)) * per_inertia + weight * share);
+    kick.dv = mean * (kick.free + x * (four_at(f.velocity) - four_at(m.v)));
     return kick;
   }
+
   /// Keeps what a kick takes from the fluid, before the velocity changes: the impulse alone, or its work too.
   void account_impulse(const Particles& particles, std::size_t i, const Kick& kick) {
     FluidLoad& f = load[i];
     const double inertia = mass_[std::size_t(particles.species[i])] + f.added;
-    for (std::size_t k = 0; k < 3; ++k) f.impulse[k] += inertia * (kick.dv[k] - kick.free[k]) - f.added * kick.dv[k];
+    add_three(inertia * (kick.dv - kick.free) - f.added * kick.dv, f.impulse);
   }
   void account(const Particles& particles, std::size_t i, const Kick& kick, double h, WorkShare share) {
     account_impulse(particles, i, kick);
@@ -112,14 +111,14 @@ class FluidMotion {
   [[nodiscard]] EnergySum work() const { return counts_work_ ? work_ : EnergySum(); }
   [[nodiscard]] bool counts_work() const { return counts_work_; }
   void set_work(const EnergySum& work) { work_ = work; }
-  [[nodiscard]] const Vector& net_gravity(std::int32_t species) const { return net_gravity_[std::size_t(species)]; }
+  [[nodiscard]] const Four& net_gravity(std::int32_t species) const { return net_gravity_[std::size_t(species)]; }
 
   std::vector<FluidLoad> load;  ///< of the owned particles
 
  private:
   Vector gravity_;
-  std::vector<double> mass_;         ///< of each species, kg
-  std::vector<Vector> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
+  std::vector<double> mass_;       ///< of each species, kg
+  std::vector<Four> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
   FixedPoint force_, energy_;
   bool counts_work_;
   EnergySum work_;

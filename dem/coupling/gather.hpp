@@ -7,6 +7,7 @@
 
 #include "core/numerics/field.hpp"
 #include "dem/coupling/weights.hpp"
+#include "dem/several.hpp"
 
 namespace polybed::dem {
 
@@ -35,15 +36,16 @@ class Gather {
 
   [[nodiscard]] Lines lines(const Vector& x) const { return weights_(x); }
   [[nodiscard]] Surroundings solids(const Lines& lines, std::int32_t species) const {
-    Surroundings s;
+    Four sum{};  // the fourth is that of the first species
+    double own = 0;
     for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
       const double* cell = cells_.data() + at * width_;
-      s.fraction += w * cell[0];
-      s.per_mean += w * cell[1];
-      s.average += w * cell[2];
-      s.own += w * cell[3 + species];
+      Four first;
+      get_four(cell, first);
+      sum += w * first;
+      own += w * cell[3 + species];
     });
-    return s;
+    return {sum[0], sum[1], sum[2], own};
   }
   /// sum phi_j/D_j^2, 1/m2, for drag laws that ask for it.
   [[nodiscard]] double per_square(const Lines& lines) const {
@@ -58,10 +60,12 @@ class Gather {
     Stream s;
     for (int axis = 0; axis < weights_.dimensions(); ++axis) {
       const auto a = std::size_t(axis);
+      Two sum{};
       for_each_face(weights_.dimensions(), lines, axis, [&](std::size_t at, double w) {
-        s.velocity[a] += w * faces_[a][at][0];
-        s.gradient[a] += w * faces_[a][at][1];
+        sum += w * *static_cast<const TwoInMemory*>(static_cast<const void*>(faces_[a].data() + at));
       });
+      s.velocity[a] = sum[0];
+      s.gradient[a] = sum[1];
     }
     return s;
   }

@@ -6,6 +6,8 @@
 
 #include "closures/added_mass.hpp"
 #include "closures/sphere.hpp"
+#include "core/vectors.hpp"
+#include "dem/contacts/batch.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
@@ -29,39 +31,32 @@ ParticleForces::ParticleForces(const core::Scene& scene, const Materials& materi
 
 void ParticleForces::find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
                           const OwnShare* own) {
-  if (own == nullptr) {
-    find_by(
-        particles, gather, [&](const Lines& l, std::int32_t j) { return gather.solids(l, j); },
-        [&](const Lines& l, std::int32_t) { return gather.per_square(l); }, loads);
-  } else {
-    find_by(
-        particles, gather, [&](const Lines& l, std::int32_t j) { return own->without(gather.solids(l, j), l, j); },
-        [&](const Lines& l, std::int32_t j) { return own->per_square_without(gather.per_square(l), l, j); }, loads);
-  }
-}
-
-template <class Solids, class Squares>
-void ParticleForces::find_by(const Particles& particles, const Gather& gather, Solids&& solids, Squares&& squares,
-                             std::vector<FluidLoad>& loads) {
-  for (std::size_t begin = 0; begin < particles.owned; begin += most) {
-    const std::size_t count = std::min(most, particles.owned - begin);
-    see(particles, gather, solids, squares, begin, count, loads);
-    if (laws_.drag) drag(begin, count, loads);
+  for (std::size_t begin = 0; begin < particles.owned; begin += Batch::most) {
+    const std::size_t count = std::min(Batch::most, particles.owned - begin);
+    const Asked asked{particles, gather, own, diameter_, needs_squares_};
+    core::in_vectors<see>(asked, begin, count, loads.data() + begin, batch_);
+    clamped_ += core::in_vectors<average>(count, batch_);
+    if (laws_.added_mass != nullptr) add_mass(count, loads.data() + begin);
+    if (laws_.drag) drag(particles, begin, count, loads);
   }
 }
 
 /// The fields where the particles are.
-template <class Solids, class Squares>
-void ParticleForces::see(const Particles& particles, const Gather& gather, Solids&& solids_at, Squares&& squares_at,
-                         std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads) {
+void ParticleForces::see(const Asked& asked, std::size_t begin, std::size_t count, FluidLoad* loads, Batch& batch) {
+  const auto& [particles, gather, own, diameter, needs_squares] = asked;
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = begin + n;
-    const auto j = std::size_t(particles.species[i]);
-    const double d = diameter_[j], volume = closures::sphere_volume(0.5 * d);
+    const std::int32_t species = particles.species[i];
+    const double d = diameter[std::size_t(species)], volume = closures::sphere_volume(0.5 * d);
     const Lines lines = gather.lines(particles.place[i].x);
-    const Surroundings solids = solids_at(lines, particles.species[i]);
+    Surroundings solids = gather.solids(lines, species);
+    if (own != nullptr) solids = own->without(solids, lines, species);
+    if (needs_squares) {
+      const double seen = gather.per_square(lines);
+      batch.per_square[n] = own == nullptr ? seen : own->per_square_without(seen, lines, species);
+    }
     const Stream stream = gather.stream(lines);
-    FluidLoad& load = loads[i];
+    FluidLoad& load = loads[n];
     load.velocity = stream.velocity;
     double square = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -69,30 +64,49 @@ void ParticleForces::see(const Particles& particles, const Gather& gather, Solid
       const double slip = stream.velocity[k] - particles.motion[i].v[k];
       square += slip * slip;
     }
-    const double eps = std::clamp(1 - solids.fraction, least_voidage, most_voidage);
-    clamped_ += eps != 1 - solids.fraction && solids.fraction > 0;
-    const bool alone = !(solids.fraction > 0);
-    const double per_fraction = alone ? 0 : 1 / solids.fraction;
-    voidage_[n] = eps;
-    per_mean_[n] = alone ? 1 / d : solids.per_mean * per_fraction;
-    average_[n] = alone ? d : solids.average * per_fraction;
-    if (needs_squares_) per_square_[n] = alone ? 1 / (d * d) : squares_at(lines, particles.species[i]) * per_fraction;
-    share_[n] = alone ? 1 : solids.own * per_fraction;
-    size_[n] = d;
-    stokes_[n] = creeping_[j];
-    slip_[n] = eps * std::sqrt(square);
-    if (laws_.added_mass != nullptr)
-      load.added = closures::added_mass_inertia(laws_.added_mass(1 - eps), fluid_density_, d);
+    batch.fraction[n] = solids.fraction;
+    batch.per_mean[n] = solids.per_mean;
+    batch.average[n] = solids.average;
+    batch.share[n] = solids.own;
+    batch.size[n] = d;
+    batch.slip[n] = square;
   }
 }
 
+/// Sums over what is around become averages of it; how many voidages were beyond what a bed has.
+std::uint64_t ParticleForces::average(std::size_t count, Batch& batch) {
+  std::int64_t clamped = 0;
+  POLYBED_INDEPENDENT
+  for (std::size_t n = 0; n < count; ++n) {
+    const double fraction = batch.fraction[n], d = batch.size[n], clear = 1 - fraction;
+    const bool alone = !(fraction > 0);
+    const double eps = std::clamp(clear, least_voidage, most_voidage), per_fraction = 1 / (alone ? 1 : fraction);
+    clamped += eps != clear && !alone ? 1 : 0;
+    batch.voidage[n] = eps;
+    batch.per_mean[n] = alone ? 1 / d : batch.per_mean[n] * per_fraction;
+    batch.average[n] = alone ? d : batch.average[n] * per_fraction;
+    batch.per_square[n] = alone ? 1 / (d * d) : batch.per_square[n] * per_fraction;
+    batch.share[n] = alone ? 1 : batch.share[n] * per_fraction;
+    batch.slip[n] = eps * std::sqrt(batch.slip[n]);
+  }
+  return std::uint64_t(clamped);
+}
+
+void ParticleForces::add_mass(std::size_t count, FluidLoad* loads) const {
+  for (std::size_t n = 0; n < count; ++n)
+    loads[n].added =
+        closures::added_mass_inertia(laws_.added_mass(1 - batch_.voidage[n]), fluid_density_, batch_.size[n]);
+}
+
 /// k = 3 pi mu D eps f: pure drag over U_f - U_p.
-void ParticleForces::drag(std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads) {
+void ParticleForces::drag(const Particles& particles, std::size_t begin, std::size_t count,
+                          std::vector<FluidLoad>& loads) {
   const auto first = [count](auto& row) { return std::span(row).first(count); };
-  closures::drag_of_particles(*laws_.drag, first(voidage_), first(per_mean_), first(average_), first(per_square_),
-                              largest_, first(share_), first(size_), first(slip_), fluid_density_, viscosity_,
-                              first(f_), count_);
-  for (std::size_t n = 0; n < count; ++n) loads[begin + n].drag = stokes_[n] * voidage_[n] * f_[n];
+  closures::drag_of_particles(*laws_.drag, first(batch_.voidage), first(batch_.per_mean), first(batch_.average),
+                              first(batch_.per_square), largest_, first(batch_.share), first(batch_.size),
+                              first(batch_.slip), fluid_density_, viscosity_, first(batch_.f), count_);
+  for (std::size_t n = 0; n < count; ++n)
+    loads[begin + n].drag = creeping_[std::size_t(particles.species[begin + n])] * batch_.voidage[n] * batch_.f[n];
 }
 
 LawUse ParticleForces::use() const { return {count_.evaluations, count_.guarded, clamped_}; }

@@ -34,16 +34,22 @@ class ParticleForces {
   [[nodiscard]] LawUse use() const;
 
  private:
-  static constexpr std::size_t most = 256;  ///< particles of a batch
-  using Row = std::array<double, most>;
-
-  template <class Solids, class Squares>
-  void find_by(const Particles& particles, const Gather& gather, Solids&& solids, Squares&& squares,
-               std::vector<FluidLoad>& loads);
-  template <class Solids, class Squares>
-  void see(const Particles& particles, const Gather& gather, Solids&& solids_at, Squares&& squares_at,
-           std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
-  void drag(std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
+  struct Batch {
+    static constexpr std::size_t most = 256;  ///< particles
+    using Row = std::array<double, most>;
+    Row fraction, voidage, per_mean, average, per_square{}, share, size, slip, f;
+  };
+  struct Asked {
+    const Particles& particles;
+    const Gather& gather;
+    const OwnShare* own;
+    const std::vector<double>& diameter;
+    bool needs_squares;
+  };
+  static void see(const Asked& asked, std::size_t begin, std::size_t count, FluidLoad* loads, Batch& batch);
+  static std::uint64_t average(std::size_t count, Batch& batch);
+  void add_mass(std::size_t count, FluidLoad* loads) const;
+  void drag(const Particles& particles, std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
 
   LoadLaws laws_;
   std::vector<double> diameter_;  ///< of each species, m
@@ -52,7 +58,7 @@ class ParticleForces {
   bool needs_squares_ = false;
   closures::GuardCount count_;
   std::uint64_t clamped_ = 0;
-  Row voidage_, per_mean_, average_, per_square_, share_, size_, slip_, stokes_, f_;
+  Batch batch_;
 };
 
 }  // namespace polybed::dem

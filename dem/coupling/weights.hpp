@@ -55,8 +55,9 @@ class Weights {
     const double below = std::floor(place), share = place - below;
     int low = int(below), high = low + 1;
     if (period > 0) {
-      low = (low + period) % period;
-      high = (high + period) % period;
+      // A particle strays by less than a period; one that has jumped, for which its step ends, is looked up somewhere.
+      low = std::clamp(low < 0 ? low + period : low >= period ? low - period : low, 0, period - 1);
+      high = std::clamp(high < 0 ? high + period : high >= period ? high - period : high, 0, period - 1);
     } else {
       low = std::clamp(low, first, last);
       high = std::clamp(high, first, last);

@@ -52,7 +52,7 @@ class HeldShear {
 
   void add(const dem::Vector& x, const dem::Vector& v, const dem::Vector& w = {}) {
     const dem::Species& s = materials_.species()[0];
-    particles.add({{x, s.radius}, {v, w, 1 / s.mass, 1 / s.inertia}, {}, std::int64_t(particles.size()), 0});
+    particles.add({{x, s.radius}, {v, 1 / s.mass, w, 1 / s.inertia}, {}, std::int64_t(particles.size()), 0});
     particles.owned = particles.size();
     motion.load.resize(particles.owned);
   }

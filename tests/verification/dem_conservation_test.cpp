@@ -142,7 +142,7 @@ class FrozenPair {
     forces_.emplace(box_, materials_, laws_, unit, dem::torque_unit(unit, materials_), 0.05);
     for (std::int64_t id : {0, 1}) {
       const dem::Species& s = materials_.species()[0];
-      particles_.add({{{}, s.radius}, {{}, {}, 1 / s.mass, 1 / s.inertia}, {}, id, 0});
+      particles_.add({{{}, s.radius}, {{}, 1 / s.mass, {}, 1 / s.inertia}, {}, id, 0});
     }
     particles_.owned = 2;
     contacts_.memory_size = laws_.memory_size();

@@ -188,7 +188,7 @@ dem::Particles particles_of(const core::Scene& scene, const std::vector<scenes::
   const dem::Species& s = materials.species()[0];
   dem::Particles particles;
   for (const scenes::Bead& b : beads)
-    particles.add({{b.x, s.radius}, {b.v, b.w, 1 / s.mass, 1 / s.inertia}, {}, std::int64_t(particles.size()), 0});
+    particles.add({{b.x, s.radius}, {b.v, 1 / s.mass, b.w, 1 / s.inertia}, {}, std::int64_t(particles.size()), 0});
   particles.owned = particles.size();
   return particles;
 }

@@ -33,7 +33,7 @@ Spheres::Spheres(const std::string& name, const core::Scene& scene, const std::v
                                       [&](const core::Species& s) { return s.name == b.species; });
     const double r = 0.5 * species->diameter, mass = 4.0 / 3 * std::numbers::pi * r * r * r * species->density;
     place_.push_back({b.x, r});
-    motion_.push_back({b.v, b.w, 1 / mass, 2.5 / (mass * r * r)});
+    motion_.push_back({b.v, 1 / mass, b.w, 2.5 / (mass * r * r)});
     const double nu = species->poisson_ratio.value_or(scene.dem.poisson_ratio);
     modulus_.push_back(species->youngs_modulus.value_or(scene.dem.youngs_modulus.value_or(core::least_modulus)) /
                        (1 - nu * nu));

@@ -61,7 +61,7 @@ class Bench {
   void add(double overlap, const Vector& velocity, const Vector& spin = {}) {
     const Species& s = materials.species()[0];
     const auto id = std::int64_t(particles.size());
-    particles.add({{{0.5, s.radius - overlap, 0.5}, s.radius}, {velocity, spin, 1 / s.mass, 1 / s.inertia}, {}, id, 0});
+    particles.add({{{0.5, s.radius - overlap, 0.5}, s.radius}, {velocity, 1 / s.mass, spin, 1 / s.inertia}, {}, id, 0});
     particles.owned = particles.size();
     walls.pairs.push_back({std::int32_t(id), 0, 0, materials.wall_kind(0)});
     walls.memory.resize(walls.pairs.size() * std::size_t(walls.memory_size));

@@ -63,7 +63,7 @@ struct Cloud {
   void add(std::int32_t species, const Vector& x, const Vector& velocity = {}) {
     const Species& s = materials.species()[std::size_t(species)];
     particles.add(
-        {{x, s.radius}, {velocity, {}, 1 / s.mass, 1 / s.inertia}, {}, std::int64_t(particles.size()), species});
+        {{x, s.radius}, {velocity, 1 / s.mass, {}, 1 / s.inertia}, {}, std::int64_t(particles.size()), species});
     particles.owned = particles.size();
     loads.emplace_back();
     volume += volume_of(s.radius);

@@ -35,7 +35,7 @@ class PairBench {
     if (laws.film) laws.film->set_step(dt);
     const Species& s = materials.species()[0];
     for (std::size_t n = 0; n < movers.size(); ++n) {
-      particles.add({{movers[n].x, s.radius}, {movers[n].v, {}, 1 / s.mass, 1 / s.inertia}, {}, std::int64_t(n), 0});
+      particles.add({{movers[n].x, s.radius}, {movers[n].v, 1 / s.mass, {}, 1 / s.inertia}, {}, std::int64_t(n), 0});
       for (std::size_t m = 0; m < n; ++m)
         pairs.pairs.push_back({std::int32_t(m), std::int32_t(n), Images::here, materials.kind(0, 0)});
     }
