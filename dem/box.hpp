@@ -1,6 +1,7 @@
 // The space of the particles: its size, which faces are walls, and where the images of a particle lie.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -40,12 +41,31 @@ struct Plate {
   Plate(double x0, double y0, double x1, double y1)
       : x(x0), y(y0), along_x(x1 - x0), along_y(y1 - y0), per_square(1 / (along_x * along_x + along_y * along_y)) {}
 
+  /// Where along the plate the point lies that is nearest to a centre: below 0 and above 1 beyond an edge.
+  [[nodiscard]] double share(const Vector& centre) const {
+    return ((centre[0] - x) * along_x + (centre[1] - y) * along_y) * per_square;
+  }
   /// To a centre from the point of the plate that is nearest to it, m.
   [[nodiscard]] Vector to(const Vector& centre) const {
-    const double dx = centre[0] - x, dy = centre[1] - y, share = (dx * along_x + dy * along_y) * per_square;
-    const double within = share < 0 ? 0 : (share > 1 ? 1 : share);
-    return {dx - within * along_x, dy - within * along_y, 0};
+    const double within = std::clamp(share(centre), 0.0, 1.0);
+    return {centre[0] - x - within * along_x, centre[1] - y - within * along_y, 0};
   }
+  enum class Part { first_edge, face, second_edge };
+  /// Which part of it is nearest to a centre. The width given to edges keeps rounding from finding two faces, or none,
+  /// at a joint.
+  [[nodiscard]] Part nearest(const Vector& centre) const {
+    constexpr double width = 1e-9;
+    const double at = share(centre);
+    return at < width ? Part::first_edge : (at > 1 - width ? Part::second_edge : Part::face);
+  }
+};
+
+/// An edge of a plate that lies on another plate.
+struct Joint {
+  int plate = 0;
+  Plate::Part edge{};
+  int other = 0;
+  Plate::Part at{};  ///< on which part of the other
 };
 
 /// A flat wall, at rest, on one face of the box, or a plate inside it.
@@ -62,11 +82,19 @@ struct Box {
   std::array<bool, 3> periodic{};
   std::vector<Wall> walls;         ///< of the directions that are not periodic; none where the box is open; then plates
   std::vector<Plate> plates;       ///< inside
+  std::vector<Joint> joints;       ///< of the plates
   std::optional<Opening> opening;  ///< in the bottom; absent: it is whole
   double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
 
   /// Whether all its walls are whole faces.
   [[nodiscard]] bool plain() const { return !opening && plates.empty(); }
+
+  /// Adds a plate, and a wall that it is.
+  void add_plate(const Plate& plate);
+  /// Whether a plate pushes a centre near it: not by an edge from which the centre is nearer to the face of the plate
+  /// joined there, and of two that have the same edge nearest to it the one of lower number. So plates that continue
+  /// each other push once.
+  [[nodiscard]] bool pushes(int plate, const Vector& centre) const;
 
   /// What is added to x and v_x of the image of a particle one box up, at a time, m and m/s. The first within +-L/2.
   [[nodiscard]] double image_shift(double time) const {

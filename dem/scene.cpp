@@ -92,10 +92,7 @@ Box box_of(const core::Scene& scene) {
     if (axis != 1 || column.closed || scene.fluid.present())
       box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
   }
-  for (const core::InnerWall& wall : scene.walls) {
-    box.walls.push_back({0, 0, 0, int(box.plates.size())});
-    box.plates.emplace_back(wall.from[0], wall.from[1], wall.to[0], wall.to[1]);
-  }
+  for (const core::InnerWall& wall : scene.walls) box.add_plate({wall.from[0], wall.from[1], wall.to[0], wall.to[1]});
   return box;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "core/vectors.hpp"
 #include "dem/contacts/rows.hpp"
@@ -173,6 +174,9 @@ std::optional<Vector> ContactLoader::from_nearest(std::int32_t wall, const Vecto
 }
 
 double ContactLoader::distance_from(std::int32_t wall, const Place& place) const {
+  const int plate = box_.walls[std::size_t(wall)].plate;
+  if (plate >= 0 && !box_.joints.empty() && !box_.pushes(plate, place.x))
+    return std::numeric_limits<double>::infinity();
   const std::optional<Vector> from = from_nearest(wall, place.x);
   if (!from) return height_over(wall, place);
   const Vector& d = *from;

@@ -69,6 +69,19 @@ class Hopper(Scratch):
                 self.assertGreater(np.min(distance[held], initial=1), 0.675e-3)
         self.assertGreater(seen, 300)
 
+    def test_walls_that_continue_each_other_push_once(self):
+        whole = '[[wall]]\nfrom = ["2 mm", "10 mm"]\nto = ["28 mm", "10 mm"]\n'
+        halves = '[[wall]]\nfrom = ["2 mm", "10 mm"]\nto = ["15 mm", "10 mm"]\n[[wall]]\nfrom = ["28 mm", "10 mm"]\nto = ["15 mm", "10 mm"]\n'
+        self.write("one.csv", "x,y,z,species\n0.015,0.012,0.001,beads\n")
+        bed = BED.replace("particles = [300]\nsolids_fraction = 0.6\nstart = \"mixed\"", 'start = "list:one.csv"')
+        places = []
+        for name, walls in (("whole", whole), ("halves", halves)):
+            _, directory = self.run_of(name, bed + walls, "--until", "0.1 s")
+            with h5py.File(directory / "particles.h5") as file:
+                places.append([step["position"][()] for step in file["step"].values()])
+        self.assertGreater(np.min(places[0][-1].reshape(-1, 3)[:, 1]), 0.0105)  # it lies on the wall
+        self.assertTrue(np.array_equal(*places))
+
     def test_a_wall_needs_a_dry_column(self):
         wet = BED.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"') + SIDES
         told = self.ends(WRONG_CASE, "dem", self.write("wet.toml", wet), "-o", self.folder / "wet").stderr
