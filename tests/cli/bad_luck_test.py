@@ -147,7 +147,7 @@ class FullDisk(Scratch):
             return [word for name, period in periods.items() for word in ("--set", f"output.{name}={period}")]
         for first, most_bytes, words in (("steps.csv", 0, every(every=9, history_every=9, checkpoint_every=0.5)),
                                          ("history.csv", 100000, every(history_every=1e-4)),
-                                         ("profiles.h5", 20000, every(checkpoint_every=0.5)),
+                                         ("profiles.h5", 20000, every(every=0.5, history_every=0.5, checkpoint_every=0.5)),
                                          ("checkpoint.h5", 40000, every(every=9)), ("fields/", 50000, [])):
             with self.subTest(first):
                 directory = self.folder / first
