@@ -107,9 +107,9 @@ class DemCfdPeers(unittest.TestCase):
         def run(ns, height=0.156, spread=0.02):
             return {"ns": ns, "cpu_per_s": 1e3 * ns, "spread": spread, "bed_height_m": height}
         met = lambda mine, peer: [m for _, m in demcfd_peers.verdicts({"polybed": mine, "OpenFOAM": peer})]
-        self.assertEqual(met(run(1.0), run(3.1)), [True, None, True])
-        self.assertEqual(met(run(1.0), run(2.9, 0.158)), [False, None, False])  # heights 1.3 % apart
-        self.assertEqual(met(run(1.0, spread=math.inf), run(3.1))[0], None)
+        self.assertEqual(met(run(1.0), run(50.1)), [True, None, True])
+        self.assertEqual(met(run(1.0), run(49.9, 0.158)), [False, None, False])  # heights 1.3 % apart
+        self.assertEqual(met(run(1.0, spread=math.inf), run(50.1))[0], None)
         self.assertEqual(demcfd_peers.verdicts({"OpenFOAM": run(1.0)}), [])
 
     def test_cost_per_particle_step(self):
