@@ -1,6 +1,7 @@
 // Single sphere, Dallavalle 1948.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -15,7 +16,7 @@ struct DragDallavalle {
   Guard guard = Guard::on;
   /// f = (0.63 sqrt(Re) + 4.8)^2 / 24: finite at Re = 0, where it is 0.96.
   DragValue operator()(double, double re) const {
-    const double root = 0.63 * std::sqrt(re > 0 ? re : 0.0), sum = root + 4.8;
+    const double root = 0.63 * std::sqrt(std::max(re, 0.0)), sum = root + 4.8;
     return {sum * sum / 24, sum * root / 24};
   }
   [[nodiscard]] bool outside(double voidage, double) const { return voidage < 1; }

@@ -1,12 +1,12 @@
 // Ergun and Wen-Yu joined, Huilin and Gidaspow 2003.
 #pragma once
 
-#include <cmath>
 #include <numbers>
 #include <string_view>
 
 #include "closures/drag_ergun.hpp"
 #include "closures/drag_wen_yu.hpp"
+#include "closures/elementary.hpp"
 
 namespace polybed::closures {
 
@@ -19,7 +19,7 @@ struct DragGidaspow {
   DragValue operator()(double eps, double re) const {
     const DragValue dense = DragErgun{guard}(eps, re), dilute = DragWenYu{guard}(eps, re);
     const double psi =
-        guard == Guard::on ? 0.5 + std::atan(262.5 * (eps - 0.8)) / std::numbers::pi : (eps < 0.8 ? 0.0 : 1.0);
+        guard == Guard::on ? 0.5 + plain_arctan(262.5 * (eps - 0.8)) / std::numbers::pi : (eps < 0.8 ? 0.0 : 1.0);
     return {(1 - psi) * dense.f + psi * dilute.f, (1 - psi) * dense.re_dfdre + psi * dilute.re_dfdre};
   }
   [[nodiscard]] bool outside(double, double) const { return false; }

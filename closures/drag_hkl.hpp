@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "closures/drag_value.hpp"
+#include "closures/elementary.hpp"
 
 namespace polybed::closures {
 
@@ -30,14 +31,12 @@ struct DragHkl {
   }
   [[nodiscard]] static double dense(double phi) { return 10 * phi / ((1 - phi) * (1 - phi)); }
   [[nodiscard]] static double dilute(double phi) {
-    const double logarithm = phi > 0 ? phi * std::log(phi) : 0.0;
+    const double logarithm = phi * plain_log(std::max(phi, 1e-300));
     return (1 - phi) * (1 + 3 / std::sqrt(2.0) * std::sqrt(phi) + 135.0 / 64 * logarithm + 16.14 * phi) /
            (1 + phi * (0.681 + phi * (-8.48 + 8.16 * phi)));
   }
   [[nodiscard]] double creeping(double phi) const {
-    if (phi >= 0.4) return dense(phi);
-    if (guard == Guard::off || phi <= 0.38) return dilute(phi);
-    const double share = (phi - 0.38) / 0.02;
+    const double least = guard == Guard::on ? 0.38 : 0.4, share = phi >= 0.4 ? 1 : std::max((phi - least) / 0.02, 0.0);
     return (1 - share) * dilute(phi) + share * dense(phi);
   }
 };

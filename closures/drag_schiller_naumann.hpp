@@ -1,10 +1,10 @@
 // Single sphere, Schiller and Naumann 1933.
 #pragma once
 
-#include <cmath>
 #include <string_view>
 
 #include "closures/drag_value.hpp"
+#include "closures/elementary.hpp"
 
 namespace polybed::closures {
 
@@ -15,10 +15,9 @@ struct DragSchillerNaumann {
   Guard guard = Guard::on;
   /// f = 1 + 0.15 Re^0.687; guarded by max(f, 0.44 Re/24), which takes over, continuously, at Re 989.
   DragValue operator()(double, double re) const {
-    const double power = re > 0 ? 0.15 * std::pow(re, 0.687) : 0.0;
-    const double newton = 0.44 / 24 * re;
-    if (guard == Guard::on && newton > 1 + power) return {newton, newton};
-    return {1 + power, 0.687 * power};
+    const double power = 0.15 * plain_power(re, 0.687), newton = 0.44 / 24 * re;
+    const bool beyond = guard == Guard::on && newton > 1 + power;
+    return {beyond ? newton : 1 + power, beyond ? newton : 0.687 * power};
   }
   [[nodiscard]] bool outside(double voidage, double re) const { return voidage < 1 || re > 1000; }
 };

@@ -1,10 +1,10 @@
 // Single sphere, Turton and Levenspiel 1986, T(3.19).
 #pragma once
 
-#include <cmath>
 #include <string_view>
 
 #include "closures/drag_value.hpp"
+#include "closures/elementary.hpp"
 
 namespace polybed::closures {
 
@@ -16,9 +16,7 @@ struct DragTurtonLevenspiel {
   /// T(Re) = 1 + 0.173 Re^0.657 + (0.413 Re/24)/(1 + 16300 Re^-1.09); Re df/dRe -> 0 at Re = 0 though df/dRe
   /// is infinite.
   DragValue operator()(double, double re) const {
-    if (!(re > 0)) return {1, 0};
-    const double log_re = std::log(re);
-    const double a = 0.173 * std::exp(0.657 * log_re), power = std::exp(1.09 * log_re);
+    const double a = 0.173 * plain_power(re, 0.657), power = plain_power(re, 1.09);
     const double b = 0.413 / 24 * re * power / (power + 16300);
     return {1 + a + b, 0.657 * a + b * (1 + 1.09 * 16300 / (power + 16300))};
   }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "closures/drag_value.hpp"
+#include "closures/elementary.hpp"
 
 namespace polybed::closures {
 
@@ -22,13 +23,12 @@ struct DragVbk {
   DragValue operator()(double eps, double re) const {
     const double phi = std::max(1 - eps, 0.0), per_eps2 = 1 / (eps * eps);
     const double creeping = 10 * phi * per_eps2 + eps * eps * (1 + 1.5 * std::sqrt(phi));
-    if (!(re > 0)) return {creeping, 0};
-    const double log_re = std::log(re);
-    const double power = 8.4 * std::exp(-0.343 * log_re);
+    const double log_re = plain_log(std::max(re, 1e-100));  // below, the last term is less than 1e-100
+    const double power = 8.4 * plain_exp(-0.343 * log_re);
     const double above = 1 / eps + 3 * eps * phi + power;
     // 1/(1 + 10^(3 phi) Re^(-m)) as q/(1 + q), q = 10^(-3 phi) Re^m, which cannot overflow at small Re.
     const double exponent = 0.5 + 2 * phi;
-    const double q = std::exp(exponent * log_re - 3 * phi * std::numbers::ln10);
+    const double q = plain_exp(exponent * log_re - 3 * phi * std::numbers::ln10);
     const double inertia = 0.413 / 24 * re * per_eps2 * above * q / (1 + q);
     return {creeping + inertia, inertia * (1 - 0.343 * power / above + exponent / (1 + q))};
   }

@@ -1,10 +1,10 @@
 // Dilute suspensions, Wen and Yu 1966, T(3.29).
 #pragma once
 
-#include <cmath>
 #include <string_view>
 
 #include "closures/drag_schiller_naumann.hpp"
+#include "closures/elementary.hpp"
 
 namespace polybed::closures {
 
@@ -16,7 +16,7 @@ struct DragWenYu {
   /// f = f_SchillerNaumann(Re) eps^-3.65.
   DragValue operator()(double eps, double re) const {
     const DragValue single = DragSchillerNaumann{guard}(eps, re);
-    const double crowding = std::pow(eps, -3.65);
+    const double crowding = plain_power(eps, -3.65);
     return {crowding * single.f, crowding * single.re_dfdre};
   }
   [[nodiscard]] bool outside(double eps, double re) const { return eps < 0.8 || re > 1000; }

@@ -1,9 +1,11 @@
-// Logarithm and exponential without branches against those of the C++ library.
+// Logarithm, exponential, power and arctangent without branches against those of the C++ library.
 #include "closures/elementary.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <random>
 
 namespace polybed::closures {
@@ -20,6 +22,32 @@ TEST(Elementary, AreThoseOfTheLibrary) {
   }
   EXPECT_EQ(plain_exp(0), 1);
   EXPECT_EQ(plain_log(1), 0);
+}
+
+TEST(Elementary, PowersAreThoseOfTheLibrary) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> wide(-60, 60), narrow(-1, 1), exponent(-4, 5);
+  for (int n = 0; n < 100'000; ++n) {
+    const bool near = n % 2 == 0;
+    const double x = std::pow(10, near ? narrow(random) : wide(random)), p = exponent(random);
+    const double power = std::pow(x, p);
+    EXPECT_NEAR(plain_power(x, p), power, (near ? 3e-15 : 4e-13) * power) << x << ' ' << p;
+  }
+  EXPECT_EQ(plain_power(0, 0.687), 0);
+  EXPECT_EQ(plain_power(1, -3.65), 1);
+  EXPECT_TRUE(std::isnan(plain_power(std::nan(""), 0.687)));
+}
+
+TEST(Elementary, ArctangentIsThatOfTheLibrary) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> magnitude(-20, 20);
+  for (int n = 0; n < 100'000; ++n) {
+    const double x = (n % 2 == 0 ? 1 : -1) * std::pow(10, magnitude(random)), angle = std::atan(x);
+    EXPECT_NEAR(plain_arctan(x), angle, 8e-16 * std::abs(angle)) << x;
+  }
+  EXPECT_EQ(plain_arctan(0), 0);
+  EXPECT_EQ(plain_arctan(std::numeric_limits<double>::infinity()), 0.5 * std::numbers::pi);
+  EXPECT_TRUE(std::isnan(plain_arctan(std::nan(""))));
 }
 
 }  // namespace
