@@ -20,6 +20,13 @@ using FourInMemory = double __attribute__((vector_size(32), aligned(8), may_alia
 }
 [[gnu::always_inline]] inline void put_four(const Four& four, void* to) { *static_cast<FourInMemory*>(to) = four; }
 
+/// Four whole numbers where they lie, at any multiple of 8 bytes.
+using WholeInMemory = std::int64_t __attribute__((vector_size(32), aligned(8), may_alias));
+/// Adds to four whole numbers, each cut off at its point.
+[[gnu::always_inline]] inline void add_whole(const Four& four, std::int64_t* to) {
+  *static_cast<WholeInMemory*>(static_cast<void*>(to)) += __builtin_convertvector(four, WholeInMemory);
+}
+
 /// A vector and the number behind it in its record.
 [[gnu::always_inline]] inline Four four_at(const Vector& first_three) {
   return *static_cast<const FourInMemory*>(static_cast<const void*>(first_three.data()));

@@ -5,6 +5,7 @@
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
+#include "core/vectors.hpp"
 #include "dem/coupling/kernel.hpp"
 #include "dem/scene.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -42,6 +43,32 @@ bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int
         "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"");
   if (wide || wish == core::FluidRanks::each) return false;
   return wish == core::FluidRanks::shared || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
+}
+
+/// Changes over a step of the fluid, on faces.
+struct FluidChange {
+  const core::FaceField &velocity, &gradient;  ///< m/s, Pa/m
+  const core::FaceField* convected;            ///< of the velocity, m/s; null: no particle has added mass
+};
+
+/// What the change of the fluid would have done to the particles in its step: see fluid::ParticlePhase.
+void push_by(FluidChange change, double dt, const Gather& gather, FluidMotion& motion, Particles& particles) {
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const FluidLoad& f = motion.load[i];
+    Motion& m = particles.motion[i];
+    const double volume = closures::sphere_volume(particles.place[i].radius);
+    const double inertia = 1 / m.inverse_mass + f.added, x = f.drag * dt / inertia, s = mean_decay(x);
+    const Lines lines = gather.lines(particles.place[i].x);
+    const Vector du = gather.vector(lines, change.velocity), dg = gather.vector(lines, change.gradient);
+    Vector dv;
+    for (std::size_t k = 0; k < 3; ++k) dv[k] = x * s * du[k] - volume / inertia * s * dt * dg[k];
+    if (change.convected != nullptr) {
+      const Vector c = gather.vector(lines, *change.convected);
+      for (std::size_t k = 0; k < 3; ++k) dv[k] += f.added / inertia * s * (du[k] + c[k]);
+    }
+    motion.account_coupling(m, dv);
+    for (std::size_t k = 0; k < 3; ++k) m.v[k] += dv[k];
+  }
 }
 
 }  // namespace
@@ -160,29 +187,13 @@ void Coupling::require_voidage() const {
   throw core::NumericsError(core::said_by(grid, worst, text));
 }
 
-/// What the change of the fluid would have done to the particles meanwhile: see fluid::ParticlePhase.
 void Coupling::couple_two_way(Particles& particles) {
-  const double dt = interval();
   core::FaceField change = flow_.velocity_change(), push = flow_.gradient_change(), carried;
   if (phase_.added_mass()) carried = flow_.convected();
   for (core::FaceField* field : {&change, &push, &carried}) smooth(*field);
   if (exchange_) here({&change, &push, &carried});
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    const FluidLoad& f = motion_.load[i];
-    Motion& m = particles.motion[i];
-    const double volume = closures::sphere_volume(particles.place[i].radius);
-    const double inertia = 1 / m.inverse_mass + f.added, x = f.drag * dt / inertia, s = mean_decay(x);
-    const Lines lines = gather_.lines(particles.place[i].x);
-    const Vector du = gather_.vector(lines, change), dg = gather_.vector(lines, push);
-    Vector dv;
-    for (std::size_t k = 0; k < 3; ++k) dv[k] = x * s * du[k] - volume / inertia * s * dt * dg[k];
-    if (phase_.added_mass()) {
-      const Vector c = gather_.vector(lines, carried);
-      for (std::size_t k = 0; k < 3; ++k) dv[k] += f.added / inertia * s * (du[k] + c[k]);
-    }
-    motion_.account_coupling(m, dv);
-    for (std::size_t k = 0; k < 3; ++k) m.v[k] += dv[k];
-  }
+  core::in_vectors<push_by>(FluidChange{change, push, phase_.added_mass() ? &carried : nullptr}, interval(), gather_,
+                            motion_, particles);
 }
 
 }  // namespace polybed::dem

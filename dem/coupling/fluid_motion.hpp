@@ -99,6 +99,7 @@ class FluidMotion {
   }
   /// A change of velocity that the fluid alone has made.
   void account_coupling(const Motion& m, const Vector& dv) {
+    if (!counts_work_) return;
     double work = 0;
     for (std::size_t k = 0; k < 3; ++k) work += (m.v[k] + 0.5 * dv[k]) * dv[k];
     work_.add(work / m.inverse_mass * energy_.per_unit);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "closures/sphere.hpp"
+#include "core/vectors.hpp"
 
 namespace polybed::dem {
 
@@ -16,7 +18,8 @@ Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Material
       weights_(grid),
       species_(materials.species()),
       count_(added_mass ? carry_flux + 1 : yield + 1),
-      width_(std::size_t(grid.dimensions) * count_ + species_.size()) {
+      of_axis_(4 * fours(count_)),
+      width_(std::size_t(grid.dimensions) * of_axis_ + species_.size()) {
   double lightest = species_.front().density, heaviest = lightest;
   for (const Species& s : species_) {
     lightest = std::min(lightest, s.density);
@@ -33,6 +36,14 @@ Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Material
 
 void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
   std::fill(sums_.begin(), sums_.end(), 0);
+  if (count_ > yield + 1)
+    core::in_vectors<add_moving<carry_flux + 1>>(*this, particles, loads, dt);
+  else
+    core::in_vectors<add_moving<yield + 1>>(*this, particles, loads, dt);
+}
+
+template <std::size_t count>
+void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Motion& m = particles.motion[i];
     const FluidLoad& f = loads[i];
@@ -41,7 +52,7 @@ void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& 
     const double x = f.drag * dt / inertia, s = mean_decay(x), g = x * s, a = f.added / inertia * s;
     const std::array<double, 6> same{mass * (g + a),      v * (g + a), v * (1 - mass / inertia * s),
                                      v * v * s / inertia, mass * a,    v * a};
-    add(particles.place[i], same, m.v, f.impulse, std::size_t(particles.species[i]));
+    sums.add<count>(particles.place[i], same, m.v, f.impulse, std::size_t(particles.species[i]));
   }
 }
 
@@ -49,9 +60,13 @@ void Scatter::collect_held(const core::Ranks* ranks, const Particles& particles,
                            double dt) {
   fit_units(ranks, loads, dt);
   std::fill(sums_.begin(), sums_.end(), 0);
-  for (std::size_t i = 0; i < particles.owned; ++i)
-    add(particles.place[i], {loads[i].drag * dt, 0, 0, 0, 0, 0}, {}, loads[i].impulse,
-        std::size_t(particles.species[i]));
+  const auto add_all = [&](const auto count) {
+    for (std::size_t i = 0; i < particles.owned; ++i)
+      add<count()>(particles.place[i], {loads[i].drag * dt, 0, 0, 0, 0, 0}, {}, loads[i].impulse,
+                   std::size_t(particles.species[i]));
+  };
+  count_ > yield + 1 ? add_all(std::integral_constant<std::size_t, carry_flux + 1>())
+                     : add_all(std::integral_constant<std::size_t, yield + 1>());
 }
 
 /// No mass bounds what held particles take in a step: units that hold the greatest of each, times their number, which
@@ -71,25 +86,31 @@ void Scatter::fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& 
 }
 
 /// \param same  drag, follow, slide, yield, carry, carry_flux: alike on the faces of all axes
+template <std::size_t count>
 void Scatter::add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
                   std::size_t species) {
   const Lines lines = weights_(place.x);
   const double v = closures::sphere_volume(place.radius);
-  std::array<double, 9> units{};
-  units[Sum::volume] = v * unit_[Sum::volume].per_unit;
-  for (std::size_t q = drag; q < count_; ++q) units[q] = same[q - drag] * unit_[q].per_unit;
-  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+  // Copies, as for all that the compiler knows a sum that is written may be a member.
+  std::int64_t* const sums = sums_.data();
+  const std::size_t width = width_;
+  const int dimensions = grid_.dimensions;
+  std::array<Four, fours(count)> units{};  // of those on a face; the last may be for none
+  const auto set = [&](std::size_t q, double amount) { units[q / 4][q % 4] = amount * unit_[q].per_unit; };
+  set(Sum::volume, v);
+  for (std::size_t q = drag; q < count; ++q) set(q, same[q - drag]);
+  for (int axis = 0; axis < dimensions; ++axis) {
     const auto a = std::size_t(axis);
-    units[flux] = v * velocity[a] * unit_[flux].per_unit;
-    units[Sum::impulse] = impulse[a] * unit_[Sum::impulse].per_unit;
-    for_each_face(grid_.dimensions, lines, axis, [&](std::size_t at, double w) {
-      std::int64_t* sum = sums_.data() + at * width_ + a * count_;
-      for (std::size_t q = 0; q < count_; ++q) sum[q] += std::int64_t(w * units[q]);
+    set(flux, v * velocity[a]);
+    set(Sum::impulse, impulse[a]);
+    for_each_face(dimensions, lines, axis, [&](std::size_t at, double w) {
+      std::int64_t* sum = sums + at * width + a * 4 * units.size();
+      for (std::size_t n = 0; n < units.size(); ++n) add_whole(w * units[n], sum + 4 * n);
     });
   }
-  const std::size_t cell = std::size_t(grid_.dimensions) * count_ + species;
-  for_each_cell(grid_.dimensions, lines,
-                [&](std::size_t at, double w) { sums_[at * width_ + cell] += std::int64_t(w * units[Sum::volume]); });
+  const std::size_t cell = std::size_t(dimensions) * 4 * units.size() + species;
+  for_each_cell(dimensions, lines,
+                [&](std::size_t at, double w) { sums[at * width + cell] += std::int64_t(w * units[0][0]); });  // volume
 }
 
 /// Sums over all ranks. A column is mostly empty above its bed: only what lies between entries that any rank has filled
@@ -116,7 +137,7 @@ void Scatter::give(const core::Ranks* ranks, const GridExchange* exchange, bool 
   const double per_cell = 1 / grid_.cell_volume(), unit = unit_[volume].unit * per_cell;
   std::fill(phase.voidage.begin(), phase.voidage.end(), 1.0);
   for (std::size_t j = 0; j < species_.size(); ++j) {
-    const std::size_t cell = std::size_t(grid_.dimensions) * count_ + j;
+    const std::size_t cell = std::size_t(grid_.dimensions) * of_axis_ + j;
     for (std::size_t c = 0; c < block_.padded_size(); ++c) {
       fraction[j][c] = double(sums[c * width_ + cell]) * unit;
       phase.voidage[c] -= fraction[j][c];
@@ -132,11 +153,14 @@ void Scatter::give_faces(std::span<const std::int64_t> sums, bool open_top, flui
                                                &phase.yield,      &phase.carry,  &phase.carry_flux};
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
     const auto a = std::size_t(axis);
+    std::array<double*, 9> field{};
+    std::array<double, 9> unit{};
     for (std::size_t q = 0; q < count_; ++q) {
-      Field& field = (*fields[q])[a];
-      const double unit = unit_[q].unit * per_cell;
-      for (std::size_t c = 0; c < field.size(); ++c) field[c] = double(sums[c * width_ + a * count_ + q]) * unit;
+      field[q] = (*fields[q])[a].data();
+      unit[q] = unit_[q].unit * per_cell;
     }
+    for (std::size_t c = 0; c < block_.padded_size(); ++c)
+      for (std::size_t q = 0; q < count_; ++q) field[q][c] = double(sums[c * width_ + a * of_axis_ + q]) * unit[q];
     // The faces of the outlet stand for half a cell.
     if (axis == 1 && open_top && block_.ends(1, 1))
       core::for_each_row(block_, {0, block_.cells[1], 0}, {block_.cells[0], block_.cells[1] + 1, block_.cells[2]},

@@ -33,8 +33,13 @@ class Scatter {
  private:
   /// What stands on a face, in this order.
   enum Sum { volume, flux, impulse, drag, follow, slide, yield, carry, carry_flux };
+  /// How many vectors of four hold so many.
+  static constexpr std::size_t fours(std::size_t count) { return (count + 3) / 4; }
 
   void fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt);
+  template <std::size_t count>
+  static void add_moving(Scatter& sums, const Particles& particles, const std::vector<FluidLoad>& loads, double dt);
+  template <std::size_t count>
   void add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
            std::size_t species);
   void add_up(const core::Ranks* ranks);
@@ -43,9 +48,10 @@ class Scatter {
   core::Grid grid_, block_;
   Weights weights_;
   std::vector<Species> species_;
-  std::size_t count_, width_;                ///< sums on a face, and on all faces and the cell of an entry
+  std::size_t count_;                        ///< sums on a face: the first of them
+  std::size_t of_axis_, width_;              ///< their places on a face, and on all faces and in the cell of an entry
   std::vector<FixedPoint> unit_;             ///< of each
-  std::vector<std::int64_t> sums_, shared_;  ///< [entry][axis, sum; species]; of the column, and of a block
+  std::vector<std::int64_t> sums_, shared_;  ///< [entry][axis, place; species]; of the column, and of a block
 };
 
 }  // namespace polybed::dem
