@@ -34,7 +34,6 @@ def read(program):
             "gravity": scene["column"]["gravity"], "velocity": scene["inlet"]["superficial_velocity"][0][1],
             "diameter": beads["diameter"], "density": beads["density"], "species": beads["name"],
             "count": scene["bed"]["particles"][0], "solids_fraction": scene["bed"]["solids_fraction"],
-            "fluid_every": scene["dem"]["fluid_every"],
             "wall": own | {key: pair[key] for key in materials if key in pair}} | own
 
 

@@ -65,7 +65,7 @@ def on_polybed(bed, arguments, directory):
     if dry(directory / "long"):
         raise WithoutGas("this polybed runs the case without its gas")
     cpu, steps = (runs["long"][what] - runs["short"][what] for what in ("cpu_s", "steps"))
-    return {"cpu_s": cpu, "solid_steps": steps, "fluid_steps": steps / bed["fluid_every"],
+    return {"cpu_s": cpu, "solid_steps": steps, "fluid_steps": steps / FLUID_EVERY,
             "places": demcfd_bed.stored(directory / "long")}
 
 
