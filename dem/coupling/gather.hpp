@@ -37,14 +37,15 @@ class Gather {
   [[nodiscard]] Lines lines(const Vector& x) const { return weights_(x); }
   [[nodiscard]] Surroundings solids(const Lines& lines, std::int32_t species) const {
     Four sum{};  // the fourth is that of the first species
-    double own = 0;
     for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
-      const double* cell = cells_.data() + at * width_;
       Four first;
-      get_four(cell, first);
+      get_four(cells_.data() + at * width_, first);
       sum += w * first;
-      own += w * cell[3 + species];
     });
+    if (diameter_.size() == 1) return {sum[0], sum[1], sum[2], sum[3]};
+    double own = 0;
+    for_each_cell(weights_.dimensions(), lines,
+                  [&](std::size_t at, double w) { own += w * cells_[at * width_ + 3 + std::size_t(species)]; });
     return {sum[0], sum[1], sum[2], own};
   }
   /// sum phi_j/D_j^2, 1/m2, for drag laws that ask for it.
