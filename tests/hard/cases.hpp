@@ -11,6 +11,7 @@ namespace polybed::hard {
 [[nodiscard]] std::vector<HardCase> wave_cases();        // T7 grids, T8
 [[nodiscard]] std::vector<HardCase> settling_cases();    // T1 T2 T3 T17
 [[nodiscard]] std::vector<HardCase> fluidised_cases();   // T4 T16 T22 T23
+[[nodiscard]] std::vector<HardCase> inertia_cases();     // T27 T28
 [[nodiscard]] std::vector<HardCase> transport_cases();   // T10 T19 T25
 [[nodiscard]] std::vector<HardCase> column_cases();      // T13 T15 T26, on demand
 [[nodiscard]] std::vector<HardCase> demanding_cases();   // T11 T12 T18 T20 T21 T24, on demand

@@ -26,13 +26,13 @@ double suspension_length(double start, double width, double velocity, double ang
   return end + (start - end) * std::exp(-velocity * std::sin(angle) * time / width);
 }
 
-constexpr double width = 6e-3, length = 0.12, fraction = 0.1, degree = std::numbers::pi / 180;
+constexpr double channel_width = 6e-3, channel_length = 0.12, fraction = 0.1, degree = std::numbers::pi / 180;
 
 /// Glass of 0.1 mm at a fraction of 0.1 in a closed channel of 6 x 120 mm that leans to the right (to the left if the
 /// angle is negative), `cells` across. Without a viscosity of the fluid in its walls there would be no layers to miss.
 core::Scene leaning_channel(double angle, int cells, double viscosity) {
-  core::Scene scene = uniform_bed(1e-4, 2500, 998.207, viscosity, fraction, 60, length);
-  scene.column.size = {width, length, width / 3};
+  core::Scene scene = uniform_bed(1e-4, 2500, 998.207, viscosity, fraction, 60, channel_length);
+  scene.column.size = {channel_width, channel_length, channel_width / 3};
   scene.column.cells = {cells, 60, 1};
   scene.column.sides = core::Boundary::wall;
   scene.column.closed = true;
@@ -90,7 +90,8 @@ double rate_over_theory(Trial& trial, int cells) {
     trial.advance(*run, time);
     filled.push_back(measures::bed_height(profile_of(*run)).value_or(0));
   }
-  return (filled[0] - filled[1]) / (filled[0] - suspension_length(filled[0], width, settling, 30 * degree, 6.0));
+  return (filled[0] - filled[1]) /
+         (filled[0] - suspension_length(filled[0], channel_width, settling, 30 * degree, 6.0));
 }
 
 /// Three cells do not hold a clear layer of a tenth of the width; 24 do.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "closures/added_mass.hpp"
 #include "closures/drag.hpp"
 #include "tfm/pressure_coupling.hpp"
 
@@ -152,6 +153,42 @@ Terms hidden_unit(const tfm::Model&) {
                                    small * (fields.fluid.velocity[axis][c] - fields.solids.velocity[j][axis][c]) /
                                    equations.constants().density[j];
                            });
+  };
+}
+
+Terms added_mass_lagged(const tfm::Model& model) {
+  struct Before {
+    core::FaceField fluid;
+    std::vector<core::FaceField> solids;
+  };
+  const auto before = std::make_shared<Before>();
+  before->fluid = core::make_face_field(model.constants().grid);
+  before->solids.assign(model.constants().species(), before->fluid);
+  return [before](const tfm::RightHandSide& equations, tfm::Fields& fields) {
+    const tfm::Constants& constants = equations.constants();
+    const core::Grid& grid = constants.grid;
+    const double *eps = fields.fluid.voidage.data(), *p = fields.fluid.pressure.data();
+    const double fluid_density = constants.fluid.density;
+    for (int axis = 0; axis < grid.dimensions; ++axis) {
+      const auto a = std::size_t(axis);
+      const Index s = grid.stride(axis);
+      for (std::size_t j = 0; j < fields.solids.species(); ++j) {
+        const double *phi = fields.solids.fraction[j].data(), density = constants.density[j];
+        core::for_each_row(grid, equations.boundaries().moving_faces(axis, false), [&](Index begin, Index end) {
+          for (Index c = begin; c < end; ++c) {
+            const auto f = std::size_t(c);
+            const double slope = (p[c] - p[c - s]) / grid.spacing[a], voidage = core::face_mean(eps, c, s);
+            const double force = closures::added_mass_zuber(1 - voidage) * fluid_density *
+                                 (before->fluid[a][f] - before->solids[j][a][f] -
+                                  slope * (1 / fluid_density - 1 / density));  // of one volume of solids, N/m3
+            fields.solids.acceleration[j][a][f] += force / density;
+            fields.fluid_acceleration[a][f] -= core::face_mean(phi, c, s) * force / (voidage * fluid_density);
+          }
+        });
+      }
+    }
+    before->fluid = fields.fluid_acceleration;
+    before->solids = fields.solids.acceleration;
   };
 }
 

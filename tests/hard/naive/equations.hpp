@@ -50,4 +50,7 @@ class Equations : public core::OdeProblem {
 /// A number without a unit added to the exchange coefficients, so that nothing is ever divided by 0.
 [[nodiscard]] Terms hidden_unit(const tfm::Model& model);
 
+/// Added mass as a force, C_m rho_f times the accelerations of the evaluation before: equal and opposite.
+[[nodiscard]] Terms added_mass_lagged(const tfm::Model& model);
+
 }  // namespace polybed::hard::naive

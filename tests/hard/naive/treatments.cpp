@@ -199,6 +199,7 @@ std::unique_ptr<hard::Run> make_run(const std::string& name, core::Scene scene, 
     return explicit_run({}, {});
   }
   if (name == "hidden_unit") return explicit_run({}, hidden_unit);
+  if (name == "added_mass_lagged") return explicit_run({"added_mass"}, added_mass_lagged);
   if (name == "drag_explicit") {
     scene.tfm.fixed_step = courant_step(scene);
     return explicit_run({}, {});

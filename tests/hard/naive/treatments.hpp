@@ -21,6 +21,7 @@ namespace polybed::hard::naive {
 ///   central_flux               plain means of phi_j on faces
 ///   advective_momentum         (U.grad)U, as tfm.momentum = "upwind" has it
 ///   unbalanced_gravity         weight from the cell above a face, solids pressure from both
+///   added_mass_lagged          added mass as a force, of the accelerations of the evaluation before
 ///   hidden_unit                1e-3, whatever the units, added to the exchange coefficients
 ///   jacobi_preconditioner      continuity rows divided by their diagonal, 1/dt and what flows out; implicit
 ///   cold_restart               null: the case itself goes on without the restart that a checkpoint asks for
