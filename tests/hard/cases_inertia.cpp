@@ -73,19 +73,7 @@ void lifted_bed(Trial& trial) {
   trial.advance(*run, 2);
   scene.tfm.fixed_step = 5e-4;
   scene.tfm.pressure_tolerance = 1e-13;
-  std::vector<core::Field> phi;
-  core::Grid grid;
-  for (const bool left : {true, false}) {
-    const auto side = trial.begin(scene, denser(left));
-    trial.advance(*side, 0.1, {.steps = false});
-    phi.push_back(side->fields().solids.fraction[0]);
-    grid = side->model().constants().grid;
-  }
-  const double apart = asymmetry(grid, phi[0], phi[1]);
-  if (trial.treatment().integrator == "explicit")
-    trial.measure("V11 mirror symmetry", apart, 1e-12);
-  else
-    trial.report("mirror asymmetry", apart);
+  see_mirror_images(trial, 0.1, [&](bool left) { return trial.begin(scene, denser(left)); });
 }
 
 }  // namespace

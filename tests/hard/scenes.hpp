@@ -45,6 +45,22 @@ inline core::Scene two_species(int cells, double height, bool closed) {
   return most;
 }
 
+/// V11: after some time at steps of one length two runs, begin(left) of either side, are mirror images. Explicit steps
+/// alone are measured; implicit ones have no such length and an algebraic multigrid that knows left from right.
+template <class Begin>
+void see_mirror_images(Trial& trial, double until, Begin&& begin) {
+  const std::unique_ptr<Run> left = begin(true);  // a trial watches one run after the other
+  trial.advance(*left, until, {.steps = false});
+  const std::unique_ptr<Run> right = begin(false);
+  trial.advance(*right, until, {.steps = false});
+  const double apart =
+      asymmetry(left->model().constants().grid, left->fields().solids.fraction[0], right->fields().solids.fraction[0]);
+  if (trial.treatment().integrator == "explicit")
+    trial.measure("V11 mirror symmetry", apart, 1e-12);
+  else
+    trial.report("mirror asymmetry", apart);
+}
+
 /// Sets the fractions at the start: change(j, k, phi) of species j in layer k of a column of one row of cells.
 template <class Change>
 void set_fractions(tfm::Model& model, Change&& change) {
