@@ -225,6 +225,22 @@ TEST(Implicit, ToleranceThatFollowsTheStateGetsItsRates) {
   EXPECT_GE(asked, int(follows->statistics().steps));
 }
 
+// The last digit of this time is 2.4e-7 s. A rate that is off by 1e3 1/s needs first steps of 1e-8 s, which the library
+// finds after it has given up with the step of 1 s that it was given.
+TEST(Implicit, StartsLateWithARateThatIsOff) {
+  StiffDae problem;
+  problem.k = 1e9;
+  const double begin = 1.2e9;
+  const auto integrator = make_implicit(problem, {.rtol = 1e-5, .atol = {1e-7, 1e-7}, .id = {1, 0}});
+  const double x = std::cos(begin);
+  integrator->restart(begin, std::vector<double>{x, x * x}, std::vector<double>{1e3, 2e3 * x}, 1.0);
+  for (double t = begin; t < begin + 1;) t = integrator->step(begin + 1).time;
+  EXPECT_NEAR(integrator->state()[0], std::cos(begin + 1), 3e-4);
+  std::vector<double> y(2);
+  integrator->interpolate(begin + 1, y);
+  EXPECT_EQ(y[0], integrator->state()[0]);
+}
+
 TEST(Implicit, WhatFollowsARestartDependsOnItsArgumentsAlone) {
   StiffDae problem, other;
   const ImplicitOptions options{.rtol = 1e-4, .atol = {1e-7, 1e-7}, .id = {1, 0}};
