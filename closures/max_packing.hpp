@@ -8,6 +8,9 @@
 
 namespace polybed::closures {
 
+/// pi/sqrt(18): the solids fraction of equal spheres in a crystal, the densest that there is (Kepler; Hales 2005).
+inline constexpr double crystal_packing = 0.74048048969306104;
+
 /// A law of this file: phi_max of shares, diameters and packings.
 using MixturePacking = double (*)(std::span<const double>, std::span<const double>, std::span<const double>);
 

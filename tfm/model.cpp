@@ -115,14 +115,12 @@ void Model::make_parts() {
     compressible_fluid_ = add_part<CompressibleFluid>(equations_, layout_, timers_);
   else
     add_part<InletJump>(equations_, layout_, velocity_scale_);
-  if (effects().solids_stress) packing_check_ = add_part<PackingCheck>(constants(), layout_, *effects().solids_stress);
+  packing_check_ = add_part<PackingCheck>(constants(), layout_, effects().solids_stress.get());
   if (options_.flux == core::FractionFlux::limited)
     add_part<FirstOrder>(equations_, layout_, fraction_tolerance(options_.rtol));
 }
 
-void Model::go_on_above_packing(bool go_on) {
-  if (packing_check_ != nullptr) packing_check_->go_on_above_packing(go_on);
-}
+void Model::go_on_above_packing(bool go_on) { packing_check_->go_on_above_packing(go_on); }
 
 std::optional<fluid::MassAccount> Model::fluid_account(double t) const {
   if (compressible_fluid_ == nullptr) return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/ranks.hpp"
+#include "tfm/packing_limit.hpp"
 
 namespace polybed::tfm {
 
@@ -146,7 +147,7 @@ void Observers::write_history(double time) {
   const Fields& fields = model_.fields();
   const auto& stress = model_.effects().solids_stress;
   measures::Bed bed{.profile = part_of_profile(model_), .time = time, .step = model_.last_step().step};
-  measures::Watched watched(constants.grid, fields.solids, fields.fluid, stress ? stress->packing_above(fields) : 0.0,
+  measures::Watched watched(constants.grid, fields.solids, fields.fluid, packing_above(constants, fields, stress.get()),
                             model_.velocity_scale());
   WellPosednessOfBlocks well_posed(constants, fields);
   core::Reduction all;

@@ -5,15 +5,31 @@
 #include <algorithm>
 #include <array>
 
+#include "closures/max_packing.hpp"
 #include "core/error.hpp"
 #include "core/numerics/ranks.hpp"
 #include "tfm/mixture.hpp"
 
 namespace polybed::tfm {
 
+namespace {
+
+constexpr std::size_t most_species = 15;  // as the case file allows
+
+/// phi less the greatest that a composition can have.
+double above_greatest(const Constants& constants, double phi, std::span<const double> share,
+                      const StressEffect* stress) {
+  if (stress != nullptr) return phi - stress->packing_of(share);
+  if (share.size() == 1 || phi <= closures::crystal_packing) return phi - closures::crystal_packing;
+  std::array<double, most_species> crystal{};
+  crystal.fill(closures::crystal_packing);
+  return phi - closures::packing_yu_standish(share, constants.diameter, {crystal.data(), share.size()});
+}
+
+}  // namespace
+
 CellSolids solids_of(const Constants& constants, const StateLayout& layout, std::span<const double> y, std::size_t cell,
                      const StressEffect* stress) {
-  constexpr std::size_t most_species = 15;  // as the case file allows
   std::array<double, most_species> share{};
   const std::size_t n = constants.species();
   // The fractions stand first in a state, species by species.
@@ -24,19 +40,32 @@ CellSolids solids_of(const Constants& constants, const StateLayout& layout, std:
     sum += fraction(j);
     seen += std::max(fraction(j), 0.0);
   }
-  if (stress == nullptr) return {least, 0};
   for (std::size_t j = 0; j < n; ++j)
     share[j] = (std::max(fraction(j), 0.0) + composition_floor * constants.bed_share[j]) / seen;
-  return {least, sum - stress->packing_of({share.data(), n})};
+  return {least, above_greatest(constants, sum, {share.data(), n}, stress)};
+}
+
+double packing_above(const Constants& constants, const Fields& fields, const StressEffect* stress) {
+  if (stress != nullptr) return stress->packing_above(fields);
+  double most = 0;
+  std::array<double, most_species> share{};
+  core::for_each_row(constants.grid, [&](core::Index begin, core::Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      for (std::size_t j = 0; j < constants.species(); ++j) share[j] = fields.share[j][c];
+      most = std::max(
+          most, above_greatest(constants, fields.solids_fraction[c], {share.data(), constants.species()}, stress));
+    }
+  });
+  return most;
 }
 
 void require_packing(const Constants& constants, const StateLayout& layout, std::span<const double> y, double t,
-                     const StressEffect& stress) {
+                     const StressEffect* stress) {
   const core::Grid& grid = constants.grid;
   double most = 0;
   std::size_t where = 0;
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
-    const double above = solids_of(constants, layout, y, cell, &stress).above_packing;
+    const double above = solids_of(constants, layout, y, cell, stress).above_packing;
     if (above > most) {
       most = above;
       where = cell;
@@ -46,12 +75,14 @@ void require_packing(const Constants& constants, const StateLayout& layout, std:
   if (worst <= most_above_packing) return;
   const std::string place =
       core::said_by(grid, core::rank_of_greatest(grid, most), layout.describe(where, constants.name));
-  throw core::ConservationError(fmt::format(
-      "t = {:.9g} s: solids at {} lie {:.3g} above the packing they can have, more than {:g}{}", t, place, worst,
-      most_above_packing,
-      constants.species() > 1 ? "; species that part push each other into what they leave: effects.species_exchange = "
-                                "\"syamlal\" with tfm.exchange_pressure of 1 to 100 s/m2 holds those that touch"
-                              : ""));
+  throw core::ConservationError(
+      fmt::format("t = {:.9g} s: solids at {} lie {:.3g} above the packing they can have, more than {:g}{}", t, place,
+                  worst, most_above_packing,
+                  stress == nullptr ? "; nothing limits the packing: effects.solids_stress = \"frictional\" does"
+                  : constants.species() > 1
+                      ? "; species that part push each other into what they leave: effects.species_exchange = "
+                        "\"syamlal\" with tfm.exchange_pressure of 1 to 100 s/m2 holds those that touch"
+                      : ""));
 }
 
 }  // namespace polybed::tfm

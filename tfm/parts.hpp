@@ -64,10 +64,10 @@ class InletJump : public StepPart {
   double velocity_scale_;
 };
 
-/// A bed that is denser than its solids' stress allows ends the run.
+/// A bed that is denser than its solids can be ends the run.
 class PackingCheck : public StepPart {
  public:
-  PackingCheck(const Constants& constants, const StateLayout& layout, const StressEffect& stress)
+  PackingCheck(const Constants& constants, const StateLayout& layout, const StressEffect* stress)
       : constants_(constants), layout_(layout), stress_(stress) {}
   void accept(double time, std::span<const double> y) override {
     if (!permissive_) require_packing(constants_, layout_, y, time, stress_);
@@ -78,7 +78,7 @@ class PackingCheck : public StepPart {
  private:
   const Constants& constants_;
   const StateLayout& layout_;
-  const StressEffect& stress_;
+  const StressEffect* stress_;
   bool permissive_ = false;
 };
 

@@ -12,9 +12,9 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string said_of(double phi, int species) {
+std::string said_of(double phi, int species, const std::string& stress = "frictional") {
   core::Scene scene = species == 1 ? uniform_bed(1e-3, 2500, 1000, 1e-3, 0.5, 8, 0.04) : binary_bed(4, 8, 0.02, 0.04);
-  scene.effects["solids_stress"] = "frictional";
+  scene.effects["solids_stress"] = stress;
   scene.tfm.max_packing = 0.62;
   core::Timers timers;
   const tfm::Model model(scene, timers);
@@ -22,7 +22,7 @@ std::string said_of(double phi, int species) {
   std::vector<double> y(layout.size(), 0.0);
   y[3] = phi;
   try {
-    tfm::require_packing(model.constants(), layout, y, 1.5, *model.effects().solids_stress);
+    tfm::require_packing(model.constants(), layout, y, 1.5, model.effects().solids_stress.get());
   } catch (const core::ConservationError& error) {
     return error.what();
   }
@@ -33,6 +33,13 @@ TEST(PackingLimit, NamesTimeCellAndExcess) {
   EXPECT_EQ(said_of(0.6299, 1), "");
   EXPECT_THAT(said_of(0.6401, 1), HasSubstr("t = 1.5 s: solids at phi_solid (0, 3) lie 0.0201 above the packing"));
   EXPECT_THAT(said_of(0.6401, 1), testing::Not(HasSubstr("exchange_pressure")));
+}
+
+// pi/sqrt(18) = 0.740480 and 0.01 more. Yu and Standish's packing of the two sizes is above the crystal of one.
+TEST(PackingLimit, WithoutAStressIsThatOfACrystal) {
+  EXPECT_EQ(said_of(0.7504, 1, "none"), "");
+  EXPECT_THAT(said_of(0.7606, 1, "none"), HasSubstr("lie 0.0201 above the packing"));
+  EXPECT_THAT(said_of(0.7606, 1, "none"), HasSubstr("effects.solids_stress = \"frictional\""));
 }
 
 TEST(PackingLimit, TellsWhatHoldsSpeciesTogether) {
