@@ -47,6 +47,10 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
   const double heavy = alone ? (mean_density(constants) - constants.fluid.density) * constants.gravity : 0;
   for (std::size_t a = 0; a < 3 && heavy != 0; ++a)
     lies_towards_[a] = std::copysign(constants.down[a], heavy * constants.down[a]);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (lies_towards_[a] != 0) fields.stress.lift[a] = core::make_field(constants.grid);
+  const double load = std::abs(heavy) * settled_height(scene);
+  wave_speed_ = std::sqrt(law_(law_.solids_fraction_at(load)).slope / mean_density(constants));
   fields.stress.pressure = core::make_field(constants.grid);
   fields.stress.slope = core::make_field(constants.grid);
   fields.stress.damping = core::make_field(constants.grid);
@@ -72,17 +76,17 @@ void FrictionalStress::choose_packing(const core::Scene& scene) {
   law_.max_packing = mixture_packing_(constants_.bed_share, constants_.diameter, species_packing_);
 }
 
-/// Calls body(cell, phi_max) for all owned cells.
+/// Calls body(cell, phi_max) for the cells of a box.
 template <class Body>
-void FrictionalStress::for_each_cell_with_packing(const Fields& fields, Body&& body) const {
+void FrictionalStress::for_each_cell_with_packing(const Fields& fields, const core::Box& box, Body&& body) const {
   if (mixture_packing_ == nullptr) {
-    core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
+    core::for_each_row(constants_.grid, box, [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) body(c, law_.max_packing);
     });
     return;
   }
   std::array<double, most_species> share{};
-  core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
+  core::for_each_row(constants_.grid, box, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       for (std::size_t j = 0; j < constants_.species(); ++j) share[j] = fields.share[j][std::size_t(c)];
       body(c, mixture_packing_({share.data(), constants_.species()}, constants_.diameter, species_packing_));
@@ -97,7 +101,7 @@ double FrictionalStress::packing_of(std::span<const double> share) const {
 
 double FrictionalStress::packing_above(const Fields& fields) const {
   double most = 0;
-  for_each_cell_with_packing(fields, [&](Index c, double packing) {
+  for_each_cell_with_packing(fields, boundaries_.solids_cells(), [&](Index c, double packing) {
     most = std::max(most, fields.solids_fraction[std::size_t(c)] - packing);
   });
   return most;
@@ -115,11 +119,20 @@ double FrictionalStress::solids_fraction_at(double pressure) const { return law_
 void FrictionalStress::evaluate(Fields& fields) {
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
-  for_each_cell_with_packing(fields, [&](Index c, double packing) {
+  core::Box cells = boundaries_.solids_cells();
+  for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
+    if (lies_towards_[std::size_t(axis)] == 0)
+      continue;  // there the neighbours' pressure is needed before they send it
+    cells.lo[std::size_t(axis)] -= constants_.grid.ghosts(axis);
+    cells.hi[std::size_t(axis)] += constants_.grid.ghosts(axis);
+  }
+  for_each_cell_with_packing(fields, cells, [&](Index c, double packing) {
     const closures::StressValue value = law_.at(phi[c], packing);
     pressure[c] = value.pressure;
     slope[c] = value.slope;
   });
+  for (int axis = 0; axis < constants_.grid.dimensions; ++axis)
+    if (lies_towards_[std::size_t(axis)] != 0) charge_lift(axis, fields);
   hold_surface(fields);
   if (!fields.stress.contact.empty()) {
     std::copy(fields.stress.pressure.begin(), fields.stress.pressure.end(), fields.stress.contact.begin());
@@ -127,6 +140,36 @@ void FrictionalStress::evaluate(Fields& fields) {
   }
   if (bulk_viscosity_ > 0) add_bulk_viscosity(fields);
   boundaries_.fill_cells(fields.stress.pressure);
+}
+
+void FrictionalStress::charge_lift(int axis, Fields& fields) const {
+  const auto a = std::size_t(axis);
+  const core::Grid& grid = constants_.grid;
+  const Index s = grid.stride(axis);
+  const bool down = lies_towards_[a] > 0;  // towards higher cells, as gravity says
+  const Index under = down ? 0 : -s, above = down ? -s : 0, below = under + (down ? s : -s);
+  const double *phi = fields.solids_fraction.data(), *pressure = fields.stress.pressure.data();
+  const double density = mean_density(constants_);
+  const double weight =
+      std::abs((density - constants_.fluid.density) * constants_.gravity * lies_towards_[a]) * grid.spacing[a];
+  const double slow = weight / (density * wave_speed_), carried_whole = 0.5 * law_.onset * weight;
+  double* lift = fields.stress.lift[a].data();
+  core::for_each_row(grid, boundaries_.moving_faces(axis, false), [&](Index begin, Index end) {
+    for (Index f = begin; f < end; ++f) {
+      lift[f] = 0;
+      if (!(phi[f + above] < phi[f + under])) continue;
+      const double carried = std::max(pressure[f + under], phi[f + under] < phi[f + below] ? pressure[f + below] : 0.0);
+      if (!(carried > 0)) continue;
+      double flux = 0, fraction = 0;
+      for (std::size_t j = 0; j < constants_.species(); ++j) {
+        const double part = std::max(core::face_mean(fields.solids.fraction[j].data(), f, s), 0.0);
+        flux += part * fields.solids.velocity[j][a][std::size_t(f)];
+        fraction += part;
+      }
+      const double excess = 0.5 * (phi[f + under] - std::max(phi[f + above], 0.0));
+      lift[f] = std::min(carried / carried_whole, 1.0) * weight * excess * flux / (std::abs(flux) + fraction * slow);
+    }
+  });
 }
 
 void FrictionalStress::hold_surface(Fields& fields) const {

@@ -17,6 +17,13 @@ namespace polybed::tfm {
 /// A cell S filled in part that lies on packed solids K: its p_s is at least p_f(phi_K) phi_S/(phi_K + 2 phi_S), the
 /// pressure at which both of its faces rest: K carries (phi_K/2 + phi_S) and S phi_S/2 of the weight of a full cell.
 /// p_f(phi_S) alone is 0 below the onset, and the upper half of S would fall for ever.
+///
+/// Gravity acts on the mean fraction of a face, while an upwind flux carries the fraction of the cell it leaves. Where
+/// the cell below is the fuller one, solids that rise gain (phi_K - phi_S)/2 more potential energy than gravity takes,
+/// and solids that fall release as much less than it gives. On packed solids this difference fed a motion without end.
+/// It is charged to the motion: a jump of pressure across the face, rho' g h (phi_K - phi_S)/2 U/(|U| + U_0), that
+/// opposes the mean velocity U of the solids, as far as K carries half a packed cell. U_0 = g' h/c, c the speed of
+/// elastic waves at the bottom, so that it relaxes no faster than these waves.
 class FrictionalStress : public StressEffect {
  public:
   /// \param alone  no other pressure of the solids is added, which would press at the surface too
@@ -32,10 +39,11 @@ class FrictionalStress : public StressEffect {
 
  private:
   void choose_packing(const core::Scene& scene);
+  void charge_lift(int axis, Fields& fields) const;
   void hold_surface(Fields& fields) const;
   void add_bulk_viscosity(Fields& fields) const;
   template <class Body>
-  void for_each_cell_with_packing(const Fields& fields, Body&& body) const;
+  void for_each_cell_with_packing(const Fields& fields, const core::Box& box, Body&& body) const;
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
@@ -43,6 +51,7 @@ class FrictionalStress : public StressEffect {
   closures::MixturePacking mixture_packing_ = nullptr;  ///< of a cell's composition; null: one for all cells
   std::vector<double> species_packing_;
   double bulk_viscosity_, cell_width_;
+  double wave_speed_ = 0;  ///< of elastic waves at the bottom of the settled bed, m/s; 0 where no surface is held
   std::array<double, 3> lies_towards_{};  ///< unit vector of the weight less buoyancy; 0 where no surface is held
 };
 
