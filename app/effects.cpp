@@ -4,7 +4,6 @@
 #include "app/commands.hpp"
 #include "core/print.hpp"
 #include "multiscale/effects/audit.hpp"
-#include "multiscale/effects/bench.hpp"
 #include "multiscale/effects/effects_text.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
@@ -16,8 +15,7 @@ namespace {
 struct EffectsOptions {
   CaseOptions scene;
   std::string audited;
-  bool audit_json = false, details = false, bench_json = false;
-  int bench_rounds = 3;
+  bool audit_json = false, details = false;
 };
 
 void run_effects(const CaseOptions& options, bool details) {
@@ -26,14 +24,6 @@ void run_effects(const CaseOptions& options, bool details) {
   if (!options.json) return core::print("{}", effects_table(scene, choice, details));
   core::Json json;
   write_effects(json, scene, choice);
-  core::print("{}\n", core::json_text(json));
-}
-
-void run_effects_bench(int rounds, bool as_json) {
-  const std::vector<EffectCost> costs = bench_effects(rounds);
-  if (!as_json) return core::print("{}", bench_table(costs));
-  core::Json json;
-  write_bench(json, costs);
   core::print("{}\n", core::json_text(json));
 }
 
@@ -53,14 +43,10 @@ core::ExitCode run_effects_audit(const std::filesystem::path& run, bool as_json)
   return neglected.kept().value_or(false) ? core::ExitCode::done : core::ExitCode::numerics;
 }
 
-core::ExitCode run_effects(const EffectsOptions& options, bool audit, bool bench) {
+core::ExitCode run_effects(const EffectsOptions& options, bool audit) {
   if (audit) return run_effects_audit(options.audited, options.audit_json);
-  if (bench)
-    run_effects_bench(options.bench_rounds, options.bench_json);
-  else if (options.scene.case_path.empty())
-    throw core::CaseError("effects: name a CASE, audit RUN, or bench");
-  else
-    run_effects(options.scene, options.details);
+  if (options.scene.case_path.empty()) throw core::CaseError("effects: name a CASE, or audit RUN");
+  run_effects(options.scene, options.details);
   return core::ExitCode::done;
 }
 
@@ -77,13 +63,7 @@ void add_effects(CLI::App& app, Commands& commands) {
       "audit", "what a run has left out, evaluated on all that it stored; code 3 if that exceeds the bound");
   audit->add_option("RUN", options->audited, "run directory")->required();
   audit->add_flag("--json", options->audit_json, "one JSON object");
-  CLI::App* bench =
-      command.add_subcommand("bench", "what each effect costs per particle, contact or cell on this machine");
-  bench->add_option("--rounds", options->bench_rounds, "repetitions; the shortest time of each is printed")
-      ->check(CLI::Range(1, 1000));
-  bench->add_flag("--json", options->bench_json, "one JSON object");
-  commands.push_back(
-      {&command, [options, audit, bench] { return run_effects(*options, audit->parsed(), bench->parsed()); }});
+  commands.push_back({&command, [options, audit] { return run_effects(*options, audit->parsed()); }});
 }
 
 }  // namespace polybed::app

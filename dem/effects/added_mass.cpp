@@ -18,11 +18,9 @@ const std::map<std::string, double (*)(double)> coefficients{{"half", half}, {"z
 }  // namespace
 
 extern const Maker added_mass;
-const Maker added_mass{&relevance::effects::added_mass,
-                       "Inertia",
+const Maker added_mass{&relevance::effects::added_mass, "Inertia",
                        MakeLoad([](const core::Scene&, const std::string& law, LoadLaws& laws) {
                          laws.added_mass = coefficients.at(law);
-                       }),
-                       {"zuber"}};
+                       })};
 
 }  // namespace polybed::dem::makers

@@ -209,7 +209,6 @@ extern const Maker cohesion;
 const Maker cohesion{&relevance::effects::cohesion,
                      "Pair",
                      MakePair([](const PairMaking& m) { cohesions.at(m.law)(m); }),
-                     {"van_der_waals"},
                      {cohesion_needs_energy("dmt"), cohesion_needs_energy("jkr")}};
 
 }  // namespace makers

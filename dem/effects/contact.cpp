@@ -134,7 +134,7 @@ std::vector<core::Rule> contact_rules() {
 }  // namespace
 
 extern const Maker contact;
-const Maker contact{&relevance::effects::contact, "Pair", MakePair(make_contact), {}, contact_rules()};
+const Maker contact{&relevance::effects::contact, "Pair", MakePair(make_contact), contact_rules()};
 
 }  // namespace makers
 

@@ -9,12 +9,10 @@
 namespace polybed::dem::makers {
 
 extern const Maker drag, partition, gas_slip;
-const Maker drag{&relevance::effects::drag,
-                 "Exchange",
+const Maker drag{&relevance::effects::drag, "Exchange",
                  MakeLoad([](const core::Scene& scene, const std::string&, LoadLaws& laws) {
                    laws.drag = relevance::drag_law_of(scene);
-                 }),
-                 {"none"}};
+                 })};
 const Maker partition{&relevance::effects::partition, "Exchange"};
 const Maker gas_slip{&relevance::effects::gas_slip, "Exchange"};
 

@@ -81,13 +81,10 @@ class History final : public SideForce {
 namespace makers {
 
 extern const Maker history;
-const Maker history{&relevance::effects::history,
-                    "Force",
-                    MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
-                      return std::make_unique<History>(m.materials, m.density, m.viscosity, m.interval, m.place,
-                                                       m.other_inertia);
-                    }),
-                    {"basset"}};
+const Maker history{
+    &relevance::effects::history, "Force", MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+      return std::make_unique<History>(m.materials, m.density, m.viscosity, m.interval, m.place, m.other_inertia);
+    })};
 
 }  // namespace makers
 

@@ -38,12 +38,9 @@ class Lift final : public SideForce {
 namespace makers {
 
 extern const Maker lift;
-const Maker lift{&relevance::effects::lift,
-                 "Force",
-                 MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
+const Maker lift{&relevance::effects::lift, "Force", MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
                    return std::make_unique<Lift>(m.materials, m.density, m.viscosity);
-                 }),
-                 {"saffman_mei"}};
+                 })};
 
 }  // namespace makers
 

@@ -186,10 +186,8 @@ const PairMakers films{{"wet_restitution", make_wet_restitution}, {"film", make_
 }  // namespace
 
 extern const Maker lubrication;
-const Maker lubrication{&relevance::effects::lubrication,
-                        "Pair",
-                        MakePair([](const PairMaking& m) { films.at(m.law)(m); }),
-                        {"wet_restitution", "film"}};
+const Maker lubrication{&relevance::effects::lubrication, "Pair",
+                        MakePair([](const PairMaking& m) { films.at(m.law)(m); })};
 
 }  // namespace makers
 

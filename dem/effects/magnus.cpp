@@ -60,12 +60,10 @@ class Magnus final : public SideForce {
 namespace makers {
 
 extern const Maker magnus;
-const Maker magnus{&relevance::effects::magnus,
-                   "Force",
+const Maker magnus{&relevance::effects::magnus, "Force",
                    MakeForce([](const ForceMaking& m) -> std::unique_ptr<SideForce> {
                      return std::make_unique<Magnus>(m.materials, m.density, m.viscosity, m.dt);
-                   }),
-                   {"rubinow_keller"}};
+                   })};
 
 }  // namespace makers
 

@@ -61,8 +61,7 @@ struct Maker {
   const relevance::Effect* effect;
   std::string slot;
   std::variant<std::monostate, MakePair, MakeForce, MakeLoad> make = {};
-  std::vector<std::string> benched = {};  ///< laws that `effects bench` times; "none": what it saves to leave it out
-  std::vector<core::Rule> rules = {};     ///< what it needs of [dem], beside the rules of the effect
+  std::vector<core::Rule> rules = {};  ///< what it needs of [dem], beside the rules of the effect
 };
 
 /// All of them, in the order in which they are made and listed.

@@ -146,11 +146,8 @@ const PairMakers resistances{{"cdt",
 }  // namespace
 
 extern const Maker rolling;
-const Maker rolling{&relevance::effects::rolling,
-                    "Pair",
-                    MakePair([](const PairMaking& m) { resistances.at(m.law)(m); }),
-                    {"cdt", "epsd"},
-                    rolling_rules()};
+const Maker rolling{&relevance::effects::rolling, "Pair",
+                    MakePair([](const PairMaking& m) { resistances.at(m.law)(m); }), rolling_rules()};
 
 }  // namespace makers
 

@@ -196,7 +196,7 @@ void make_added_mass(const Making& m) {
 namespace makers {
 
 extern const Maker added_mass;
-const Maker added_mass{&relevance::effects::added_mass, "Inertia", make_added_mass, {"zuber"}};
+const Maker added_mass{&relevance::effects::added_mass, "Inertia", make_added_mass};
 
 }  // namespace makers
 

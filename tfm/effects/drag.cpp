@@ -78,14 +78,11 @@ class Drag : public FluidExchange {
 namespace makers {
 
 extern const Maker drag, partition, gas_slip;
-const Maker drag{&relevance::effects::drag,
-                 "Exchange",
-                 [](const Making& m) {
+const Maker drag{&relevance::effects::drag, "Exchange", [](const Making& m) {
                    m.effects.drag = std::make_unique<Drag>(m.constants, m.boundaries, relevance::drag_name_of(m.scene),
                                                            relevance::drag_law_of(m.scene),
                                                            relevance::slip_divisors(m.scene, m.constants.diameter));
-                 },
-                 {"none"}};
+                 }};
 const Maker partition{&relevance::effects::partition, "Exchange"};
 const Maker gas_slip{&relevance::effects::gas_slip, "Exchange"};
 

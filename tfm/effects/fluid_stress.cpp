@@ -29,11 +29,9 @@ class NewtonianStress : public FluidStress {
 namespace makers {
 
 extern const Maker fluid_stress;
-const Maker fluid_stress{
-    &relevance::effects::fluid_stress,
-    "Stress",
-    [](const Making& m) { m.effects.fluid_stress = std::make_unique<NewtonianStress>(m.constants, m.boundaries); },
-    {"newtonian"}};
+const Maker fluid_stress{&relevance::effects::fluid_stress, "Stress", [](const Making& m) {
+                           m.effects.fluid_stress = std::make_unique<NewtonianStress>(m.constants, m.boundaries);
+                         }};
 
 }  // namespace makers
 

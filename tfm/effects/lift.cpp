@@ -148,7 +148,7 @@ void make_lift(const Making& m) {
 namespace makers {
 
 extern const Maker lift;
-const Maker lift{&relevance::effects::lift, "Force", make_lift, {"saffman_mei"}};
+const Maker lift{&relevance::effects::lift, "Force", make_lift};
 
 }  // namespace makers
 

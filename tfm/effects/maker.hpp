@@ -26,7 +26,6 @@ struct Maker {
   const relevance::Effect* effect;
   std::string slot;
   void (*make)(const Making&) = nullptr;
-  std::vector<std::string> benched = {};  ///< laws that `effects bench` times; "none": what it saves to leave it out
 };
 
 }  // namespace polybed::tfm

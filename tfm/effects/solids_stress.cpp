@@ -153,7 +153,7 @@ void make_solids_stress(const Making& m) {
 }  // namespace
 
 extern const Maker solids_stress, granular_temperature;
-const Maker solids_stress{&relevance::effects::solids_stress, "Stress", make_solids_stress, {"kinetic"}};
+const Maker solids_stress{&relevance::effects::solids_stress, "Stress", make_solids_stress};
 const Maker granular_temperature{&relevance::effects::granular_temperature, "Scalar"};
 
 }  // namespace makers

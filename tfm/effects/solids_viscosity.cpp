@@ -71,13 +71,10 @@ class FrictionalViscosity : public SolidsViscosity {
 namespace makers {
 
 extern const Maker solids_viscosity;
-const Maker solids_viscosity{&relevance::effects::solids_viscosity,
-                             "Stress",
-                             [](const Making& m) {
+const Maker solids_viscosity{&relevance::effects::solids_viscosity, "Stress", [](const Making& m) {
                                m.effects.solids_viscosity = std::make_unique<FrictionalViscosity>(
                                    m.scene, m.constants, m.boundaries, m.law, m.fields);
-                             },
-                             {"schaeffer"}};
+                             }};
 
 }  // namespace makers
 

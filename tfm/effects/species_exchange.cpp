@@ -219,7 +219,7 @@ void make_species_exchange(const Making& m) {
 }  // namespace
 
 extern const Maker species_exchange;
-const Maker species_exchange{&relevance::effects::species_exchange, "Exchange", make_species_exchange, {"syamlal"}};
+const Maker species_exchange{&relevance::effects::species_exchange, "Exchange", make_species_exchange};
 
 }  // namespace makers
 
