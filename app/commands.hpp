@@ -56,7 +56,6 @@ void add_keys(CLI::App& app, Commands& commands);
 void add_cost(CLI::App& app, Commands& commands);
 void add_fit(CLI::App& app, Commands& commands);
 void add_inversion(CLI::App& app, Commands& commands);
-void add_move_table(CLI::App& app, Commands& commands);
 void add_calibrate(CLI::App& app, Commands& commands);
 void add_resolve(CLI::App& app, Commands& commands);
 void add_stability(CLI::App& app, Commands& commands);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "multiscale/calibrate/moved_table.hpp"
 #include "multiscale/program.hpp"
 #include "multiscale/python_module.hpp"
 
@@ -41,22 +40,6 @@ void add_cost(CLI::App& app, Commands& commands) {
 void add_fit(CLI::App& app, Commands& commands) {
   add_study(app, commands, "fit", "fit a drag law to rows of resolved flow, and write a law file", "polybed.fit",
             On::one_process);
-}
-
-/// For the package's own use.
-void add_move_table(CLI::App& app, Commands& commands) {
-  struct Options {
-    std::filesystem::path table, moved;
-    double sigma = 0;  ///< standard errors
-  };
-  const auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("move-table", "a table of the solids stress, moved by standard errors");
-  command.group("");
-  command.add_option("TABLE", options->table)->required();
-  command.add_option("--sigma", options->sigma)->required();
-  command.add_option("MOVED", options->moved)->required();
-  commands.push_back(
-      {&command, doing([options] { write_moved_table(options->table, options->sigma, options->moved); })});
 }
 
 void add_stability(CLI::App& app, Commands& commands) {

@@ -14,20 +14,49 @@ from pathlib import Path
 from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
-    from polybed.program import call
+    from polybed.calibration.fit import Table
+    from polybed.calibration.service import Failure, Service
+    from polybed.in_place import in_place
     from polybed.read import read
+    from polybed.solids_table import read_table
     from polybed.study.cases import Case, words_of
-    from polybed.study.ending import DONE, guarded
+    from polybed.study.ending import DONE, WRONG_CASE, StudyError, guarded
     from polybed.study.measured import centre_difference, history_of, species_of, window_of, within
     from polybed.study.record import remark, write_record
     from polybed.study.runs import flags, has_checkpoint, run
     from polybed.study.time_mean import time_mean
 
 
+MOVED = ("p_ratio", "mu_ratio", "p_bed")  # pressures and viscosities of a table
+
+
 def moved_table(table, sigma, path):
-    """Writes a table moved by a number of its standard errors, and returns what to set in a case so that it is read."""
-    call("move-table", table, f"--sigma={sigma}", path)
+    """Writes a table whose pressures and viscosities are off by a number of their standard errors, and returns what to set in a case so that
+    it is read. Raises StudyError if the table has no errors, or if its pressure would fall with the solids fraction."""
+    given = read_table(table)
+    moved = Table({name: given[name] for name in given.names()}, dict(given.attributes))
+    errors = [name for name in MOVED if f"{name}_se" in moved.arrays]
+    if not errors:
+        raise StudyError(WRONG_CASE, f"{table}: no p_bed_se: nothing tells how uncertain p_bed is")
+    for name in errors:
+        moved.arrays[name] = moved[name] + sigma * moved[f"{name}_se"]
+    with in_place(Path(path)) as written:
+        moved.write(written)
+        require_rising(table, sigma, written)
     return f'effects.solids_stress="table:{path}"'
+
+
+def require_rising(table, sigma, moved):
+    """Raises StudyError if the pressure of a moved table of sheared boxes falls; the model that reads a bed's pressure looks at that itself."""
+    if read_table(moved).attributes["regime"] == "bed":
+        return
+    try:
+        with Service() as service:
+            falls = service.ask("table", moved)["falls"]
+    except Failure as failure:  # the program has said why
+        raise StudyError(failure.code, str(failure)) from None
+    if falls:
+        raise StudyError(WRONG_CASE, f"{table} moved by {sigma:+g} standard errors: its pressure falls {falls[0]}")
 
 
 def late_means(directory):
