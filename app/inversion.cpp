@@ -243,7 +243,7 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
     const double share = double(n) / parts;
     varied.bed.volume_share = {1 - share, share};
     const auto points = inversion_points(binary_bed(varied), law, options.method);
-    const auto mixed = inversion_beside(varied, law, false).mixed;
+    const auto mixed = inversion_beside(varied, law).mixed;
     if (options.json) {
       core::Json row = {
           {"share", share}, {"velocity_m_s", nullptr}, {"voidage", nullptr}, {"mixed_interval_m_s", nullptr}};
@@ -281,7 +281,7 @@ void run_without_a_run(const InversionOptions& options) {
   const auto points = inversion_points(binary_bed(scene), law, options.method);
   const std::vector<Band> band =
       points.empty() ? std::vector<Band>{} : bands(scene, law, options.method, points.back().voidage);
-  const InversionBeside beside = inversion_beside(scene, law, options.seen);
+  const InversionBeside beside = inversion_beside(scene, law);
   if (options.json) return print_json(scene, options.method, points, band, beside);
   if (points.empty()) core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, name);
   for (const InversionPoint& p : points)
@@ -297,12 +297,8 @@ void run_inversion(const InversionOptions& options) {
   if (!options.temperature.empty()) chosen.overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
   if (!options.law.empty()) chosen.overrides.push_back("effects.drag=\"" + options.law + "\"");
   if (!options.partition.empty()) chosen.overrides.push_back("effects.partition=\"" + options.partition + "\"");
-  if (options.composition &&
-      (options.method == "all" || options.seen || options.closure_uncertainty || !options.scan.empty()))
-    throw core::CaseError(
-        "--composition is of one method: leave out --method all, --seen, --scan and --closure-uncertainty");
-  if (options.seen && (options.closure_uncertainty || options.method == "all"))
-    throw core::CaseError("--seen is of the force balance: leave out --closure-uncertainty and --method all");
+  if (options.composition && (options.method == "all" || options.closure_uncertainty || !options.scan.empty()))
+    throw core::CaseError("--composition is of one method: leave out --method all, --scan and --closure-uncertainty");
   if (options.closure_uncertainty) {
     if (!options.scan.empty()) throw core::CaseError("--closure-uncertainty is of the force balance: leave out --scan");
     if (options.stress_uncertainty)
@@ -328,8 +324,6 @@ void add_inversion(CLI::App& app, Commands& commands) {
   command.add_option("--method", options->method, "force_balance | bulk_density | expansion | density_maximum | all");
   command.add_flag("--details", options->details, "of --method all: every row, not the ones to look at first");
   command.add_flag("--composition", options->composition, "a table over the share of the second species");
-  command.add_flag("--seen", options->seen,
-                   "the force balance also with the averages that particles see, dem.own_share = kept");
   command.add_option("--scan", options->scan, "by runs instead: tfm | dem | both")
       ->check(CLI::IsMember({"tfm", "dem", "both"}));
   command.add_option("--from", options->from, "lowest velocity of the first bracket, e.g. \"30 mm/s\"");

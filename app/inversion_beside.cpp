@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "multiscale/inversion/seen.hpp"
-
 namespace polybed::app {
 
 namespace {
@@ -20,11 +18,6 @@ core::Json list_or_null(const std::vector<double>& values) {
   return values.empty() ? core::Json() : core::Json(values);
 }
 
-core::Json json_of(const std::optional<InversionPoint>& point) {
-  if (!point) return {};
-  return {{"velocity_m_s", point->velocity}, {"voidage", point->voidage}};
-}
-
 std::string line_of(const char* what, const std::vector<double>& values) {
   if (values.empty()) return "";
   std::string text = fmt::format("  {}: {:.2f}", what, 1e3 * values.front());
@@ -32,14 +25,9 @@ std::string line_of(const char* what, const std::vector<double>& values) {
   return text + " mm/s\n";
 }
 
-std::string words_of(const std::optional<InversionPoint>& point) {
-  return point ? fmt::format("{:.2f} mm/s, voidage {:.4f}", 1e3 * point->velocity, point->voidage)
-               : std::string("no inversion point");
-}
-
 }  // namespace
 
-InversionBeside inversion_beside(const core::Scene& scene, const closures::DragLaw& law, bool seen) {
+InversionBeside inversion_beside(const core::Scene& scene, const closures::DragLaw& law) {
   const BinaryBed bed = binary_bed(scene);
   InversionBeside beside;
   beside.measured = scene.inversion.measured;
@@ -50,14 +38,6 @@ InversionBeside inversion_beside(const core::Scene& scene, const closures::DragL
     beside.mixed = {*densities, *balance};
     if (densities->velocity > balance->velocity) std::swap((*beside.mixed)[0], (*beside.mixed)[1]);
   }
-  beside.seen_asked = seen;
-  if (!seen) return beside;
-  const AveragingKernel kernel = averaging_kernel(scene);
-  const auto by = [&](Neighbours neighbours) {
-    return last(seen_inversion_points(bed, law, SeenAverages(kernel, bed.diameter, neighbours)));
-  };
-  beside.kept_out = by(Neighbours::kept_out);
-  beside.percus_yevick = by(Neighbours::percus_yevick);
   return beside;
 }
 
@@ -65,11 +45,6 @@ core::Json json_of(const InversionBeside& beside) {
   core::Json json;
   json["mixed_interval_m_s"] = nullptr;
   if (beside.mixed) json["mixed_interval_m_s"] = {(*beside.mixed)[0].velocity, (*beside.mixed)[1].velocity};
-  json["seen"] = nullptr;
-  if (beside.seen_asked) {
-    json["seen"] = json_of(beside.kept_out);
-    json["seen_percus_yevick"] = json_of(beside.percus_yevick);
-  }
   json["measured_m_s"] = list_or_null(beside.measured);
   json["simulated_m_s"] = list_or_null(beside.simulated);
   return json;
@@ -82,11 +57,6 @@ std::string lines_of(const InversionBeside& beside) {
         "  mixed between equal bulk densities of the pure beds and the force balance: {:.2f} to {:.2f} "
         "mm/s\n",
         1e3 * (*beside.mixed)[0].velocity, 1e3 * (*beside.mixed)[1].velocity);
-  if (beside.seen_asked)
-    text += fmt::format(
-        "  as particles see it, neighbours kept out of contact: {}\n"
-        "  the same, neighbours of hard spheres in equilibrium: {}\n",
-        words_of(beside.kept_out), words_of(beside.percus_yevick));
   return text + line_of("measured", beside.measured) + line_of("simulated by others", beside.simulated);
 }
 

@@ -76,7 +76,7 @@ void run_inversion_scan(const InversionOptions& options) {
   const std::optional<InversionPoint> balance = force_balance(scene);
   refuse_what_a_model_cannot_run(options, scene);
   core::Json beside;
-  if (balance) beside = json_of(inversion_beside(scene, relevance::drag_law_of(scene), options.seen));
+  if (balance) beside = json_of(inversion_beside(scene, relevance::drag_law_of(scene)));
   become_python("polybed.study.inversion", {request_of(options, range_of(options, balance), balance, beside)});
 }
 

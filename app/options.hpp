@@ -42,7 +42,6 @@ struct MeasureOptions {
 struct InversionOptions : RunOptions {
   std::string law, partition, temperature, method = "force_balance";
   std::string scan;          ///< tfm | dem | both; empty: without a run
-  bool seen = false;         ///< also with what particles see
   bool composition = false;  ///< a table over the share of the second species
   std::string from, to;      ///< velocities to begin the scan at; empty: about the force balance
 };

@@ -69,34 +69,17 @@ double bulk_density(const BinaryBed& bed, double voidage) {
 }
 
 std::optional<double> resting_velocity(const BinaryBed& bed, const closures::DragLaw& law, double voidage,
-                                       const Around& around, std::size_t j) {
+                                       std::size_t j) {
   const double weight = (bed.density[j] - bulk_density(bed, voidage)) * bed.gravity;
   if (!(weight > 0)) return std::nullopt;
   // Drag per volume of the species, Pa/m: 18 mu u f_j / D_j^2.
   const auto drag = [&](double u) {
     std::array<double, 2> f{}, slope{};
-    const double slip = u * around.voidage / voidage;
-    closures::drag_of_mixture(law, around.voidage, around.share, bed.diameter, std::array{slip, slip},
-                              bed.fluid.density, bed.fluid.viscosity, f, slope);
-    return 18 * bed.fluid.viscosity * slip * f[j] / (bed.diameter[j] * bed.diameter[j]);
+    closures::drag_of_mixture(law, voidage, bed.share, bed.diameter, std::array{u, u}, bed.fluid.density,
+                              bed.fluid.viscosity, f, slope);
+    return 18 * bed.fluid.viscosity * u * f[j] / (bed.diameter[j] * bed.diameter[j]);
   };
   return velocity_of(drag, weight);
-}
-
-std::vector<InversionPoint> balanced(
-    const BinaryBed& bed, const closures::DragLaw& law, int intervals,
-    const std::function<std::optional<std::array<Around, 2>>(double voidage)>& around) {
-  const Residual residual = [&](double voidage) -> std::optional<double> {
-    const auto seen = around(voidage);
-    if (!seen) return std::nullopt;
-    const auto u1 = resting_velocity(bed, law, voidage, (*seen)[0], 0),
-               u2 = resting_velocity(bed, law, voidage, (*seen)[1], 1);
-    return u1 && u2 ? std::optional(std::log(*u1 / *u2)) : std::nullopt;
-  };
-  std::vector<InversionPoint> points;
-  for (const double voidage : roots(residual, least_voidage, 1, intervals))
-    points.push_back({*resting_velocity(bed, law, voidage, (*around(voidage))[1], 1), voidage});
-  return points;
 }
 
 }  // namespace polybed::multiscale

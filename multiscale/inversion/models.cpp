@@ -19,10 +19,14 @@ constexpr int scan = 4000;          ///< intervals of the scan for roots
 constexpr int scan_of_pairs = 400;  ///< the same of a mean law with a partition: there are 75 of them to list
 
 std::vector<InversionPoint> by_force_balance(const BinaryBed& bed, const DragLaw& law) {
-  return balanced(bed, law, law.partition ? scan_of_pairs : scan, [&](double voidage) {
-    const Around mean{voidage, bed.share};
-    return std::optional(std::array{mean, mean});
-  });
+  const Residual residual = [&](double voidage) -> std::optional<double> {
+    const auto u1 = resting_velocity(bed, law, voidage, 0), u2 = resting_velocity(bed, law, voidage, 1);
+    return u1 && u2 ? std::optional(std::log(*u1 / *u2)) : std::nullopt;
+  };
+  std::vector<InversionPoint> points;
+  for (const double voidage : roots(residual, least_voidage, 1, law.partition ? scan_of_pairs : scan))
+    points.push_back({*resting_velocity(bed, law, voidage, 1), voidage});
+  return points;
 }
 
 /// Voidage of a uniform bed of species j alone at u: f(eps, Re) 18 mu u / (eps D^2) = (rho_j - rho_f) g.

@@ -141,9 +141,7 @@ def beside_lines(beside):
 
     if not beside:
         return ""
-    seen = beside.get("seen")
     return (between("mixed by force balance", beside["mixed_interval_m_s"])
-            + between("force balance as particles see it", [seen["velocity_m_s"]] if seen else None)
             + between("measured", beside["measured_m_s"]) + between("simulated by others", beside["simulated_m_s"]))
 
 
