@@ -2,11 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <lzma.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -66,25 +66,6 @@ int rename_and_flush(const fs::path& written, const fs::path& path, Flush flush)
   if (std::rename(written.c_str(), path.c_str()) != 0) return errno;
   if (flush == Flush::all) flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
   return 0;
-}
-
-/// Of a reflected polynomial: what each byte does to the remainder.
-template <class Sum>
-constexpr std::array<Sum, 256> crc_table(Sum polynomial) {
-  std::array<Sum, 256> table{};
-  for (Sum n = 0; n < table.size(); ++n) {
-    Sum crc = n;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? polynomial : 0);
-    table[n] = crc;
-  }
-  return table;
-}
-
-template <class Sum>
-Sum crc(const std::array<Sum, 256>& table, std::span<const std::byte> bytes, Sum before) {
-  Sum sum = ~before;
-  for (const std::byte b : bytes) sum = table[(sum ^ Sum(b)) & 0xFF] ^ (sum >> 8);
-  return ~sum;
 }
 
 }  // namespace
@@ -214,13 +195,11 @@ void make_folder(const fs::path& path) {
 }
 
 std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before) {
-  static constexpr auto table = crc_table<std::uint64_t>(0xC96C5795D7870F42);
-  return crc(table, bytes, before);
+  return lzma_crc64(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), before);
 }
 
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before) {
-  static constexpr auto table = crc_table<std::uint32_t>(0xEDB88320);
-  return crc(table, bytes, before);
+  return lzma_crc32(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), before);
 }
 
 }  // namespace polybed::core

@@ -98,12 +98,12 @@ void make_folder(const std::filesystem::path& path);
 /// Throws FileError if a symbolic link has this name.
 void refuse_link(const std::filesystem::path& path);
 
-/// CRC-64 (ECMA-182 polynomial, reflected, as in xz): differs for any two inputs of one length that differ in
+/// CRC-64/XZ, by liblzma: differs for any two inputs of one length that differ in
 /// one run of up to 64 bits, and for others with probability 1 - 2^-64.
 /// \param before  the sum of what stands before these bytes
 [[nodiscard]] std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before = 0);
 
-/// CRC-32 as zlib, and so Python, has it, for files that others write too. \param before  as of crc64()
+/// CRC-32 as zlib and Python compute it, for files that others write too. \param before  as of crc64()
 [[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 }  // namespace polybed::core

@@ -27,6 +27,7 @@ LIBRARIES = {
     r"(arkode|ida|nvector|sundials|sunlinsol|sunmatrix)/": r"core/numerics/integrator(_\w+)?\.[ch]pp",
     r"_?HYPRE": r"core/numerics/(linear_solver\w*\.cpp|hypre_rows\.[ch]pp)",
     r"hdf5": r"core/output/((file|blocks)\.cpp|hdf5\.hpp)",
+    r"lzma\.h": r"core/output/files\.cpp",
     r"toml\+\+/": r"core/case/(file\.cpp|override\.[ch]pp|values\.[ch]pp)",
     r"CLI/": r"app/commands\.hpp",
     r"nlohmann/json\.hpp": r".*\.cpp",

@@ -149,10 +149,12 @@ TEST(Checkpoint, NamesThatWouldMakeGroupsAreRefused) {
   EXPECT_THROW(write_checkpoint(scratch.path() / "checkpoint.h5", c), FileError);
 }
 
-TEST(Crc64, HasThePublishedCheckValue) {
-  // The check value of CRC-64/XZ for "123456789".
+TEST(Checksums, HaveThePublishedCheckValuesInPiecesToo) {
+  // The check values of CRC-64/XZ and CRC-32 for "123456789".
   const std::string digits = "123456789";
-  EXPECT_EQ(crc64(std::as_bytes(std::span(digits.data(), digits.size()))), 0x995DC9BBDF1939FAULL);
+  const std::span<const std::byte> all = std::as_bytes(std::span(digits.data(), digits.size()));
+  EXPECT_EQ(crc64(all.subspan(4), crc64(all.first(4))), 0x995DC9BBDF1939FAULL);
+  EXPECT_EQ(crc32(all.subspan(4), crc32(all.first(4))), 0xCBF43926U);
 }
 
 }  // namespace
