@@ -148,7 +148,7 @@ core::Json json_of(const BedState& bed) {
 void write_requirements(core::Json& json, const Requirements& need) {
   constexpr double mega = 1e-6;
   json.update({{"integrator", core::name_of(need.integrator)},
-               {"momentum", core::name_of(need.momentum.form)},
+               {"momentum", core::name_of(need.momentum)},
                {"unknowns", need.unknowns},
                {"cells", need.cells},
                {"memory_MB", mega * need.memory.total()}});
@@ -179,7 +179,7 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
   const MemoryNeed& m = need.memory;
   core::print("{} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, core::name_of(need.integrator),
               need.reason);
-  core::print("convection of momentum {} ({})\n", core::name_of(need.momentum.form), need.momentum.reason);
+  core::print("convection of momentum {}\n", core::name_of(need.momentum));
   core::print("memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n", mega * m.total(),
               mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
   core::print("time scales of the bed, from the case alone:\n");

@@ -154,8 +154,7 @@ class TfmRun final : public CaseRun {
     core::print(stderr, "{:.2f} CPU s for {:.4g} simulated s: {:.3f} per simulated second ({} integrator, {})\n", cpu,
                 simulated, simulated > 0 ? cpu / simulated : 0.0, core::name_of(model_.integrator_kind()),
                 model_.integrator_reason());
-    core::print(stderr, "convection of momentum: {} ({})\n", core::name_of(model_.momentum().form),
-                model_.momentum().reason);
+    core::print(stderr, "convection of momentum: {}\n", core::name_of(model_.momentum()));
     print_invariants(observers_->invariants().worst());
     for (const tfm::ClosureUse& use : totals_.closures)
       core::print(stderr, "{}: {:.3g} % of {:.3g} evaluations outside its range\n", use.name,

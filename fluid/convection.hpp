@@ -1,7 +1,6 @@
-// Convection of a velocity by itself, in two forms.
+// Convection of a velocity by itself, in conservative form: what leaves one face's momentum arrives on the next.
 //
-//   -(U.grad)U                          cheap; loses momentum where the phase's fraction and velocity change together
-//   -[div(F U) - U div F] / phi         what leaves one face's momentum arrives on the next
+//   -[div(F U) - U div F] / phi
 //
 // F is the phase's flux of volume, phi its fraction. Between the cells of the momentum, each half of two cells of the
 // fractions, F is the mean of the fluxes of continuity of both (Harlow and Welch 1965), so that div F is the mean of
@@ -16,20 +15,16 @@
 
 namespace polybed::fluid {
 
-/// Sets the acceleration of a phase to -(U.grad)U on its moving faces, m/s2, and to 0 elsewhere.
+/// Sets the acceleration of a phase to its convection on its moving faces, m/s2, and to 0 elsewhere.
 /// \param limited   second order with limited slopes; else of first order, upwind
 /// \param of_fluid  whether the outlet's faces move
-/// \param velocity  U, m/s, ghosts filled
-void convection(const core::Grid& grid, const Boundaries& boundaries, bool limited, bool of_fluid,
-                const core::FaceField& velocity, core::FaceField& acceleration);
-
-/// Sets the acceleration of a phase to the second form on its moving faces, m/s2, and to 0 elsewhere.
 /// \param flux      F, m/s, ghosts of other cells included
+/// \param velocity  U, m/s, ghosts filled
 /// \param fraction  (axis, face, stride of the axis) -> phi > 0 on the face
 template <class Fraction>
-void conservative_convection(const core::Grid& grid, const Boundaries& boundaries, bool limited, bool of_fluid,
-                             const core::FaceField& flux, const core::FaceField& velocity, Fraction&& fraction,
-                             core::FaceField& acceleration) {
+void convection(const core::Grid& grid, const Boundaries& boundaries, bool limited, bool of_fluid,
+                const core::FaceField& flux, const core::FaceField& velocity, Fraction&& fraction,
+                core::FaceField& acceleration) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     const core::Index s = grid.stride(axis);
@@ -49,7 +44,7 @@ void conservative_convection(const core::Grid& grid, const Boundaries& boundarie
     // Half the momentum of a face on the outlet would lie beyond it: there the row stays (U.grad)U.
     core::Box at_outlet = boundaries.moving_faces(axis, of_fluid);
     at_outlet.lo[a] = inside.hi[a];
-    core::subtract_convection<core::UpwindDifference>(grid, velocity, axis, at_outlet, rate);
+    core::subtract_convection(grid, velocity, axis, at_outlet, rate);
   }
 }
 

@@ -38,10 +38,7 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       gravity_(scene.column.gravity),
       tolerance_(tolerance),
       viscous_(core::acts(scene, "fluid_stress")),
-      conservative_(scene.scheme.momentum != core::Momentum::upwind &&
-                    scene.scheme.momentum != core::Momentum::limited),
-      limited_(scene.scheme.momentum != core::Momentum::upwind &&
-               scene.scheme.momentum != core::Momentum::conservative),
+      limited_(scene.scheme.momentum != core::Momentum::conservative),
       solver_(grid),
       fluid_(grid),
       convected_(core::make_face_field(grid)),
@@ -51,11 +48,10 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       gradient_change_(core::make_face_field(grid)),
       per_inertia_(core::make_face_field(grid)),
       mobility_(core::make_face_field(grid)),
+      own_flux_(core::make_face_field(grid)),
       source_(core::make_field(grid)),
       change_(core::make_field(grid)) {
-  const bool compressible = scene.fluid.compressible();
-  if (conservative_ || compressible) own_flux_ = core::make_face_field(grid);
-  if (!compressible) return;
+  if (!scene.fluid.compressible()) return;
   compressible_.emplace(grid, boundaries_, equation_of_state(scene.fluid, constants_.density),
                         scene.fluid.outlet_pressure, constants_.density, gravity_);
   compressible_->make_fields(fluid_);
@@ -138,13 +134,9 @@ void Flow::set_inlet(double t) {
 /// a, and dt (U.grad)U.
 void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   boundaries_.fill_velocity(fluid_.velocity, WallSlip::no_slip);
-  if (conservative_ || compressible_) find_own_flux(particles);
-  if (conservative_) {
-    const auto on_face = [&](std::size_t a, Index c, Index) { return particles.voidage_on[a][std::size_t(c)]; };
-    conservative_convection(grid_, boundaries_, limited_, true, own_flux_, fluid_.velocity, on_face, acceleration_);
-  } else {
-    convection(grid_, boundaries_, limited_, true, fluid_.velocity, acceleration_);
-  }
+  find_own_flux(particles);
+  const auto on_face = [&](std::size_t a, Index c, Index) { return particles.voidage_on[a][std::size_t(c)]; };
+  convection(grid_, boundaries_, limited_, true, own_flux_, fluid_.velocity, on_face, acceleration_);
   for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a)
     for (std::size_t c = 0; c < convected_[a].size(); ++c) convected_[a][c] = -dt * acceleration_[a][c];
   if (viscous_) add_viscous_stress(grid_, boundaries_, fluid_, constants_, acceleration_);

@@ -4,10 +4,9 @@
 //   (m + K) dU = dt [m a - eps G - I/dt - C (U.grad)U] - dt (eps + S) dG,   m = eps rho_f
 //   J = eps (U + dU) + F + Y dU + D dt (U.grad)U - dt Q dG,   div J = 0  (or -kappa dP/dt of a compressible fluid)
 //
-// a = -(U.grad)U + div(eps tau)/(eps rho_f), with (U.grad)U in the conservative form of fluid/convection.hpp unless the
-// case says otherwise: in a liquid the other form shows a bed 3 to 7 % heavier than it is. G the gradient of the net
-// pressure, dG its change. Of ParticlePhase: F flux, I impulse, K drag, Y follow, S slide, Q yield, C carry, D
-// carry_flux. The pressure's change follows from the constraint, with the mobility
+// a = -(U.grad)U + div(eps tau)/(eps rho_f), with (U.grad)U in the conservative form of fluid/convection.hpp. G the
+// gradient of the net pressure, dG its change. Of ParticlePhase: F flux, I impulse, K drag, Y follow, S slide, Q yield,
+// C carry, D carry_flux. The pressure's change follows from the constraint, with the mobility
 //
 //   B = (eps + Y)(eps + S)/(m + K) + Q.
 //
@@ -87,16 +86,16 @@ class Flow {
   Boundaries boundaries_;
   Inlet inlet_;
   relevance::FluidConstants constants_;
-  double gravity_, tolerance_;   ///< m/s2; of the pressure's residual
-  bool viscous_;                 ///< with a stress of its own
-  bool conservative_, limited_;  ///< form of convection; of second order, with a limiter
+  double gravity_, tolerance_;  ///< m/s2; of the pressure's residual
+  bool viscous_;                ///< with a stress of its own
+  bool limited_;                ///< convection is of second order, with a limiter
   std::optional<Compressible> compressible_;
   core::PoissonSolver solver_;
   FluidState fluid_;
   core::FaceField convected_, acceleration_, velocity_change_, gradient_, gradient_change_;
   core::FaceField per_inertia_;  ///< (eps + S)/(m + K), 1/(kg/m3): what dU gains by -dt dG
   core::FaceField mobility_;     ///< B, m3/kg
-  core::FaceField own_flux_;     ///< eps U, m/s; empty unless momentum is conserved or the fluid compressible
+  core::FaceField own_flux_;     ///< eps U, m/s
   core::Field source_, change_;  ///< of the pressure's equation: right-hand side, 1/s2, and solution, Pa
   core::Field shift_;            ///< kappa/dt^2; empty without compression
   core::Field with_ghosts_;      ///< a pressure whose gradient is being taken

@@ -38,7 +38,7 @@ struct Requirements {
   std::size_t unknowns = 0, cells = 0;
   core::TfmIntegrator integrator{};
   std::string reason;
-  tfm::MomentumForm momentum;
+  core::Momentum momentum{};
   MemoryNeed memory;
   BedState rest;                 ///< settled, as bed.solids_fraction says
   BedState lifted;               ///< packed but carried by the fluid, as a bed is that starts packed

@@ -117,8 +117,7 @@ std::string run_record_text(const RunRecord& record) {
   begin_record(json, record.scene, "tfm", record.state, record.totals.ranks);
   json.update({{"integrator", core::name_of(model.integrator_kind())},
                {"integrator_reason", model.integrator_reason()},
-               {"momentum", core::name_of(model.momentum().form)},
-               {"momentum_reason", model.momentum().reason},
+               {"momentum", core::name_of(model.momentum())},
                {"unknowns", model.unknowns()},
                {"time_s", model.time()},
                {"cpu_s", record.totals.cpu_seconds},

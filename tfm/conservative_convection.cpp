@@ -43,8 +43,7 @@ void ConservativeConvection::carry(const ConservativeConvection& by, const core:
   const auto on_face = [phi = fraction.data(), floor](std::size_t, Index c, Index s) {
     return std::max(core::face_mean(phi, c, s), floor);
   };
-  fluid::conservative_convection(by.constants_.grid, by.boundaries_, by.limited_, of_fluid, flux, velocity, on_face,
-                                 acceleration);
+  fluid::convection(by.constants_.grid, by.boundaries_, by.limited_, of_fluid, flux, velocity, on_face, acceleration);
 }
 
 }  // namespace polybed::tfm

@@ -1,5 +1,4 @@
-// Which integrator a scene is run with and which form the convection of momentum takes, and why: as the case says, or
-// the one that is expected to be cheapest, and the one that keeps momentum.
+// Which integrator a scene is run with, and why: as the case says, or the one that is expected to be cheapest.
 #pragma once
 
 #include <string>
@@ -21,15 +20,5 @@ struct IntegratorChoice {
 /// \param greatest_inflow  superficial velocity of the inlet, m/s
 [[nodiscard]] IntegratorChoice choose_integrator(const core::Scene& scene, const Constants& constants,
                                                  const Effects& effects, double greatest_inflow);
-
-struct MomentumForm {
-  core::Momentum form{};  ///< not automatic
-  std::string reason;
-};
-
-/// automatic is conservative. (U.grad)U takes to the solids below what thin solids above them have in velocity, not in
-/// momentum: up to the weight of the bed and more in a gas, 2 to 5 % of it in a liquid bed that stirs itself, which is
-/// enough to decide which species lies on top (docs/record/cost.md).
-[[nodiscard]] MomentumForm momentum_form(const core::Scene& scene);
 
 }  // namespace polybed::tfm

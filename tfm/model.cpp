@@ -40,12 +40,15 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   return constants;
 }
 
+/// By itself of first order.
+core::Momentum momentum_of(const core::Scene& scene) {
+  return scene.scheme.momentum == core::Momentum::automatic ? core::Momentum::conservative : scene.scheme.momentum;
+}
+
 Discretisation make_discretisation(const core::Tfm& options, core::Momentum momentum) {
   const auto scheme = [](bool limited) { return limited ? Scheme::limited : Scheme::upwind; };
-  const bool both = momentum == core::Momentum::conservative_limited;
-  return {scheme(options.flux == core::FractionFlux::limited), scheme(both || momentum == core::Momentum::limited),
-          options.solids_wall == core::SolidsWall::no_slip ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip,
-          both || momentum == core::Momentum::conservative};
+  return {scheme(options.flux == core::FractionFlux::limited), scheme(momentum == core::Momentum::conservative_limited),
+          options.solids_wall == core::SolidsWall::no_slip ? fluid::WallSlip::no_slip : fluid::WallSlip::free_slip};
 }
 
 }  // namespace
@@ -53,12 +56,12 @@ Discretisation make_discretisation(const core::Tfm& options, core::Momentum mome
 Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks)
     : timers_(timers),
       options_(scene.tfm),
-      momentum_((refuse_particle_scene(scene), momentum_form(scene))),
+      momentum_((refuse_particle_scene(scene), momentum_of(scene))),
       equations_(scene, make_constants(scene, ranks),
                  fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed,
                                    scene.column.outlet == core::Outlet::open),
-                 fluid::Inlet(core::grid_of(scene.column, ranks), scene),
-                 make_discretisation(scene.tfm, momentum_.form), timers),
+                 fluid::Inlet(core::grid_of(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_),
+                 timers),
       integrator_(choose_integrator(scene, constants(), effects(), inlet().greatest())),
       layout_(constants().grid, int(constants().species()),
               integrator_.kind == core::TfmIntegrator::implicit_steps || compressible(), transports_temperature(),

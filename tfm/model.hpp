@@ -71,7 +71,8 @@ class Model : public core::Simulation {
   /// Explicit or implicit steps.
   [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_.kind; }
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_.reason; }
-  [[nodiscard]] const MomentumForm& momentum() const { return momentum_; }
+  /// Convection of momentum; not automatic.
+  [[nodiscard]] core::Momentum momentum() const { return momentum_; }
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
   [[nodiscard]] Work work() const;
   /// Of the whole column.
@@ -108,7 +109,7 @@ class Model : public core::Simulation {
 
   core::Timers& timers_;
   core::Tfm options_;
-  MomentumForm momentum_;
+  core::Momentum momentum_;
   RightHandSide equations_;
   IntegratorChoice integrator_;
   StateLayout layout_;

@@ -26,9 +26,8 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
       fields_(constants_),
       effects_(make_effects(scene, constants_, boundaries_, fields_)),
       flux_(core::make_face_field(constants_.grid)),
+      convection_(constants_, boundaries_, discretisation_.momentum == Scheme::limited),
       viscous_weight_(fields_.stress.viscosity) {
-  if (discretisation_.conservative)
-    conservative_.emplace(constants_, boundaries_, discretisation_.momentum == Scheme::limited);
   using Kind = fluid::Ghosts::Kind;
   for (core::Field& phi : fields_.solids.fraction) state_ghosts_.push_back({Kind::cells, &phi});
   for (core::FaceField& velocity : fields_.solids.velocity)
@@ -68,9 +67,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     if (effects_.compressible) weigh_slip_by_density(constants_, fields_);
   });
   timed("convection", [&] {
-    continuity(constants_, boundaries_, discretisation_.flux, side_of(t), fields_, flux_, first_order_,
-               conservative_ ? &*conservative_ : nullptr);
-    if (!conservative_) convection(constants_, boundaries_, discretisation_.momentum, fields_);
+    continuity(constants_, boundaries_, discretisation_.flux, side_of(t), fields_, flux_, first_order_, &convection_);
   });
   if (effects_.inertia) timed("added mass", [&] { effects_.inertia->keep_convection(fields_); });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });

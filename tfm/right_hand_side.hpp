@@ -19,7 +19,6 @@ struct Discretisation {
   Scheme flux = Scheme::limited;     ///< of the solids fractions
   Scheme momentum = Scheme::upwind;  ///< of the velocities
   fluid::WallSlip solids_wall = fluid::WallSlip::free_slip;
-  bool conservative = false;  ///< momentum is convected as div(F U) in place of (U.grad)U
 };
 
 class RightHandSide {
@@ -71,7 +70,7 @@ class RightHandSide {
   Fields fields_;
   Effects effects_;
   core::FaceField flux_;
-  std::optional<ConservativeConvection> conservative_;  ///< empty unless asked for
+  ConservativeConvection convection_;
   int solids_rows_ = std::numeric_limits<int>::max();
   const FaceList* first_order_ = nullptr;
   std::vector<fluid::Ghosts> state_ghosts_;  ///< the unknowns, whose ghosts travel together

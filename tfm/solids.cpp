@@ -4,7 +4,6 @@
 
 #include "core/numerics/operators.hpp"
 #include "core/vectors.hpp"
-#include "fluid/convection.hpp"
 #include "tfm/fraction_face.hpp"
 
 namespace polybed::tfm {
@@ -147,14 +146,6 @@ void fluid_flux_through_ends(const Constants& constants, double t, Fields& field
     constants.openings.cross(t, j, fields.solids, flux);
     on_ends([&](std::size_t c) { own[c] -= flux[c]; });
   }
-}
-
-void convection(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, Fields& fields) {
-  const bool limited = scheme == Scheme::limited;
-  fluid::convection(constants.grid, boundaries, limited, true, fields.fluid.velocity, fields.fluid_acceleration);
-  for (std::size_t j = 0; j < constants.species(); ++j)
-    fluid::convection(constants.grid, boundaries, limited, false, fields.solids.velocity[j],
-                      fields.solids.acceleration[j]);
 }
 
 void add_gravity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {

@@ -25,16 +25,13 @@ enum class Scheme { upwind, limited };
 /// `limited`, and with what crosses the ends at time t. Ghosts of the rate are filled. flux_j is work space. If the
 /// fluid is compressible its own flux, J - sum F_j, is set too.
 /// \param first_order  faces that take phi_j from upwind alone whatever the scheme; null: none
-/// \param momentum  convection that these fluxes carry; null: none, it is left to convection()
+/// \param momentum  convection that these fluxes carry; null: none
 void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux,
-                const FaceList* first_order, ConservativeConvection* momentum = nullptr);
+                const FaceList* first_order, ConservativeConvection* momentum);
 
 /// Of a compressible fluid: sets its own flux, J - sum F_j, on the faces of bottom and top alone, to the values that
 /// continuity() sets there. J, U_j and phi_j of the owned faces and cells are read. flux is work space.
 void fluid_flux_through_ends(const Constants&, double t, Fields&, core::Field& flux);
-
-/// Sets the accelerations of all phases to their convection, -(U.grad)U; the rest is added to them.
-void convection(const Constants&, const fluid::Boundaries&, Scheme, Fields&);
 
 /// Adds weight less buoyancy, (1 - rho_f/rho_j) g, along every axis that gravity has a component on.
 void add_gravity(const Constants&, const fluid::Boundaries&, Fields&);

@@ -49,11 +49,9 @@ constexpr std::array<std::string_view, 4> names(TfmIntegrator) { return {"auto",
 enum class FractionFlux { limited, upwind };
 constexpr std::array<std::string_view, 2> names(FractionFlux) { return {"limited", "upwind"}; }
 
-/// Convection of velocities, in the form (U.grad)U or in the conservative one.
-enum class Momentum { automatic, upwind, limited, conservative, conservative_limited };
-constexpr std::array<std::string_view, 5> names(Momentum) {
-  return {"auto", "upwind", "limited", "conservative", "conservative_limited"};
-}
+/// Convection of velocities in conservative form: of first order, or of second with a limiter.
+enum class Momentum { automatic, conservative, conservative_limited };
+constexpr std::array<std::string_view, 3> names(Momentum) { return {"auto", "conservative", "conservative_limited"}; }
 
 /// Whose momentum the gradient of the pressure is in: all phases' or the fluid's.
 enum class PressureForm { A, B };

@@ -25,8 +25,8 @@ Table tfm_table() {
           shared<Tfm>(
               &Scene::scheme,
               key(&FluidScheme::momentum, "momentum",
-                  help("convection of velocities: first order, or second with a limiter; as (U.grad)U, or in the "
-                       "conservative form; auto: conservative, for particles conservative_limited"))),
+                  help("convection of velocities, in conservative form: of first order, or of second with a limiter; "
+                       "auto: conservative, for particles conservative_limited"))),
           key(&Tfm::solids_wall, "solids_wall",
               help("velocity of the solids along walls; johnson_jackson: partial slip, with a viscosity of the "
                    "solids"),

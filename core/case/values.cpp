@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/case/removed.hpp"
+
 namespace polybed::core {
 
 std::string shown(const toml::node& node) {
@@ -151,8 +153,9 @@ std::optional<std::string> CaseValues::text(const Key& key, const toml::node& no
   }
   if (!key.words.empty() && !is_word(key, *value)) {
     const std::string near = nearest_name(*value, {key.words.begin(), key.words.end()});
-    add(node.source(), fmt::format("{} = \"{}\": allowed are {}{}", key.path(), *value, range_text(key),
-                                   near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    std::string hint = instead_of_removed(key.path(), *value);
+    if (hint.empty() && !near.empty()) hint = "; did you mean \"" + near + "\"?";
+    add(node.source(), fmt::format("{} = \"{}\": allowed are {}{}", key.path(), *value, range_text(key), hint));
     return std::nullopt;
   }
   return value;

@@ -30,17 +30,6 @@ struct UpwindDifference {
   static double at(const double* q, Index c, Index s, double u) { return u > 0 ? q[c] - q[c - s] : q[c + s] - q[c]; }
 };
 
-/// The same with limited linear reconstructions on both sides of the entry: second order where q is smooth. What the
-/// sign of u decides is chosen before the slopes, which are dear.
-struct LimitedDifference {
-  static double at(const double* q, Index c, Index s, double u) {
-    const double below = q[c - s] - q[c - 2 * s], here = q[c] - q[c - s], above = q[c + s] - q[c],
-                 beyond = q[c + 2 * s] - q[c + s];
-    const double from = u > 0 ? here : above, before = u > 0 ? below : beyond;
-    return from + 0.5 * (limited_slope(here, above) - limited_slope(before, from));
-  }
-};
-
 /// Value of q at the face between c - s and c, taken from the side that the velocity u comes from: first order.
 struct UpwindFace {
   static double at(const double* q, Index c, Index s, double u) { return u > 0 ? q[c - s] : q[c]; }
@@ -61,18 +50,16 @@ struct LimitedFace {
 /// Divergence of a face field in all owned cells: out[c] = sum over axes (f[c + s] - f[c]) / h.
 void divergence(const Grid& grid, const FaceField& faces, Field& out);
 
-/// Adds -(U.grad)U of a velocity to its acceleration on the faces of one axis within a box.
-/// Difference: UpwindDifference or LimitedDifference. Ghosts of the velocity must be filled.
-/// What calls this for speed is a kernel of core::in_vectors, with this as a part of it.
-template <class Difference>
-void subtract_convection(const Grid& grid, const FaceField& velocity, int axis, const Box& box, Field& rate) {
+/// Adds -(U.grad)U of a velocity to its acceleration on the faces of one axis within a box, of first order. Ghosts of
+/// the velocity must be filled.
+inline void subtract_convection(const Grid& grid, const FaceField& velocity, int axis, const Box& box, Field& rate) {
   const double* u = velocity[std::size_t(axis)].data();
   double* to = rate.data();
   const Index s = grid.stride(axis);
   const double per_length = 1 / grid.spacing[std::size_t(axis)];
   for_each_row(grid, box, [&](Index begin, Index end) {
 #pragma GCC ivdep
-    for (Index c = begin; c < end; ++c) to[c] -= u[c] * per_length * Difference::at(u, c, s, u[c]);
+    for (Index c = begin; c < end; ++c) to[c] -= u[c] * per_length * UpwindDifference::at(u, c, s, u[c]);
   });
   for (int across = 0; across < grid.dimensions; ++across) {
     if (across == axis) continue;
@@ -83,7 +70,7 @@ void subtract_convection(const Grid& grid, const FaceField& velocity, int axis, 
 #pragma GCC ivdep
       for (Index c = begin; c < end; ++c) {
         const double transverse = 0.25 * ((v[c] + v[c - s]) + (v[c + t] + v[c - s + t]));
-        to[c] -= transverse * per_width * Difference::at(u, c, t, transverse);
+        to[c] -= transverse * per_width * UpwindDifference::at(u, c, t, transverse);
       }
     });
   }

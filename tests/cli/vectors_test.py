@@ -87,7 +87,7 @@ class Vectors(Scratch):
     def test_collisions_of_the_continuum(self):
         case = program.small_bed("0.05 s")
         for old, new in (('"frictional"', '"kinetic"\ngranular_temperature = "transported"\nspecies_exchange = "syamlal"\n'
-                          'fluid_stress = "newtonian"'), ("[run]", '[tfm]\nmomentum = "limited"\n[run]')):
+                          'fluid_stress = "newtonian"'), ("[run]", '[tfm]\nmomentum = "conservative_limited"\n[run]')):
             self.assertIn(old, case)
             case = case.replace(old, new)
         self.same(self.runs("tfm", case))

@@ -96,7 +96,7 @@ class Ranks(Scratch):
                    "fluid_stress": "newtonian"}
         words = [w for role, law in effects.items() for w in ("--set", f'effects.{role}="{law}"')]
         self.check_equal(*FLAT, *FIXED, *TIGHT, *words, "--set", 'tfm.solids_wall="johnson_jackson"',
-                         "--set", 'tfm.momentum="limited"', on=(4,))
+                         "--set", 'tfm.momentum="conservative_limited"', on=(4,))
 
     def test_forces_on_particles_are_the_same(self):
         """Vorticity takes velocities from across every cut, corners included; added mass changes what a pressure does."""
@@ -120,7 +120,7 @@ class Ranks(Scratch):
             if name.startswith(("in_", "out_")):
                 self.assertLessEqual(abs(one[name][-1] - other[name][-1]), SAME * max(abs(one[name][-1]), 1e-6), name)
 
-    def test_momentum_in_conservative_form_is_the_same(self):
+    def test_momentum_of_second_order_is_the_same(self):
         """Fluxes of the solids are taken from neighbours across every cut, corners included."""
         self.check_equal(*FLAT, *FIXED, *TIGHT, "--set", 'tfm.momentum="conservative_limited"', on=(4,))
 

@@ -37,9 +37,9 @@ struct Error {
 /// The equations with the sources added before the pressure acts.
 class Driven : public BoxEquations {
  public:
-  /// \param flux  of the fractions  \param conservative  momentum is convected as div(F U); else as (U.grad)U
-  Driven(const core::Scene& scene, tfm::Scheme flux, tfm::Scheme momentum, bool conservative = true)
-      : BoxEquations(scene, joined_box(scene), {flux, momentum, fluid::WallSlip::free_slip, conservative}, 1e-10),
+  /// \param flux  of the fractions
+  Driven(const core::Scene& scene, tfm::Scheme flux, tfm::Scheme momentum)
+      : BoxEquations(scene, joined_box(scene), {flux, momentum, fluid::WallSlip::free_slip}, 1e-10),
         solution_(layout().size()),
         source_(constants()) {
     const closures::FrictionalLaw stress{scene.tfm.frictional_pressure, scene.tfm.frictional_onset, 0.64};

@@ -29,12 +29,11 @@ inline void add_stress(core::Scene& scene, double slope) {
   scene.tfm.frictional_pressure = slope / closures::FrictionalLaw{1.0, 0.1, 0.64}(1 - voidage).slope;
 }
 
-/// The flux of the mixture is held; in one dimension the gradient that holds it follows face by face. Momentum is
-/// convected in conservative form.
+/// The flux of the mixture is held; in one dimension the gradient that holds it follows face by face.
 class HeldFlux : public BoxEquations {
  public:
   explicit HeldFlux(const core::Scene& scene, tfm::Scheme scheme = tfm::Scheme::limited)
-      : BoxEquations(scene, joined_box(scene), {scheme, scheme, fluid::WallSlip::free_slip, true}, 1e-10) {}
+      : BoxEquations(scene, joined_box(scene), {scheme, scheme, fluid::WallSlip::free_slip}, 1e-10) {}
 
   /// How far a state is from being ill-posed.
   tfm::WellPosedness margin_of(const std::vector<double>& y) {

@@ -1,7 +1,7 @@
 // Lid-driven cavity: convection, viscous stress and pressure of the fluid alone against a published solution.
 #include <gtest/gtest.h>
 
-#include "core/numerics/operators.hpp"
+#include "fluid/convection.hpp"
 #include "fluid/viscous_stress.hpp"
 #include "scenes/box_equations.hpp"
 #include "scenes/record.hpp"
@@ -58,11 +58,9 @@ class Cavity : public BoxEquations {
   core::FaceField acceleration(const fluid::FluidState& fluid) const {
     const core::Grid& grid = constants().grid;
     core::FaceField rate = core::make_face_field(grid);
-    const core::Box faces = boundaries().moving_faces(0, true);
-    if (momentum_ == tfm::Scheme::limited)
-      core::subtract_convection<core::LimitedDifference>(grid, fluid.velocity, 0, faces, rate[0]);
-    else
-      core::subtract_convection<core::UpwindDifference>(grid, fluid.velocity, 0, faces, rate[0]);
+    const auto on_face = [](std::size_t, core::Index, core::Index) { return 1.0; };
+    fluid::convection(grid, boundaries(), momentum_ == tfm::Scheme::limited, true, fluid.flux, fluid.velocity, on_face,
+                      rate);
     fluid::add_viscous_stress(grid, boundaries(), fluid, constants().fluid, rate);
     return rate;
   }

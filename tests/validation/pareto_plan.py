@@ -61,8 +61,6 @@ def continua():
         tfm("implicit", SCHEME, tfm__integrator="implicit"),
         tfm("implicit, rtol 1e-4", SCHEME, tfm__integrator="implicit", tfm__rtol=1e-4),
         tfm("flux upwind", SCHEME, True, tfm__flux="upwind"),
-        tfm("momentum upwind", SCHEME, tfm__momentum="upwind"),
-        tfm("momentum limited", SCHEME, tfm__momentum="limited"),
         tfm("momentum conservative_limited", SCHEME, True, **limited),
         *(tfm(law, LAW, law in LAWS[1:3], effects__drag=law) for law in LAWS[1:]),
         tfm("wet table", STRESS, True, **table),

@@ -41,8 +41,8 @@ core::Scene grains(double solids, std::size_t species, const std::string& stress
 class Grains : public BoxEquations {
  public:
   explicit Grains(const core::Scene& scene)
-      : BoxEquations(scene, joined_box(scene),
-                     {tfm::Scheme::upwind, tfm::Scheme::upwind, fluid::WallSlip::free_slip, true}, 1e-10) {}
+      : BoxEquations(scene, joined_box(scene), {tfm::Scheme::upwind, tfm::Scheme::upwind, fluid::WallSlip::free_slip},
+                     1e-10) {}
 
   /// Grains that are compressed here, expand there and are sheared, each species in its own way. \param uneven  of
   /// the solids fraction, from cell to cell: 1 leaves every other cell along a diagonal without solids

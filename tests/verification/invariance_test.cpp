@@ -98,7 +98,8 @@ TEST_P(Invariance, LeftAndRightAreMirrorImages) {
   EXPECT_LT(with_forces, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Momentum, Invariance, testing::Values(std::string("upwind"), std::string("conservative")));
+INSTANTIATE_TEST_SUITE_P(Momentum, Invariance,
+                         testing::Values(std::string("conservative"), std::string("conservative_limited")));
 
 }  // namespace
 }  // namespace polybed::scenes

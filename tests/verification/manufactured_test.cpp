@@ -3,15 +3,13 @@
 
 #include "scenes/manufactured_box.hpp"
 #include "scenes/record.hpp"
-#include "tfm/integrator_choice.hpp"
 
 namespace polybed::scenes {
 namespace {
 
-/// Slopes of the fractions and of momentum, and the form of its convection.
+/// Slopes of the fractions and of momentum.
 struct Form {
   tfm::Scheme flux, momentum;
-  bool conservative = true;
 };
 constexpr Form with_slopes{tfm::Scheme::limited, tfm::Scheme::limited},
     without{tfm::Scheme::upwind, tfm::Scheme::upwind};
@@ -21,7 +19,7 @@ std::array<Error, 3> errors(const Regime& regime, int dimensions, int n, const F
   std::array<Error, 3> found{};
   for (Error& e : found) {
     const core::Scene scene = all_effects(regime, dimensions, {n, n, dimensions == 3 ? n : 1});
-    e = Driven(scene, form.flux, form.momentum, form.conservative).error(regime.time);
+    e = Driven(scene, form.flux, form.momentum).error(regime.time);
     record(fmt::format("fraction, {}", n), e.fraction);
     record(fmt::format("velocity, {}", n), e.velocity);
     n *= 2;
@@ -37,7 +35,7 @@ void expect_order(const std::array<Error, 3>& e, double factor) {
   }
 }
 
-// Momentum is in conservative form, as by default, unless a test says otherwise. Factors: 4 and 2 for smooth fields,
+// Factors: 4 and 2 for smooth fields,
 // less what the limiter loses at extrema (3.2) and the next term (1.8). Bounds on the middle grid: a fifth above what
 // was measured when the test was written.
 TEST(Manufactured, SecondOrderInTwoDimensionsWithLimitedSchemes) {
@@ -58,7 +56,6 @@ TEST(Manufactured, FirstOrderInTwoDimensionsWithUpwindSchemes) {
 TEST(Manufactured, FirstOrderInTwoDimensionsWithTheSchemesOfACase) {
   const core::Tfm defaults;
   ASSERT_EQ(defaults.flux, core::FractionFlux::limited);
-  ASSERT_EQ(tfm::momentum_form({}).form, core::Momentum::conservative);
   expect_order(errors(liquid_bed, 2, 32, {tfm::Scheme::limited, tfm::Scheme::upwind}), 1.8);
 }
 
@@ -82,15 +79,6 @@ TEST(Manufactured, FirstOrderWhereAllTermsCount) {
   const auto e = errors(balanced, 2, 32, without);
   expect_order(e, 1.8);
   EXPECT_LT(e[1].velocity, 1.0e-4);
-}
-
-// Momentum as (U.grad)U, where convection counts: the same orders, for the same reasons.
-TEST(Manufactured, GradientOfMomentumIsOfSecondOrderWithSlopes) {
-  expect_second_order_of_all_terms(errors(balanced, 2, 32, {tfm::Scheme::limited, tfm::Scheme::limited, false}));
-}
-
-TEST(Manufactured, GradientOfMomentumIsOfFirstOrderWithout) {
-  expect_order(errors(balanced, 2, 32, {tfm::Scheme::upwind, tfm::Scheme::upwind, false}), 1.8);
 }
 
 TEST(Manufactured, SecondOrderInThreeDimensionsWithLimitedSchemes) {

@@ -222,7 +222,7 @@ void expect_nothing_in(const std::string& integrator, const std::string& momentu
 }
 
 TEST_P(Openings, NothingComesInThroughTheOutlet) {
-  for (const char* momentum : {"upwind", "limited"}) expect_nothing_in(GetParam(), momentum);
+  for (const char* momentum : {"conservative", "conservative_limited"}) expect_nothing_in(GetParam(), momentum);
 }
 
 // Solids in above, fluid below, around the velocity that carries them: what falls is stored, what does not is thrown

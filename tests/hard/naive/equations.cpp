@@ -17,8 +17,8 @@ namespace {
 
 tfm::Discretisation discretisation_of(const core::Tfm& options, const tfm::Model& model) {
   const auto scheme = [](bool limited) { return limited ? tfm::Scheme::limited : tfm::Scheme::upwind; };
-  return {scheme(options.flux == core::FractionFlux::limited), scheme(model.momentum().form == core::Momentum::limited),
-          fluid::WallSlip::free_slip, model.momentum().form == core::Momentum::conservative};
+  return {scheme(options.flux == core::FractionFlux::limited),
+          scheme(model.momentum() == core::Momentum::conservative_limited), fluid::WallSlip::free_slip};
 }
 
 /// dphi_j/dt = -div(U_j at(phi_j)) with other values on faces.
@@ -122,6 +122,30 @@ Terms central_flux(const tfm::Model& model) {
   return [flux](const tfm::RightHandSide& equations, tfm::Fields& fields) {
     set_continuity(equations, fields, *flux,
                    [](const double* phi, Index c, Index s, double) { return core::face_mean(phi, c, s); });
+  };
+}
+
+Terms advective_momentum(const core::Scene& scene, const tfm::Model& model) {
+  const auto carried = std::make_shared<tfm::Fields>(model.constants());
+  const auto flux = std::make_shared<core::FaceField>(core::make_face_field(model.constants().grid));
+  const tfm::Scheme scheme = discretisation_of(scene.tfm, model).flux;
+  return [=](const tfm::RightHandSide& equations, tfm::Fields& fields) {
+    const tfm::Constants& constants = equations.constants();
+    tfm::ConservativeConvection conservative(constants, equations.boundaries(), false);
+    *carried = fields;
+    tfm::continuity(constants, equations.boundaries(), scheme, 0, *carried, *flux, nullptr, &conservative);
+    const auto replace = [&](bool of_fluid, const core::FaceField& velocity, const core::FaceField& by,
+                             core::FaceField& acceleration) {
+      for (int axis = 0; axis < constants.grid.dimensions; ++axis) {
+        const auto a = std::size_t(axis);
+        for (std::size_t f = 0; f < by[a].size(); ++f) acceleration[a][f] -= by[a][f];
+        core::subtract_convection(constants.grid, velocity, axis, equations.boundaries().moving_faces(axis, of_fluid),
+                                  acceleration[a]);
+      }
+    };
+    replace(true, fields.fluid.velocity, carried->fluid_acceleration, fields.fluid_acceleration);
+    for (std::size_t j = 0; j < fields.solids.species(); ++j)
+      replace(false, fields.solids.velocity[j], carried->solids.acceleration[j], fields.solids.acceleration[j]);
   };
 }
 

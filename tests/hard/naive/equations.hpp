@@ -44,6 +44,8 @@ class Equations : public core::OdeProblem {
 [[nodiscard]] Terms raw_drag(const core::Scene& scene, const tfm::Model& model, bool plain_shares);
 /// Continuity with plain means of phi_j on faces.
 [[nodiscard]] Terms central_flux(const tfm::Model& model);
+/// Convection of momentum as (U.grad)U, of first order.
+[[nodiscard]] Terms advective_momentum(const core::Scene& scene, const tfm::Model& model);
 /// Weight of the cell above each face in place of the face's own.
 [[nodiscard]] Terms unbalanced_gravity(const tfm::Model& model);
 

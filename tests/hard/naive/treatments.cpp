@@ -194,10 +194,8 @@ std::unique_ptr<hard::Run> make_run(const std::string& name, core::Scene scene, 
   if (name == "hard_packing") return explicit_run({"solids_stress"}, hard_packing);
   if (name == "central_flux") return explicit_run({}, central_flux);
   if (name == "unbalanced_gravity") return explicit_run({}, unbalanced_gravity);
-  if (name == "advective_momentum") {
-    scene.scheme.momentum = core::Momentum::upwind;
-    return explicit_run({}, {});
-  }
+  if (name == "advective_momentum")
+    return explicit_run({}, [&](const tfm::Model& model) { return advective_momentum(scene, model); });
   if (name == "hidden_unit") return explicit_run({}, hidden_unit);
   if (name == "added_mass_lagged") return explicit_run({"added_mass"}, added_mass_lagged);
   if (name == "drag_explicit") {

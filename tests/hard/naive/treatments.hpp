@@ -19,7 +19,7 @@ namespace polybed::hard::naive {
 ///   drag_explicit              third-order explicit steps of one length, Courant number 0.5 of the fastest inlet
 ///   raw_drag                   drag laws and mixtures without their guards (unguarded_alpha: the same)
 ///   central_flux               plain means of phi_j on faces
-///   advective_momentum         (U.grad)U, as tfm.momentum = "upwind" has it
+///   advective_momentum         (U.grad)U, of first order
 ///   unbalanced_gravity         weight from the cell above a face, solids pressure from both
 ///   added_mass_lagged          added mass as a force, of the accelerations of the evaluation before
 ///   hidden_unit                1e-3, whatever the units, added to the exchange coefficients

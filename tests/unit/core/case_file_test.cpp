@@ -207,6 +207,13 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"cells = [12, 120]", "cells = [12, 120]\noutlet = \"closed\"",
               "case.toml:5:10: column.outlet = \"closed\": allowed are screen | open"}));
 
+INSTANTIATE_TEST_SUITE_P(
+    Removed, WrongCase,
+    testing::Values(Wrong{
+        "[effects]", "[tfm]\nmomentum = \"upwind\"\n[effects]",
+        "tfm.momentum = \"upwind\": allowed are auto | conservative | conservative_limited; (U.grad)U was "
+        "removed, take \"conservative\", of the same order"}));
+
 /// Two classes at half and twice the median: the reader does not know the rule.
 std::vector<std::pair<double, double>> half_and_twice(const SizeDistribution& given) {
   return {{*given.median / 2, 0.25}, {*given.median * 2, 0.75}};

@@ -84,7 +84,7 @@ TEST(FirstOrderFallback, FlaggedFacesTakeTheFractionFromUpwindAndTheOthersStay) 
   const tfm::FaceList flagged{{{grid.index(2, 3)}, {grid.index(1, 5)}, {}}};
   core::FaceField limited = core::make_face_field(grid), upwind = limited, mixed = limited;
   const auto flux = [&](tfm::Scheme scheme, core::FaceField& out, const tfm::FaceList* list) {
-    tfm::continuity(model.constants(), model.boundaries(), scheme, 0, fields, out, list);
+    tfm::continuity(model.constants(), model.boundaries(), scheme, 0, fields, out, list, nullptr);
   };
   flux(tfm::Scheme::limited, limited, nullptr);
   flux(tfm::Scheme::upwind, upwind, nullptr);

@@ -78,18 +78,8 @@ TEST(IntegratorChoice, ACoarseToleranceIsRefusedToImplicitSteps) {
   EXPECT_THROW(chosen(scene), core::CaseError);
 }
 
-TEST(MomentumForm, KeepsMomentumUnlessTheCaseSaysOtherwise) {
-  core::Scene scene = glass(0.8e-3);
-  EXPECT_EQ(momentum_form(scene).form, core::Momentum::conservative);
-  for (const core::Momentum asked :
-       {core::Momentum::upwind, core::Momentum::limited, core::Momentum::conservative_limited}) {
-    scene.scheme.momentum = asked;
-    EXPECT_EQ(momentum_form(scene).form, asked);
-  }
-}
-
-// What a model runs with is what it says: at the face of a solids front the forms differ.
-TEST(MomentumForm, OfTheModelIsThatOfTheScene) {
+// What a model runs with is what it says: at the face of a solids front the orders differ.
+TEST(Momentum, OfTheModelIsThatOfTheScene) {
   core::Timers timers;
   core::Scene scene = glass(0.8e-3);
   scene.fluid.density = 1.2;
@@ -101,7 +91,7 @@ TEST(MomentumForm, OfTheModelIsThatOfTheScene) {
     return model.fields().solids.velocity[0][1];
   };
   EXPECT_EQ(velocities(core::Momentum::automatic), velocities(core::Momentum::conservative));
-  EXPECT_NE(velocities(core::Momentum::automatic), velocities(core::Momentum::upwind));
+  EXPECT_NE(velocities(core::Momentum::automatic), velocities(core::Momentum::conservative_limited));
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+// What cases of earlier versions may name and this version does not read.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace polybed::core {
+
+/// "; " and what to do instead, for a key, or for a word of a key, that was removed; else empty.
+/// \param path  e.g. "tfm.momentum"  \param word  empty: the key itself
+[[nodiscard]] std::string instead_of_removed(std::string_view path, std::string_view word = "");
+
+}  // namespace polybed::core
