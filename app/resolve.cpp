@@ -1,11 +1,15 @@
 // polybed resolve: drag data from resolved flow through random boxes of the case's spheres.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/run_directory.hpp"
@@ -31,7 +35,14 @@ struct ResolveOptions : CaseOptions {
 
 namespace fs = std::filesystem;
 
-constexpr const char* box_file = "box.h5";  ///< the box that is not steady yet
+/// Of a box that is not steady yet.
+fs::path file_of_box(const fs::path& directory, const std::string& name) { return directory / ("box-" + name + ".h5"); }
+
+void remove_kept_boxes(const fs::path& directory) {
+  std::error_code none;  // a file that stays is of no harm
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, none))
+    if (entry.path().filename().string().starts_with("box-")) fs::remove(entry.path(), none);
+}
 
 void require_what_resolve_needs(const ResolveOptions& options, const core::Scene& scene) {
   if (scene.resolve.voidage.empty())
@@ -78,6 +89,7 @@ class ResolveRun {
       : options_(options),
         ranks_(core::Ranks::of_program()),
         first_(core::is_first(ranks_.get())),
+        rank_(ranks_ ? ranks_->rank() : 0),
         scene_(read_case(options.case_path, options.overrides)) {
     options_.quiet = options_.quiet || !first_;
     require_what_resolve_needs(options_, scene_);
@@ -85,21 +97,24 @@ class ResolveRun {
     core::on_first(ranks_.get(), [&] { take_directory(); });
   }
 
+  /// Boxes are independent: each rank runs its own, and all learn the results at the end.
   void run() {
-    core::Json rows = core::Json::array();
-    const std::size_t species = scene_.species.size();
-    if (first_ && !options_.json) core::print("{}\n", row_header(species));
-    std::string table = row_header(species) + "\n";
-    for (const double voidage : scene_.resolve.voidage)
-      for (const double reynolds : scene_.resolve.reynolds) {
-        const std::string row = row_text(scene_, voidage, reynolds, boxes_of(voidage, reynolds));
-        table += row + "\n";
-        if (!first_) continue;
-        core::write_atomically(directory_ / "rows.csv", table);
-        if (!options_.json) core::print("{}\n", row);
+    if (first_ && !options_.json) core::print("{}\n", row_header(scene_.species.size()));
+    table_ = row_header(scene_.species.size()) + "\n";
+    share_boxes();
+    core::on_all(ranks_.get(), [&] {
+      for (const Box& box : boxes_) {
+        if (box.rank == rank_) run_box(box);
+        if (!ranks_) write_rows();
       }
+    });
+    for (const Box& box : boxes_) {
+      std::string& text = finished_[box.name];
+      text = core::said_by(ranks_.get(), box.rank, text);
+    }
+    write_rows();
     if (first_ && options_.json)
-      core::print("{}\n", core::json_text({{"rows", (directory_ / "rows.csv").string()}, {"table", table}}));
+      core::print("{}\n", core::json_text({{"rows", (directory_ / "rows.csv").string()}, {"table", table_}}));
   }
 
  private:
@@ -116,7 +131,7 @@ class ResolveRun {
     if (options_.resume && !there)
       throw core::FileError(
           fmt::format("{}: no boxes to resume from; leave out --resume to begin anew", directory_.string()));
-    if (!options_.resume) KeptBox{directory_ / box_file, "", 0}.remove(nullptr);
+    if (!options_.resume) remove_kept_boxes(directory_);
     std::string kept = "box,cells,change,imbalance,steps,sites,seconds, then n and f of each species\n";
     if (options_.resume) {
       (void)core::bytes_of_file(path);
@@ -129,35 +144,77 @@ class ResolveRun {
         kept += line + "\n";
       }
     }
-    file_.emplace(path, kept);
+    core::write_atomically(path, kept, core::Flush::content);
   }
 
-  std::vector<std::vector<BoxDrag>> boxes_of(double voidage, double reynolds) {
-    std::vector<std::vector<BoxDrag>> boxes;
-    for (int packing = 0; packing < scene_.resolve.packings; ++packing) {
-      std::optional<SpherePacking> spheres;
-      std::vector<BoxDrag>& grids = boxes.emplace_back();
-      for (int grid = 0; grid < scene_.resolve.grids; ++grid)
-        grids.push_back(box_of({voidage, reynolds, packing, grid}, spheres));
+  struct Box {
+    ResolvePoint point;
+    std::string name;
+    int rank = 0;
+  };
+
+  /// All boxes in the order of the rows, the largest first to the rank that has least to do.
+  void share_boxes() {
+    const core::Resolve& plan = scene_.resolve;
+    for (const double voidage : plan.voidage)
+      for (const double reynolds : plan.reynolds)
+        for (int packing = 0; packing < plan.packings; ++packing)
+          for (int grid = 0; grid < plan.grids; ++grid) {
+            const ResolvePoint point{voidage, reynolds, packing, grid};
+            boxes_.push_back({point, box_name(scene_, point)});
+            std::string& text = finished_[boxes_.back().name];
+            text = core::said_by(ranks_.get(), 0, text);
+          }
+    if (!ranks_) return;
+    std::vector<std::pair<double, Box*>> left;
+    for (Box& box : boxes_)
+      if (finished_[box.name].empty()) {
+        const BoxNeed need = box_need(scene_, box.point);
+        left.emplace_back(need.sites * need.steps, &box);
+      }
+    std::stable_sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<double> load(std::size_t(ranks_->count()), 0.0);
+    for (const auto& [work, box] : left) {
+      const auto least = std::min_element(load.begin(), load.end());
+      box->rank = int(least - load.begin());
+      *least += work;
     }
-    return boxes;
   }
 
-  BoxDrag box_of(const ResolvePoint& point, std::optional<SpherePacking>& spheres) {
-    const std::string name = box_name(scene_, point);
-    const auto found = finished_.find(name);
-    const std::string text = core::said_by(ranks_.get(), 0, found == finished_.end() ? "" : found->second);
-    if (!text.empty()) return box_of_text(text, scene_.species.size());
-    if (!spheres)
-      core::on_all(ranks_.get(), [&] {
-        spheres = sphere_packing(scene_, point.voidage, scene_.bed.seed + (std::uint64_t(point.packing) << 32));
-      });
-    const KeptBox kept{directory_ / box_file, name, scene_.resolve.checkpoint_every};
-    const BoxDrag box = box_drag(
-        scene_, point, *spheres, ranks_, [&](double steps, double change) { return say(point, steps, change); }, &kept);
-    core::on_first(ranks_.get(), [&] { file_->append(name + "," + box_text(box) + "\n"); });
-    report(point, box);
-    return box;
+  void run_box(const Box& box) {
+    std::string& text = finished_[box.name];
+    if (!text.empty()) return;
+    const ResolvePoint& point = box.point;
+    if (spheres_of_ != std::pair(point.voidage, point.packing)) {
+      spheres_ = sphere_packing(scene_, point.voidage, scene_.bed.seed + (std::uint64_t(point.packing) << 32));
+      spheres_of_ = {point.voidage, point.packing};
+    }
+    const KeptBox kept{file_of_box(directory_, box.name), box.name, scene_.resolve.checkpoint_every};
+    const BoxDrag drag = box_drag(
+        scene_, point, spheres_, [&](double steps, double change) { return say(point, steps, change); }, &kept);
+    text = box_text(drag);
+    const std::string line = box.name + "," + text + "\n";
+    core::append_to_file(directory_ / "boxes.csv", std::as_bytes(std::span(line)));
+    report(point, drag);
+  }
+
+  /// Those whose boxes are finished, after those that are written.
+  void write_rows() {
+    const std::size_t grids = std::size_t(scene_.resolve.grids), of_row = std::size_t(scene_.resolve.packings) * grids;
+    for (; rows_ * of_row < boxes_.size(); ++rows_) {
+      const Box* const begin = boxes_.data() + rows_ * of_row;
+      std::vector<std::vector<BoxDrag>> drags(of_row / grids);
+      for (std::size_t n = 0; n < of_row; ++n) {
+        const std::string& text = finished_[begin[n].name];
+        if (text.empty()) return;
+        drags[n / grids].push_back(box_of_text(text, scene_.species.size()));
+      }
+      const std::string row = row_text(scene_, begin->point.voidage, begin->point.reynolds, drags);
+      table_ += row + "\n";
+      if (!first_) continue;
+      core::write_atomically(directory_ / "rows.csv", table_);
+      if (!options_.json) core::print("{}\n", row);
+    }
   }
 
   /// At most every few seconds.
@@ -192,11 +249,16 @@ class ResolveRun {
   ResolveOptions options_;
   std::shared_ptr<const core::Ranks> ranks_;
   bool first_;
+  int rank_;
   core::Scene scene_;
   fs::path directory_;
   std::optional<core::OutputDirectory> lock_;
-  std::optional<core::LineFile> file_;
-  std::map<std::string, std::string> finished_;
+  std::vector<Box> boxes_;
+  std::map<std::string, std::string> finished_;  ///< text of each box; empty of one that is not
+  SpherePacking spheres_;
+  std::pair<double, int> spheres_of_{0, -1};  ///< voidage and packing
+  std::size_t rows_ = 0;                      ///< written
+  std::string table_;
   std::chrono::steady_clock::time_point said_;  ///< long ago, so that the first line comes at once
   double done_ = 0, seconds_ = 0;
 };

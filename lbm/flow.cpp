@@ -15,17 +15,7 @@ namespace {
 /// Covered sites between two of fluid in a row up to which a run goes on: cheaper than a run more.
 constexpr int bridge = 12;
 
-Sites slab_of(const std::array<int, 3>& box, const core::Ranks* ranks) {
-  const int count = ranks != nullptr ? ranks->count() : 1, rank = ranks != nullptr ? ranks->rank() : 0;
-  if (box[0] < count)
-    throw core::CaseError(fmt::format("a box of {} sites along x cannot be shared by {} ranks", box[0], count));
-  Sites sites;
-  sites.box = box;
-  sites.first = int(std::int64_t(box[0]) * rank / count);
-  sites.own = {int(std::int64_t(box[0]) * (rank + 1) / count) - sites.first, box[1], box[2]};
-  sites.row = std::size_t(box[2] + 2);
-  return sites;
-}
+Sites sites_of(const std::array<int, 3>& box) { return {box, std::size_t(box[2] + 2)}; }
 
 /// Distance of two directions in memory. Nineteen streams at the same place of a page would share one set of the cache.
 template <class Real>
@@ -63,30 +53,27 @@ double bounced(Real* f, const Link* links, std::size_t count, const Link* last) 
 }  // namespace
 
 template <class Real>
-Flow<Real>::Flow(const FlowSetup& setup, const Obstacles& obstacles, std::shared_ptr<const core::Ranks> ranks)
-    : ranks_(std::move(ranks)), setup_(setup), sites_(slab_of(setup.box, ranks_.get())) {
-  stride_ = stride_of<Real>(sites_);
+Flow<Real>::Flow(const FlowSetup& setup, const Obstacles& obstacles)
+    : setup_(setup), sites_(sites_of(setup.box)), stride_(stride_of<Real>(sites_)), halo_(sites_, stride_) {
   if (stride_ * directions > std::numeric_limits<std::uint32_t>::max())
-    throw core::CaseError(fmt::format("a box of {} x {} x {} sites is too large for {} ranks", setup.box[0],
-                                      setup.box[1], setup.box[2], ranks_ ? ranks_->count() : 1));
+    throw core::CaseError(
+        fmt::format("a box of {} x {} x {} sites is too large", setup.box[0], setup.box[1], setup.box[2]));
   owner_ = obstacles.owners(sites_);
   on_obstacle_.resize(obstacles.count());
   find_runs();
   find_links(obstacles, setup.wall);
   populations_.assign(stride_ * directions, 0);
-  halo_ = std::make_unique<Halo<Real>>(sites_, stride_, ranks_);
-  core::add_over_ranks(ranks_.get(), std::span<double>(&fluid_sites_, 1));
 }
 
 template <class Real>
 void Flow<Real>::find_runs() {
-  layers_.resize(std::size_t(sites_.own[0]));
-  for (int i = 1; i <= sites_.own[0]; ++i) {
+  layers_.resize(std::size_t(sites_.box[0]));
+  for (int i = 1; i <= sites_.box[0]; ++i) {
     Span& runs = layers_[std::size_t(i - 1)].runs;
     runs.begin = runs_.size();
-    for (int j = 1; j <= sites_.own[1]; ++j) {
+    for (int j = 1; j <= sites_.box[1]; ++j) {
       int last = -bridge - 2;  // site of fluid before this one
-      for (int k = 1; k <= sites_.own[2]; ++k) {
+      for (int k = 1; k <= sites_.box[2]; ++k) {
         if (owner_[sites_.at(i, j, k)] != Obstacles::none) continue;
         ++fluid_sites_;
         if (k - last > bridge + 1)
@@ -110,13 +97,13 @@ void Flow<Real>::find_links(const Obstacles& obstacles, Wall wall) {
   };
   const auto layer_of = [&](const std::array<int, 3>& at, std::size_t way) {
     for (std::size_t k = 0; k < 3; ++k)
-      if (ways[way][k] != 0 && (at[k] == 1 || at[k] == sites_.own[k])) return sites_.own[0];
+      if (ways[way][k] != 0 && (at[k] == 1 || at[k] == sites_.box[k])) return sites_.box[0];
     return at[0] - 1;
   };
   std::vector<Found> found;
-  for (int i = 1; i <= sites_.own[0]; ++i)
-    for (int j = 1; j <= sites_.own[1]; ++j)
-      for (int k = 1; k <= sites_.own[2]; ++k) {
+  for (int i = 1; i <= sites_.box[0]; ++i)
+    for (int j = 1; j <= sites_.box[1]; ++j)
+      for (int k = 1; k <= sites_.box[2]; ++k) {
         const std::size_t site = sites_.at(i, j, k);
         if (owner_[site] != Obstacles::none) continue;
         for (std::size_t w = 1; w < directions; ++w) {
@@ -128,7 +115,7 @@ void Flow<Real>::find_links(const Obstacles& obstacles, Wall wall) {
   links_.reserve(found.size());
   for (std::size_t n = 0; n < found.size(); ++n) {
     const Found& one = found[n];
-    Span& bundles = one.layer == sites_.own[0] ? rim_ : layers_[std::size_t(one.layer)].bundles;
+    Span& bundles = one.layer == sites_.box[0] ? rim_ : layers_[std::size_t(one.layer)].bundles;
     if (n == 0 || found[n - 1].place() != one.place()) {
       if (n == 0 || found[n - 1].layer != one.layer) bundles.begin = bundles_.size();
       bundles_.push_back({std::uint32_t(n), 0, one.way, one.owner});
@@ -148,7 +135,7 @@ auto Flow<Real>::link_of(const Obstacles& obstacles, Wall wall, const std::array
             std::uint32_t(here), 0};
   // Between two walls, a site apart, both equations together give the plain bounce.
   if (wall == Wall::half_way || owner_[back] != Obstacles::none) return link;
-  const Point fluid{double(sites_.first + at[0] - 1), double(at[1] - 1), double(at[2] - 1)};
+  const Point fluid{double(at[0] - 1), double(at[1] - 1), double(at[2] - 1)};
   const double q = obstacles.fraction(owner_[covered], fluid, ways[way]);
   link.behind = std::uint32_t(place(opposite(way), back));
   link.part = Real((1 - 2 * q) / (1 + 2 * q));
@@ -210,10 +197,10 @@ void Flow<Real>::advance(const Point& force) {
   on_all_ = {};
   steps_ += 2;
   collide_and_bounce(false);
-  halo_->fill(populations_.data());
+  halo_.fill(populations_.data());
   bounce(false, rim_);
   collide_and_bounce(true);
-  halo_->fold(populations_.data());
+  halo_.fold(populations_.data());
   bounce(true, rim_);
 }
 
@@ -222,7 +209,6 @@ std::vector<Point> Flow<Real>::forces() const {
   std::vector<Point> sum = on_obstacle_;
   for (Point& on : sum)
     for (double& component : on) component /= double(steps_);
-  if (!sum.empty()) core::add_over_ranks(ranks_.get(), std::span<double>(sum.front().data(), 3 * sum.size()));
   return sum;
 }
 
@@ -234,15 +220,13 @@ void Flow<Real>::forget_forces() {
 
 template <class Real>
 Point Flow<Real>::force() const {
-  Point sum{on_all_[0] / 2, on_all_[1] / 2, on_all_[2] / 2};
-  core::add_over_ranks(ranks_.get(), std::span<double>(sum));
-  return sum;
+  return {on_all_[0] / 2, on_all_[1] / 2, on_all_[2] / 2};
 }
 
 template <class Real>
 Point Flow<Real>::velocity_at(int i, int j, int k) const {
   Point u{};
-  const std::size_t site = sites_.at(i - sites_.first + 1, j + 1, k + 1);
+  const std::size_t site = sites_.at(i + 1, j + 1, k + 1);
   if (owner_[site] != Obstacles::none) return u;
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t w = 1; w < directions; ++w) u[a] += ways[w][a] * double(populations_[place(w, site)]);
@@ -254,13 +238,12 @@ Point Flow<Real>::velocity_at(int i, int j, int k) const {
 template <class Real>
 Point Flow<Real>::velocity() const {
   Point sum{};
-  for (int i = 0; i < sites_.own[0]; ++i)
-    for (int j = 0; j < sites_.own[1]; ++j)
-      for (int k = 0; k < sites_.own[2]; ++k) {
-        const Point u = velocity_at(sites_.first + i, j, k);
+  for (int i = 0; i < sites_.box[0]; ++i)
+    for (int j = 0; j < sites_.box[1]; ++j)
+      for (int k = 0; k < sites_.box[2]; ++k) {
+        const Point u = velocity_at(i, j, k);
         for (std::size_t a = 0; a < 3; ++a) sum[a] += u[a];
       }
-  core::add_over_ranks(ranks_.get(), std::span<double>(sum));
   for (double& component : sum) component /= double(sites_.box[0]) * sites_.box[1] * sites_.box[2];
   return sum;
 }
@@ -269,14 +252,13 @@ template <class Real>
 void Flow<Real>::level_density() {
   double sum = 0;
   for (std::size_t site = 0; site < owner_.size(); ++site) {
-    const std::size_t k = site % sites_.row, j = site / sites_.row % std::size_t(sites_.own[1] + 2);
-    const std::size_t i = site / (sites_.row * std::size_t(sites_.own[1] + 2));
-    const bool own = k >= 1 && k <= std::size_t(sites_.own[2]) && j >= 1 && j <= std::size_t(sites_.own[1]) && i >= 1 &&
-                     i <= std::size_t(sites_.own[0]);
+    const std::size_t k = site % sites_.row, j = site / sites_.row % std::size_t(sites_.box[1] + 2);
+    const std::size_t i = site / (sites_.row * std::size_t(sites_.box[1] + 2));
+    const bool own = k >= 1 && k <= std::size_t(sites_.box[2]) && j >= 1 && j <= std::size_t(sites_.box[1]) && i >= 1 &&
+                     i <= std::size_t(sites_.box[0]);
     if (!own || owner_[site] != Obstacles::none) continue;
     for (std::size_t w = 0; w < directions; ++w) sum += double(populations_[place(w, site)]);
   }
-  core::add_over_ranks(ranks_.get(), std::span<double>(&sum, 1));
   for (std::size_t w = 0; w < directions; ++w)
     for (std::size_t site = 0; site < owner_.size(); ++site)
       populations_[place(w, site)] -= Real(weight(w) * sum / fluid_sites_);
@@ -285,19 +267,19 @@ void Flow<Real>::level_density() {
 template <class Real>
 std::vector<double> Flow<Real>::populations(std::size_t way) const {
   std::vector<double> values;
-  values.reserve(std::size_t(sites_.own[0]) * sites_.own[1] * sites_.own[2]);
-  for (int i = 1; i <= sites_.own[0]; ++i)
-    for (int j = 1; j <= sites_.own[1]; ++j)
-      for (int k = 1; k <= sites_.own[2]; ++k) values.push_back(double(populations_[place(way, sites_.at(i, j, k))]));
+  values.reserve(std::size_t(sites_.box[0]) * sites_.box[1] * sites_.box[2]);
+  for (int i = 1; i <= sites_.box[0]; ++i)
+    for (int j = 1; j <= sites_.box[1]; ++j)
+      for (int k = 1; k <= sites_.box[2]; ++k) values.push_back(double(populations_[place(way, sites_.at(i, j, k))]));
   return values;
 }
 
 template <class Real>
 void Flow<Real>::restore_populations(std::size_t way, const std::vector<double>& populations) {
   std::size_t n = 0;
-  for (int i = 1; i <= sites_.own[0]; ++i)
-    for (int j = 1; j <= sites_.own[1]; ++j)
-      for (int k = 1; k <= sites_.own[2]; ++k) populations_[place(way, sites_.at(i, j, k))] = Real(populations.at(n++));
+  for (int i = 1; i <= sites_.box[0]; ++i)
+    for (int j = 1; j <= sites_.box[1]; ++j)
+      for (int k = 1; k <= sites_.box[2]; ++k) populations_[place(way, sites_.at(i, j, k))] = Real(populations.at(n++));
 }
 
 template <class Real>

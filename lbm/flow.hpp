@@ -1,5 +1,4 @@
-// A fluid of density 1 that flows through a periodic box of obstacles; lengths in cells, time in steps. The box is cut
-// into slabs along x, one per rank.
+// A fluid of density 1 that flows through a periodic box of obstacles; lengths in cells, time in steps.
 //
 // One array of populations serves two steps (Bailey et al., ICPP 2009): the first collides each site in its own place
 // and leaves what departs along i in the place of the opposite direction; the second reads from the neighbours, and
@@ -8,10 +7,8 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "core/numerics/ranks.hpp"
 #include "lbm/collision.hpp"
 #include "lbm/halo.hpp"
 #include "lbm/obstacles.hpp"
@@ -34,26 +31,24 @@ struct FlowSetup {
 template <class Real>
 class Flow {
  public:
-  /// A fluid at rest. Collective. Throws core::CaseError if the box has fewer layers along x than ranks.
-  Flow(const FlowSetup& setup, const Obstacles& obstacles, std::shared_ptr<const core::Ranks> ranks = nullptr);
+  /// A fluid at rest. Throws core::CaseError if the box is too large.
+  Flow(const FlowSetup& setup, const Obstacles& obstacles);
 
-  /// Two steps under a force on each site of the fluid. Collective.
+  /// Two steps under a force on each site of the fluid.
   void advance(const Point& force);
 
   /// Force on each obstacle, mean since forget_forces(), without what the pressure that drives the flow adds.
-  /// Collective.
   [[nodiscard]] std::vector<Point> forces() const;
   void forget_forces();
-  /// Sum over all obstacles, mean of the last two steps. Collective.
+  /// Sum over all obstacles, mean of the last two steps.
   [[nodiscard]] Point force() const;
-  /// Mean velocity over the whole box, obstacles counted with 0: the superficial velocity. Collective.
+  /// Mean velocity over the whole box, obstacles counted with 0: the superficial velocity.
   [[nodiscard]] Point velocity() const;
-  /// Of a site of this slab, `first` to `first + own[0] - 1` along x.
   [[nodiscard]] Point velocity_at(int i, int j, int k) const;
-  /// Subtracts the mean density: interpolated walls do not conserve mass to round-off. Collective.
+  /// Subtracts the mean density: interpolated walls do not conserve mass to round-off.
   void level_density();
 
-  /// Populations along one direction at the sites of this slab, in C order. Those of all directions and the force of
+  /// Populations along one direction at the sites of the box, in C order. Those of all directions and the force of
   /// the last steps are the flow, to the bit.
   [[nodiscard]] std::vector<double> populations(std::size_t way) const;
   [[nodiscard]] const Point& last_force() const { return force_; }
@@ -61,10 +56,9 @@ class Flow {
   void restore_last_force(const Point& force) { force_ = force; }
 
   [[nodiscard]] const Sites& sites() const { return sites_; }
-  /// Sites of fluid in the whole box; links cut in this slab.
+  /// Sites of fluid in the box; links that are cut.
   [[nodiscard]] double fluid_sites() const { return fluid_sites_; }
   [[nodiscard]] std::size_t links() const { return links_.size(); }
-  /// Of this slab.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
@@ -82,7 +76,7 @@ class Flow {
   struct Span {
     std::size_t begin = 0, end = 0;
   };
-  /// Of the sites at one x: runs, and bundles of links that stay clear of the layer round the slab.
+  /// Of the sites at one x: runs, and bundles of links that stay clear of the layer round the box.
   struct Layer {
     Span runs, bundles;
   };
@@ -99,7 +93,6 @@ class Flow {
   void collide_and_bounce(bool second);
   void bounce(bool second, const Span& bundles);
 
-  std::shared_ptr<const core::Ranks> ranks_;
   FlowSetup setup_;
   Sites sites_;
   std::vector<std::int32_t> owner_;
@@ -115,7 +108,7 @@ class Flow {
   std::int64_t steps_ = 0;
   Point on_all_{};  ///< of the last two steps
   Point force_{};   ///< of the last steps, on a site
-  std::unique_ptr<Halo<Real>> halo_;
+  Halo<Real> halo_;
 };
 
 extern template class Flow<float>;

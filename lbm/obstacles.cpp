@@ -12,14 +12,12 @@ std::vector<std::int32_t> Spheres::owners(const Sites& sites) const {
     const Sphere& s = spheres_[n];
     // Indices in the array at which an image of the sphere may lie, and their distances from its centre.
     std::array<std::vector<std::pair<int, double>>, 3> near;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int origin = k == 0 ? sites.first : 0;
-      for (int i = 0; i < sites.own[k] + 2; ++i) {
-        double d = origin + i - 1 - s.centre[k];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int i = 0; i < sites.box[k] + 2; ++i) {
+        double d = i - 1 - s.centre[k];
         d -= box_[k] * std::round(d / box_[k]);
         if (std::abs(d) < s.radius) near[k].emplace_back(i, d);
       }
-    }
     for (const auto& [i, x] : near[0])
       for (const auto& [j, y] : near[1])
         for (const auto& [k, z] : near[2]) {

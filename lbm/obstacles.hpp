@@ -10,21 +10,19 @@ namespace polybed::lbm {
 
 using Point = std::array<double, 3>;  ///< in cells
 
-/// Sites of a slab of a periodic box with one more layer all round: site (i, j, k) of the array lies at
-/// (first + i - 1, j - 1, k - 1) of the box.
+/// Sites of a periodic box with one more layer all round: site (i, j, k) of the array lies at (i - 1, j - 1, k - 1) of
+/// the box.
 struct Sites {
-  std::array<int, 3> box{};  ///< sites of the whole box
-  std::array<int, 3> own{};  ///< of this slab
-  int first = 0;             ///< of the slab along x
+  std::array<int, 3> box{};  ///< sites
   std::size_t row = 0;       ///< length of a row along z in memory
 
   [[nodiscard]] std::size_t at(int i, int j, int k) const {
-    return (std::size_t(i) * std::size_t(own[1] + 2) + std::size_t(j)) * row + std::size_t(k);
+    return (std::size_t(i) * std::size_t(box[1] + 2) + std::size_t(j)) * row + std::size_t(k);
   }
-  [[nodiscard]] std::size_t count() const { return std::size_t(own[0] + 2) * std::size_t(own[1] + 2) * row; }
+  [[nodiscard]] std::size_t count() const { return std::size_t(box[0] + 2) * std::size_t(box[1] + 2) * row; }
   /// Of one step along an axis, in memory.
   [[nodiscard]] std::ptrdiff_t step(const std::array<int, 3>& c) const {
-    return (std::ptrdiff_t(c[0]) * (own[1] + 2) + c[1]) * std::ptrdiff_t(row) + c[2];
+    return (std::ptrdiff_t(c[0]) * (box[1] + 2) + c[1]) * std::ptrdiff_t(row) + c[2];
   }
 };
 
@@ -33,7 +31,7 @@ class Obstacles {
   static constexpr std::int32_t none = -1;
   virtual ~Obstacles() = default;
   [[nodiscard]] virtual std::size_t count() const = 0;
-  /// Which obstacle covers each site, `none` if it is fluid; the layer round the slab included.
+  /// Which obstacle covers each site, `none` if it is fluid; the layer round the box included.
   [[nodiscard]] virtual std::vector<std::int32_t> owners(const Sites& sites) const = 0;
   /// Part of the way from a fluid site to the surface of an obstacle, over that to the covered site; 0 to 1.
   [[nodiscard]] virtual double fraction(std::int32_t owner, const Point& fluid,

@@ -36,7 +36,7 @@ struct SteadyProgress {
 using AfterWindow = std::function<bool(const SteadyProgress&)>;
 
 /// Drives the flow by a force that keeps its mean velocity, and stops when `tolerance` is met, after `most_steps` or
-/// when `after_window` says so; `change` tells which. Collective. Throws core::NumericsError for populations that are
+/// when `after_window` says so; `change` tells which. Throws core::NumericsError for populations that are
 /// no numbers any more. \param progress  where the run begins
 template <class Real>
 [[nodiscard]] SteadyFlow run_until_steady(Flow<Real>& flow, const SteadyPlan& plan,

@@ -166,7 +166,7 @@ double rate_of(const core::Scene& scene, const ResolvePoint& point, const Sphere
 
 template <class Real>
 BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
-                 std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted, const KeptBox* kept) {
+                 const StillWanted& wanted, const KeptBox* kept) {
   const BoxPlan box = plan_of(scene, point);
   const Units& units = box.units;
   const std::vector<lbm::Sphere> spheres = spheres_of(scene, packing, box.scale);
@@ -176,27 +176,26 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   plan.tolerance = steady_change<Real>;
   plan.most_steps = std::llround(most_windows * plan.window);
   const lbm::FlowSetup setup = setup_of(box, point.reynolds);
-  lbm::Flow<Real> flow(setup, lbm::Spheres(spheres, setup.box), ranks);
+  lbm::Flow<Real> flow(setup, lbm::Spheres(spheres, setup.box));
   bool stopped = false;
   KeptBox::Stand stand;
-  if (kept != nullptr && kept->restore(flow, stand, ranks.get()))
-    (void)wanted(double(stand.progress.steps), stand.progress.change);
+  if (kept != nullptr && kept->restore(flow, stand)) (void)wanted(double(stand.progress.steps), stand.progress.change);
   const auto begin = std::chrono::steady_clock::now();
   const auto seconds = [&] {
     return stand.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   double last_kept = stand.seconds;
   const auto after_window = [&](const lbm::SteadyProgress& progress) {
-    stopped = core::on_any_rank(ranks.get(), !wanted(double(progress.steps), progress.change));
-    if (kept != nullptr && core::on_any_rank(ranks.get(), stopped || seconds() - last_kept > kept->every)) {
+    stopped = !wanted(double(progress.steps), progress.change);
+    if (kept != nullptr && (stopped || seconds() - last_kept > kept->every)) {
       last_kept = seconds();
-      kept->write(flow, {progress, last_kept}, ranks.get());
+      kept->write(flow, {progress, last_kept});
     }
     return !stopped;
   };
   const lbm::SteadyFlow steady = run_until_steady(flow, plan, after_window, stand.progress);
   if (stopped) throw core::Stopped("stopped by the user");
-  if (kept != nullptr) kept->remove(ranks.get());
+  if (kept != nullptr) kept->remove();
   BoxDrag drag;
   drag.seconds = seconds();
   drag.steps = double(steady.steps);
@@ -261,10 +260,9 @@ double measured_rate(const core::Scene& scene, const ResolvePoint& point, const 
 }
 
 BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
-                 std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted, const KeptBox* kept) {
-  return scene.resolve.precision == core::Precision::one
-             ? resolved<float>(scene, point, packing, std::move(ranks), wanted, kept)
-             : resolved<double>(scene, point, packing, std::move(ranks), wanted, kept);
+                 const StillWanted& wanted, const KeptBox* kept) {
+  return scene.resolve.precision == core::Precision::one ? resolved<float>(scene, point, packing, wanted, kept)
+                                                         : resolved<double>(scene, point, packing, wanted, kept);
 }
 
 }  // namespace polybed::multiscale

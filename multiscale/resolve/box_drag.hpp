@@ -2,12 +2,10 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
-#include "core/numerics/ranks.hpp"
 #include "multiscale/resolve/kept_box.hpp"
 #include "multiscale/resolve/packing.hpp"
 
@@ -44,12 +42,11 @@ struct BoxNeed {
 /// Called now and then with the steps taken and the relative change of the drag; returns false to stop.
 using StillWanted = std::function<bool(double steps, double change)>;
 
-/// Collective. The flow stops when its drag changes by less than 1e-5 (single precision: 1e-4) while a pore forgets its
+/// The flow stops when its drag changes by less than 1e-5 (single precision: 1e-4) while a pore forgets its
 /// past, or after 200 such times: `change` tells what is left. Throws core::Stopped once `wanted` returns false,
 /// core::NumericsError. \param kept  where the flow is kept from time to time, when it is stopped, and taken up again
 [[nodiscard]] BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
-                               std::shared_ptr<const core::Ranks> ranks, const StillWanted& wanted,
-                               const KeptBox* kept = nullptr);
+                               const StillWanted& wanted, const KeptBox* kept = nullptr);
 
 /// Sites a second of this machine in the box of a point, measured for about a second.
 [[nodiscard]] double measured_rate(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing);

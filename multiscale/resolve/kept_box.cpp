@@ -10,18 +10,15 @@ namespace {
 
 const std::string array = "populations";  // a part for each direction
 
-/// What this rank has of one of them.
-core::Slab slab_of(const lbm::Sites& sites) {
-  const auto numbers = [](const std::array<int, 3>& n) {
-    return std::vector<std::size_t>{std::size_t(n[0]), std::size_t(n[1]), std::size_t(n[2])};
-  };
-  return {numbers(sites.box), numbers({sites.first, 0, 0}), numbers(sites.own)};
+core::Slab all_of(const lbm::Sites& sites) {
+  const std::vector<std::size_t> box{std::size_t(sites.box[0]), std::size_t(sites.box[1]), std::size_t(sites.box[2])};
+  return {box, {0, 0, 0}, box};
 }
 
 }  // namespace
 
 template <class Real>
-void KeptBox::write(const lbm::Flow<Real>& flow, const Stand& stand, const core::Ranks* ranks) const {
+void KeptBox::write(const lbm::Flow<Real>& flow, const Stand& stand) const {
   core::Checkpoint checkpoint;
   checkpoint.texts["box"] = name;
   checkpoint.integers["steps"] = stand.progress.steps;
@@ -34,49 +31,43 @@ void KeptBox::write(const lbm::Flow<Real>& flow, const Stand& stand, const core:
   std::vector<core::BlockData> populations;  // one after the other: no memory for the flow twice
   for (std::size_t way = 0; way < lbm::directions; ++way)
     populations.push_back({fmt::format("{}/{}", array, way),
-                           slab_of(flow.sites()),
+                           all_of(flow.sites()),
                            core::Packing::plain,
                            [&flow, way] { return flow.populations(way); },
                            {}});
-  core::write_checkpoint(path, std::move(checkpoint), ranks, std::move(populations));
+  core::write_checkpoint(path, std::move(checkpoint), nullptr, std::move(populations));
 }
 
 template <class Real>
-bool KeptBox::restore(lbm::Flow<Real>& flow, Stand& stand, const core::Ranks* ranks) const {
-  bool found = false;
-  core::on_all(ranks, [&] {
-    if (!std::filesystem::exists(path)) return;
-    core::Checkpoint checkpoint = core::read_checkpoint(path);
-    const auto box = checkpoint.texts.find("box");
-    if (box == checkpoint.texts.end() || box->second != name) return;
+bool KeptBox::restore(lbm::Flow<Real>& flow, Stand& stand) const {
+  if (!std::filesystem::exists(path)) return false;
+  core::Checkpoint checkpoint = core::read_checkpoint(path);
+  const auto box = checkpoint.texts.find("box");
+  if (box == checkpoint.texts.end() || box->second != name) return false;
+  core::require_numbers(checkpoint);
+  stand.progress = {checkpoint.count("steps"), checkpoint.number("drag"), checkpoint.number("mean_drag"),
+                    checkpoint.number("change")};
+  stand.seconds = checkpoint.time("seconds");
+  const std::vector<double>& force = checkpoint.array("force");
+  if (force.size() != 3) core::refuse_checkpoint("the force on its fluid is no vector");
+  flow.restore_last_force({force[0], force[1], force[2]});
+  for (std::size_t way = 0; way < lbm::directions; ++way) {
+    core::read_parts(path, {{array, {{fmt::format("{}", way), all_of(flow.sites())}}}}, checkpoint);
     core::require_numbers(checkpoint);
-    stand.progress = {checkpoint.count("steps"), checkpoint.number("drag"), checkpoint.number("mean_drag"),
-                      checkpoint.number("change")};
-    stand.seconds = checkpoint.time("seconds");
-    const std::vector<double>& force = checkpoint.array("force");
-    if (force.size() != 3) core::refuse_checkpoint("the force on its fluid is no vector");
-    flow.restore_last_force({force[0], force[1], force[2]});
-    for (std::size_t way = 0; way < lbm::directions; ++way) {
-      core::read_parts(path, {{array, {{fmt::format("{}", way), slab_of(flow.sites())}}}}, checkpoint);
-      core::require_numbers(checkpoint);
-      flow.restore_populations(way, checkpoint.array(array));
-    }
-    found = true;
-  });
-  return found;
+    flow.restore_populations(way, checkpoint.array(array));
+  }
+  return true;
 }
 
-void KeptBox::remove(const core::Ranks* ranks) const {
-  core::on_first(ranks, [&] {
-    std::error_code none;  // a file that stays is of no harm
-    std::filesystem::remove(path, none);
-    std::filesystem::remove(core::previous_checkpoint(path), none);
-  });
+void KeptBox::remove() const {
+  std::error_code none;  // a file that stays is of no harm
+  std::filesystem::remove(path, none);
+  std::filesystem::remove(core::previous_checkpoint(path), none);
 }
 
-template void KeptBox::write<float>(const lbm::Flow<float>&, const Stand&, const core::Ranks*) const;
-template void KeptBox::write<double>(const lbm::Flow<double>&, const Stand&, const core::Ranks*) const;
-template bool KeptBox::restore<float>(lbm::Flow<float>&, Stand&, const core::Ranks*) const;
-template bool KeptBox::restore<double>(lbm::Flow<double>&, Stand&, const core::Ranks*) const;
+template void KeptBox::write<float>(const lbm::Flow<float>&, const Stand&) const;
+template void KeptBox::write<double>(const lbm::Flow<double>&, const Stand&) const;
+template bool KeptBox::restore<float>(lbm::Flow<float>&, Stand&) const;
+template bool KeptBox::restore<double>(lbm::Flow<double>&, Stand&) const;
 
 }  // namespace polybed::multiscale

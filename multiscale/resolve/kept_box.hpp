@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "core/numerics/ranks.hpp"
 #include "lbm/steady.hpp"
 
 namespace polybed::multiscale {
@@ -20,17 +19,16 @@ struct KeptBox {
     double seconds = 0;  ///< that it took
   };
 
-  /// Writes the flow, to the bit. Collective. Throws core::FileError.
+  /// Writes the flow, to the bit. Throws core::FileError.
   template <class Real>
-  void write(const lbm::Flow<Real>& flow, const Stand& stand, const core::Ranks* ranks) const;
+  void write(const lbm::Flow<Real>& flow, const Stand& stand) const;
 
-  /// Restores what was written, on any number of ranks; false if there is no file of this box. Collective. Throws
-  /// core::FileError for a damaged one.
+  /// Restores what was written; false if there is no file of this box. Throws core::FileError for a damaged one.
   template <class Real>
-  bool restore(lbm::Flow<Real>& flow, Stand& stand, const core::Ranks* ranks) const;
+  bool restore(lbm::Flow<Real>& flow, Stand& stand) const;
 
-  /// Removes the file and the one before it. Collective.
-  void remove(const core::Ranks* ranks) const;
+  /// Removes the file and the one before it.
+  void remove() const;
 };
 
 }  // namespace polybed::multiscale

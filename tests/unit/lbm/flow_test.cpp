@@ -18,9 +18,9 @@ class Channel : public Obstacles {
   std::size_t count() const override { return 2; }
   std::vector<std::int32_t> owners(const Sites& sites) const override {
     std::vector<std::int32_t> owner(sites.count(), none);
-    for (int i = 0; i < sites.own[0] + 2; ++i)
-      for (int j = 0; j < sites.own[1] + 2; ++j)
-        for (int k = 0; k < sites.own[2] + 2; ++k) {
+    for (int i = 0; i < sites.box[0] + 2; ++i)
+      for (int j = 0; j < sites.box[1] + 2; ++j)
+        for (int k = 0; k < sites.box[2] + 2; ++k) {
           const int y = (j - 1 + sites.box[1]) % sites.box[1];
           if (y <= low_) owner[sites.at(i, j, k)] = 0;
           if (y >= high_) owner[sites.at(i, j, k)] = 1;

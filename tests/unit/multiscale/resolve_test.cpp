@@ -69,7 +69,7 @@ TEST(Resolve, NetForcesMakeTheSumRule) {
   core::Scene scene = two_sizes();
   scene.resolve.cells_per_diameter = 6;
   const SpherePacking packing = sphere_packing(scene, 0.5, 1);
-  const BoxDrag drag = box_drag(scene, {0.5, 0, 0, 0}, packing, nullptr, [](double, double) { return true; });
+  const BoxDrag drag = box_drag(scene, {0.5, 0, 0, 0}, packing, [](double, double) { return true; });
   // Sum of x_j n_j/y_j^2 against the sum of x_j f_j/y_j^2 over eps; the grid's own voidage differs from 0.5.
   double net = 0, pure = 0;
   for (std::size_t j = 0; j < 2; ++j) {
