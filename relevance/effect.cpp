@@ -29,8 +29,7 @@ bool Effect::law_has(const std::string& law, const Trait& trait) const {
 
 Surfaces surfaces_of(const core::Scene& scene, const Survey& survey) {
   const double known = scene.material.hamaker_constant, usual = survey.is_gas || !survey.has_fluid ? 1e-19 : 1e-20;
-  return {scene.chooser.roughness.value_or(scene.material.roughness),
-          scene.chooser.hamaker.value_or(known > 0 ? known : usual)};
+  return {scene.material.roughness, known > 0 ? known : usual};
 }
 
 void add(Menu& menu, const Effect& effect, const std::string& model, const std::string& slot) {

@@ -15,8 +15,7 @@ namespace {
 double water_density(const core::Fluid& fluid, double kelvin) {
   const double at_atmosphere = closures::water_density(kelvin);
   if (fluid.equation_of_state != core::Compressibility::tait) return at_atmosphere;
-  return closures::TaitLiquid{at_atmosphere, 101325, fluid.tait_stiffness, fluid.tait_exponent}.density(
-      fluid.outlet_pressure);
+  return closures::TaitLiquid{at_atmosphere, 101325, fluid.tait_stiffness}.density(fluid.outlet_pressure);
 }
 
 }  // namespace

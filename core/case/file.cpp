@@ -9,6 +9,7 @@
 #include "core/case/depth.hpp"
 #include "core/case/keys.hpp"
 #include "core/case/override.hpp"
+#include "core/case/removed.hpp"
 #include "core/case/resolve.hpp"
 #include "core/case/values.hpp"
 #include "core/output/files.hpp"
@@ -266,10 +267,10 @@ class CaseReader {
       for (const Table& t : tables()) names.emplace_back(t.name);
     const std::string near = nearest_name(key.str(), names);
     constexpr std::size_t few = 8;  // names that fit on a line
-    std::string hint;
-    if (!near.empty())
+    std::string hint = instead_of_removed(fmt::format("{}.{}", table, key.str()));
+    if (hint.empty() && !near.empty())
       hint = fmt::format("; did you mean '{}'?", near);
-    else if (!names.empty() && names.size() <= few)
+    else if (hint.empty() && !names.empty() && names.size() <= few)
       hint = fmt::format("; there {} {}", names.size() == 1 ? "is" : "are", fmt::join(names, ", "));
     values_.add(
         key.source(),

@@ -9,8 +9,17 @@ struct Removed {
 };
 
 constexpr Removed removed[] = {
+    {"calibrate.film_gap", "", "it is 0.005 now; dem.roughness makes films thicker"},
+    {"chooser.free_liquid", "", "take dem.surface_tension"},
+    {"chooser.hamaker", "", "take dem.hamaker_constant"},
+    {"chooser.roughness", "", "take dem.roughness"},
+    {"dem.tangential_ratio", "", "it is 2/7 now"},
+    {"fluid.tait_exponent", "", "it is 7 now; fluid.tait_stiffness sets the speed of sound"},
+    {"tfm.friction_angle", "", "it is 28.5 degrees now"},
     {"tfm.momentum", "upwind", "(U.grad)U was removed, take \"conservative\", of the same order"},
     {"tfm.momentum", "limited", "(U.grad)U was removed, take \"conservative_limited\", of the same order"},
+    {"tfm.start_temperature", "", "it is 1e-6 m2/s2 now"},
+    {"tfm.wall_restitution", "", "it is 0.9 now"},
 };
 
 }  // namespace

@@ -42,7 +42,6 @@ struct Fluid {
   Compressibility equation_of_state = Compressibility::incompressible;
   double outlet_pressure = 101325;  ///< absolute, at the top of the column, Pa
   double tait_stiffness = 3.0e8;    ///< B of the Tait liquid, Pa
-  double tait_exponent = 7;         ///< its n
 
   [[nodiscard]] Substance substance() const;
   [[nodiscard]] bool present() const { return substance() != Substance::none; }
@@ -131,9 +130,6 @@ struct Feed {
 struct Chooser {
   double tolerance = 0.02;  ///< what is left out sums to at most this share
   Purpose purpose = Purpose::steady;
-  std::optional<double> roughness;        ///< radius of asperities, m; else dem.roughness
-  std::optional<double> hamaker;          ///< A, J; else 1e-20 in a liquid, 1e-19 in a gas
-  std::optional<double> free_liquid;      ///< surface tension of a liquid that wets the particles, N/m
   bool static_heap = false;               ///< a heap at rest is what the scene is about
   std::optional<double> charge;           ///< of a particle, C
   std::optional<double> voidage;          ///< of the bulk; else by the balance of forces
@@ -174,14 +170,11 @@ struct Tfm {
   double frictional_pressure = 0.05;     ///< Fr of p_f, Pa
   double frictional_onset = 0.5;         ///< solids fraction above which p_f acts
   std::optional<double> bulk_viscosity;  ///< alpha; else 1 over the number of directions with cells
-  double friction_angle = 28.5;          ///< delta of Schaeffer's viscosity, degrees
   double viscosity_cap = 10;             ///< greatest frictional viscosity, Pa s
   double least_shear_rate = 1;           ///< gamma_0 of the frictional viscosity, 1/s
   KineticTheory kinetic_theory = KineticTheory::garzo_dufty;
   RadialDistribution radial_distribution = RadialDistribution::torquato;
-  double start_temperature = 1e-6;           ///< theta_j at the start where it is transported, m2/s2
   double specularity = 0.1;                  ///< s of Johnson and Jackson's wall
-  double wall_restitution = 0.9;             ///< e_w likewise
   double wall_friction = 0.2;                ///< tan(delta_w) of Johnson and Jackson's wall
   double exchange_pressure = 0;              ///< C_s of species exchange, s/m2
   std::optional<double> fixed_step;          ///< s: steps of one length, without error control (explicit only)
@@ -204,7 +197,6 @@ struct Dem {
   Tail tail = Tail::clip;
   DemIntegrator integrator = DemIntegrator::automatic;
   std::optional<double> normal_stiffness;  ///< k_n of contact = linear, N/m
-  double tangential_ratio = 2.0 / 7;       ///< k_t/k_n of tangential = linear
   double rolling_friction = 0;             ///< mu_r
   double rolling_damping = 0;              ///< share of the critical damping of the rolling spring
   std::optional<double> skin;              ///< reach of the neighbour list beyond contact, m
@@ -234,7 +226,6 @@ struct Calibrate {
   int particles = 1000, seeds = 2, doublings = 2;              ///< of a box; per point; of its length
   double strain = 20, discard_strain = 5;                      ///< averaged, and before that
   double softness = 0.03;                                      ///< t_c over the time between collisions
-  double film_gap = 0.005;                                     ///< least thickness of a film, over the diameter
 };
 
 /// Boxes of fixed spheres whose drag polybed resolve finds; the species and their shares are those of the bed.

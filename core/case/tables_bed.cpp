@@ -59,8 +59,6 @@ Table fluid_table() {
                    "air's follows from it")),
           key(&Fluid::tait_stiffness, "tait_stiffness", dimension::pressure, range(1, 1e13),
               help("B of equation_of_state = tait"), equation("c^2 = n (P + B)/rho")),
-          key(&Fluid::tait_exponent, "tait_exponent", range(1, 20), help("n of equation_of_state = tait"),
-              equation("c^2 = n (P + B)/rho")),
       });
 }
 

@@ -44,9 +44,6 @@ Table tfm_table() {
               help("alpha; damps elastic waves of the packed bed; 0 is off; default: 1 over the number of "
                    "directions with more than one cell"),
               equation("p_s = p_f - alpha rho_s c_s h sum phi_j div U_j")),
-          key(&Tfm::friction_angle, "friction_angle", above(0, 60),
-              help("delta, angle of internal friction of schaeffer, in degrees"),
-              equation("mu_s = p_f sin(delta)/abs(gamma)")),
           key(&Tfm::viscosity_cap, "viscosity_cap", dimension::viscosity, above(0, 1e6),
               help("greatest frictional viscosity, which solids at rest have: they creep")),
           key(&Tfm::least_shear_rate, "least_shear_rate", dimension::rate, above(0, 1e6),
@@ -55,14 +52,9 @@ Table tfm_table() {
           key(&Tfm::radial_distribution, "radial_distribution",
               help("g0 of solids_stress = kinetic; torquato: above 0.49 growing towards 0.64"),
               equation("g0 = (1 - phi/2)/(1 - phi)^3; above 0.49 CS(0.49) 0.15/(0.64 - phi)")),
-          key(&Tfm::start_temperature, "start_temperature", dimension::speed_squared, range(0, 1e6),
-              help("theta_j at the start, for granular_temperature = transported")),
           key(&Tfm::specularity, "specularity", range(0, 1),
               help("s: share of tangential momentum that a collision with the wall takes; solids_wall = "
                    "johnson_jackson with kinetic stress")),
-          key(&Tfm::wall_restitution, "wall_restitution", range(0, 1),
-              help("e_w of collisions with that wall; granular_temperature = transported"),
-              equation("k dtheta/dn = pi sqrt(3 theta) rho phi g0/phi_max [s U_t^2/6 - (1 - e_w^2) theta/4]")),
           key(&Tfm::wall_friction, "wall_friction", range(0, 2), help("tan(delta_w) of solids_wall = johnson_jackson")),
           key(&Tfm::exchange_pressure, "exchange_pressure", dimension::per_pressure, range(0, 1e9),
               help("C_s: contact friction between species in a packed bed"),
@@ -107,8 +99,7 @@ Table dem_table() {
                    "shared from 20000 cells on")),
           key(&Dem::tangential, "tangential",
               help("tangential force with contact = hertz_mindlin: hdd after Di Renzo and Di Maio, mindlin "
-                   "incremental, mindlin_deresiewicz with partial slip; linear: a spring of tangential_ratio "
-                   "times k_n"),
+                   "incremental, mindlin_deresiewicz with partial slip; linear: a spring of 2/7 k_n"),
               equation("hdd: F_t = -(2/3) 8 G* a xi - c_t v_t")),
           key(&Dem::tail, "tail",
               help("near separation the dashpot would pull: clip: F_n >= 0, with the damping that then realises "
@@ -118,7 +109,6 @@ Table dem_table() {
                    "positions; auto: synchronised with friction and a ratio of diameters of at least 3")),
           key(&Dem::normal_stiffness, "normal_stiffness", dimension::stiffness, above(0, 1e12),
               help("k_n of contact = linear")),
-          key(&Dem::tangential_ratio, "tangential_ratio", range(0, 1), help("k_t/k_n of tangential = linear")),
           key(&Dem::rolling_friction, "rolling_friction", range(0, 10),
               help("mu_r, arm of the rolling moment over R*; 0 is off"), equation("M <= mu_r R* F_n")),
           key(&Dem::rolling_damping, "rolling_damping", range(0, 10),
@@ -214,9 +204,6 @@ Table calibrate_table() {
               help("of the averaged strain, at most, while blocks are not independent")),
           key(&Calibrate::softness, "softness", range(1e-3, 0.2),
               help("of dry boxes: duration of a contact over the time between collisions")),
-          key(&Calibrate::film_gap, "film_gap", range(1e-5, 0.02),
-              help("of wet boxes: least thickness of a film over the diameter, if dem.roughness is not more; "
-                   "steps are as short as it needs")),
       });
 }
 

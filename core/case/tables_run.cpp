@@ -12,14 +12,6 @@ Table chooser_table() {
           key(&Chooser::tolerance, "tolerance", range(1e-6, 1),
               help("what is left out sums to at most this share of the buoyant weight")),
           key(&Chooser::purpose, "purpose", help("steady leaves out forces of acceleration, whose means vanish")),
-          key(&Chooser::roughness, "roughness", dimension::length, above(0, 1),
-              help("radius of asperities of the surfaces; default: dem.roughness")),
-          key(&Chooser::hamaker, "hamaker", dimension::energy, above(0, 1e-6),
-              help("A of the van der Waals force; default: dem.hamaker_constant, else 1e-20 J in a liquid, "
-                   "1e-19 J in a gas")),
-          key(&Chooser::free_liquid, "free_liquid", dimension::stiffness, above(0, 10),
-              help("particles in a gas are wet: surface tension of the liquid between them, where "
-                   "dem.surface_tension is not given")),
           key(&Chooser::static_heap, "static_heap", help("a heap at rest matters: rolling needs a spring")),
           key(&Chooser::charge, "charge", range(-1, 1),
               help("electric charge of a particle, C; without it nothing can be said of its force")),

@@ -84,11 +84,13 @@ bool contact_has(const PairMaking& m, const relevance::Trait& trait) {
   return relevance::effects::contact.law_has(m.law, trait);
 }
 
+constexpr double tangential_ratio = 2.0 / 7;  ///< k_t/k_n of linear springs: both of one period for a solid sphere
+
 std::unique_ptr<TangentialLaw> make_tangential(const PairMaking& m, int place) {
   const core::Dem& dem = m.scene.dem;
   if (contact_has(m, relevance::effects::frictionless)) return nullptr;
   if (contact_has(m, relevance::effects::linear_springs))
-    return std::make_unique<SpringFriction>(m.materials, dem.normal_stiffness.value(), dem.tangential_ratio, place);
+    return std::make_unique<SpringFriction>(m.materials, dem.normal_stiffness.value(), tangential_ratio, place);
   if (dem.tangential == core::Tangential::mindlin) return std::make_unique<MindlinFriction>(m.materials, place);
   if (dem.tangential == core::Tangential::mindlin_deresiewicz)
     return std::make_unique<PartialSlipFriction>(m.materials, place);

@@ -20,6 +20,7 @@ using std::numbers::pi;
 
 /// Steps in a contact, and the overlap over the diameter that the mean stress of a wet box makes.
 constexpr double steps_per_contact = 20, wet_overlap = 1e-3;
+constexpr double least_film = 0.005;  ///< thickness over the diameter, unless dem.roughness is more
 
 /// What the stiffness and the length of the step follow from.
 struct Scales {
@@ -100,7 +101,7 @@ void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
     box.effects.insert(*partition);
   if (core::acts(scene, "lubrication")) {
     box.effects["lubrication"] = core::law_of(scene, "lubrication");
-    box.material.roughness = std::max(scene.material.roughness, scene.calibrate.film_gap * d);
+    box.material.roughness = std::max(scene.material.roughness, least_film * d);
     // A film acts as if it were thicker by 36 pi mu R*^2 dt/m* (dem/effects/lubrication.cpp), R* = d/4.
     step = std::min(step, box.material.roughness * scales.least_mass / (36 * pi * mu * d * d / 16));
   }

@@ -18,7 +18,7 @@ namespace polybed::relevance::effects {
 inline std::optional<EffectRow> weigh_liquid_bridge(const Weighing& by, EffectRow row) {
   row = as_force(row, by.scene);
   const core::Material& liquid = by.scene.material;
-  const std::optional<double> tension = liquid.surface_tension ? liquid.surface_tension : by.scene.chooser.free_liquid;
+  const std::optional<double> tension = liquid.surface_tension;
   row.neglected = 0;
   if (by.survey.has_fluid && !by.survey.is_gas) {
     row.reason = "immersed particles have no liquid bridges";
@@ -36,10 +36,6 @@ inline std::optional<EffectRow> weigh_liquid_bridge(const Weighing& by, EffectRo
   row.neglected.reset();
   greatest.fill(row);
   return row;
-}
-
-inline void set_liquid_bridge_keys(core::Scene& scene, const Surfaces&) {
-  if (!scene.material.surface_tension) scene.material.surface_tension = scene.chooser.free_liquid;
 }
 
 /// Broken by a liquid; a fluid without known properties breaks a rule of its own.
@@ -73,7 +69,6 @@ inline const Effect liquid_bridge{
                  [](const core::Scene& scene) { return !(scene.material.liquid_fraction > 0); })},
     .number = "pull of a bridge over weight (Bond number)",
     .phrase = "pull of liquid between particles: {} the weight",
-    .weigh = weigh_liquid_bridge,
-    .set_keys = set_liquid_bridge_keys};
+    .weigh = weigh_liquid_bridge};
 
 }  // namespace polybed::relevance::effects

@@ -197,7 +197,7 @@ class Auto(Scratch):
         self.assertIn("hamaker_constant = 1e-19", resolved)
         self.assertNotIn("drag", resolved.split("[effects]")[1].split("[")[0])
         rows = {row["effect"]: row for row in strict_json(self.ends(
-            DONE, "effects", case, "--json", "--set", "chooser.charge=1e-15", "--set", "chooser.free_liquid=0.07").stdout)["effects"]}
+            DONE, "effects", case, "--json", "--set", "chooser.charge=1e-15", "--set", "dem.surface_tension=0.07").stdout)["effects"]}
         for effect in ("charge", "liquid_bridge"):
             self.assertIsNotNone(rows[effect]["value"], effect)
             self.assertTrue(rows[effect]["reason"], effect)

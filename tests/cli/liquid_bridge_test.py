@@ -68,8 +68,8 @@ class WetBed(Scratch):
         self.assertAlmostEqual(row["value"] / (2 * math.pi * 1e-3 * 0.072 * 0.5 / weight), 1, delta=1e-3)
         self.assertTrue(row["on"])
         self.assertIn("dry", self.row()["reason"])
-        self.assertIn("dem.liquid_fraction", self.row("--set", "chooser.free_liquid=0.07")["reason"])
-        self.assertIn("immersed", self.row("--set", "fluid.name=water", "--set", "chooser.free_liquid=0.07")["reason"])
+        self.assertIn("dem.liquid_fraction", self.row("--set", "dem.surface_tension=0.07")["reason"])
+        self.assertIn("immersed", self.row("--set", "fluid.name=water", "--set", "dem.surface_tension=0.07")["reason"])
 
     def test_auto_switches_it_on_where_a_liquid_is_named(self):
         case = self.write("bed.toml", BED.replace('others = "none"', 'others = "none"\nliquid_bridge = "auto"').replace('"settled"', '"mixed"'))

@@ -20,6 +20,8 @@ namespace {
 /// sqrt(theta) that rounds off the slip production at 0, over that of neighbours in the least shear: 0.1 mm/s for 1 mm
 /// at 1 1/s.
 constexpr double least_agitation = 0.1;
+constexpr double start_temperature = 1e-6;  ///< theta_j at the start where it is transported, m2/s2
+constexpr double wall_restitution = 0.9;    ///< e_w of collisions with Johnson and Jackson's wall
 
 }  // namespace
 
@@ -32,7 +34,6 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
       dense_(scene.tfm.radial_distribution == core::RadialDistribution::torquato),
       transported_(transported),
       specularity_(scene.tfm.specularity),
-      wall_restitution_(scene.tfm.wall_restitution),
       max_packing_(max_packing),
       least_shear_rate_(scene.tfm.least_shear_rate) {
   for (std::size_t j = 0; j < constants.species(); ++j)
@@ -43,8 +44,7 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
   if (scene.tfm.solids_wall == core::SolidsWall::johnson_jackson) fields.stress.wall = core::make_field(constants.grid);
   if (!transported) return;
   fields.solids.temperature_rate = fields.granular.conductivity = fields.granular.decay = per_species;
-  for (core::Field& theta : fields.solids.temperature)
-    std::fill(theta.begin(), theta.end(), scene.tfm.start_temperature);
+  for (core::Field& theta : fields.solids.temperature) std::fill(theta.begin(), theta.end(), start_temperature);
   for (int axis = 0; axis < constants.grid.dimensions; ++axis)
     conduction_diagonal_ += 2 / std::pow(constants.grid.spacing[std::size_t(axis)], 2);
 }
@@ -195,7 +195,7 @@ double KineticStress::wall_gain(const Fields& fields, int wall, std::size_t spec
     const double mean = 0.5 * (u[cell] + u[cell + constants_.grid.stride(axis)]);
     speed2 += mean * mean;
   }
-  return closures::wall_energy(fields.solids.temperature[species][std::size_t(cell)], specularity_, wall_restitution_,
+  return closures::wall_energy(fields.solids.temperature[species][std::size_t(cell)], specularity_, wall_restitution,
                                std::sqrt(speed2), 1, 1, rows_.g0[0], max_packing_);
 }
 

@@ -49,7 +49,7 @@ class KineticStress : public CollisionalStress {
   std::vector<Grain> grains_;
   std::optional<closures::StressRatios> ratios_;  ///< absent: kinetic theory alone
   std::optional<ClosureUse> use_;
-  double specularity_, wall_restitution_, max_packing_, least_shear_rate_, conduction_diagonal_ = 0;
+  double specularity_, max_packing_, least_shear_rate_, conduction_diagonal_ = 0;
   KineticRows rows_;
 };
 

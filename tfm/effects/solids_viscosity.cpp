@@ -15,6 +15,8 @@ namespace {
 
 using core::Index;
 
+constexpr double friction_angle = 28.5;  ///< delta of Schaeffer's viscosity, degrees: glass beads
+
 /// mu_s from p_f of the cell, the mean diameter and density of its solids, and |gamma|^2 = sum_j x_j 2 D'_j:D'_j.
 class FrictionalViscosity : public SolidsViscosity {
  public:
@@ -23,7 +25,7 @@ class FrictionalViscosity : public SolidsViscosity {
       : constants_(constants),
         boundaries_(boundaries),
         inertial_(relevance::effects::solids_viscosity.law_has(law, relevance::effects::by_inertial_number)),
-        sine_(std::sin(scene.tfm.friction_angle * std::numbers::pi / 180)),
+        sine_(std::sin(friction_angle * std::numbers::pi / 180)),
         cap_(scene.tfm.viscosity_cap),
         least_rate_(scene.tfm.least_shear_rate) {
     fields.stress.make_viscous(constants);

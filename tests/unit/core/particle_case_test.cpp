@@ -54,7 +54,7 @@ TEST(ParticleCase, KeysOfDemReachTheScene) {
   lines.column = box;
   lines.dem =
       "tangential = \"mindlin\"\ntail = \"keep\"\nintegrator = \"synchronised\"\nnormal_stiffness = \"2 N/mm\"\n"
-      "tangential_ratio = 0.5\nrolling_friction = 0.01\nrolling_damping = 0.3\nskin = \"0.1 mm\"\nmax_overlap = \"2 "
+      "rolling_friction = 0.01\nrolling_damping = 0.3\nskin = \"0.1 mm\"\nmax_overlap = \"2 "
       "%\"\n"
       "fixed_step = \"1 us\"\ngreatest_speed = \"2 m/s\"\nstart_speed = \"1 cm/s\"\nshear_rate = \"3 1/s\"\n"
       "ledger = false\ncohesion_energy = \"50 mJ/m2\"\nhamaker_constant = 1e-19\ncohesion_gap = \"1 nm\"\n"
@@ -65,7 +65,6 @@ TEST(ParticleCase, KeysOfDemReachTheScene) {
   EXPECT_EQ(dem.tail, Tail::keep);
   EXPECT_EQ(dem.integrator, DemIntegrator::synchronised);
   EXPECT_DOUBLE_EQ(dem.normal_stiffness.value(), 2000);
-  EXPECT_EQ(dem.tangential_ratio, 0.5);
   EXPECT_EQ(dem.rolling_friction, 0.01);
   EXPECT_EQ(dem.rolling_damping, 0.3);
   EXPECT_EQ(dem.skin, 1e-4);
@@ -171,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
                         "allowed are auto | thesis | synchronised; did you mean \"thesis\"?"),
                     dem("normal_stiffness = 0", "dem.normal_stiffness = 0 is out of range: above 0, at most 1e+12 N/m"),
                     dem("normal_stiffness = \"1 N\"", "expected a value in N/m, this one is in kg m/s2"),
-                    dem("tangential_ratio = 1.5", "dem.tangential_ratio = 1.5 is out of range: at least 0, at most 1"),
+                    dem("tangential_ratio = 0.3", "unknown key 'tangential_ratio' in [dem]; it is 2/7 now"),
                     dem("rolling_friction = -0.1", "is out of range: at least 0, at most 10"),
                     dem("rolling_damping = -0.1", "is out of range: at least 0, at most 10"),
                     dem("skin = 0", "dem.skin = 0 is out of range: above 0, at most 1 m"),

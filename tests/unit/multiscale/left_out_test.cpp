@@ -43,7 +43,7 @@ const LeftOutEffect* find(const LeftOut& all, const std::string& effect) {
 // The pull of two asperities of 200 nm, A R*/(6 z^2) with R* half of that and z the gap of contact
 // (docs/reference/effects.md), over the weight.
 TEST(LeftOut, BoundsAForceThatTheCaseHasOff) {
-  const LeftOut all = left_out(scene_of({"dem.roughness=2e-7", "chooser.hamaker=3e-20"}), "dem");
+  const LeftOut all = left_out(scene_of({"dem.roughness=2e-7", "dem.hamaker_constant=3e-20"}), "dem");
   const LeftOutEffect* cohesion = find(all, "cohesion");
   ASSERT_TRUE(cohesion != nullptr && cohesion->bound);
   const double weight = std::acos(-1.0) / 6 * 1e-9 * 1500 * 9.81;
