@@ -1,15 +1,21 @@
-"""Files of polybed as they are opened: their kind and version are checked, and a damaged one is named in one line."""
+"""Files as they are opened: only regular ones, and of those of polybed kind and version are checked; a damaged one is named in one line.
+Nothing else in this package opens a file to read."""
 
 import contextlib
+import io
 import json
+import math
+import os
 import re
+import stat
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-from polybed.packages import NO_FILE
+from polybed.packages import NO_FILE, plain
 
 VERSIONS = {
     "polybed fields": 1,
@@ -26,7 +32,14 @@ VERSIONS = {
 }
 
 
-class FormatError(Exception):
+class PlainError(Exception):
+    """Its text, which may quote a file, acts on no terminal."""
+
+    def __init__(self, text):
+        super().__init__(plain(text))
+
+
+class FormatError(PlainError):
     """A file is of a kind or a version that this package does not know, or it is damaged."""
 
 
@@ -37,7 +50,7 @@ class DamagedError(FormatError):
         super().__init__(f"{path} is damaged: {' '.join(str(what).split())}; make it again with polybed, or restore it from a copy")
 
 
-class ReplacedError(Exception):
+class ReplacedError(PlainError):
     """A folder holds another run than the one that was opened."""
 
 
@@ -83,20 +96,41 @@ def check_kind(attributes, filetype, path):
         )
 
 
-def check_regular(path):
-    """Raises unless a path is that of a file: FileNotFoundError, or DamagedError of a folder, a pipe or a device."""
-    if not path.exists():
-        raise FileNotFoundError(f"{path} is missing: make it again with polybed, or restore it from a copy")
-    if not path.is_file():
-        kind = "a folder" if path.is_dir() else "a pipe or a device"
-        raise DamagedError(path, f"it is no regular file, but {kind}")
+def opened(path):
+    """A file to read its bytes. Raises FileNotFoundError, or FormatError for a folder, a pipe or a device, which may never answer."""
+    try:
+        number = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    except FileNotFoundError as error:
+        raise FileNotFoundError(f"{path} is missing: make it again with polybed, or restore it from a copy") from error
+    mode = os.fstat(number).st_mode
+    if stat.S_ISREG(mode):
+        return os.fdopen(number, "rb")
+    os.close(number)
+    raise FormatError(f"cannot read {path}: it is no regular file, but {'a folder' if stat.S_ISDIR(mode) else 'a pipe or a device'}")
 
 
-def read_text(path):
-    """The text of a file."""
-    check_regular(path)
-    with contents_of(path):
-        return path.read_text(encoding="utf-8")
+def read_text(path, newline=None, errors="strict"):
+    """The text of a file. newline: as of open()"""
+    with io.TextIOWrapper(opened(path), encoding="utf-8", newline=newline, errors=errors) as file, contents_of(path):
+        return file.read()
+
+
+def read_bytes(path):
+    with opened(path) as file:
+        return file.read()
+
+
+def whole_lines(path):
+    """The lines of a text file that end, without their ends: what follows the last end may be cut short."""
+    return read_text(path).split("\n")[:-1]
+
+
+def finite(text):
+    """The number that a text is; raises ValueError unless it is finite."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text!r} is no finite number")
+    return value
 
 
 def read_json(path, filetype):
@@ -109,15 +143,45 @@ def read_json(path, filetype):
     return found
 
 
+class Group(Mapping):
+    """A group of an HDF5 file by the names of what it contains. Links to other places and numbers in other files raise ValueError: HDF5
+    follows them to any file that the user may read."""
+
+    def __init__(self, group):
+        self._group, self.attrs = group, group.attrs
+
+    def __getitem__(self, name):
+        first, _, rest = name.partition("/")
+        if rest:
+            return self[first][rest]
+        link = self._group.get(name, getlink=True)
+        if link is None:
+            raise KeyError(name)
+        if not isinstance(link, h5py.HardLink):
+            raise ValueError(f"{name} is a link to another place: only what the file itself contains is read")
+        found = self._group[name]
+        if isinstance(found, h5py.Group):
+            return Group(found)
+        if isinstance(found, h5py.Dataset) and (found.external or found.is_virtual):
+            raise ValueError(f"the numbers of {name} are in another file: only what the file itself contains is read")
+        return found
+
+    def __iter__(self):
+        return iter(self._group)
+
+    def __len__(self):
+        return len(self._group)
+
+
 @contextlib.contextmanager
 def open_hdf5(path, filetype):
-    """An HDF5 file to read, of a kind. The lines within do nothing but read it."""
+    """An HDF5 file to read, of a kind, as a Group. The lines within do nothing but read it."""
     path = Path(path)
-    check_regular(path)
+    opened(path).close()
     try:
         with contents_of(path), h5py.File(path, "r") as file:
             check_kind(file.attrs, filetype, path)
-            yield file
+            yield Group(file)
     except FormatError:
         raise
     except OSError as error:  # h5py's, of what HDF5 cannot read

@@ -1,9 +1,25 @@
-"""Says which packages of the system are missing. Needs none itself."""
+"""What every program of this package begins with: it says which packages of the system are missing, and prints nothing that acts on a
+terminal. Needs none itself."""
 
 import contextlib
+import re
 import sys
 
 NO_FILE = 4  # of polybed's exit codes: a file, or a package, is missing
+CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+
+
+def plain(text):
+    """A text as a terminal may get it: control characters, but for line ends and tabs, and marks that turn the direction of writing are
+    shown by their escapes, as core/print.hpp has it. Titles, names and keys of a file act on no terminal."""
+    return CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+
+
+def print_plain():
+    """Makes all plain that this process prints from now on."""
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None and "write" not in vars(stream):
+            stream.write = lambda text, write=stream.write: write(plain(text))
 
 
 @contextlib.contextmanager
@@ -12,6 +28,8 @@ def needed(of_program):
 
     of_program: whether the imports are those of `python3 -m polybed.MODULE`, which ends there; else ImportError is raised.
     """
+    if of_program:
+        print_plain()
     try:
         yield
     except ImportError as missing:

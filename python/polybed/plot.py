@@ -129,7 +129,8 @@ def bar(done, count):
     width = 40
     full = done * width // count
     end = "\r" if done < count else "\r" + " " * (width + 30) + "\r"
-    print(f"animation [{'#' * full}{'.' * (width - full)}] {done}/{count}", end=end, file=sys.stderr, flush=True)
+    sys.stderr.buffer.write(f"animation [{'#' * full}{'.' * (width - full)}] {done}/{count}{end}".encode())  # print() shows no "\r"
+    sys.stderr.buffer.flush()
 
 
 def parsed(arguments):

@@ -22,8 +22,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from polybed import quantities
-from polybed.files import DamagedError, contents_of, fits, open_hdf5, read_text, rising
+from polybed.files import DamagedError, contents_of, finite, fits, open_hdf5, rising, whole_lines
 from polybed.folder import RunFolder
+from polybed.packages import plain
 from polybed.particles import Particles, nearest
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ class Run:
     def __repr__(self) -> str:
         record = self.record
         done = f" by {record['model']}, {record['time_s']:g} s, {record['state']}" if {"model", "time_s", "state"} <= record.keys() else ""
-        return f"Run in {self.directory}{done}"
+        return plain(f"Run in {self.directory}{done}")
 
     def _open_step(self, step):
         return open_hdf5(self._folder.file("fields", f"{step + 1:06d}.h5"), "polybed fields step")
@@ -145,12 +146,12 @@ class Run:
         path = self._folder.file("history.csv")
         if not path.exists():
             return {}
-        lines = read_text(path).split("\n")[:-1]
+        lines = whole_lines(path)
         names = lines[0].split(",") if lines else []
         if "time_s" not in names:
             raise DamagedError(path, "its first line does not name the columns, time_s among them")
         with contents_of(path):
-            rows = [[float(entry) if entry else np.nan for entry in line.split(",")] for line in lines[1:]]
+            rows = [[finite(entry) if entry else np.nan for entry in line.split(",")] for line in lines[1:]]
             for number, row in enumerate(rows, start=2):
                 if len(row) != len(names):
                     raise ValueError(f"line {number} has {len(row)} entries for {len(names)} columns")

@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 
 from polybed.calibration.output import ERR, duration, say
 from polybed.calibration.service import FILE, NUMBERS, Failure
-from polybed.files import FAULTS, contents_of, read_text
+from polybed.files import FAULTS, contents_of, finite, read_text
 from polybed.program import program
 
 
@@ -29,7 +29,7 @@ def read_box(path, digest):
             if box["hash"] != digest:
                 return None
             for number in (*(box[name] for name in SINGLE), *(value for name in MEANS for value in (box[name][0], box[name][1]))):
-                float(number)
+                finite(number)
     except FAULTS:
         return None
     return box

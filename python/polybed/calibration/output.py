@@ -2,13 +2,15 @@
 
 import os
 
+from polybed.packages import plain
+
 OUT, ERR = 1, 2
 refusals = []  # of standard output
 
 
 def say(text, to=OUT):
     """Writes a text to a stream."""
-    data = text.encode("utf-8", "surrogateescape")
+    data = plain(text).encode("utf-8", "surrogateescape")
     try:
         while data:
             data = data[os.write(to, data):]

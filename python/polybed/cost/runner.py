@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from polybed.cost.work import counters_of, weighed
-from polybed.files import contents_of, read_json
+from polybed.files import contents_of, read_json, read_text
 from polybed.in_place import put_text
 from polybed.study.cases import hash_of, words_of
 from polybed.study.child import run_child
@@ -54,7 +54,7 @@ class RunOutcome:
 
 
 def last_lines(path):
-    text = path.read_text(encoding="utf-8", errors="replace").rstrip("\n")
+    text = read_text(path, errors="replace").rstrip("\n")
     return "..." + text[-MOST_SAID:] if len(text) > MOST_SAID else text
 
 
@@ -104,7 +104,7 @@ class Runner:
     def ended(folder):
         """Whether a run lies there that came to its own end, not to that of an earlier budget."""
         path = folder / "end.json"
-        return path.exists() and not json.loads(path.read_text())["timed_out"]
+        return path.exists() and not json.loads(read_text(path))["timed_out"]
 
     def start(self, order, folder, seconds):
         mark_folder(folder)
@@ -117,7 +117,7 @@ class Runner:
 
     def read(self, folder):
         with contents_of(folder / "end.json"):
-            end = json.loads((folder / "end.json").read_text())
+            end = json.loads(read_text(folder / "end.json"))
             code, timed_out, wall = end["code"], end["timed_out"], end["wall_s"]
         if timed_out:
             return RunOutcome("not run", f"ended after {wall:.3g} s: the budget was over", wall)

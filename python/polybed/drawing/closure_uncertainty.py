@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY, PALE, STYLE
+from polybed.files import read_text
 from polybed.read import read
 from polybed.study.measured import centre_difference, history_of, species_of
 
@@ -55,7 +56,7 @@ def draw_runs(record, folder, figure):
 def draw(folder):
     """Writes closure_uncertainty.png beside the record of that name, and returns its path."""
     folder = Path(folder)
-    record = json.loads((folder / "closure_uncertainty.json").read_text(encoding="utf-8"))
+    record = json.loads(read_text(folder / "closure_uncertainty.json"))
     with plt.rc_context(STYLE):
         figure = plt.figure(figsize=(6.4 if record["kind"] == "tfm" else 4, 3))
         draw_inversion(record, figure) if record["kind"] == "inversion" else draw_runs(record, folder, figure)

@@ -8,18 +8,18 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY, STYLE
+from polybed.files import read_text
 
 
 def columns(path):
-    with open(path, encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = list(csv.DictReader(read_text(path).splitlines()))
     return {name: np.array([float(row[name] or "nan") for row in rows]) for name in rows[0] if name != "row"}
 
 
 def draw(folder):
     """Writes fit.png of a folder of polybed fit, and returns its path."""
     folder = Path(folder)
-    record, table = json.loads((folder / "fit.json").read_text(encoding="utf-8")), columns(folder / "errors.csv")
+    record, table = json.loads(read_text(folder / "fit.json")), columns(folder / "errors.csv")
     kinds = [(name, label) for name, label in (("published", "published constants"), ("fitted", "fitted"),
                                                ("voidage_left_out", "voidages left out")) if name in table]
     with plt.rc_context(STYLE):

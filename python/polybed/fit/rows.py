@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from polybed.files import read_text
 from polybed.study.ending import FILE, WRONG_CASE, StudyError
 
 SHARES = "inferred_xj_sarkar.csv"
@@ -41,11 +42,13 @@ class Lines:
 
     def __init__(self, path):
         self.path = path
-        with open(path, encoding="utf-8", newline="") as file:
-            numbered = [(n, line) for n, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
+        numbered = [(n, line) for n, line in enumerate(read_text(path).split("\n"), 1) if line.strip() and not line.startswith("#")]
         if not numbered:
             raise StudyError(WRONG_CASE, f"{path}: no header and no rows")
-        self.columns, *cells = csv.reader(line for _, line in numbered)
+        try:
+            self.columns, *cells = csv.reader(line for _, line in numbered)
+        except csv.Error as error:
+            raise StudyError(WRONG_CASE, f"{path}: no table: {error}") from error
         self.rows = []
         for (number, _), row in zip(numbered[1:], cells):
             if len(row) != len(self.columns):

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from polybed.files import contents_of
+from polybed.files import contents_of, read_text
 from polybed.program import ProgramError, call
 from polybed.study.ending import FILE, WRONG_CASE, StudyError, guarded
 
@@ -30,7 +30,7 @@ def content_of(law):
     if not path:
         return {"filetype": "polybed drag law", "version": 1, "law": law}
     with contents_of(path):
-        return json.loads(path.read_text(encoding="utf-8"))
+        return json.loads(read_text(path))
 
 
 def band_of(law, partition):

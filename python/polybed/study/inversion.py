@@ -15,7 +15,7 @@ from pathlib import Path
 from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
-    from polybed.files import contents_of
+    from polybed.files import contents_of, read_bytes
     from polybed.folder import read_record
     from polybed.read import read
     from polybed.study import inversion_report as report
@@ -134,7 +134,7 @@ def choice_of(keys):
 
 def scan_of(request, table, model):
     """The scan by a model; with the stress uncertainty those of the two-fluid model again, its table moved both ways."""
-    digest = hash_of(Path(table).read_bytes()) if table else ""
+    digest = hash_of(read_bytes(table)) if table else ""
     scan = RunsOfModel(request, model, model, digest, request["overrides"]).scan()
     if request["stress_uncertainty"] and model == "tfm":
         for name, sigma in (("tfm-minus", -1), ("tfm-plus", 1)):

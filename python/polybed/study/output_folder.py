@@ -11,7 +11,7 @@ import os
 import socket
 import stat
 
-from polybed.files import MISFITS
+from polybed.files import FAULTS, MISFITS, read_text
 from polybed.study.ending import FILE, WRONG_CASE, StudyError
 
 MARK = ".polybed"
@@ -27,8 +27,8 @@ def is_file(path):
 
 def is_record(path):
     try:
-        return is_file(path) and json.loads(path.read_text(encoding="utf-8"))["filetype"].startswith("polybed ")
-    except (OSError, *MISFITS):  # of somebody else
+        return is_file(path) and json.loads(read_text(path))["filetype"].startswith("polybed ")
+    except (*FAULTS, *MISFITS):  # of somebody else
         return False
 
 

@@ -275,16 +275,16 @@ class Particles(SampleRun):
         np.testing.assert_allclose(lines["does not close"], 0, atol=1e-14)
 
     def test_a_history_that_grows_while_it_is_drawn(self):
-        path, read_text = self.directory / "history.csv", polybed.read.__globals__["read_text"]
+        path, whole_lines = self.directory / "history.csv", polybed.read.__globals__["whole_lines"]
         last = path.read_text().splitlines()[-1].split(",")
 
         def grown(file):
             if file == path:
                 last[0] = repr(float(last[0]) + 1)
                 path.write_text(path.read_text() + ",".join(last) + "\n")
-            return read_text(file)
+            return whole_lines(file)
 
-        with unittest.mock.patch.dict(polybed.read.__globals__, read_text=grown):
+        with unittest.mock.patch.dict(polybed.read.__globals__, whole_lines=grown):
             paths = plot.pictures(self.directory, ("history",))
         self.assertEqual([p.name for p in paths], ["history.png"])
 

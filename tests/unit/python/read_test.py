@@ -80,6 +80,12 @@ class Read(WrittenRun):
         with open(self.directory / "history.csv", "a") as file:
             file.write("1.25,0.1")
         self.assertEqual(len(run.history["time_s"]), 5)
+        kept = (self.directory / "history.csv").read_text().rpartition("\n")[0] + "\n"
+        cells = kept.split("\n")[-2].split(",")
+        for damaged in ("inf", "nan", "1e999", "0.1x"):
+            (self.directory / "history.csv").write_text(kept + ",".join([damaged, *cells[1:]]) + "\n")
+            with self.assertRaisesRegex(polybed.FormatError, "history.csv is damaged"):
+                print(run.history)
 
     def test_unknown_version_is_refused(self):
         with h5py.File(self.directory / "fields.h5", "r+") as file:
