@@ -6,7 +6,6 @@ Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a p
 """
 
 import argparse
-import html
 import shlex
 import sys
 from pathlib import Path
@@ -14,7 +13,7 @@ from pathlib import Path
 from polybed.drawing.units import fitting
 from polybed.in_place import put_text
 from polybed.packages import needed
-from polybed.page import file_name, picture, section, source, table, warnings
+from polybed.page import Html, file_name, listing, markup, picture, section, source, table, warnings
 from polybed.page import page as whole_page
 
 with needed(__name__ == "__main__"):
@@ -32,7 +31,7 @@ with needed(__name__ == "__main__"):
     from polybed.study.compare_report import with_error
 
 def number(value, error=None):
-    return "&ndash;" if value is None else with_error(value, error).replace("+-", "&plusmn; ")
+    return "\u2013" if value is None else with_error(value, error).replace("+-", "\u00b1 ")
 
 
 def on_ranks(ranks):
@@ -63,7 +62,7 @@ def commands(found, records, scan=None):
 
 def folder_of(run, *parts):
     """Name of a run's folder, or of a file in it, with the commit of the program that made the run."""
-    return f"{file_name(run['directory'], *parts)} (commit {html.escape(run['git_commit'])})"
+    return file_name(run["directory"], *parts) + f" (commit {run['git_commit']})"
 
 
 MEASURES = {"bed_height_m": "bed height", "interface_m": "height of the interface", "mixing": "mixing index (1 mixed, 0 apart)",
@@ -98,7 +97,7 @@ def measure_row(name, measure):
     known = [abs(measure[model]) for model in ("tfm", "dem") if measure[model] is not None]
     factor, unit = fitting(unit_of_column(name), max(known, default=0))
     scaled = {key: None if value is None else value * factor for key, value in measure.items()}
-    return [html.escape(measure_words(name) + (f" ({unit})" if unit else "")),
+    return [measure_words(name) + (f" ({unit})" if unit else ""),
             *(number(scaled[key], scaled[f"{key}_error"]) for key in ("tfm", "dem", "difference")),
             "profiles.h5" if name == "interface_m" else "history.csv"]
 
@@ -108,7 +107,7 @@ def measures(found):
     folders = [folder_of(found["models"][model]) for model in ("tfm", "dem")]
     return table(["", "two-fluid", "particles", "difference", "from"], rows) + source(
         f"time means from {found['window']['begin_s']:.4g} to {found['window']['end_s']:.4g} s, with the half-width of their "
-        f"95 % interval; files of {folders[0]} and of {folders[1]}")
+        "95 % interval; files of " + Html(" and of ").join(folders))
 
 
 def scores(found):
@@ -116,17 +115,18 @@ def scores(found):
     for name, score in found["scores"].items():
         if name == "order":
             continue
-        verdict = {True: "reached", False: '<span class="missed">missed</span>', None: ""}[score["reached"]]
-        rows.append([html.escape(score_words(name)), number(score["value"], score["error"]), number(score["goal"]) if score["goal"] else "", verdict])
+        verdict = {True: "reached", False: Html('<span class="missed">missed</span>'), None: ""}[score["reached"]]
+        rows.append([score_words(name), number(score["value"], score["error"]), number(score["goal"]) if score["goal"] else "", verdict])
     order = found["scores"]["order"]
-    top = [f"{NAMES[model]}: {html.escape(order[model]['species'])}" + ("" if order[model]["certain"] else " (within the uncertainty)")
+    top = [f"{NAMES[model]}: {order[model]['species']}" + ("" if order[model]["certain"] else " (within the uncertainty)")
            for model in ("tfm", "dem") if order[model]]
-    verdict = {True: "the same", False: '<span class="missed">not the same</span>', None: ""}[order["same"]]
-    told = f"<p>On top: {'; '.join(top)}; {verdict}.</p>" + source("means of the heights of the centres in history.csv of both runs") if top else ""
-    return "<p>How far apart the models are: 0 is no difference; a goal is reached if the value, whatever its interval, is at most the goal.</p>" + \
-        table(["", "value", "goal", ""], rows) + told + source(
+    verdict = {True: "the same", False: Html('<span class="missed">not the same</span>'), None: ""}[order["same"]]
+    told = markup("<p>On top: {}; {}.</p>", "; ".join(top), verdict) + source("means of the heights of the centres in history.csv of both runs") \
+        if top else ""
+    return Html("<p>How far apart the models are: 0 is no difference; a goal is reached if the value, whatever its interval, is at most the goal."
+                "</p>") + table(["", "value", "goal", ""], rows) + told + source(
             "bed height and distance of the centres from history.csv, layering and profiles from profiles.h5 of both runs"
-            + (f"; inversion velocity from {file_name(found['inversion_file'])}" if "inversion_file" in found else ""))
+            + ("; inversion velocity from " + file_name(found["inversion_file"]) if "inversion_file" in found else ""))
 
 
 def inversion(scan, path):
@@ -135,38 +135,38 @@ def inversion(scan, path):
         return None if metres is None else 1e3 * metres
 
     rows = [[NAMES[model], number(in_mm(of["velocity_m_s"]), in_mm(of["error_m_s"])),
-             f"{number(in_mm(of['low_m_s']))} to {number(in_mm(of['high_m_s']))}", html.escape(of["outcome"]),
+             f"{number(in_mm(of['low_m_s']))} to {number(in_mm(of['high_m_s']))}", of["outcome"],
              str(len(of["runs"])), number(of["cpu_s"])] for model, of in scan["models"].items()]
     text = table(["", "mm/s", "between, mm/s", "ended by", "runs", "CPU s"], rows) + source(
-        f"{file_name(path)} (commit {html.escape(scan['git_commit'])})")
+        file_name(path) + f" (commit {scan['git_commit']})")
     made = [[NAMES[model], number(in_mm(run["velocity_m_s"])), number(run["centre_difference"], run["error"]), folder_of(run)]
             for model, of in scan["models"].items() for run in of["runs"] if "git_commit" in run]
-    return text + (table(["its runs", "mm/s", "distance of the centres over the bed height", "from history.csv of"], made) if made else "")
+    return text + (table(["its runs", "mm/s", "distance of the centres over the bed height", "from history.csv of"], made) if made else Html())
 
 
 def models(found):
-    rows = [[NAMES[model], html.escape(run["state"]), number(run["time_s"]), number(run["cpu_s"]), number(run["wall_s"]),
-             html.escape(", ".join(f"{name} {value:.4g}" for name, value in run["work"].items())),
+    rows = [[NAMES[model], run["state"], number(run["time_s"]), number(run["cpu_s"]), number(run["wall_s"]),
+             ", ".join(f"{name} {value:.4g}" for name, value in run["work"].items()),
              folder_of(run, "run.json")] for model, run in found["models"].items()]
     return table(["", "state", "simulated s", "CPU s", "s by the clock", "work", "from"], rows)
 
 
 def pictures(found, runs):
     window, folders = found["window"], {model: run.directory for model, run in runs.items()}
-    both = [file_name(folders[model]) for model in ("tfm", "dem")]
+    both = Html(" and ").join(file_name(folders[model]) for model in ("tfm", "dem"))
     tops = [shown_top(run) for run in runs.values() if run.profiles and len(run.profiles["time_s"])]
     parts = []
     for time in (0.0, window["begin_s"], window["end_s"]) if tops else ():
         shown = [f"{NAMES[model]} at {times[nearest(times, time)]:.4g} s" for model, run in runs.items()
                  if len(times := stored_times(run))]
         parts.append(picture(drawing.draw_instant(runs, time, max(tops)),
-                             f"stored nearest to {time:.4g} s: {', '.join(shown)}; fields.h5 and particles.h5 of {both[0]} and {both[1]}"))
+                             f"stored nearest to {time:.4g} s: {', '.join(shown)}; fields.h5 and particles.h5 of " + both))
     if "mean_profiles" in found:
         parts.append(picture(drawing.draw_profiles(runs, found["mean_profiles"]),
                              "means over the window, band: half-width of the 95 % interval of the mean, from leaving out groups of "
-                             f"successive profiles in turn; mean_profiles of comparison.json, from profiles.h5 of {both[0]} and {both[1]}"))
-    parts.append(picture(drawing.draw_history(runs, window), f"the window is shaded; history.csv of {both[0]} and {both[1]}"))
-    return "".join(parts)
+                             "successive profiles in turn; mean_profiles of comparison.json, from profiles.h5 of " + both))
+    parts.append(picture(drawing.draw_history(runs, window), "the window is shaded; history.csv of " + both))
+    return Html().join(parts)
 
 
 def page(directory):
@@ -183,14 +183,13 @@ def page(directory):
                      "with the runs that are there, it does")
     with plt.rc_context(STYLE):
         drawn = pictures(found, runs)
-    again = f"<pre>{html.escape(commands(found, records, scan))}</pre>" + source(
-        f"all numbers: {file_name(path)}; program of commit {html.escape(found['git_commit'])}")
+    again = listing(commands(found, records, scan)) + source("all numbers: " + file_name(path) + f"; program of commit {found['git_commit']}")
     body = [section("measures", "Both models", measures(found)), section("scores", "Scores", scores(found)),
             section("inversion", "Inversion velocity", inversion(scan, scan_path) if scan else ""),
             section("pictures", "Pictures", drawn), section("cost", "Cost", models(found)), warnings(lines),
             section("commands", "How to make it again", again)]
     title = title_of_case(records["tfm"]) or title_of_case(records["dem"]) or found["case"]
-    return whole_page(title, f"two-fluid model and particles beside each other &middot; {file_name(found['case'])}", "".join(body))
+    return whole_page(title, "two-fluid model and particles beside each other \u00b7 " + file_name(found["case"]), Html().join(body))
 
 
 def write_page(directory):

@@ -13,7 +13,7 @@ from pathlib import Path
 from polybed.drawing.units import fitting, text
 from polybed.in_place import put_text
 from polybed.packages import needed
-from polybed.page import escaped, file_name, page, section, source, table
+from polybed.page import Html, file_name, listing, page, section, source, table
 from polybed.page import picture as shown_picture
 
 with needed(__name__ == "__main__"):
@@ -92,9 +92,9 @@ def velocity_row(model, of):
     if of["velocity_m_s"] is None:
         found = "not found"
     else:
-        found = text(of["velocity_m_s"], "m/s") + (f" &plusmn; {text(of['error_m_s'], 'm/s', 2)}" if of["error_m_s"] is not None else "")
+        found = text(of["velocity_m_s"], "m/s") + (f" \u00b1 {text(of['error_m_s'], 'm/s', 2)}" if of["error_m_s"] is not None else "")
     between = " to ".join("?" if of[f"{end}_m_s"] is None else text(of[f"{end}_m_s"], "m/s") for end in ("low", "high"))
-    return [NAMES[model], found, between, escaped(OUTCOMES.get(of["outcome"], of["outcome"])), str(len(of["runs"])), text(of["cpu_s"], "s")]
+    return [NAMES[model], found, between, OUTCOMES.get(of["outcome"], of["outcome"]), str(len(of["runs"])), text(of["cpu_s"], "s")]
 
 
 def title_of(found):
@@ -110,21 +110,21 @@ def title_of(found):
 def text_of(found, path):
     """The page as text."""
     with plt.rc_context(STYLE):
-        drawn = shown_picture(draw(found), f"means over the last part of each run, with their 95 % intervals; {file_name(path)}",
+        drawn = shown_picture(draw(found), "means over the last part of each run, with their 95 % intervals; " + file_name(path),
                               "distance of the centres over the velocity")
-    first, second = map(escaped, found["species"])
+    first, second = found["species"]
     rows = [velocity_row(model, of) for model, of in found["models"].items()]
     balance = found["force_balance"]
     if balance:
         rows.append(["force balance, without a run", text(balance["velocity_m_s"], "m/s"), "", "", "", ""])
-    made = [[NAMES[model], text(run["velocity_m_s"], "m/s"), f"{run['centre_difference']:.3g} &plusmn; {run['error']:.1g}",
+    made = [[NAMES[model], text(run["velocity_m_s"], "m/s"), f"{run['centre_difference']:.3g} \u00b1 {run['error']:.1g}",
              file_name(run["directory"])] for model, of in found["models"].items() for run in of["runs"]]
     body = [section("found", "Inversion velocity", table(["", "superficial velocity", "between", "ended because", "runs", "computing"], rows) + source(
         f"The velocity at which {first} and {second} change places.")),
         section("picture", "Runs", drawn + table(["", "velocity", f"centre of {second} less that of {first}, over the bed height", "run"], made)),
         section("commands", "How to make it again",
-                f"<pre>{escaped(shlex.join(commands(found)))}</pre>" if "scan" in found else "")]
-    return page(title_of(found), f"inversion velocity by runs &middot; {file_name(found['case'])}", "".join(body))
+                listing(shlex.join(commands(found))) if "scan" in found else "")]
+    return page(title_of(found), "inversion velocity by runs \u00b7 " + file_name(found["case"]), Html().join(body))
 
 
 def write_page(directory):

@@ -26,16 +26,16 @@ def heading(run):
 
 
 def under(run):
-    """The line below the title, HTML: model, folder, time, state."""
+    """The line below the title: model, folder, time, state."""
     record = run.record
-    parts = [sections.MODELS.get(record.get("model"), ""), f"<code>{page.escaped(run.directory.resolve().name)}</code>"]
+    parts = [sections.MODELS.get(record.get("model"), ""), page.file_name(run.directory.resolve().name)]
     times = run.history.get("time_s", ())
     time_s = times[-1] if len(times) else record.get("time_s")  # the record of a run that goes on is from its last checkpoint
     if isinstance(time_s, (int, float)):
         parts.append(f"{text(time_s, 's')} simulated")
     state = record.get("state", "no run.json yet")
-    parts.append(page.escaped(state) if state == "done" else f'<span class="warning">{page.escaped(state)}</span>')
-    return " &middot; ".join(part for part in parts if part)
+    parts.append(state if state == "done" else page.markup('<span class="warning">{}</span>', state))
+    return page.Html(" &middot; ").join(part for part in parts if part)
 
 
 def drawn(run):
@@ -46,7 +46,7 @@ def drawn(run):
 
 
 def parts(run):
-    """The written sections by name: (title, HTML)."""
+    """The written sections by name: (title, body)."""
     record = run.record
     case = case_of(record)
     return {"card": ("Results", card_of(run)), "beds": ("The bed", ""), "history": ("History", ""),
@@ -58,23 +58,23 @@ def parts(run):
 
 def embedded(data):
     """JSON inside a page: no text of it can end the element that it is in."""
-    return json.dumps(data, ensure_ascii=False, allow_nan=False).replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e")
+    return page.Html(json.dumps(data, ensure_ascii=False, allow_nan=False).replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e"))
 
 
-def page_of(run, live=""):
-    """The page as text. live: HTML of what a page that renews itself shows first"""
+def page_of(run, live=page.Html(), follow=()):
+    """The page as text. live: what a page that renews itself shows first; follow: the script that renews it"""
     data = drawn(run)
     body = live
     for name, (title, text_of) in parts(run).items():
         if name == "beds":
-            text_of = '<div id="bed-view"></div>' if live or data["maps"] or data["particles"] or data["profiles"] else ""
+            text_of = page.Html('<div id="bed-view"></div>' if live or data["maps"] or data["particles"] or data["profiles"] else "")
         if name == "history":
-            text_of = '<div id="history-view" class="row"></div>' if live or data["history"] else ""
+            text_of = page.Html('<div id="history-view" class="row"></div>' if live or data["history"] else "")
         body += page.section(name, title, text_of)
     body += page.warnings(run.record.get("warnings", []))
-    script = (f'<noscript><p>The pictures need JavaScript.</p></noscript><script type="application/json" id="data">{embedded(data)}</script>'
-              f"<script>{SCRIPT}</script>")
-    return page.page(heading(run), under(run), body, script)
+    body += page.markup('<noscript><p>The pictures need JavaScript.</p></noscript><script type="application/json" id="data">{}</script>',
+                        embedded(data))
+    return page.page(heading(run), under(run), body, [SCRIPT, *follow], follows=bool(follow))
 
 
 def write(directory):

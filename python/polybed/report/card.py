@@ -4,14 +4,14 @@ import numpy as np
 
 from polybed.drawing.units import mean_text, text
 from polybed.outflow import discharge_rate, mass_out, recovery
-from polybed.page import escaped, source, table
+from polybed.page import markup, source, table
 from polybed.record import case_of, velocity_of
 
 LAST = 0.25  # of the time: what a mean is over
 
 
 def words_of(key):
-    return escaped(str(key).replace("_", " "))
+    return str(key).replace("_", " ")
 
 
 def listed(values, unit):
@@ -19,7 +19,7 @@ def listed(values, unit):
     known = {name: value for name, value in values.items() if value is not None}
     if len({name for name in values if name != "mixture"}) == 1:
         return text(next(iter(known.values())), unit) if known else ""
-    return ", ".join(f"{escaped(name)} {text(value, unit)}" for name, value in known.items())
+    return ", ".join(f"{name} {text(value, unit)}" for name, value in known.items())
 
 
 def mean_of(entry, unit):
@@ -38,7 +38,7 @@ def bed_of(card):
 
 
 def recorded(card):
-    """The card of the record as HTML, with the words of the card on the screen."""
+    """The card of the record, with the words of the card on the screen."""
     bed = bed_of(card)
     rows = [["bed", bed]] if bed else []
     if card["u_mf_m_s"]:
@@ -48,12 +48,12 @@ def recorded(card):
     if card["terminal_m_s"]:
         rows.append(["falls at", listed(card["terminal_m_s"], "m/s")])
     if card["geldart"]:
-        rows.append(["Geldart class", ", ".join(f"{escaped(name)} {kind}" for name, kind in card["geldart"].items())])
+        rows.append(["Geldart class", ", ".join(f"{name} {kind}" for name, kind in card["geldart"].items())])
     if card["mixing"] is not None:
         rows.append(["mixing", f"{card['mixing']:.2f} (1 mixed, 0 separated)"])
     for name, mass in (card["out_kg"] or {}).items():
         share = (card["recovery"] or {}).get(name)
-        rows.append([f"{escaped(name)} that left", text(1e3 * mass, "g") + ("" if share is None else f" ({100 * share:.3g} %)")])
+        rows.append([f"{name} that left", text(1e3 * mass, "g") + ("" if share is None else f" ({100 * share:.3g} %)")])
     if card["discharge_kg_s"] is not None:
         rows.append(["discharge", text(1e3 * card["discharge_kg_s"], "g/s")])
     moving = "the bed still changes; the numbers above are not final" if card["discharge_kg_s"] is None else \
@@ -62,8 +62,8 @@ def recorded(card):
         rows.append(["steady", {True: "yes", False: f"no: {moving}",
                                 None: "not known: too few rows in history.csv"}[card["steady"]]])
     if card["limited_by"]:
-        rows.append(["step", "limited by " + escaped(card["limited_by"])])
-    rows.append(["left out", escaped(card["left_out"])])
+        rows.append(["step", f"limited by {card['limited_by']}"])
+    rows.append(["left out", card["left_out"]])
     taken, predicted = card["time_s"]["taken"], card["time_s"]["predicted"]
     if taken is not None:
         rows.append(["time", f"{text(taken, 's')} of computing, predicted {text(predicted, 's')}"])
@@ -97,7 +97,7 @@ def bed_rows(run):
         late = (history["time_s"] >= (1 - LAST) * history["time_s"][-1] + LAST * history["time_s"][0]) & (weight != 0)
         if late.any():
             ratio = drop[late] / weight[late]
-            rows.append(["pressure drop over weight", f"{ratio.mean():.3g} &plusmn; {ratio.std():.2g}"])
+            rows.append(["pressure drop over weight", f"{ratio.mean():.3g} \u00b1 {ratio.std():.2g}"])
     return rows
 
 
@@ -105,7 +105,7 @@ def outflow_rows(run):
     history, rows = run.history, []
     shares = recovery(history, run.species)
     for name, out in mass_out(history, run.species).items():
-        rows.append([f"{escaped(name)} that left", f"{text(float(out[-1]), 'kg')}, recovery {100 * shares[name][-1]:.3g} %"])
+        rows.append([f"{name} that left", f"{text(float(out[-1]), 'kg')}, recovery {100 * shares[name][-1]:.3g} %"])
     _, rate = discharge_rate(history, run.species)
     if len(rate):
         rows.append(["discharge rate, all species", f"{text(float(rate.mean()), 'kg/s')} (mean of the run)"])
@@ -116,7 +116,7 @@ def species_rows(case):
     rows = []
     for species in case.get("species", []):
         if {"name", "diameter", "density"} <= species.keys():
-            rows.append([escaped(species["name"]), f"{text(species['diameter'], 'm')}, {species['density']:.4g} kg/m\u00b3"])
+            rows.append([species["name"], f"{text(species['diameter'], 'm')}, {species['density']:.4g} kg/m\u00b3"])
     return rows
 
 
@@ -147,15 +147,14 @@ def computed(run):
     fluid, velocity = case.get("fluid", {}).get("name"), velocity_of(case)
     rows += species_rows(case)
     if fluid and fluid != "none":
-        rows.append(["fluid", escaped(fluid) + (f", superficial velocity {text(velocity, 'm/s')}" if velocity else "")])
+        rows.append(["fluid", fluid + (f", superficial velocity {text(velocity, 'm/s')}" if velocity else "")])
     if run.history and len(run.history["time_s"]):
         rows += bed_rows(run) + outflow_rows(run)
     rows += steady_row(record) + time_row(record)
-    return table([], rows, "words") + '<p class="source">Means over the last quarter of the time, &plusmn; standard deviation; history.csv ' \
-        "and run.json.</p>" if rows else ""
+    return table([], rows, "words") + source("Means over the last quarter of the time, \u00b1 standard deviation; history.csv and run.json."
+                                             ) if rows else ""
 
 
 def card_of(run):
-    """The card as HTML."""
     card = run.record.get("card")
-    return f'<div class="card">{recorded(card) if card else computed(run)}</div>'
+    return markup('<div class="card">{}</div>', recorded(card) if card else computed(run))

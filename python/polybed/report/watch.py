@@ -10,9 +10,12 @@ missing, 130 stopped.
 import argparse
 import contextlib
 import fcntl
+import os
+import re
 import sys
 import threading
 import time
+from collections import Counter
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
@@ -20,8 +23,8 @@ from polybed.packages import NO_FILE, needed
 
 with needed(__name__ == "__main__"):
     from polybed.drawing.units import text
-    from polybed.files import FAULTS, contents_of
-    from polybed.page import escaped, section
+    from polybed.files import FAULTS, contents_of, opened
+    from polybed.page import markup, section
     from polybed.read import Snapshot
     from polybed.record import case_of
     from polybed.report import sections
@@ -32,6 +35,7 @@ LOOPBACK = "127.0.0.1"
 RENEWED = 2.0  # s between two looks at the run
 SHARE = 0.1  # of the time, at most, that looking at the run may take
 LAST_LOOK = 5.0  # s that the server waits, after the end, for a browser to take the last state
+KNOWN = re.compile(r"(-1|[0-9]{1,9})?")  # version of the state that a page has, -1 of none
 TAIL = 64_000  # bytes of steps.csv that are read for what limits now
 # The page asks, shows what is new, and stops asking when the run has ended.
 FOLLOW = """(async () => {
@@ -55,26 +59,25 @@ def writes(directory):
     """Whether a process writes into a run directory: it has the mark locked as long as it lives. The shared lock by which this is asked
     is given back at once."""
     try:
-        with open(directory / ".polybed", "rb") as mark:
+        with opened(directory / ".polybed") as mark:
             try:
                 fcntl.flock(mark, fcntl.LOCK_SH | fcntl.LOCK_NB)
             except BlockingIOError:
                 return True
-    except OSError:
+    except FAULTS:
         pass
     return False
 
 
 def limits_now(directory):
     """What limited the latest steps, by their number, most often first: [(reason, steps)]."""
-    path = directory / "steps.csv"
     try:
-        with path.open("rb") as file:
-            file.seek(max(0, path.stat().st_size - TAIL))
+        with opened(directory / "steps.csv") as file:
+            file.seek(max(0, os.fstat(file.fileno()).st_size - TAIL))
             lines = file.read().decode("utf-8", "replace").split("\n")[1:-1]
-    except OSError:
+    except FAULTS:
         return []
-    return sections.most_common_of(lines)
+    return Counter(reason for _, reason in sections.rows_of_steps(lines)).most_common()
 
 
 class Progress:
@@ -115,10 +118,10 @@ class Watched:
         goes_on = writes(self.directory)
         run = Snapshot(self.directory)
         with contents_of(self.directory):
-            html = {"under": under(run), "progress": self.shown(run, goes_on)}
+            html = {"under": under(run), "progress": markup("<h2>Progress</h2>{}", self.shown(run, goes_on))}
             for name, (title, words) in parts(run).items():
                 if words and name in ("card", "limits", "invariants"):
-                    html[name] = f"<h2>{escaped(title)}</h2>{words}"
+                    html[name] = markup("<h2>{}</h2>{}", title, words)
             data = drawn(run)
         text_of = embedded({"version": self.version + 1, "ended": not goes_on, "html": html, "data": data})
         with self.lock:
@@ -127,20 +130,18 @@ class Watched:
 
     def shown(self, run, goes_on):
         share, line = self.progress.of(run, time.time(), goes_on)
-        bar = "" if share is None else f'<div class="bar"><div style="width:{100 * min(1, share):.2f}%"></div></div>'
+        bar = "" if share is None else markup('<progress value="{}"></progress>', f"{max(0.0, min(1.0, share)):.4f}")
         now = limits_now(self.directory)
         step = run.record.get("step", {}).get("limited_by")
-        why = ", ".join(f"{escaped(reason)} ({count} of the last steps)" for reason, count in now[:3]) or escaped(step or "")
-        return f'<h2>Progress</h2>{bar}<p id="progress-text">{escaped(line)}</p>' + (f"<p>Steps are limited by: {why}</p>" if why else "")
+        why = ", ".join(f"{reason} ({count} of the last steps)" for reason, count in now[:3]) or step
+        return markup('{}<p id="progress-text">{}</p>{}', bar, line, markup("<p>Steps are limited by: {}</p>", why) if why else "")
 
     def page(self):
         """The page as a browser gets it first."""
         with self.lock:
             run, ended = self.run, self.ended
         with contents_of(self.directory):
-            live = section("progress", "Progress", self.shown(run, not ended).split("</h2>", 1)[1])
-            whole = page_of(run, live)
-        return whole.replace("</body>", f"<script>{FOLLOW % int(1e3 * RENEWED)}</script></body>")
+            return page_of(run, section("progress", "Progress", self.shown(run, not ended)), [FOLLOW % int(1e3 * RENEWED)])
 
     def data(self, known):
         """The newest state, without what the page has already; whether it is the last."""
@@ -161,7 +162,9 @@ def handler_of(watched, port):
                 if place == "/":
                     return self.send(watched.page().encode("utf-8", "replace"), "text/html; charset=utf-8")
                 if place == "/data.json":
-                    content, last = watched.data(int(query) if query.lstrip("-").isdigit() else -1)
+                    if not KNOWN.fullmatch(query):
+                        return self.send_error(HTTPStatus.BAD_REQUEST)
+                    content, last = watched.data(int(query or -1))
                     self.send(content, "application/json")
                     watched.seen = watched.version if last else watched.seen
                     return None

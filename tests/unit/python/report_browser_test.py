@@ -18,13 +18,14 @@ from pathlib import Path
 WRITER, PACKAGE = sys.argv[1], sys.argv[2]
 sys.path.insert(0, PACKAGE)
 
+from polybed.page import allowed
 from report_pages import EVIL, add_case
 
 SKIPPED = 77
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 LONGEST = 120  # s; a start takes a second on a quiet core
 # What somebody who looks at the page does, and what is then on the screen: sums over the pixels of every canvas.
-PROBE = """<script>(async () => {
+PROBE = """(async () => {
   const wait = n => new Promise(go => setTimeout(go, n));
   for (let n = 0; n < 100 && !document.body.dataset.shown; ++n) await wait(50);
   const sums = part => [...document.querySelectorAll(part + " canvas")].filter(c => c.getClientRects().length).map(c => {
@@ -57,8 +58,8 @@ PROBE = """<script>(async () => {
   const told = document.createElement("pre");
   told.id = "told"; told.textContent = JSON.stringify(found);
   document.body.append(told);
-})();</script>"""
-ERRORS = "<script>window.errors = []; addEventListener('error', e => errors.push(String(e.message))); addEventListener('unhandledrejection', e => errors.push(String(e.reason)));</script>"
+})();"""
+ERRORS = "window.errors = []; addEventListener('error', e => errors.push(String(e.message))); addEventListener('unhandledrejection', e => errors.push(String(e.reason)));"
 
 
 def look(place, scratch):
@@ -91,7 +92,9 @@ class Browser(unittest.TestCase):
         text = (self.directory / "report.html").read_text()
         self.assertEqual(text.count("</body>"), 1)
         probe = self.folder / "probe.html"
-        probe.write_text(text.replace("<body>", "<body>" + ERRORS, 1).replace("</body>", PROBE + "</body>"))
+        self.assertIn("script-src ", text)
+        text = text.replace("script-src ", f"script-src {html.escape(allowed([ERRORS, PROBE]))} ", 1)
+        probe.write_text(text.replace("<body>", f"<body><script>{ERRORS}</script>", 1).replace("</body>", f"<script>{PROBE}</script></body>"))
         page, console = look(probe.as_uri(), self.folder)
         self.assertEqual(console, [])
         found = json.loads(html.unescape(re.search(r'<pre id="told">(.*?)</pre>', page, re.S)[1]))
@@ -113,6 +116,17 @@ class BrowserOfFields(Browser):
     def test_the_slider_moves_all_that_depends_on_time(self):
         found = self.slide()
         self.assertNotEqual(found["velocity"], found["first"][1])
+
+    def test_nothing_runs_that_the_page_does_not_name(self):
+        """What would get past the escapes: neither a script nor a handler of an element runs, and nothing is loaded."""
+        subprocess.run([sys.executable, "-m", "polybed.report", self.directory], check=True, env={"PYTHONPATH": PACKAGE},
+                       stdout=subprocess.DEVNULL)
+        path = self.directory / "report.html"
+        evil = '<script>document.title="ran"</script><img src="data:," onerror="document.title=\'ran\'"><img src="picture.png">'
+        path.write_text(path.read_text().replace("</h1>", "</h1>" + evil, 1))
+        page, console = look(path.as_uri(), self.folder)
+        self.assertNotIn("<title>ran", page)
+        self.assertEqual(sum("Content Security Policy" in line for line in console), 3, console)
 
     def test_a_page_that_follows_a_run(self):
         """The server is asked again until the run has ended; the page then says so."""

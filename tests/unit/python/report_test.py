@@ -3,7 +3,11 @@
 
 import base64
 import fcntl
+import hashlib
+import html
 import json
+import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -62,6 +66,36 @@ class Whole(SampleRun):
         self.assertFalse(any("onerror" in attributes for _, attributes in page.elements))
         self.assertIn(EVIL, "".join(page.text), "the title is shown as it is written")
         self.assertEqual(len([1 for tag, _ in page.elements if tag == "script"]), 2)
+
+    def test_whatever_a_run_says_is_text(self):
+        """Every text of run.json and of its case, and what limited the steps, in place of what the program writes."""
+        card_of_run = {"u_mf_m_s": {EVIL: 0.001, "mixture": 0.002}, "u_over_u_mf": 2.0, "terminal_m_s": {EVIL: 0.04}, "geldart": {EVIL: EVIL},
+                       "state": EVIL, "layers": EVIL, "bed_height_m": {"value": 0.2, "interval": None}, "pressure_drop_over_weight": None,
+                       "mixing": 0.9, "out_kg": {EVIL: 0.1}, "recovery": {EVIL: 0.5}, "discharge_kg_s": None, "steady": False,
+                       "limited_by": EVIL, "left_out": EVIL, "time_s": {"taken": 1.0, "predicted": 2.0}}
+        case = f"title = {json.dumps(EVIL)}\n[effects]\n{json.dumps(EVIL)} = {json.dumps(EVIL)}\n"
+        (self.directory / "steps.csv").write_text(f'time_s,dt_s,error_norm,limited_by\n1,1,0.1,"{EVIL}"\n')
+        for evil in ({"card": card_of_run}, {"card": None, "drift": {"measures": [{"name": EVIL, "steady": False}]}}):
+            add_case(self.directory, **evil, case=case, state=EVIL, model=EVIL, program=EVIL, git_commit=EVIL, case_hash=EVIL,
+                     timers={EVIL: 1.0}, work={EVIL: 1}, invariants=[{"name": EVIL, "worst": 1, "limit": 0}], step={"limited_by": EVIL})
+            parts = build.parts(polybed.read(self.directory)) | {"all": ("", self.page())}
+            for name, (_, text) in parts.items():
+                page = Page(text)
+                self.assertLessEqual({tag for tag, _ in page.elements} & {"img", "script"}, {"script"} if name == "all" else set(), name)
+                self.assertFalse(any(of.startswith("on") for _, attributes in page.elements for of in attributes), name)
+            self.assertEqual(len([1 for tag, _ in page.elements if tag == "script"]), 2)
+            self.assertGreater("".join(page.text).count(EVIL), 10)
+
+    def test_it_names_what_may_run(self):
+        text = self.page()
+        policy = next(attributes["content"] for _, attributes in Page(text).elements if attributes.get("http-equiv") == "Content-Security-Policy")
+        self.assertIn("default-src 'none'", policy)
+        self.assertNotIn("unsafe", policy)
+        scripts = re.findall(r"<script>(.*?)</script>", text, re.S)
+        self.assertEqual(len(scripts), 1)
+        digest = base64.b64encode(hashlib.sha256(scripts[0].encode()).digest()).decode()
+        self.assertIn(f"script-src 'sha256-{digest}';", policy)
+        self.assertNotIn(" style=", re.sub(r"<script.*?</script>", "", text, flags=re.S))
 
     def test_sections(self):
         add_case(self.directory)
@@ -276,10 +310,17 @@ class Written(unittest.TestCase):
             self.assertEqual("--resume" in text, told is not None)
             self.assertIn(told or "polybed plot", text)
 
+    def test_a_command_that_is_copied_runs_polybed_alone(self):
+        text = html.unescape(sections.commands(types.SimpleNamespace(directory=Path("a;b")), {"model": "tfm; touch x", "state": "running"}))
+        for line in text.removeprefix("<pre>").split("\n# in Python")[0].split("\n"):
+            if not line.startswith("#"):
+                self.assertEqual([word for word in shlex.shlex(line, punctuation_chars=True) if word == ";"], [], line)
+
     def test_shares_of_steps(self):
         with tempfile.TemporaryDirectory() as scratch:
             path = Path(scratch) / "steps.csv"
-            path.write_text('time_s,dt_s,error_norm,limited_by\n1,1,0.1,"drag at (0, 1)"\n2,1,0.1,"drag at (0, 2)"\n5,3,0.1,"growth"\n6,1')
+            path.write_text('time_s,dt_s,error_norm,limited_by\n1,1,0.1,"drag at (0, 1)"\n2,1,0.1,"drag at (0, 2)"\n5,3,0.1,"growth"\n'
+                            '6,inf,0.1,"growth"\n6,1,0.1,"gro\n6,1,0.1,"gro')
             seconds, steps = sections.limits_of_steps(path)
         self.assertEqual((dict(seconds), dict(steps)), ({"drag": 2, "growth": 3}, {"drag": 2, "growth": 1}))
 
@@ -336,9 +377,12 @@ class Watch(SampleRun):
                 self.get(place, other)
             self.assertEqual(refused.exception.code, 403)
             refused.exception.close()
-        with self.assertRaises(urllib.error.HTTPError) as missing:
-            self.get(place + "run.json")
-        missing.exception.close()
+        for wrong, code in (("run.json", 404), ("data.json?--5", 400), ("data.json?" + "9" * 5000, 400), ("data.json?%C2%B2", 400),
+                            ("data.json?-2", 400), ("data.json?1&2", 400)):
+            with self.assertRaises(urllib.error.HTTPError) as refused:
+                self.get(place + wrong)
+            self.assertEqual(refused.exception.code, code, wrong[:20])
+            refused.exception.close()
         self.mark.close()
         until = time.monotonic() + 60
         while not state["ended"] and time.monotonic() < until:
