@@ -2,13 +2,16 @@
 
 import numpy as np
 
+from polybed.drawing.maps import inner_walls
 from polybed.drawing.style import COLOURS, FEW_SOLIDS, in_plane, length_unit, vector_in_plane
 from polybed.drawing.units import fitting
+from polybed.record import case_of
 from polybed.report.pack import EMPTY, changes, levels, packed, plain_numbers, thinned
 
 MOST_CELLS = 40_000  # of one map; a finer one is averaged
 MOST_LEVELS = 24_000_000  # of all maps together: bytes before they are compressed
 MOST_TEXT = 4_000_000  # characters of all maps, and of all particles
+ROUND = 48  # corners of a round opening
 FEWEST_STEPS = 12  # of particles; fewer steps are not enough to see a motion: particles are left out instead
 
 
@@ -141,6 +144,26 @@ def packed_particles(run, chosen, share):
             "top": float(low[1] + (high[1] - low[1]) * highest) * length_unit(run)[0], "fastest": f"{most * factor:.3g} {unit}"}
 
 
+def opening_of(run):
+    """The rim of the opening in the middle of the bottom, as a closed line: of a slot as deep as the column or, in a column of three
+    dimensions, of a round hole; nothing without one."""
+    case, size = case_of(run.record), run.particles.size
+    width = case.get("dem", {}).get("opening")
+    if not width:
+        return []
+    x, z, half = size[0] / 2, size[2] / 2, float(width) / 2
+    if len(case["column"]["size"]) == 2:
+        return [[[x - half, 0, 0], [x + half, 0, 0], [x + half, 0, size[2]], [x - half, 0, size[2]]]]
+    return [[[x + half * np.cos(angle), 0, z + half * np.sin(angle)] for angle in np.linspace(0, 2 * np.pi, ROUND, endpoint=False)]]
+
+
+def outlines_of(run):
+    """Closed lines round the walls inside the column and the opening, [[x, y, z], ...] each, m."""
+    depth = run.particles.size[2]
+    walls = [[[*start, 0], [*end, 0], [*end, depth], [*start, depth]] for start, end in inner_walls(run)]
+    return [np.array(line, dtype=float).reshape(-1, 3) for line in walls + opening_of(run)]
+
+
 def particles_of(run):
     """The particles for JSON, with the slider's times; None of a run without any."""
     total = int(run.particles.count.max()) if len(run.particles) else 0
@@ -159,7 +182,10 @@ def particles_of(run):
             share *= 2
     notes = [f"{len(chosen)} of {count} stored times"] if len(chosen) < count else []
     notes += [f"one particle in {share}"] if share > 1 else []
-    size = run.particles.size * length_unit(run)[0]
-    size[1] = min(size[1], max(1.1 * found["top"], 0.25 * size[0]))  # a bed in a tall column is not to be a strip at the bottom
+    factor, outlines = length_unit(run)[0], outlines_of(run)
+    size = run.particles.size * factor
+    walls = max((float(line[:, 1].max()) * factor for line in outlines), default=0.0)
+    size[1] = min(size[1], max(1.1 * found["top"], 0.25 * size[0], walls))  # a bed in a tall column is not to be a strip at the bottom
     return found | {"time": plain_numbers(run.particles.time[chosen]), "names": run.particles.species, "size": [float(v) for v in size],
+                    "outlines": [[plain_numbers(point * factor) for point in line] for line in outlines],
                     "colours": [COLOURS[n % len(COLOURS)] for n in range(len(run.particles.species))], "note": "; ".join(notes)}

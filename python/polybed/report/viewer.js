@@ -293,7 +293,14 @@
         const sprite = view.by === "species" ? bySpecies[species[n]] : bySpeed[Math.min(bySpeed.length - 1, speed >> 3)];
         to.drawImage(sprite, x - r, y - r, 2 * r, 2 * r);
       }
-      element.dataset.drawn = seen.length;
+      to.strokeStyle = "#222"; to.lineWidth = 1.5; to.fillStyle = "#00000014";  // walls inside and the rim of an opening, seen through the particles
+      for (const line of all.outlines) {
+        to.beginPath();
+        for (const point of line) to.lineTo(...project(...point).slice(0, 2));
+        to.closePath(); to.fill(); to.stroke();
+      }
+      to.lineWidth = 1;
+      element.dataset.drawn = seen.length; element.dataset.outlines = all.outlines.length;
     }
 
     let held = null;

@@ -45,7 +45,7 @@ PROBE = """(async () => {
   found.first = [label(), sums("#bed-view"), sums("#history-view")];
   const view = document.getElementById("particles"), kind = document.getElementById("kind");
   if (view) {
-    found.drawn = Number(view.dataset.drawn);
+    found.drawn = Number(view.dataset.drawn); found.outlines = Number(view.dataset.outlines);
     const at = (name, x) => view.dispatchEvent(new PointerEvent(name, { clientX: x, clientY: 100, pointerId: 1, bubbles: true }));
     view.setPointerCapture = () => {};
     at("pointerdown", 100); at("pointermove", 190); at("pointerup", 190);
@@ -73,6 +73,14 @@ def look(place, scratch):
             if child.poll() is None:  # its helpers too
                 os.killpg(child.pid, signal.SIGKILL)
     return page, [line for line in said.split("\n") if "CONSOLE" in line]
+
+
+def add_walls(directory):
+    """A wall and a round opening in the case of a sample run."""
+    path = directory / "run.json"
+    record = json.loads(path.read_text())
+    record["case"] += "[column]\nsize = [0.06, 0.02, 0.2]\n[dem]\nopening = 0.01\n[[wall]]\nfrom = [0.0, 0.15]\nto = [0.02, 0.01]\n"
+    path.write_text(json.dumps(record))
 
 
 class Browser(unittest.TestCase):
@@ -103,6 +111,7 @@ class Browser(unittest.TestCase):
         return found
 
     def slide(self):
+        add_walls(self.directory)
         found = self.probed()
         self.assertEqual((found["first"][0], found["last"][0]), ("t = 0 s", "t = 1 s"))
         for part in (1, 2):
@@ -149,7 +158,7 @@ class BrowserOfParticles(Browser):
 
     def test_the_slider_moves_all_that_depends_on_time(self):
         found = self.slide()
-        self.assertEqual(found["drawn"], 300)
+        self.assertEqual((found["drawn"], found["outlines"]), (300, 2))
         self.assertNotEqual(found["turned"], found["first"][1])
         self.assertEqual(found["back"], found["first"][1], "a double click turns it back")
 

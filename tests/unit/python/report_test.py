@@ -197,6 +197,25 @@ class Particles(SampleRun):
             np.testing.assert_array_equal(unpacked(found["species"], np.uint8)[there], step.species[order])
 
 
+    def test_walls_and_opening_are_outlined(self):
+        """The column is 60 mm wide and 8 mm deep. A slot of 10 mm in the middle, and a wall up to 150 mm, far above the particles."""
+        wall = '[[wall]]\nfrom = [0.0, 0.15]\nto = [0.02, 0.01]\n[dem]\nopening = 0.01\n'
+        add_case(self.directory, case="[column]\nsize = [0.06, 0.2]\n" + wall)
+        found = data_of(self.page())["particles"]
+        width, _, depth = found["size"]
+        slab, slot = found["outlines"]
+        self.assertEqual(slab, [[0, 150, 0], [20, 10, 0], [20, 10, depth], [0, 150, depth]])
+        self.assertEqual(slot, [[width / 2 - 5, 0, 0], [width / 2 + 5, 0, 0], [width / 2 + 5, 0, depth], [width / 2 - 5, 0, depth]])
+        self.assertGreaterEqual(found["size"][1], 150, "the view shows the wall")
+        add_case(self.directory, case="[column]\nsize = [0.06, 0.06, 0.2]\n[dem]\nopening = 0.01\n")
+        [hole] = data_of(self.page())["particles"]["outlines"]
+        for x, y, z in hole:
+            self.assertAlmostEqual(np.hypot(x - width / 2, z - depth / 2), 5, places=2)
+            self.assertEqual(y, 0)
+        add_case(self.directory)
+        self.assertEqual(data_of(self.page())["particles"]["outlines"], [])
+
+
 class Noise:
     """A run whose fields, or particles, are noise, which nothing compresses: the worst that there is for the size of a page."""
 
@@ -237,7 +256,7 @@ class Sizes(unittest.TestCase):
     def test_a_hundred_frames_of_noise_are_below_the_limit(self):
         # of both kinds together, which no run has; the rest of a page is below 1 MB
         maps = beds.maps_of(Noise(100, (200, 70), 3))
-        run = types.SimpleNamespace(particles=NoisyParticles(100, 20_000), size=(0.1, 0.3))
+        run = types.SimpleNamespace(particles=NoisyParticles(100, 20_000), size=(0.1, 0.3), record={})
         particles = beds.particles_of(run)
         self.assertLess(len(json.dumps([maps, particles])), MOST_BYTES - 1e6)
         self.assertGreaterEqual(len(maps["time"]), 20, "most frames of this size fit, were they not noise")
