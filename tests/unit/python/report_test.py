@@ -2,7 +2,6 @@
 """The page of a run, piece by piece, on runs that the C++ writers have written: report_test.py WRITER PACKAGE_DIRECTORY"""
 
 import base64
-import fcntl
 import hashlib
 import html
 import json
@@ -11,11 +10,8 @@ import shlex
 import subprocess
 import sys
 import tempfile
-import time
 import types
 import unittest
-import urllib.error
-import urllib.request
 import zlib
 from pathlib import Path
 
@@ -357,65 +353,6 @@ class Written(unittest.TestCase):
             self.assertIn(words, shown)
         dry = dict.fromkeys(entries) | {"left_out": "nothing", "time_s": {"taken": 1.0, "predicted": 2.0}}
         self.assertNotIn("None", "".join(Page(card.recorded(dry)).text))
-
-
-class Watch(SampleRun):
-    """A lock on the mark stands for the process that writes."""
-
-    def setUp(self):
-        super().setUp()
-        add_case(self.directory, state="running")
-        self.mark = open(self.directory / ".polybed", "w")
-        self.addCleanup(self.mark.close)
-        fcntl.flock(self.mark, fcntl.LOCK_EX)
-
-    def start(self):
-        child = subprocess.Popen([sys.executable, "-u", "-m", "polybed.report.watch", self.directory], stdout=subprocess.PIPE, text=True,
-                                 env={"PYTHONPATH": PACKAGE})
-        self.addCleanup(child.stdout.close)
-        self.addCleanup(child.kill)
-        return child, child.stdout.readline().split()[0]
-
-    def get(self, place, host=None):
-        request = urllib.request.Request(place, headers={"Host": host} if host else {})
-        with urllib.request.urlopen(request, timeout=30) as answer:
-            return answer.read().decode()
-
-    def test_it_follows_a_run_and_ends_with_it(self):
-        child, place = self.start()
-        self.assertTrue(place.startswith("http://127.0.0.1:"))
-        page = Page(self.get(place))
-        self.assertEqual(page.loaded, [])
-        self.assertIn("Progress", "".join(page.text))
-        state = json.loads(self.get(place + "data.json?-1"))
-        self.assertFalse(state["ended"])
-        self.assertIn("1 s of 1 s simulated", state["html"]["progress"])
-        self.assertIsNone(json.loads(self.get(place + f"data.json?{state['version']}"))["data"] if not state["ended"] else None)
-        for other in ("evil.example", "127.0.0.1:1"):
-            with self.assertRaises(urllib.error.HTTPError) as refused:
-                self.get(place, other)
-            self.assertEqual(refused.exception.code, 403)
-            refused.exception.close()
-        for wrong, code in (("run.json", 404), ("data.json?--5", 400), ("data.json?" + "9" * 5000, 400), ("data.json?%C2%B2", 400),
-                            ("data.json?-2", 400), ("data.json?1&2", 400)):
-            with self.assertRaises(urllib.error.HTTPError) as refused:
-                self.get(place + wrong)
-            self.assertEqual(refused.exception.code, code, wrong[:20])
-            refused.exception.close()
-        self.mark.close()
-        until = time.monotonic() + 60
-        while not state["ended"] and time.monotonic() < until:
-            state = json.loads(self.get(place + "data.json?-1"))
-            time.sleep(0.2)
-        self.assertTrue(state["ended"])
-        self.assertIn("no process writes this run", state["html"]["progress"])
-        self.assertEqual(child.wait(60), 0)
-
-    def test_a_run_that_has_ended_gets_its_page(self):
-        self.mark.close()
-        child, _ = self.start()
-        self.assertEqual(child.wait(60), 0)
-        self.assertTrue((self.directory / "report.html").exists())
 
 
 class Gallery(unittest.TestCase):
