@@ -8,7 +8,6 @@ missing, 130 stopped.
 """
 
 import argparse
-import contextlib
 import fcntl
 import os
 import re
