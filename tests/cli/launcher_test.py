@@ -3,13 +3,15 @@
 Usage: launcher_test.py PROGRAM"""
 import os
 import pty
+import re
 import shutil
 import subprocess
 
 import program
 from program import DONE, FILE, ROOT, Scratch
 
-FOLDERS = ("cmake", "closures", "core", "relevance", "fluid", "measures", "tfm", "dem", "multiscale", "app", "python/polybed")
+SOURCES = re.findall(r"(?m)^add_subdirectory\((\w+)\)", (ROOT / "CMakeLists.txt").read_text())
+FOLDERS = ("cmake", *SOURCES, "python/polybed")
 TOOLS = {
     "id": "echo 0",
     "dpkg-query": "echo 'unknown ok not-installed'",
@@ -90,6 +92,20 @@ class Launcher(Scratch):
         self.assertEqual([line for line in shown.splitlines() if "building, " in line],
                          [f"polybed: building, {percent} %" for percent in (10, 20, 30, 50, 60, 70, 80, 100)])
         self.assertIn("[8/8] Building", (self.folder / "build/build.log").read_text())
+
+    def test_a_change_in_any_folder_of_sources_is_built(self):
+        self.piped()
+        log, stamp = self.folder / "build/build.log", self.folder / "build/built-program"
+        for name in SOURCES:
+            log.unlink(missing_ok=True)
+            for path in self.folder.rglob("*"):
+                os.utime(path, (1000, 1000))
+            self.piped()
+            self.assertFalse(log.exists(), "nothing has changed")
+            os.utime(self.folder / name, (2000, 2000))
+            self.piped()
+            self.assertTrue(log.exists(), name)
+            self.assertTrue(stamp.exists())
 
     def test_a_build_that_fails_is_told(self):
         code, printed, shown = self.piped(BROKEN="1")
