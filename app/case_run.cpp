@@ -140,9 +140,10 @@ void CaseRun::say(const std::vector<std::string>& lines) const {
 
 std::string CaseRun::command_to_resume(const std::vector<std::string>& more) const {
   std::string command =
-      fmt::format("polybed {} {} -o {} --resume", model_name_, options_.case_path.string(), directory_.string());
+      fmt::format("polybed {} {} -o {} --resume", model_name_, core::shell_word(options_.case_path.string()),
+                  core::shell_word(directory_.string()));
   for (const auto& settings : {options_.overrides, more})
-    for (const std::string& setting : settings) command += fmt::format(" --set '{}'", setting);
+    for (const std::string& setting : settings) command += " --set " + core::shell_word(setting);
   return command;
 }
 

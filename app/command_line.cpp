@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 
 #include "app/commands.hpp"
 #include "core/case/keys.hpp"
@@ -35,15 +36,22 @@ std::vector<std::string> words_from_command(const CLI::App& app, int argc, char*
   return {std::find(argv, argv + argc, command), argv + argc};
 }
 
-/// An unknown command is named with the nearest one; empty: the command is known, or there is none.
-std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+/// What is wrong with the place of the command: an unknown one is named with the nearest one, and -n stands before it.
+/// Empty: the command is known, or there is none.
+std::string misplaced_command(const CLI::App& app, int argc, char** argv) {
+  const std::string_view ranks = "-n";
   int at = 1;
-  while (at < argc && argv[at][0] == '-') at += argv[at][1] == 'n' ? 2 : 1;
+  while (at < argc && argv[at][0] == '-') at += argv[at] == ranks ? 2 : 1;
   if (at >= argc) return "";
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
   const std::string word = argv[at];
-  if (std::find(names.begin(), names.end(), word) != names.end()) return "";
+  if (std::find(names.begin(), names.end(), word) != names.end()) {
+    const auto behind = std::find(argv + at, argv + argc, ranks);
+    if (behind == argv + argc) return "";
+    return fmt::format("-n stands before the command: polybed -n {} {} ...", behind + 1 < argv + argc ? behind[1] : "2",
+                       word);
+  }
   const std::string near = core::nearest_name(word, names);
   return fmt::format("unknown command '{}'{}", word,
                      near.empty() ? "; polybed --help lists them" : "; did you mean '" + near + "'?");
@@ -81,7 +89,7 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
                 app.help());
     return core::ExitCode::wrong_case;
   }
-  if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty()) throw core::CaseError(unknown);
+  if (const std::string wrong = misplaced_command(app, argc, argv); !wrong.empty()) throw core::CaseError(wrong);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -22,7 +22,8 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
                    "go on where a conservation law is broken more than tenfold, which ends a run otherwise");
   command.add_flag("--details", options.details,
                    "at the end the numerics too: time by term, work, invariants, closures");
-  command.add_flag("--quiet", options.quiet, "no progress");
+  command.add_flag("--quiet", options.quiet,
+                   "errors alone on standard error: no progress, no warnings, no card; run.json contains them");
   command.add_flag("!--no-picture", options.picture,
                    "no picture.png and no report.html at the end, which take seconds");
   return command;

@@ -102,7 +102,7 @@ void run_new(const fs::path& name, const std::string& from) {
   for (const fs::directory_entry& entry : fs::directory_iterator(chosen.folder))
     if (belongs_to_case(entry.path()))
       core::write_atomically(name / entry.path().filename(), text_of_file(entry.path()));
-  const std::string file = (name / "case.toml").string();
+  const std::string file = core::shell_word((name / "case.toml").string());
   const char* model = chosen.takes.find("polybed tfm") != std::string::npos || chosen.takes.empty() ? "tfm" : "dem";
   core::print("{}: {}\n{}", file, chosen.title, chosen.takes.empty() ? "" : "takes about " + chosen.takes + "\n");
   core::print("next:\n  polybed check {}\n  polybed {} {}\n", file, model, file);

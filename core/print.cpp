@@ -31,6 +31,14 @@ std::string painted(std::FILE* stream, Colour colour, const std::string& text) {
   return fmt::format("\033[{}m{}\033[0m", codes[std::size_t(colour)], text);
 }
 
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_@%+=:,./-";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char letter : word) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return quoted + "'";
+}
+
 int refusal_of_answer() {
   const bool taken = std::fflush(stdout) == 0;
   if (first_refusal != 0) return first_refusal;

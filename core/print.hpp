@@ -21,6 +21,9 @@ enum class Colour { bold, red, green, yellow, blue };
 /// is.
 [[nodiscard]] std::string painted(std::FILE* stream, Colour colour, const std::string& text);
 
+/// A word as a shell reads it back: in quotes where it contains more than letters, digits and signs that mean nothing.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
 /// Why standard output has first refused a part of the answer, as errno; 0: all of it has arrived. Empties its buffer.
 [[nodiscard]] int refusal_of_answer();
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Which effects a scene calls for, as a user asks and gets told; and a case that leaves them to the program."""
 import re
+import shlex
 
 import program
 from program import CASE, DONE, NUMBERS, ROOT, WRONG_CASE, Scratch, datasets, same_bits, strict_json
@@ -308,7 +309,8 @@ class Promise(Scratch):
     def test_a_run_that_has_stopped_goes_on_with_the_effect(self):
         stopped, record, run = self.ramp("stop", "stop", "--set", 'output.every="0.01 s"')
         command = next(line for line in stopped.stderr.splitlines() if "--resume" in line).split("effect: polybed ")[1]
-        settings = re.findall(r"--set '([^']+)'", command)
+        given = shlex.split(command)
+        settings = [value for word, value in zip(given, given[1:]) if word == "--set"]
         self.assertIn("effects.magnus=rubinow_keller", settings)
         words = [word for setting in settings for word in ("--set", setting)]
         case = self.folder / "ramp.toml"

@@ -2,6 +2,7 @@
 """Runs of the continuum model: what they write, how they stop and go on. Usage: run_test.py PROGRAM"""
 import csv
 import os
+import shlex
 import shutil
 
 import h5py
@@ -108,6 +109,16 @@ class Run(Scratch):
         self.assertEqual((posed["least"], len(posed["place_m"])), (0, 2), "lifted, no stress reaches some cells of the bed")
         self.assertGreater(posed["critical_slope_Pa"], 0)
         self.assertTrue(0 < posed["share_below_1"] <= 1)
+
+    def test_the_command_that_goes_on_is_one_for_a_shell(self):
+        folder = self.folder / "a bed's"
+        folder.mkdir()
+        case, directory = folder / "case.toml", folder / "run 1"
+        shutil.copy(CASE, case)
+        done = self.ends(DONE, "tfm", case, *SMALL, "--until", "1 s", "-o", directory)
+        [line] = [line for line in done.stderr.splitlines() if line.startswith("to go on")]
+        words = shlex.split(line.removeprefix("to go on"))
+        self.assertEqual(words, ["polybed", "tfm", str(case), "-o", str(directory), "--resume", *SMALL, "--until", "2 s"])
 
     def test_directories(self):
         short = [CASE, *SMALL, "--until", "0.01 s", "--quiet"]

@@ -112,6 +112,10 @@ class Explain(Scratch):
         self.assertIn("did you mean 'tfm'?", self.ends(WRONG_CASE, "tmf", CASE).stderr)
         self.assertIn("did you mean 'check'?", self.ends(WRONG_CASE, "-n", "2", "chek", CASE).stderr)
 
+    def test_ranks_behind_the_command(self):
+        for words in (["tfm", "-n", "3", CASE], ["compare", CASE, "-n", "3"]):
+            self.assertEqual(self.ends(WRONG_CASE, *words).stderr, f"-n stands before the command: polybed -n 3 {words[0]} ...\n")
+
 
 class Effects(Scratch):
     def test_it_fits_and_its_lines_are_a_case(self):
