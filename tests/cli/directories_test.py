@@ -21,6 +21,22 @@ def content(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file() and p.name != MARK}
 
 
+class Closed(Scratch):
+    def test_a_home_that_may_not_be_entered_stops_no_run(self):
+        """That of another user, as sudo -u leaves it."""
+        self.folder.chmod(0o777)
+        closed = self.folder / "closed"
+        closed.mkdir(mode=0 if os.getuid() else 0o700)
+        case = self.write("case.toml", small_bed("1 ms"))
+        user = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"] if os.getuid() == 0 else []
+        for variable in ("HOME", "XDG_CACHE_HOME"):
+            for words in (["check", case], ["estimate", case], ["tfm", case, "--no-picture", "-o", self.folder / variable]):
+                env = {k: v for k, v in program.environment(str(self.folder)).items() if k != "XDG_CACHE_HOME"}
+                done = subprocess.run([*user, program.PROGRAM, *map(str, words)], capture_output=True, encoding="utf-8",
+                                      env=env | {variable: str(closed)}, cwd=self.folder, timeout=program.LONGEST)
+                self.assertEqual(done.returncode, DONE, done.stderr)
+
+
 class OfTheUser(Scratch):
     def owned(self, name, files=OWN):
         folder = self.folder / name
