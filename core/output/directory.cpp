@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <iterator>
 #include <string>
 #include <system_error>
 
@@ -115,6 +116,15 @@ void lock(int mark, const fs::path& directory) {
     cannot("write", directory / mark_name, errno);
 }
 
+/// The directories on the way to a path that are not there yet, the deepest first.
+std::vector<fs::path> missing(fs::path path) {
+  std::vector<fs::path> found;
+  std::error_code none;
+  for (; !fs::exists(fs::symlink_status(path, none)) && path.has_relative_path(); path = path.parent_path())
+    found.push_back(path);
+  return found;
+}
+
 Descriptor locked(const fs::path& directory) {
   Descriptor mark(opened_mark(directory));
   lock(mark.number(), directory);
@@ -142,7 +152,15 @@ void remove_steps(const fs::path& folder) {
 
 }  // namespace
 
-OutputDirectory::OutputDirectory(const fs::path& path) : mark_(locked(path)) {}
+OutputDirectory::OutputDirectory(const fs::path& path)
+    : path_(fs::absolute(path)), made_(missing(path_)), mark_(locked(path)) {}
+
+OutputDirectory::~OutputDirectory() {
+  std::error_code none;
+  if (made_.empty() || std::distance(fs::directory_iterator(path_, none), {}) > 1) return;
+  ::unlink((path_ / mark_name).c_str());
+  for (const fs::path& made : made_) ::rmdir(made.c_str());  // one with something in it stays
+}
 
 void mark_directory(const fs::path& path) {
   Descriptor mark(opened_mark(path));

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "core/output/descriptor.hpp"
 
@@ -19,8 +20,14 @@ class OutputDirectory {
   /// CaseError if it contains files and has no mark; FileError if it cannot be written, or if another process writes
   /// it.
   explicit OutputDirectory(const std::filesystem::path& path);
+  /// Removes the directories that it has made if nothing was written there: a case that is refused leaves none.
+  ~OutputDirectory();
+  OutputDirectory(const OutputDirectory&) = delete;
+  OutputDirectory& operator=(const OutputDirectory&) = delete;
 
  private:
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_;  ///< the deepest first
   Descriptor mark_;
 };
 

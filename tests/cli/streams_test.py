@@ -127,8 +127,13 @@ class Record(Scratch):
 
     def test_a_wrong_case_leaves_none(self):
         directory = self.folder / "run"
-        self.ends(WRONG_CASE, "dem", self.few, "--set", "effects.contact=linear", "--quiet", "-o", directory)
-        self.assertFalse((directory / "run.json").exists())
+        refused = (["dem", self.few, "--set", "effects.contact=linear"], ["dem", self.few, "--set", "effects.contact=none"],
+                   ["tfm", self.few, "--set", "effects.solids_stress=none", "--set", "bed.start=settled"])
+        for words in refused:
+            self.ends(WRONG_CASE, *words, "--quiet", "-o", directory)
+            self.assertFalse(directory.exists())
+            self.ends(WRONG_CASE, *words, "--quiet", "-o", self.folder / "of/some")
+            self.assertFalse((self.folder / "of").exists())
 
 
 if __name__ == "__main__":
