@@ -177,8 +177,7 @@ void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
   add_case(state, scene_);
-  // A power cut must not take rows before the checkpoint: a run that goes on from it does not write them again.
-  core::on_first(ranks_.get(), [&] { core::flush_file(directory_ / "history.csv"); });
+  flush_rows();  // a run that goes on from the checkpoint does not write them again
   core::write_checkpoint(checkpoint_path(directory_), std::move(state), ranks_.get(), checkpoint_rows());
   (void)record("running");
 }
@@ -207,7 +206,11 @@ void CaseRun::record_if_possible(const std::string& state) {
 
 std::string CaseRun::record(const std::string& state) {
   const std::string text = record_text(state);
-  core::on_first(ranks_.get(), [&] { core::write_atomically(directory_ / "run.json", text + "\n"); });
+  core::on_first(ranks_.get(), [&] {
+    core::write_atomically(directory_ / "run.json", text + "\n");
+    constexpr std::size_t more = 4096;  // than the record of a run that goes on: why it has ended, its last steps
+    if (!ended_) core::keep_room(directory_ / "run.json", 2 * text.size() + more);
+  });
   return text;
 }
 

@@ -47,6 +47,8 @@ class CaseRun {
   [[nodiscard]] virtual core::Simulation& simulation() = 0;
   [[nodiscard]] virtual std::vector<core::Observer> observers() = 0;
   [[nodiscard]] virtual core::Checkpoint checkpoint() = 0;
+  /// Makes the rows of history.csv survive a power cut. Collective.
+  virtual void flush_rows() = 0;
   /// Arrays of the checkpoint that are made while it is written.
   [[nodiscard]] virtual std::vector<core::BlockData> checkpoint_rows() { return {}; }
   [[nodiscard]] virtual core::ProgressLine line() = 0;

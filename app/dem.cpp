@@ -52,6 +52,7 @@ class DemRun final : public CaseRun {
   }
 
  private:
+  void flush_rows() override { observers_->flush(); }
   core::Simulation& simulation() override { return model_; }
 
   std::vector<core::Observer> observers() override {

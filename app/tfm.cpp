@@ -63,6 +63,7 @@ class TfmRun final : public CaseRun {
     return mass;
   }
 
+  void flush_rows() override { observers_->flush(); }
   core::Simulation& simulation() override { return model_; }
   std::vector<double> breakpoints() override { return model_.breakpoints(); }
   void keep_last_state() override { model_.keep_last_state(); }

@@ -157,6 +157,10 @@ void Observers::see_step() {
   if (fluid_) fluid_->see();
 }
 
+void Observers::flush() {
+  core::on_first(model_.ranks(), [&] { files_->history.flush(); });
+}
+
 void Observers::write_history(double time) {
   see_step();
   TotalsOfRanks totals(model_);

@@ -34,6 +34,8 @@ class Observers {
 
   /// One row of history.csv; also measures the invariants.
   void write_history(double time);
+  /// Makes the rows of history.csv survive a power cut.
+  void flush();
   /// One row of profiles.h5, one step of particles.h5 and, with a fluid, of fields.h5.
   void write_particles(double time);
 

@@ -142,6 +142,10 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
                   resume_time);
 }
 
+void Observers::flush() {
+  core::on_first(ranks_, [&] { files_->history.flush(); });
+}
+
 void Observers::write_history(double time) {
   const Constants& constants = model_.constants();
   const Fields& fields = model_.fields();

@@ -34,6 +34,8 @@ class Observers {
   void write_history(double time);
   /// One row of profiles.h5 and one step of fields.h5.
   void write_fields(double time);
+  /// Makes the rows of history.csv survive a power cut.
+  void flush();
   /// One row of steps.csv, handed to the operating system at once and whole.
   void log_step();
 

@@ -17,7 +17,10 @@ class Descriptor {
   }
   Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
   [[nodiscard]] int number() const { return number_; }
   /// Closes now; 0 or the reason of the failure.
   int close() {

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/output/descriptor.hpp"
+#include "core/print.hpp"
 
 namespace polybed::core {
 
@@ -75,7 +76,7 @@ void cannot(const std::string& deed, const fs::path& path, int reason) {
 }
 
 Descriptor new_file(const fs::path& path) {
-  ::unlink(path.c_str());
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) cannot("write", path, errno);
   const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (number < 0) cannot("write", path, errno);
   return Descriptor(number);
@@ -83,14 +84,24 @@ Descriptor new_file(const fs::path& path) {
 
 LineFile::LineFile(fs::path path, std::string_view text) : path_(std::move(path)), file_(begun(path_, text)) {}
 
-void LineFile::append(std::string_view line) {
-  if (const int reason = write_all(file_, bytes_of(line)); reason != 0) cannot("write", path_, reason);
+/// Its lines are still there behind the descriptor.
+void LineFile::put_back() {
+  struct stat ours {
+  }, there{};
+  if (::fstat(file_.number(), &ours) != 0) cannot("write", path_, errno);
+  if (::lstat(path_.c_str(), &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) return;
+  file_ = begun(path_, read_text(fmt::format("/proc/self/fd/{}", file_.number())));
+  print(stderr, "warning: {} was removed or replaced while it is being written: it is there again\n", path_.string());
 }
 
-void flush_file(const fs::path& path) {
-  if (!fs::exists(path)) return;
-  const Descriptor file = opened_to_append(path);
-  if (::fsync(file.number()) != 0) cannot("write", path, errno);
+void LineFile::flush() {
+  put_back();
+  if (::fsync(file_.number()) != 0) cannot("write", path_, errno);
+}
+
+void LineFile::append(std::string_view line) {
+  put_back();
+  if (const int reason = write_all(file_, bytes_of(line)); reason != 0) cannot("write", path_, reason);
 }
 
 void flush_directory(const fs::path& directory) {
@@ -129,6 +140,13 @@ void claim_file(const fs::path& path, std::span<const std::byte> bytes, std::siz
   if (reason == 0) return;
   ::unlink(path.c_str());
   cannot("write", path, reason);
+}
+
+void keep_room(const fs::path& path, std::size_t size) {
+  try {
+    claim_file(path.string() + ".temporary", {}, size);
+  } catch (const FileError&) {  // a disk that is nearly full
+  }
 }
 
 void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {

@@ -32,6 +32,10 @@ void write_atomically(const std::filesystem::path& path, std::span<const std::by
                       std::span<const std::byte> more = {}, Flush flush = Flush::all);
 void write_atomically(const std::filesystem::path& path, std::string_view text, Flush flush = Flush::all);
 
+/// Claims room on the disk for the next write_atomically() of a file, under the temporary name that it replaces first:
+/// a disk that has become full meanwhile does not keep that content out. Nothing where there is none.
+void keep_room(const std::filesystem::path& path, std::size_t size);
+
 /// Puts a file that lies complete under another name of the same directory in place: flushed to the disk, renamed. On
 /// failure the other name is removed and FileError thrown.
 void put_in_place(const std::filesystem::path& written, const std::filesystem::path& path, Flush flush = Flush::all);
@@ -40,23 +44,23 @@ void put_in_place(const std::filesystem::path& written, const std::filesystem::p
 /// costs nothing but that.
 void flush_directory(const std::filesystem::path& directory);
 
-/// Makes what a file contains survive a power cut, whoever has it open. One that was removed is left alone. Throws
-/// FileError.
-void flush_file(const std::filesystem::path& path);
-
 /// A new, empty file, open for writing. What had its name is removed first, and no link is ever followed: in a
 /// directory that others may write, such a link could lead to any file of the user. Throws FileError.
 [[nodiscard]] Descriptor new_file(const std::filesystem::path& path);
 
-/// A file of lines that grows. Each line goes to the operating system at once and whole: a killed program loses none.
+/// A file of lines that grows. Each line goes to the operating system at once and whole: a killed program loses none. A
+/// file that somebody has removed, moved or replaced meanwhile is put back with all its lines, with a warning.
 class LineFile {
  public:
   /// Replaces the file by `text` and goes on behind it. Throws FileError.
   LineFile(std::filesystem::path path, std::string_view text);
   /// Throws FileError.
   void append(std::string_view line);
+  /// Makes the lines survive a power cut. Throws FileError.
+  void flush();
 
  private:
+  void put_back();
   std::filesystem::path path_;
   Descriptor file_;
 };

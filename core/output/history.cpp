@@ -84,6 +84,8 @@ void HistoryWriter::write_row(std::span<const std::optional<double>> row) {
   file_.append(line + "\n");
 }
 
+void HistoryWriter::flush() { file_.flush(); }
+
 const std::vector<double>& History::of(const std::string& column) const {
   const auto found = std::find(columns.begin(), columns.end(), column);
   if (found == columns.end()) throw FileError("history.csv has no column " + column);

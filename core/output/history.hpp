@@ -23,6 +23,8 @@ class HistoryWriter {
   /// sight) stays empty. The row goes to the operating system at once and whole: a killed program loses none.
   /// Throws NumericsError, and writes nothing, if a value is not finite.
   void write_row(std::span<const std::optional<double>> row);
+  /// Makes the rows survive a power cut. Throws FileError.
+  void flush();
 
  private:
   std::vector<std::string> columns_;

@@ -4,11 +4,12 @@ import os
 import resource
 import shutil
 import signal
+import subprocess
 
 import h5py
 
 import program
-from program import CASE, DONE, FILE, SMALL, Scratch, datasets, history, same_bits, strict_json
+from program import CASE, DONE, FILE, SMALL, STOPPED, Scratch, datasets, history, same_bits, strict_json
 
 WORDS = ["tfm", CASE, *SMALL, "--quiet"]
 
@@ -63,6 +64,33 @@ class Killed(Scratch):
         running.communicate(timeout=program.LONGEST)
         done = self.ends(FILE, *WORDS, "--until", "0.3 s", "-o", directory, "--resume")
         self.assertIn("no checkpoint", done.stderr)
+
+
+class Removed(Scratch):
+    """What somebody does to history.csv while it is being written costs no row, whether the run ends or is stopped."""
+
+    def test_rows_are_put_back(self):
+        whole = self.folder / "whole"
+        self.ends(DONE, *WORDS, "--until", "1 s", "-o", whole)
+        rows = (whole / "history.csv").read_text()
+        for name, deed in (("removed", os.remove), ("moved", lambda path: path.rename(path.with_suffix(".old"))),
+                           ("replaced", lambda path: (os.remove(path), path.write_text("mine\n")))):
+            for stop in (False, True):
+                with self.subTest(name, stop=stop):
+                    directory = self.folder / f"{name}{stop}"
+                    running = self.start(*WORDS, "--until", "1 s", "-o", directory)
+                    program.wait_until(running, (directory / "checkpoint.h5").exists)
+                    running.send_signal(signal.SIGSTOP)
+                    deed(directory / "history.csv")
+                    if stop:
+                        running.send_signal(signal.SIGINT)
+                    running.send_signal(signal.SIGCONT)
+                    told = running.communicate(timeout=program.LONGEST)[1]
+                    self.assertEqual(running.returncode, STOPPED if stop else DONE, told)
+                    self.assertIn("history.csv was removed or replaced", told)
+                    kept = (directory / "history.csv").read_text()
+                    self.assertEqual(kept, rows[:len(kept)] if stop else rows)
+                    self.assertGreaterEqual(history(directory)["time_s"][-1], 0.1)
 
 
 class Damaged(Scratch):
@@ -154,6 +182,22 @@ class FullDisk(Scratch):
                 told = self.fill(directory, most_bytes, words)
                 self.assertIn(f"{directory}/{first}", told)
                 self.goes_on(directory, words)
+
+    def test_the_record_says_so(self):
+        """A disk of some hundred kilobytes that the run itself fills, which takes the rights to mount one."""
+        place, kept = self.folder / "disk", self.folder / "kept.json"
+        place.mkdir()
+        script = ('mount -t tmpfs -o size=$1 none "$2" || exit 99; kept=$3; place=$2; shift 3; "$@"; code=$?; '
+                  'cp "$place/run/run.json" "$kept"; exit $code')
+        for size in ("300k", "390k", "500k", "610k", "730k", "860k"):
+            words = ["unshare", "-m" if os.getuid() == 0 else "-rm", "sh", "-c", script, "sh", size, place, kept, *program.command([*WORDS, "--until", "30 s", "-o", place / "run"])]
+            done = subprocess.run(list(map(str, words)), env=program.environment(str(self.folder)), capture_output=True, encoding="utf-8",
+                                  timeout=program.LONGEST)
+            if done.returncode == 99 or done.stderr.startswith("unshare:"):
+                self.skipTest(done.stderr)
+            self.assertEqual(done.returncode, FILE, done.stderr)
+            self.assertRegex(done.stderr, "^cannot write .*: No space left on device\n")
+            self.assertEqual(strict_json(kept.read_text())["state"], "failed: " + done.stderr.rstrip("\n"), size)
 
     def test_no_room_for_a_run(self):
         """The disk is full before the first file is complete. What is left does not keep the same run from beginning."""
