@@ -108,7 +108,7 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
       if (core::first_by_launcher()) code = command.run();
       continue;
     }
-    if (ranks > 1) become_ranks(ranks, words_from_command(app, argc, argv));
+    if (ranks > 1) return run_ranks(ranks, words_from_command(app, argc, argv));
     if (on != On::one_process) mpi.emplace();
     if (on != On::first_rank || mpi->first()) code = command.run();
   }

@@ -1,5 +1,6 @@
 #include "core/interrupt.hpp"
 
+#include <array>
 #include <csignal>
 #include <string>
 
@@ -10,6 +11,7 @@ namespace polybed::core {
 namespace {
 
 volatile std::sig_atomic_t asked = 0;
+constexpr std::array wishes{SIGINT, SIGTERM, SIGUSR1};
 
 void note(int signal) {
   asked = 1;
@@ -20,14 +22,12 @@ void note(int signal) {
 
 Interrupt::Interrupt() {
   asked = 0;
-  std::signal(SIGINT, note);
-  std::signal(SIGTERM, note);
+  for (const int signal : wishes) std::signal(signal, note);
 }
 
 Interrupt::~Interrupt() {
   asked = 0;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : wishes) std::signal(signal, SIG_DFL);
 }
 
 bool Interrupt::wanted() const { return asked != 0; }

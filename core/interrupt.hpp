@@ -3,7 +3,8 @@
 
 namespace polybed::core {
 
-/// Notes SIGINT and SIGTERM while it lives; a second signal ends the program at once. One at a time: a signal
+/// Notes SIGINT, SIGTERM and SIGUSR1, which mpirun passes on without a time limit, while it lives; a second signal ends
+/// the program at once. One at a time: a signal
 /// handler has no other place for its note than a global.
 class Interrupt {
  public:

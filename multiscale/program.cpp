@@ -1,18 +1,23 @@
 #include "multiscale/program.hpp"
 
 #include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
 #include "core/numerics/mpi_start.hpp"
+#include "core/print.hpp"
 
 namespace polybed::multiscale {
 
@@ -85,11 +90,42 @@ void keep_ranks_for_runs(int ranks) {
   ::setenv("POLYBED_RANKS", std::to_string(ranks).c_str(), 1);
 }
 
-void become_ranks(int ranks, std::vector<std::string> words) {
+namespace {
+
+/// mpirun as a child that ends with this process. Its process group is its own: Ctrl-C on a terminal reaches a whole
+/// group, and mpirun gives ranks a second before it kills them.
+[[noreturn]] void become_child(const std::vector<std::string>& words, pid_t parent, const sigset_t& signals) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  ::sigprocmask(SIG_SETMASK, &signals, nullptr);
+  const std::string reason = ::getppid() == parent ? become(words, environment_of_mpirun()) : "its parent has ended";
+  core::print(stderr, "cannot start {}: {}\n", words.front(), reason);
+  ::_exit(int(core::ExitCode::mpi));
+}
+
+}  // namespace
+
+core::ExitCode run_ranks(int ranks, const std::vector<std::string>& words) {
   refuse_launcher(ranks);
   std::vector<std::string> all{mpirun(), "-q", "-n", std::to_string(ranks), this_program()};
   all.insert(all.end(), words.begin(), words.end());
-  throw core::MpiError(fmt::format("cannot start {}: {}", all.front(), become(all, environment_of_mpirun())));
+  sigset_t watched, before;
+  ::sigemptyset(&watched);
+  for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) ::sigaddset(&watched, signal);
+  ::sigprocmask(SIG_BLOCK, &watched, &before);
+  std::signal(SIGCHLD, SIG_DFL);  // who ignores it would not learn how a child has ended
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child < 0) throw core::MpiError(fmt::format("cannot start {}: {}", all.front(), std::strerror(errno)));
+  if (child == 0) become_child(all, parent, before);
+  int status = 0, asked = 0;
+  while (::waitpid(child, &status, WNOHANG) != child) {
+    const int signal = ::sigwaitinfo(&watched, nullptr);
+    if (signal == SIGINT || signal == SIGTERM) ::kill(child, asked++ == 0 ? SIGUSR1 : SIGTERM);
+  }
+  ::sigprocmask(SIG_SETMASK, &before, nullptr);
+  const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  const bool ended_by_wish = asked > 0 && (code == 1 || code > 128);  // 1 is mpirun's own
+  return ended_by_wish ? core::ExitCode::stopped : core::ExitCode(code);
 }
 
 }  // namespace polybed::multiscale

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace polybed::multiscale {
 
 /// The file of this program.
@@ -35,12 +37,14 @@ namespace polybed::multiscale {
 [[nodiscard]] std::vector<std::string> environment_of_mpirun();
 
 /// Hands the number of ranks over to a study, which starts its runs on as many, by the environment's POLYBED_RANKS.
-/// Throws core::MpiError as become_ranks does.
+/// Throws core::MpiError as run_ranks does.
 void keep_ranks_for_runs(int ranks);
 
-/// Goes on as mpirun of this program; returns never. Throws core::MpiError if it cannot be started, or if this process
-/// is one of a launcher's ranks already.
+/// Runs this program on several ranks by mpirun and returns how it ended. SIGINT and SIGTERM reach the ranks as
+/// SIGUSR1, which mpirun passes on and leaves them all the time that a step and a checkpoint take; a second one ends
+/// them at once. Throws core::MpiError if mpirun cannot be started, or if this process is one of a launcher's ranks
+/// already.
 /// \param words  of the command line, behind the number of ranks
-[[noreturn]] void become_ranks(int ranks, std::vector<std::string> words);
+[[nodiscard]] core::ExitCode run_ranks(int ranks, const std::vector<std::string>& words);
 
 }  // namespace polybed::multiscale

@@ -37,9 +37,6 @@ Place = str | os.PathLike[str]  # of a file or a folder
 OWN = Path(__file__).resolve()
 MODELS = ("tfm", "dem")
 DIGITS = 10  # of a hash in the name of a folder
-# What Open MPI needs in a container and as root; one rank needs neither network nor daemon.
-MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-       "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 
 
 class ProgramError(Exception):
@@ -80,12 +77,9 @@ def program() -> str:
     return found
 
 
-def mpirun() -> str:
-    """Path of the program that starts ranks."""
-    found = search.find("mpirun")
-    if not found:
-        raise FileNotFoundError("there is no program mpirun, which a run on several ranks needs: apt-get install openmpi-bin")
-    return found
+def line_of(words: Iterable[object], ranks: int = 1) -> list[str]:
+    """The command line of the program with these words on so many ranks, which it starts itself."""
+    return [program(), *(["-n", str(ranks)] if ranks > 1 else []), *map(str, words)]
 
 
 def show(label: str | None, line: str) -> None:
@@ -109,10 +103,8 @@ def said_by(child: subprocess.Popen[str], label: str | None) -> str:
 def call(*options: object, ranks: int = 1, label: str | None = None) -> str:
     """Runs a command of the program and returns what it printed; what it says is shown behind a label, unless that is None. One that
     is interrupted, or whose caller is, ends with a checkpoint. Raises ProgramError."""
-    line = [program(), *map(str, options)]
-    if ranks > 1:
-        line = [mpirun(), "-q", "-n", str(ranks), *line]
-    with subprocess.Popen(line, env=MPI | dict(os.environ, PATH=search.path()), encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL,
+    line = line_of(options, ranks)
+    with subprocess.Popen(line, env=dict(os.environ, PATH=search.path()), encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child, ThreadPoolExecutor(1) as reader:
         try:
             assert child.stdout is not None  # it is a pipe

@@ -3,11 +3,15 @@
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
+import time
+
+import h5py
 
 import program
-from program import DONE, LONGEST, ROOT, WRONG_CASE, Scratch, small_bed, strict_json
+from program import DONE, LONGEST, ROOT, STOPPED, WRONG_CASE, Scratch, small_bed, strict_json
 
 MPI = 5
 
@@ -31,6 +35,57 @@ class Ranks(Scratch):
         wrong = bare("-n", 2, "tfm", case, "--set", "run.until=-1", "-o", self.folder / "wrong")
         self.assertEqual(wrong.returncode, WRONG_CASE, wrong.stderr)
         self.assertEqual(wrong.stderr.count("is out of range"), 1, wrong.stderr)  # by the first rank alone
+
+    def interrupted(self, number, meanwhile=lambda mpirun: None):
+        """Code, record and messages of a run on two ranks that gets a signal once it has a checkpoint."""
+        case, directory = self.write("case.toml", small_bed("60 s")), self.folder / "run"
+        running = subprocess.Popen([program.PROGRAM, "-n", "2", "dem", case, "--quiet", "--no-picture", "-o", directory, "--set",
+                                    "output.checkpoint_every=1e-3"], stderr=subprocess.PIPE, encoding="utf-8")
+        self.addCleanup(running.kill)
+        program.wait_until(running, (directory / "checkpoint.h5").exists)
+        running.send_signal(number)
+        meanwhile(running)
+        told = running.communicate(timeout=LONGEST)[1]
+        self.assertEqual(running.returncode, STOPPED, told)
+        record = strict_json((directory / "run.json").read_text())
+        self.assertEqual(record["state"], "stopped by the user")
+        with h5py.File(directory / "checkpoint.h5") as checkpoint:
+            self.assertEqual(checkpoint["numbers/time"][()], record["time_s"])
+        self.assertIn("a checkpoint has been written", told)
+
+    def test_ranks_that_are_interrupted_end_in_order(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.interrupted(number)
+            shutil.rmtree(self.folder / "run")
+
+    def test_a_rank_in_a_long_step_is_waited_for(self):
+        """mpirun kills ranks a second after a signal of its own."""
+        def children(process):
+            path = pathlib.Path(f"/proc/{process}/task/{process}/children")
+            return [int(child) for child in path.read_text().split()]
+
+        def long_step(running):
+            [mpirun] = children(running.pid)
+            rank = children(mpirun)[1]
+            os.kill(rank, signal.SIGSTOP)
+            time.sleep(2.5)
+            os.kill(rank, signal.SIGCONT)
+        self.interrupted(signal.SIGINT, long_step)
+
+    def test_a_second_signal_ends_ranks_at_once(self):
+        case, directory = self.write("case.toml", small_bed("60 s")), self.folder / "run"
+        running = subprocess.Popen([program.PROGRAM, "-n", "2", "dem", case, "--quiet", "--no-picture", "-o", directory],
+                                   stderr=subprocess.PIPE)
+        self.addCleanup(running.kill)
+        program.wait_until(running, (directory / "run.json").exists)
+        [mpirun] = [int(child) for child in pathlib.Path(f"/proc/{running.pid}/task/{running.pid}/children").read_text().split()]
+        os.kill(mpirun, signal.SIGSTOP)  # so that nothing ends before the second one
+        for _ in range(2):
+            running.send_signal(signal.SIGINT)
+            time.sleep(0.2)
+        os.kill(mpirun, signal.SIGCONT)
+        running.communicate(timeout=10)
+        self.assertEqual(running.returncode, STOPPED)
 
     def test_a_number_of_ranks_that_is_none_is_refused(self):
         for words in (["-n"], ["-n", "0", "list"], ["-n", "two", "list"], ["-n", "2"]):

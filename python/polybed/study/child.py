@@ -9,10 +9,9 @@ import time
 from contextlib import suppress
 from typing import NamedTuple
 
-from polybed.program import MPI, mpirun, program
-from polybed.study import ending
+from polybed.program import line_of
 
-GRACE = 5  # s, in which what is asked to end may do so; mpirun gives its ranks one
+GRACE = 5  # s, in which what is asked to end may do so
 ENDS_WITH_PARENT = 1  # PR_SET_PDEATHSIG
 LIBC = ctypes.CDLL(None)
 
@@ -43,8 +42,7 @@ def tied_to_parent(signal_number):
 
 
 def end(child):
-    """Asks a child to end, and ends its group if it does not within some seconds. mpirun ends its ranks, which outlive one that is
-    killed."""
+    """Asks a child to end, and ends its group if it does not within some seconds; ranks end with the process that started them."""
     child.terminate()
     try:
         child.wait(GRACE)
@@ -53,23 +51,12 @@ def end(child):
             os.killpg(child.pid, signal.SIGKILL)
 
 
-def line_of(words, ranks):
-    """The command line of the program with these words."""
-    if ranks == 1:
-        return [program(), *words]
-    try:
-        return [mpirun(), "-q", "--oversubscribe", "-n", str(ranks), program(), *words]
-    except FileNotFoundError as error:
-        raise ending.StudyError(ending.MPI, str(error)) from error
-
-
 def run_child(words, ranks, output, seconds):
     """Starts the program, waits for its end and returns its Exit. output: path of what it prints; seconds: after which it is ended."""
     late = threading.Event()
     begin = time.monotonic()
     with new_file(output) as file:
         child = subprocess.Popen(line_of(words, ranks), stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, process_group=0,
-                                 env=MPI | os.environ if ranks > 1 else None,
                                  preexec_fn=tied_to_parent(signal.SIGTERM if ranks > 1 else signal.SIGKILL))
     left = min(max(0.0, begin + seconds - time.monotonic()), threading.TIMEOUT_MAX)
     timer = threading.Timer(left, lambda: (late.set(), end(child)))

@@ -7,8 +7,8 @@ import subprocess
 import sys
 
 from polybed import search
-from polybed.program import MPI as OPEN_MPI
-from polybed.study.child import line_of, tied_to_parent
+from polybed.program import line_of
+from polybed.study.child import tied_to_parent
 from polybed.study.ending import MPI, NUMBERS, STOPPED, StudyError
 
 RANKS = ("POLYBED_RANKS", "OMPI_COMM_WORLD_SIZE", "PMI_SIZE")  # of -n before the command, or of a launcher
@@ -28,10 +28,10 @@ def left_by_launcher(name):
     return name.startswith(OF_LAUNCHER) and (not name.startswith(OF_USER) or name.startswith(NOT_OF_USER))
 
 
-def environment(count):
+def environment():
     """That of a run: without what a launcher says of this process, which is none of the run's ranks."""
     kept = {name: value for name, value in os.environ.items() if not left_by_launcher(name)}
-    return (OPEN_MPI if count > 1 else {}) | kept | {"PATH": search.path()}
+    return kept | {"PATH": search.path()}
 
 
 def beginning(count):
@@ -67,8 +67,8 @@ def run(*words, answers=False):
     `answers`, and else goes there too. Raises StudyError with the run's code; the text is empty if the run has said what is wrong."""
     signal.signal(signal.SIGTERM, interrupt)
     count = ranks()
-    line = line_of([str(word) for word in words], count)
-    child = subprocess.Popen(line, env=environment(count), stdin=subprocess.DEVNULL, stdout=None if answers else sys.stderr,
+    line = line_of(words, count)
+    child = subprocess.Popen(line, env=environment(), stdin=subprocess.DEVNULL, stdout=None if answers else sys.stderr,
                              process_group=0, preexec_fn=beginning(count))
     code = wait_for(child)
     if code < 0:
