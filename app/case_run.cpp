@@ -18,6 +18,10 @@
 
 namespace polybed::app {
 
+namespace {
+constexpr const char* past_name = "past";  // text of a checkpoint
+}
+
 CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
                  std::shared_ptr<const core::Ranks> ranks, const std::string& model)
     : options_(options),
@@ -42,6 +46,7 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
   if (options_.resume) {
     core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, scene_, model_name_); });
     resume(checkpoint, checkpoint_path(directory_));
+    past_ = core::said_by(ranks_.get(), 0, checkpoint.texts[past_name]);
   } else if (scene_.bed.start.kind == core::StartKind::checkpoint) {
     const std::filesystem::path path = scene_.bed.start.file;
     core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(path); });
@@ -50,6 +55,15 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
   begin_ = simulation().time();
   // A run that begins anew and is killed at once must not be resumed from the run that it replaces.
   if (!options_.resume) core::on_first(ranks_.get(), [&] { core::remove_results(directory_); });
+}
+
+void CaseRun::recall(const std::function<void(const core::Json&)>& take) const {
+  if (past_.empty()) return;
+  try {
+    take(core::parse_json(past_));
+  } catch (const core::FileError& error) {
+    core::refuse_checkpoint(fmt::format("what it says of the run before: {}", error.what()));
+  }
 }
 
 /// Of what this process has simulated, or, while it runs, will.
@@ -177,6 +191,7 @@ void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
   add_case(state, scene_);
+  state.texts[past_name] = core::json_text(past());
   flush_rows();  // a run that goes on from the checkpoint does not write them again
   core::write_checkpoint(checkpoint_path(directory_), std::move(state), ranks_.get(), checkpoint_rows());
   (void)record("running");

@@ -49,6 +49,10 @@ class CaseRun {
   [[nodiscard]] virtual core::Checkpoint checkpoint() = 0;
   /// Makes the rows of history.csv survive a power cut. Collective.
   virtual void flush_rows() = 0;
+  /// What the checkpoint says of the run beside its state: what a run that goes on cannot measure again. Collective.
+  [[nodiscard]] virtual core::Json past() = 0;
+  /// Takes that up, once the observers of a run that goes on are there. Throws FileError for what no run has left.
+  void recall(const std::function<void(const core::Json&)>& take) const;
   /// Arrays of the checkpoint that are made while it is written.
   [[nodiscard]] virtual std::vector<core::BlockData> checkpoint_rows() { return {}; }
   [[nodiscard]] virtual core::ProgressLine line() = 0;
@@ -114,6 +118,8 @@ class CaseRun {
 
  private:
   std::optional<Neglected> promise_;
+  std::string
+      past_;  ///< of the checkpoint that the run goes on from; empty without one, or if an older version wrote it
   std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
   [[nodiscard]] TimeBand prediction_of(double end) const;
   void go();

@@ -49,9 +49,44 @@ class DemRun final : public CaseRun {
     }
     const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
     observers_.emplace(model_, scene_, directory_, start, fluid, resume_time);
+    recall([&](const core::Json& past) { recall_from(past); });
   }
 
  private:
+  /// Counters that the model does not keep in its own checkpoint.
+  static constexpr std::array<std::pair<const char*, std::uint64_t dem::Work::*>, 6> counters_{
+      {{"pair_checks", &dem::Work::pair_checks},
+       {"contact_steps", &dem::Work::contact_steps},
+       {"rebuilds", &dem::Work::rebuilds},
+       {"candidates", &dem::Work::candidates},
+       {"shortenings", &dem::Work::shortenings},
+       {"cuts", &dem::Work::cuts}}};
+
+  /// Of the whole run. Collective.
+  [[nodiscard]] dem::Work work_of_run() const {
+    dem::Work work = model_.work();
+    for (const auto& [name, counter] : counters_) work.*counter += before_.*counter;
+    return work;
+  }
+
+  core::Json past() override {
+    const dem::Work work = work_of_run();
+    core::Json past = {{"invariants", observers_->invariants().past()}, {"work", core::Json::object()}};
+    for (const auto& [name, counter] : counters_) past["work"][name] = work.*counter;
+    if (monitor_) past["monitor"] = monitor_->past(ranks_.get());
+    return past;
+  }
+
+  void recall_from(const core::Json& past) {
+    observers_->recall(core::member_of(past, "invariants"));
+    if (monitor_ && past.contains("monitor")) monitor_->recall(past["monitor"], ranks_.get());
+    // What this process has counted so far, the one before has counted. Unsigned numbers come right again.
+    const core::Json& before = core::member_of(past, "work");
+    const dem::Work here = model_.work();
+    for (const auto& [name, counter] : counters_)
+      before_.*counter = core::count_of(core::member_of(before, name)) - here.*counter;
+  }
+
   void flush_rows() override { observers_->flush(); }
   core::Simulation& simulation() override { return model_; }
 
@@ -112,7 +147,7 @@ class DemRun final : public CaseRun {
     std::array<double, 1> cpu{cpu_};
     core::add_over_ranks(ranks_.get(), cpu);
     cpu_ = cpu[0];
-    work_ = model_.work();
+    work_ = work_of_run();
     find_fluid();
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     const int ranks = ranks_ ? ranks_->count() : 1;
@@ -224,7 +259,7 @@ class DemRun final : public CaseRun {
   dem::Model model_;
   std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "dem");  ///< null: nothing is watched
   std::optional<dem::Observers> observers_;
-  dem::Work work_;
+  dem::Work work_, before_;           ///< of the last record; what the processes before this one have counted
   std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
   double cpu_ = 0;
 };

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "app/case_run.hpp"
 #include "app/commands.hpp"
 #include "app/study_request.hpp"
+#include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "fluid/inlet.hpp"
 #include "multiscale/requirements.hpp"
@@ -47,6 +49,7 @@ class TfmRun final : public CaseRun {
         });
     const std::optional<double> resume_time = options_.resume ? std::optional(model_.time()) : std::nullopt;
     observers_.emplace(model_, directory_, scene_.tfm.rtol, initial_mass_, resume_time);
+    recall([&](const core::Json& past) { recall_from(past); });
   }
 
  private:
@@ -61,6 +64,32 @@ class TfmRun final : public CaseRun {
     if (mass.size() != initial_mass_.size() || std::any_of(mass.begin(), mass.end(), [](double m) { return m < 0; }))
       core::refuse_checkpoint("initial_mass is not the mass of each species");
     return mass;
+  }
+
+  core::Json past() override {
+    core::Json closures = core::Json::array(), limits = core::Json::object();
+    for (const tfm::ClosureUse& use : closures_of(model_, closures_before_))
+      closures.push_back({use.name, use.evaluations, use.guarded});
+    for (const auto& [name, steps] : limits_) limits[name] = steps;
+    core::Json past = {{"observers", observers_->past()}, {"closures", closures}, {"limits", limits}};
+    if (monitor_) past["monitor"] = monitor_->past(ranks_.get());
+    return past;
+  }
+
+  void recall_from(const core::Json& past) {
+    observers_->recall(core::member_of(past, "observers"));
+    if (monitor_ && past.contains("monitor")) monitor_->recall(past["monitor"], ranks_.get());
+    const core::Json& limits = core::member_of(past, "limits");
+    for (const auto& [name, steps] : limits.items()) limits_[name] = core::count_of(steps);
+    // What this process has evaluated so far, the one before has counted. Unsigned numbers come right again.
+    const std::vector<core::Json>& before = core::array_of(core::member_of(past, "closures"));
+    closures_before_ = closures_of(model_);
+    for (std::size_t n = 0; n < closures_before_.size(); ++n) {
+      tfm::ClosureUse& use = closures_before_[n];
+      if (n >= before.size() || before[n].size() != 3 || core::text_of(before[n][0]) != use.name)
+        throw core::FileError("no counts of " + use.name);
+      use = {use.name, core::count_of(before[n][1]) - use.evaluations, core::count_of(before[n][2]) - use.guarded};
+    }
   }
 
   void flush_rows() override { observers_->flush(); }
@@ -118,7 +147,7 @@ class TfmRun final : public CaseRun {
   }
 
   std::string record_text(const std::string& state) override {
-    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds());
+    totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds(), closures_before_);
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     evenness_ = tfm::warning_of_an_even_bed(model_.constants().grid, model_.fields());
     std::vector<std::string> warnings = evenness_;
@@ -131,7 +160,7 @@ class TfmRun final : public CaseRun {
                             }});
   }
 
-  /// The most frequent of what limited the steps of this process; the ends that the clock sets are no limits.
+  /// The most frequent of what limited the steps; the ends that the clock sets are no limits.
   [[nodiscard]] std::string limited_by() const override {
     constexpr std::string_view by_clock = "event";
     std::uint64_t steps = 0;
@@ -194,7 +223,8 @@ class TfmRun final : public CaseRun {
   std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: nothing is watched
   std::vector<double> initial_mass_;
   std::optional<tfm::Observers> observers_;
-  std::map<std::string, std::uint64_t> limits_;  ///< steps by what limited them
+  std::map<std::string, std::uint64_t> limits_;   ///< steps by what limited them
+  std::vector<tfm::ClosureUse> closures_before_;  ///< of a run that goes on
   RunTotals totals_;
 };
 

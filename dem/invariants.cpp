@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/numerics/messages.hpp"
@@ -71,6 +72,15 @@ double Invariants::energy_miss(const Totals& now) {
   greatest_energy_ =
       std::max({greatest_energy_, now.kinetic + now.rotational, now.dissipated, now.elastic, std::abs(now.work)});
   return greatest_energy_ > 0 ? ledger_miss(now, start_.energy, greatest_energy_) : 0;
+}
+
+core::Json Invariants::past() const {
+  return {{"worst", measures::past_of(worst_)}, {"greatest_energy_J", greatest_energy_}};
+}
+
+void Invariants::recall(const core::Json& past) {
+  measures::recall(worst_, core::member_of(past, "worst"));
+  greatest_energy_ = core::number_of(core::member_of(past, "greatest_energy_J"));
 }
 
 void Invariants::see(const Totals& now, const std::vector<std::int64_t>& number, const FluidRecord* fluid) {

@@ -34,6 +34,10 @@ class Invariants {
   /// \param number  what numbers_of() says now  \param fluid  null without one
   void see(const Totals& now, const std::vector<std::int64_t>& number, const FluidRecord* fluid);
 
+  /// What a run that goes on cannot measure again, for its checkpoint, and the same taken up.
+  [[nodiscard]] core::Json past() const;
+  void recall(const core::Json& past);
+
   [[nodiscard]] const RunStart& start() const { return start_; }
   [[nodiscard]] const std::vector<measures::WorstInvariant>& worst() const { return worst_; }
   /// The energy of the ledger; null without one.

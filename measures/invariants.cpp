@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/numerics/ranks.hpp"
@@ -41,6 +42,21 @@ const WorstInvariant* broken_law(std::span<const WorstInvariant> worst) {
   for (const WorstInvariant& law : worst)
     if (law.broken() && (broken == nullptr || law.share() > broken->share())) broken = &law;
   return broken;
+}
+
+core::Json past_of(std::span<const WorstInvariant> worst) {
+  core::Json past = core::Json::array();
+  for (const WorstInvariant& w : worst)
+    past.push_back({{"name", w.name}, {"value", w.value}, {"time_s", w.time}, {"place", w.place}});
+  return past;
+}
+
+void recall(std::span<WorstInvariant> worst, const core::Json& past) {
+  for (const core::Json& met : core::array_of(past))
+    for (WorstInvariant& w : worst)
+      if (w.name == core::text_of(core::member_of(met, "name")))
+        w.keep(core::number_of(core::member_of(met, "value")), core::number_of(core::member_of(met, "time_s")),
+               core::text_of(core::member_of(met, "place")));
 }
 
 Invariants::Invariants(std::vector<double> initial_mass, std::vector<std::string> species, double rtol,

@@ -7,6 +7,7 @@
 
 #include "core/numerics/field.hpp"
 #include "core/numerics/reduction.hpp"
+#include "core/output/json.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
 #include "fluid/openings.hpp"
@@ -61,6 +62,10 @@ struct WorstInvariant {
 /// Of the laws that are broken the one furthest beyond its limit; null if all stand.
 [[nodiscard]] const WorstInvariant* broken_law(std::span<const WorstInvariant> worst);
 
+/// The worst values for a checkpoint, and the same taken up again, by name: a run that goes on has met them too.
+[[nodiscard]] core::Json past_of(std::span<const WorstInvariant> worst);
+void recall(std::span<WorstInvariant> worst, const core::Json& past);
+
 /// Watches the invariants over a run.
 class Invariants {
  public:
@@ -80,6 +85,8 @@ class Invariants {
 
   [[nodiscard]] const std::vector<double>& initial_mass() const { return initial_mass_; }
   [[nodiscard]] const std::vector<WorstInvariant>& worst() const { return worst_; }
+  /// Takes up the worst values of the run that this one goes on with.
+  void recall(const core::Json& past) { measures::recall(worst_, past); }
   /// The invariant nearest to, or furthest beyond, its limit.
   [[nodiscard]] const WorstInvariant& nearest() const;
 

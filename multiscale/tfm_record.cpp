@@ -87,7 +87,30 @@ std::vector<std::string> drift_lines(const measures::Drifts& drifts) {
   return lines;
 }
 
-RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds) {
+std::vector<tfm::ClosureUse> closures_of(const tfm::Model& model, std::span<const tfm::ClosureUse> before) {
+  std::vector<tfm::ClosureUse> closures;
+  const tfm::Effects& effects = model.effects();
+  if (effects.drag) closures.push_back(effects.drag->use());
+  const auto add = [&](const auto& effect) {
+    if (!effect) return;
+    if (auto use = effect->use()) closures.push_back(std::move(*use));
+  };
+  add(effects.solids_stress);
+  add(effects.collisions);
+  add(effects.species_exchange);
+  for (tfm::ClosureUse& use : closures) {
+    use.evaluations = std::uint64_t(core::sum_of_ranks(model.constants().grid, double(use.evaluations)));
+    use.guarded = std::uint64_t(core::sum_of_ranks(model.constants().grid, double(use.guarded)));
+  }
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    closures[n].evaluations += before[n].evaluations;
+    closures[n].guarded += before[n].guarded;
+  }
+  return closures;
+}
+
+RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds,
+                    std::span<const tfm::ClosureUse> before) {
   const core::Grid& grid = model.constants().grid;
   RunTotals totals;
   totals.ranks = grid.ranks ? grid.ranks->count() : 1;
@@ -95,18 +118,7 @@ RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_sec
   totals.wall_seconds = wall_seconds;
   totals.masses = tfm::masses(model);
   if (model.constants().openings.present()) totals.passed = model.passed();
-  const tfm::Effects& effects = model.effects();
-  if (effects.drag) totals.closures.push_back(effects.drag->use());
-  if (effects.solids_stress)
-    if (const auto use = effects.solids_stress->use()) totals.closures.push_back(*use);
-  if (effects.collisions)
-    if (const auto use = effects.collisions->use()) totals.closures.push_back(*use);
-  if (effects.species_exchange)
-    if (const auto use = effects.species_exchange->use()) totals.closures.push_back(*use);
-  for (tfm::ClosureUse& use : totals.closures) {
-    use.evaluations = std::uint64_t(core::sum_of_ranks(grid, double(use.evaluations)));
-    use.guarded = std::uint64_t(core::sum_of_ranks(grid, double(use.guarded)));
-  }
+  totals.closures = closures_of(model, before);
   return totals;
 }
 

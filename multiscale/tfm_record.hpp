@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,17 @@ struct RunTotals {
   std::vector<fluid::Passed> passed;  ///< through open ends; empty if there are none
 };
 
+/// How often each closure of the model was evaluated, on all ranks. Collective.
+/// \param before  by the processes before this one
+[[nodiscard]] std::vector<tfm::ClosureUse> closures_of(const tfm::Model& model,
+                                                       std::span<const tfm::ClosureUse> before = {});
+
 /// Collective.
 /// \param cpu_seconds  of this process
 /// \param wall_seconds  likewise, by the clock
-[[nodiscard]] RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds);
+/// \param before  as of closures_of()
+[[nodiscard]] RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds,
+                                  std::span<const tfm::ClosureUse> before);
 
 /// Everything that goes into the record; borrowed for the call.
 struct RunRecord {

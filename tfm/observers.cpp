@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/ranks.hpp"
@@ -137,9 +139,43 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
         {directory, history_.columns(), resume_time},
         {directory, slab_centres(constants.grid), profile_names(constants, knows_temperature(model)), resume_time},
         {steps, kept_steps(steps, resume_time)}});
+    if (resume_time) read_drifts(directory);
   });
   fields_.emplace(directory, constants.grid, field_names(constants, knows_temperature(model), compressible),
                   resume_time);
+}
+
+void Observers::read_drifts(const std::filesystem::path& directory) {
+  const core::History history = core::read_history(directory);
+  const std::vector<double>& time = history.values.front();
+  std::vector<std::optional<double>> row(heights_.size());
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    for (std::size_t m = 0; m < row.size(); ++m) {
+      const double height = history.of(heights_[m].column())[n];
+      row[m] = std::isnan(height) ? std::nullopt : std::optional(height);
+    }
+    drifts_.see(time[n], row);
+  }
+}
+
+core::Json Observers::past() const {
+  const LeastWellPosed& least = least_well_posed_;
+  core::Json past = {{"invariants", measures::past_of(invariants_.worst())}, {"force_balance", force_balance_}};
+  if (std::isfinite(least.cell.least))
+    past["well_posed"] = {least.cell.least,     least.cell.critical_slope, least.cell.place[0],
+                          least.cell.place[1],  least.cell.place[2],       least.time,
+                          least.share_below_now};
+  return past;
+}
+
+void Observers::recall(const core::Json& past) {
+  invariants_.recall(core::member_of(past, "invariants"));
+  force_balance_ = core::number_of(core::member_of(past, "force_balance"));
+  if (!past.contains("well_posed")) return;
+  std::vector<double> numbers;
+  for (const core::Json& number : core::array_of(past["well_posed"])) numbers.push_back(core::number_of(number));
+  numbers.resize(7);
+  least_well_posed_ = {{numbers[0], numbers[1], {numbers[2], numbers[3], numbers[4]}, 0}, numbers[5], numbers[6]};
 }
 
 void Observers::flush() {

@@ -36,6 +36,9 @@ class Observers {
   void write_fields(double time);
   /// Makes the rows of history.csv survive a power cut.
   void flush();
+  /// What a run that goes on cannot measure again, for its checkpoint, and the same taken up.
+  [[nodiscard]] core::Json past() const;
+  void recall(const core::Json& past);
   /// One row of steps.csv, handed to the operating system at once and whole.
   void log_step();
 
@@ -47,7 +50,7 @@ class Observers {
   /// Pressure drop over buoyant weight in the last row of the history.
   [[nodiscard]] double force_balance() const { return force_balance_; }
   [[nodiscard]] const LeastWellPosed& least_well_posed() const { return least_well_posed_; }
-  /// Of the heights of bed and species, since this process began.
+  /// Of the heights of bed and species; on the first rank since the run began, on others since this process did.
   [[nodiscard]] const measures::Drifts& drifts() const { return drifts_; }
 
  private:
@@ -60,6 +63,8 @@ class Observers {
 
   /// What does not go into a row: the drift of its heights, and how well-posed the equations are.
   void watch(const measures::Bed& bed, const WellPosedness& now);
+  /// The drift of the rows that an earlier part of the run has written.
+  void read_drifts(const std::filesystem::path& directory);
   /// The invariants, and what else the model alone knows.
   Told told(const measures::Watched& column, double time);
 

@@ -77,6 +77,11 @@ double number_of(const Json& value) {
   return value.get<double>();
 }
 
+std::uint64_t count_of(const Json& value) {
+  if (!value.is_number_unsigned()) throw FileError("expected a count");
+  return value.get<std::uint64_t>();
+}
+
 const std::string& text_of(const Json& value) {
   if (!value.is_string()) throw FileError("expected a text");
   return value.get_ref<const std::string&>();

@@ -2,6 +2,7 @@
 // value includes <nlohmann/json.hpp> itself: it takes more than a second to compile, which headers spare all others.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -37,6 +38,8 @@ using Json = nlohmann::ordered_json;
 
 /// What a value that was read is. Each throws FileError if it is something else, or if there is no such member.
 [[nodiscard]] double number_of(const Json& value);
+/// How often something was done.
+[[nodiscard]] std::uint64_t count_of(const Json& value);
 [[nodiscard]] const std::string& text_of(const Json& value);
 [[nodiscard]] const std::vector<Json>& array_of(const Json& value);
 [[nodiscard]] const Json& member_of(const Json& object, const std::string& name);

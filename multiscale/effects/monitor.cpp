@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/output/fields.hpp"
@@ -132,9 +134,37 @@ std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
     find_setting(o);
   }
   warnings_.insert(warnings_.end(), lines.begin(), lines.end());
-  if (!lines.empty() && scene_.chooser.monitor == core::MonitorMode::stop)
-    throw core::NumericsError(lines.front() + "; chooser.monitor = \"stop\"");
+  stopped_ = !lines.empty() && scene_.chooser.monitor == core::MonitorMode::stop;
+  if (stopped_) throw core::NumericsError(lines.front() + "; chooser.monitor = \"stop\"");
   return lines;
+}
+
+core::Json Monitor::past(const core::Ranks* ranks) const {
+  return {{"steps", steps_},   {"warnings", warnings_},   {"settings", settings_},
+          {"since_s", since_}, {"above", samples_above_}, {"seen", result(ranks).past()}};
+}
+
+void Monitor::recall(const core::Json& past, const core::Ranks* ranks) {
+  const auto texts = [&](const char* name) {
+    std::vector<std::string> found;
+    for (const core::Json& text : core::array_of(core::member_of(past, name))) found.push_back(core::text_of(text));
+    return found;
+  };
+  steps_ = std::int64_t(core::count_of(core::member_of(past, "steps")));
+  warnings_ = texts("warnings");
+  Neglected seen = seen_;
+  if (!seen.recall(core::member_of(past, "seen"))) return;
+  if (core::is_first(ranks)) seen_ = seen;
+  settings_ = texts("settings");
+  const auto& above = core::array_of(core::member_of(past, "above"));
+  const auto& since = core::array_of(core::member_of(past, "since_s"));
+  // One that stops runs does so again with the next sample that is beyond.
+  const bool stops = scene_.chooser.monitor == core::MonitorMode::stop;
+  const int most = stops ? samples_before_warning - 1 : std::numeric_limits<int>::max();
+  for (std::size_t n = 0; n < std::min({above.size(), since.size(), since_.size()}); ++n) {
+    samples_above_[n] = int(std::min<std::uint64_t>(core::count_of(above[n]), std::uint64_t(most)));
+    since_[n] = core::number_of(since[n]);
+  }
 }
 
 void Monitor::find_setting(const Observed& exceeded) {

@@ -38,11 +38,14 @@ class Monitor {
 
   /// Of all ranks. Collective.
   [[nodiscard]] Neglected result(const core::Ranks* ranks) const;
+  /// For a checkpoint. Collective.
+  [[nodiscard]] core::Json past(const core::Ranks* ranks) const;
+  /// Takes up what the run that this one goes on with has seen and warned of; of other forces, where the run leaves out
+  /// others now, only the warnings.
+  void recall(const core::Json& past, const core::Ranks* ranks);
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
   /// Whether it has ended the run.
-  [[nodiscard]] bool has_stopped() const {
-    return scene_.chooser.monitor == core::MonitorMode::stop && !warnings_.empty();
-  }
+  [[nodiscard]] bool has_stopped() const { return stopped_; }
   /// Of what was warned of, in words of --set: the laws that a run can take up from its checkpoint, forces that keep
   /// nothing of the past. Of the sum that which has most of it.
   [[nodiscard]] const std::vector<std::string>& settings() const { return settings_; }
@@ -59,6 +62,7 @@ class Monitor {
   std::vector<std::string> warnings_, settings_;
   std::string model_;
   std::int64_t steps_ = 0;
+  bool stopped_ = false;
 };
 
 }  // namespace polybed::multiscale

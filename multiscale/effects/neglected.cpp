@@ -114,6 +114,46 @@ void Neglected::gather(const core::Ranks* ranks) {
   }
 }
 
+core::Json Neglected::past() const {
+  core::Json past = core::Json::array();
+  for (const Observed& o : observed_)
+    past.push_back({{"effect", o.effect},
+                    {"counts", {o.count, o.outside, o.above}},
+                    {"greatest", {o.greatest, o.time, o.place[0], o.place[1], o.place[2]}},
+                    {"bins", o.bins}});
+  return past;
+}
+
+bool Neglected::recall(const core::Json& past) {
+  const std::vector<core::Json>& seen = core::array_of(past);
+  const auto same = [](const Observed& o, const core::Json& before) {
+    return core::text_of(core::member_of(before, "effect")) == o.effect;
+  };
+  if (!std::equal(observed_.begin(), observed_.end(), seen.begin(), seen.end(), same)) return false;
+  for (std::size_t n = 0; n < observed_.size(); ++n) {
+    Observed& o = observed_[n];
+    std::vector<std::uint64_t> counts;
+    std::vector<double> greatest;
+    for (const core::Json& count : core::array_of(core::member_of(seen[n], "counts")))
+      counts.push_back(core::count_of(count));
+    for (const core::Json& number : core::array_of(core::member_of(seen[n], "greatest")))
+      greatest.push_back(core::number_of(number));
+    counts.resize(3);
+    greatest.resize(5);
+    o.count = counts[0];
+    o.outside = counts[1];
+    o.above = counts[2];
+    o.greatest = greatest[0];
+    o.time = greatest[1];
+    o.place = {greatest[2], greatest[3], greatest[4]};
+    o.bins.clear();
+    for (const core::Json& count : core::array_of(core::member_of(seen[n], "bins")))
+      o.bins.push_back(core::count_of(count));
+    if (!o.bins.empty()) o.bins.resize(bins);
+  }
+  return true;
+}
+
 std::string neglected_table(const Neglected& neglected) {
   std::string text = fmt::format("{:12} {:>9} {:>9} {:>9} {:>10} {:>12}  {}\n", "left out", "bound", "greatest",
                                  "99 % below", "above tol.", "out of range", "greatest at");

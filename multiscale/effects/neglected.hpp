@@ -54,6 +54,11 @@ class Neglected {
   /// Of all ranks. Collective.
   void gather(const core::Ranks* ranks);
 
+  /// What was seen, for a checkpoint, and the same taken up again. False, and nothing is taken up, if other forces are
+  /// left out now.
+  [[nodiscard]] core::Json past() const;
+  [[nodiscard]] bool recall(const core::Json& past);
+
   /// The forces that can be evaluated, and last their sum.
   [[nodiscard]] const std::vector<Observed>& observed() const { return observed_; }
   [[nodiscard]] const Observed& sum() const { return observed_.back(); }

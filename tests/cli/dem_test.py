@@ -167,6 +167,7 @@ class GoOn(Dem):
         for name in RESULTS:
             self.assertEqual(same_bits(whole / name, self.folder / "parts" / name), [], name)
         self.assertEqual((whole / "history.csv").read_bytes(), (self.folder / "parts/history.csv").read_bytes())
+        self.assertEqual(program.lasting(whole), program.lasting(self.folder / "parts"))
 
     def test_twice_is_the_same_to_the_bit(self):
         whole = self.whole_run()

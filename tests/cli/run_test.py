@@ -146,20 +146,72 @@ class Run(Scratch):
             self.assertIn(str(place), done.stderr)
 
 
+# An imex run in which the jump of the inlet at 0.03 s takes a solids fraction below its limit.
+JUMP = """[column]
+size = [0.002768, 0.04761]
+cells = [1, 36]
+depth = 0.01
+[fluid]
+name = "air"
+temperature = 809.96
+[[species]]
+name = "fine"
+diameter = 0.000577433
+density = 3100.0
+[[species]]
+name = "coarse"
+distribution = "lognormal"
+median = 0.000851
+deviation = 0.2594
+classes = 1
+density = 8000.0
+[bed]
+volume_share = [0.0, 1.0]
+static_height = 0.0201
+solids_fraction = 0.6
+start = "mixed"
+[inlet]
+superficial_velocity = [[0.021, 1.91], [0.03, 0.63], [0.03, 0.798157]]
+[effects]
+drag = "vbk"
+fluid_stress = "newtonian"
+solids_stress = "none"
+species_exchange = "syamlal"
+added_mass = "half"
+lift = "saffman_mei"
+others = "none"
+[tfm]
+integrator = "imex"
+momentum = "limited"
+specularity = 0.490383
+wall_friction = 0.1879
+[run]
+until = 0.03
+[output]
+every = 0.03
+history_every = 0.0003
+checkpoint_every = 0.0107196
+"""
+
+
 class Stop(Scratch):
     def test_ctrl_c_leaves_a_run_that_goes_on(self):
         """An interruption puts a checkpoint where none was, and a checkpoint is part of the result: what went before is
         that of a run that was not stopped, and what comes after is the same each time."""
-        whole, stopped, twin = (self.folder / n for n in ("whole", "stopped", "twin"))
+        whole, stopped, twin, before = (self.folder / n for n in ("whole", "stopped", "twin", "before"))
         words = ["tfm", CASE, *SMALL, "--until", "1 s", "--quiet"]
         reached = self.interrupted(stopped, *words, clock="time_s")["time_s"]
         self.assertTrue(0.1 <= reached < 1, reached)
         shutil.copytree(stopped, twin)
-        for directory in (stopped, twin):
+        shutil.copytree(stopped, before)
+        (before / "checkpoint.previous.h5").rename(before / "checkpoint.h5")  # the last one that the whole run writes too
+        for directory in (stopped, twin, before):
             self.ends(DONE, *words, "-o", directory, "--resume")
         self.ends(DONE, *words, "-o", whole)
         for name in ("checkpoint.h5", "fields.h5", "profiles.h5"):
             self.assertEqual(same_bits(stopped / name, twin / name), [], name)
+            self.assertEqual(same_bits(whole / name, before / name), [], name)
+        self.assertEqual(program.lasting(whole), program.lasting(before))
         one, other = history(stopped), history(whole)
         self.assertEqual(one, history(twin))
         self.assertEqual(one["time_s"], other["time_s"])
@@ -179,6 +231,26 @@ class Stop(Scratch):
             self.assertEqual(same_bits(whole / name, parts / name), [], name)
         self.assertEqual(history(whole), history(parts))
         self.assertEqual((whole / "steps.csv").read_text(), (parts / "steps.csv").read_text())
+        self.assertEqual(program.lasting(whole), program.lasting(parts))
+
+    def test_a_resumed_run_keeps_what_it_has_met(self):
+        """The lowest solids fraction is met in the first part, and what the monitor warns of begins there."""
+        case = self.write("jump.toml", JUMP)
+        watched = ["--set", "chooser.monitor=warn", "--set", "chooser.tolerance=1e-6", "--set", "chooser.monitor_every=7"]
+        for number, words in enumerate(([], watched)):
+            whole, parts = self.folder / f"whole{number}", self.folder / f"parts{number}"
+            words = ["tfm", case, "--quiet", *words]
+            self.ends(DONE, *words, "--until", "0.0302 s", "-o", whole)
+            self.ends(DONE, *words, "-o", parts)
+            first = program.lasting(parts)
+            self.ends(DONE, *words, "--until", "0.0302 s", "-o", parts, "--resume")
+            resumed = program.lasting(parts)
+            self.assertEqual(resumed["invariants"], first["invariants"])
+            self.assertIn("solids fraction below 0 exceeded its limit", resumed["warnings"])
+            self.assertEqual(resumed, program.lasting(whole))
+            for name in ("checkpoint.h5", "fields.h5", "profiles.h5"):
+                self.assertEqual(same_bits(whole / name, parts / name), [], name)
+        self.assertTrue(resumed["promise"]["observed"][-1]["above_tolerance"], "nothing was watched")
 
     def test_stops_an_ulp_apart_are_one(self):
         """IDA starts no step towards a stop that round-off alone keeps apart from the present."""
