@@ -59,7 +59,13 @@ core::Scene read_scene(const RunOptions& options) {
     const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
     overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
   }
-  return read_chosen_case(options.case_path, overrides);
+  core::Scene scene = read_chosen_case(options.case_path, overrides);
+  if (options.until.empty()) return scene;
+  try {  // checkpoints are part of the result: they do not move with --until
+    scene.output.checkpoint_every = read_chosen_case(options.case_path, options.overrides).output.checkpoint_every;
+  } catch (const core::CaseError&) {  // of a case that --until completes
+  }
+  return scene;
 }
 
 fs::path default_run_directory(const fs::path& case_path, const std::string& model) {

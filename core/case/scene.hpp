@@ -148,7 +148,7 @@ struct RunPlan {
 struct OutputPlan {
   std::optional<double> every;             ///< s, between stored fields; else a twentieth of the run
   std::optional<double> history_every;     ///< s, between rows of history.csv; else a 400th of the run
-  std::optional<double> checkpoint_every;  ///< s, between checkpoints; else a tenth of the run
+  std::optional<double> checkpoint_every;  ///< s, between checkpoints; else a tenth of the run that the case has
 };
 
 /// How the equations of the fluid are discretised, in both models; key of [tfm].

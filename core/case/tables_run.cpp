@@ -50,7 +50,7 @@ Table output_table() {
                    key(&OutputPlan::history_every, "history_every", dimension::time, above(0, 1e9),
                        help("between rows of history.csv; default: a 400th of the run")),
                    key(&OutputPlan::checkpoint_every, "checkpoint_every", dimension::time, above(0, 1e9),
-                       help("between checkpoints; default: a tenth of the run")),
+                       help("between checkpoints; default: a tenth of run.until, which --until does not change")),
                });
 }
 

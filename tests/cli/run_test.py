@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 import program
-from program import CASE, DONE, FILE, NUMBERS, SMALL, WRONG_CASE, Scratch, history, same_bits, strict_json
+from program import CASE, DONE, FILE, NUMBERS, SMALL, WRONG_CASE, Scratch, history, same_bits, small_bed, strict_json
 
 SPECIES = ("fine", "coarse")
 
@@ -251,6 +251,20 @@ class Stop(Scratch):
             for name in ("checkpoint.h5", "fields.h5", "profiles.h5"):
                 self.assertEqual(same_bits(whole / name, parts / name), [], name)
         self.assertTrue(resumed["promise"]["observed"][-1]["above_tolerance"], "nothing was watched")
+
+    def test_the_end_does_not_move_checkpoints(self):
+        """Without output.checkpoint_every they come every tenth of the run that the case asks for."""
+        rows = ["--set", "output.every=1e-3", "--set", "output.history_every=1e-4", "--quiet", "--no-picture"]
+        case = self.write("case.toml", small_bed("4 ms"))
+        for model in ("tfm", "dem"):
+            whole, parts = self.folder / f"{model}-whole", self.folder / f"{model}-parts"
+            self.ends(DONE, model, case, *rows, "--until", "7 ms", "-o", whole)
+            self.ends(DONE, model, case, *rows, "-o", parts)
+            self.ends(DONE, model, case, *rows, "--until", "7 ms", "-o", parts, "--resume")
+            for name in ("checkpoint.h5", "profiles.h5"):
+                self.assertEqual(same_bits(whole / name, parts / name), [], f"{model} {name}")
+            self.assertEqual(history(whole), history(parts))
+            self.assertEqual(program.lasting(whole), program.lasting(parts))
 
     def test_stops_an_ulp_apart_are_one(self):
         """IDA starts no step towards a stop that round-off alone keeps apart from the present."""
