@@ -35,6 +35,7 @@ bool is_packed(Packing packing, std::span<const Number> values) {
 
 struct OutputFile::State {
   hid_t file = -1;
+  std::string path;  ///< of a file that was read, for messages
 
   State() = default;
   State(const State&) = delete;
@@ -59,15 +60,23 @@ struct OutputFile::State {
     file = checked("the file", [&] { return H5Fopen(name.c_str(), H5F_ACC_RDWR, access); });
   }
 
+  [[nodiscard]] bool has(const std::string& name) const { return exists(file, name, path); }
+  /// The name of an object, which need not be there yet, of this very file; throws FileError for one elsewhere.
+  [[nodiscard]] const char* own(const std::string& name) const {
+    if (name.front() != '/' && has(name)) require_own_link(file, name, path);
+    return name.c_str();
+  }
   [[nodiscard]] Handle object(const std::string& name) const {
-    return Handle(name, [&] { return H5Oopen(file, name.c_str(), H5P_DEFAULT); });
+    return Handle(name, [&] { return H5Oopen(file, own(name), H5P_DEFAULT); });
   }
   [[nodiscard]] Handle dataset(const std::string& name) const {
-    return Handle(name, [&] { return H5Dopen2(file, name.c_str(), H5P_DEFAULT); });
+    Handle data(name, [&] { return H5Dopen2(file, own(name), H5P_DEFAULT); });
+    require_own_numbers(data, name, path);
+    return data;
   }
   [[nodiscard]] Handle make_dataset(const std::string& name, hid_t type, hid_t space, hid_t properties) const {
     const Handle links = making_groups();
-    return Handle(name, [&] { return H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT); });
+    return Handle(name, [&] { return H5Dcreate2(file, own(name), type, space, links, properties, H5P_DEFAULT); });
   }
   /// A whole dataset: `stored` is the type in the file, `given` that of the values.
   template <class Number>
@@ -118,6 +127,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, const FileKind& kind)
 OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::path& path, const FileKind& kind)
     : OutputFile() {
   if (bytes.empty()) throw FileError(fmt::format("{} is empty", path.string()));
+  state_->path = path.string();
   readable(path, [&] { state_->open(bytes); });
   check_kind(path, kind);
 }
@@ -125,6 +135,7 @@ OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::
 OutputFile OutputFile::on_disk(const std::filesystem::path& path, const FileKind& kind) {
   (void)bytes_of_file(path);
   OutputFile file;
+  file.state_->path = path.string();
   require_room_for_a_file();
   readable(path, [&] {
     file.state_->file = checked("the file", [&] { return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT); });
@@ -153,7 +164,8 @@ OutputFile& OutputFile::operator=(OutputFile&&) noexcept = default;
 
 void OutputFile::make_group(const std::string& name) {
   const Handle links = making_groups();
-  const Handle group(name, [&] { return H5Gcreate2(state_->file, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT); });
+  const Handle group(name,
+                     [&] { return H5Gcreate2(state_->file, state_->own(name), links, H5P_DEFAULT, H5P_DEFAULT); });
 }
 
 void OutputFile::write(const std::string& name, const std::vector<std::size_t>& shape, std::span<const double> values,
@@ -216,11 +228,12 @@ void OutputFile::set_attribute(const std::string& object, const std::string& nam
 void OutputFile::link(const std::string& name, const std::string& file, const std::string& object) {
   const Handle links = making_groups();
   checked(name, [&] {
-    return H5Lcreate_external(file.c_str(), object.c_str(), state_->file, name.c_str(), links, H5P_DEFAULT);
+    return H5Lcreate_external(file.c_str(), object.c_str(), state_->file, state_->own(name), links, H5P_DEFAULT);
   });
 }
 
 void OutputFile::remove(const std::string& name) {
+  if (!has(name)) throw FileError(name + " is missing");
   checked(name, [&] { return H5Ldelete(state_->file, name.c_str(), H5P_DEFAULT); });
 }
 
@@ -263,7 +276,7 @@ void OutputFile::keep_rows(const std::string& name, std::size_t rows) {
   checked(name, [&] { return H5Dset_extent(data, dims.data()); });
 }
 
-bool OutputFile::has(const std::string& name) const { return exists(state_->file, name); }
+bool OutputFile::has(const std::string& name) const { return state_->has(name); }
 
 std::vector<std::string> OutputFile::names(const std::string& group) const {
   std::vector<std::string> found;

@@ -55,7 +55,7 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) H5Idec_ref(id_);
   }
-  Handle(const Handle&) = delete;
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
   /// Releases it now: for what can still fail then.
@@ -169,13 +169,35 @@ inline herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* nam
   return 0;
 }
 
-/// Whether every link on the way exists; asking HDF5 for a path with a missing part is an error.
-inline bool exists(hid_t file, const std::string& name) {
+[[noreturn]] inline void refuse_elsewhere(const std::string& path, const std::string& what) {
+  throw FileError(fmt::format("{}: {}; what other files contain is neither read nor changed", path, what));
+}
+
+/// Throws FileError for a link that leads to another file, or by a name: HDF5 follows it anywhere, and changes what is
+/// there. \param path  of the file, for the message
+inline void require_own_link(hid_t file, const std::string& name, const std::string& path) {
+  H5L_info_t link{};
+  checked(name, [&] { return H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT); });
+  if (link.type != H5L_TYPE_HARD) refuse_elsewhere(path, name + " is a link to another place");
+}
+
+/// Whether every link on the way exists; asking HDF5 for a path with a missing part is an error. Throws FileError if
+/// the way leads elsewhere.
+inline bool exists(hid_t file, const std::string& name, const std::string& path) {
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     const std::string part = name.substr(0, end);
     if (checked(name, [&] { return H5Lexists(file, part.c_str(), H5P_DEFAULT); }) == 0) return false;
     if (end == std::string::npos) return true;
+    require_own_link(file, part, path);
   }
+}
+
+/// Throws FileError for numbers that are in other files, which HDF5 would read, or overwrite.
+inline void require_own_numbers(hid_t dataset, const std::string& name, const std::string& path) {
+  const Handle properties(name, [&] { return H5Dget_create_plist(dataset); });
+  const bool external = checked(name, [&] { return H5Pget_external_count(properties); }) > 0;
+  if (external || checked(name, [&] { return H5Pget_layout(properties); }) == H5D_VIRTUAL)
+    refuse_elsewhere(path, "the numbers of " + name + " are in another file");
 }
 
 }  // namespace polybed::core::hdf5

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Files that never end, nest without end, are long, or hold numbers that cannot be. Usage: hostile_files_test.py PROGRAM"""
+"""Files that never end, nest without end, are long, hold numbers that cannot be, or lead to other files. Usage: hostile_files_test.py PROGRAM"""
 import os
 import pathlib
 import resource
@@ -13,6 +13,7 @@ import program
 from program import CASE, DONE, FILE, ROOT, WRONG_CASE, Scratch, run, run_all, small_bed, strict_json
 
 sys.path.insert(0, str(ROOT / "python"))
+import polybed  # noqa: E402
 import polybed.solids_table  # noqa: E402
 
 TABLE_CASE = ROOT / "cases/small-binary/case.toml"
@@ -52,6 +53,120 @@ class Endless(Scratch):
         self.assertIn("too long", self.ends(FILE, "check", long).stderr)
         done = self.ends(FILE, "check", CASE, "--set", f"effects.solids_stress=table:{long}")
         self.assertIn("too long", done.stderr)
+
+
+SECRET = "password-is-hunter2-and-more-text-follows-here-abcdefghij"
+
+
+def external(group, name, victim):
+    """The numbers of a dataset in a file of the user."""
+    shape = group[name].shape
+    make_external(group, name, victim, h5py.h5s.create_simple(shape) if shape else h5py.h5s.create(h5py.h5s.SCALAR))
+
+
+def growing(group, name, victim):
+    """The same without rows yet, which whoever goes on appends."""
+    columns = group[name].shape[1:]
+    make_external(group, name, victim, h5py.h5s.create_simple((0, *columns), (h5py.h5s.UNLIMITED, *columns)))
+
+
+def make_external(group, name, victim, space):
+    del group[name]
+    properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    properties.set_external(str(victim).encode(), 0, h5py.h5f.UNLIMITED)
+    h5py.h5d.create(group.id, name.encode(), h5py.h5t.IEEE_F64LE, space, properties)
+
+
+def virtual(group, name, victim):
+    shape = group[name].shape
+    del group[name]
+    layout = h5py.VirtualLayout(shape, "f8")
+    layout[...] = h5py.VirtualSource(f"{victim}.h5", "data", shape)
+    group.create_virtual_dataset(name, layout)
+
+
+def soft(group, name, _):
+    group.move(name, f"{name}_elsewhere")
+    group[name] = h5py.SoftLink(f"{group.name}/{name}_elsewhere")
+
+
+def outward(group, name, victim):
+    del group[name]
+    group[name] = h5py.ExternalLink(f"{victim}.h5", "data")
+
+
+class Elsewhere(Scratch):
+    """Files of HDF5 whose numbers are in other files: HDF5 would read them, and change them, on its own."""
+
+    def setUp(self):
+        super().setUp()
+        self.case, self.made = self.write("case.toml", small_bed("2 ms")), self.folder / "made"
+        self.more = ["--set", "output.checkpoint_every=1e-3", "--set", "output.every=1e-3"]
+        self.ends(DONE, "tfm", self.case, *self.more, "-o", self.made)
+        self.victim = self.write("victim", SECRET)
+        with h5py.File(f"{self.victim}.h5", "w") as file:
+            file["data"] = np.arange(100.0)
+            file.create_group("step")["000009"] = 1.0
+        self.kept = {path: path.read_bytes() for path in (self.victim, pathlib.Path(f"{self.victim}.h5"))}
+
+    def copy(self, file, place, change):
+        folder = self.folder / "run"
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(self.made, folder)
+        group, _, name = place.rpartition("/")
+        if file == "checkpoint.h5":
+            program.unseal(folder / file)
+        with h5py.File(folder / file, "r+") as content:
+            change(content[group or "/"], name, self.victim)
+        if file == "checkpoint.h5":
+            program.seal(folder / file)
+            (folder / "checkpoint.previous.h5").unlink()
+        return folder
+
+    def refused(self, file, place, change, *words):
+        told = self.ends(FILE, *words)
+        self.assertRegex(told.stderr, rf"{file}\b.*(is a link to another place|are in another file)", (place, change.__name__, words))
+        for path, content in self.kept.items():
+            self.assertEqual(path.read_bytes(), content)
+
+    def test_a_run_that_goes_on_leaves_other_files_alone(self):
+        with h5py.File(self.made / "checkpoint.h5") as file:
+            group = next(name for name in file["fields"])
+            field = f"fields/{group}/{next(iter(file['fields'][group]))}"
+        for file, place in (("profiles.h5", "voidage"), ("profiles.h5", "time_s"), ("fields.h5", "time_s"), ("fields.h5", "grid/x"),
+                            ("checkpoint.h5", field), ("checkpoint.h5", "numbers/time_s")):
+            for change in (external, growing, virtual, soft, outward):
+                if change is growing and place == "grid/x" or change in (growing, virtual) and place.startswith("numbers"):
+                    continue  # they have no rows
+                folder = self.copy(file, place, change)
+                self.refused(file, place, change, "tfm", self.case, *self.more, "-o", folder, "--resume", "--until", "3 ms")
+
+    def test_a_group_elsewhere_is_not_entered(self):
+        def other_file(group, name, victim):
+            del group[name]
+            group[name] = h5py.ExternalLink(f"{victim}.h5", "/step")
+        for change in (soft, other_file):
+            folder = self.copy("fields.h5", "step", change)
+            self.refused("fields.h5", "step", change, "tfm", self.case, *self.more, "-o", folder, "--resume", "--until", "3 ms")
+
+    def test_other_files_are_not_shown(self):
+        for file, place, commands in (("profiles.h5", "p", ("report", "plot", "measure")), ("fields.h5", "time_s", ("report", "plot")),
+                                      ("fields/000001.h5", "step/voidage", ("report",))):
+            for change in (external, virtual, soft, outward):
+                folder = self.copy(file, place, change)
+                for command in commands:
+                    self.refused(file, place, change, command, folder)
+                self.assertFalse((folder / "report.html").exists())
+
+    def test_tables_and_checkpoints_that_a_case_names(self):
+        for n, change in enumerate((external, virtual, soft, outward)):
+            path = self.folder / f"table{n}.h5"
+            shutil.copy(TABLE, path)
+            with h5py.File(path, "r+") as file:
+                change(file, "p_ratio", self.victim)
+            self.refused(path.name, "p_ratio", change, "check", TABLE_CASE, *WET, "--set", f"effects.solids_stress=table:{path}")
+            with self.assertRaises(polybed.solids_table.DamagedError):
+                polybed.solids_table.read_table(path)
 
 
 class Deep(Scratch):
