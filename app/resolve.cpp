@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "core/output/directory.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
+#include "core/output/rows.hpp"
 #include "core/print.hpp"
 #include "core/progress.hpp"
 #include "multiscale/resolve/rows.hpp"
@@ -132,19 +132,29 @@ class ResolveRun {
       throw core::FileError(
           fmt::format("{}: no boxes to resume from; leave out --resume to begin anew", directory_.string()));
     if (!options_.resume) remove_kept_boxes(directory_);
-    std::string kept = "box,cells,change,imbalance,steps,sites,seconds, then n and f of each species\n";
-    if (options_.resume) {
-      (void)core::bytes_of_file(path);
-      std::ifstream file(path);
-      for (std::string line; std::getline(file, line);) {
-        const std::size_t comma = line.find(',');
-        if (comma == std::string::npos || box_of_text(line.substr(comma + 1), scene_.species.size()).net.empty())
-          continue;
-        finished_[line.substr(0, comma)] = line.substr(comma + 1);
-        kept += line + "\n";
-      }
-    }
+    std::string kept = "box,cells,change,imbalance,steps,sites,seconds, then n and f of each species, check\n";
+    if (options_.resume) read_finished(path, kept);
     core::write_atomically(path, kept, core::Flush::content);
+  }
+
+  /// Only rows that are whole and have their check count: a full disk cuts the last number of a row.
+  void read_finished(const fs::path& path, std::string& kept) {
+    const std::string text = core::read_text(path);
+    std::size_t lost = text.ends_with('\n') || text.empty() ? 0 : 1;
+    const auto lines = core::whole_lines(text);
+    for (std::size_t n = 1; n < lines.size(); ++n) {
+      const std::string row = core::without_check(lines[n]).value_or("");
+      const std::size_t name = row.find(',');
+      if (name == std::string::npos || box_of_text(row.substr(name + 1), scene_.species.size()).net.empty()) {
+        ++lost;
+        continue;
+      }
+      finished_[row.substr(0, name)] = row.substr(name + 1);
+      kept += std::string(lines[n]) + "\n";
+    }
+    if (lost > 0)
+      core::print(stderr, "{}: {} row{} cut short, damaged or without a check: not used\n", path.string(), lost,
+                  lost == 1 ? " is" : "s are");
   }
 
   struct Box {
@@ -193,7 +203,7 @@ class ResolveRun {
     const BoxDrag drag = box_drag(
         scene_, point, spheres_, [&](double steps, double change) { return say(point, steps, change); }, &kept);
     text = box_text(drag);
-    const std::string line = box.name + "," + text + "\n";
+    const std::string line = core::with_check(box.name + "," + text) + "\n";
     core::append_to_file(directory_ / "boxes.csv", std::as_bytes(std::span(line)));
     report(point, drag);
   }

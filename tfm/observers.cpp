@@ -9,6 +9,7 @@
 
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/ranks.hpp"
+#include "core/output/rows.hpp"
 #include "tfm/packing_limit.hpp"
 
 namespace polybed::tfm {
@@ -57,18 +58,7 @@ std::vector<core::FieldName> field_names(const Constants& constants, bool temper
   return names;
 }
 
-/// What steps.csv begins with; when a run goes on, rows later than its time and a row cut short are dropped.
-std::string kept_steps(const std::filesystem::path& path, std::optional<double> resume_time) {
-  std::string kept = "time_s,dt_s,error_norm,limited_by\n";
-  if (resume_time) {
-    std::ifstream old(path);
-    std::string line;
-    std::getline(old, line);
-    while (std::getline(old, line) && !old.eof())
-      if (std::strtod(line.c_str(), nullptr) <= *resume_time) kept += line + "\n";
-  }
-  return kept;
-}
+constexpr const char* header_of_steps = "time_s,dt_s,error_norm,limited_by\n";
 
 }  // namespace
 
@@ -138,7 +128,7 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
     files_.reset(new Files{
         {directory, history_.columns(), resume_time},
         {directory, slab_centres(constants.grid), profile_names(constants, knows_temperature(model)), resume_time},
-        {steps, kept_steps(steps, resume_time)}});
+        {steps, core::kept_rows(steps, header_of_steps, resume_time)}});
     if (resume_time) read_drifts(directory);
   });
   fields_.emplace(directory, constants.grid, field_names(constants, knows_temperature(model), compressible),

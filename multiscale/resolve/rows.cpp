@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <optional>
+#include <string_view>
 
 #include "core/case/file.hpp"
 #include "core/error.hpp"
+#include "core/output/rows.hpp"
 
 namespace polybed::multiscale {
 
@@ -73,13 +75,10 @@ std::string box_text(const BoxDrag& box) {
 
 BoxDrag box_of_text(const std::string& text, std::size_t species) {
   std::vector<double> numbers;
-  std::istringstream cells(text);
-  for (std::string one; std::getline(cells, one, ',');) {
-    try {
-      numbers.push_back(std::stod(one));
-    } catch (const std::exception&) {
-      return {};
-    }
+  for (const std::string_view cell : core::cells_of_row(text)) {
+    const std::optional<double> number = core::finite_number(cell);
+    if (!number) return {};
+    numbers.push_back(*number);
   }
   constexpr std::size_t before = 6;
   if (numbers.size() != before + 2 * species) return {};

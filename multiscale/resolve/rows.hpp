@@ -27,7 +27,7 @@ struct RowValue {
 [[nodiscard]] std::string row_text(const core::Scene& scene, double voidage, double reynolds,
                                    const std::vector<std::vector<BoxDrag>>& boxes);
 
-/// A box as a line of text, and back; a line that is none gives nothing.
+/// A box as a line of text, and back; one that is none, or has a number that is not finite, gives nothing.
 [[nodiscard]] std::string box_text(const BoxDrag& box);
 [[nodiscard]] BoxDrag box_of_text(const std::string& text, std::size_t species);
 

@@ -75,6 +75,25 @@ class Resolve(Scratch):
         self.out = self.folder / "other"
         self.resolve("--resume", code=FILE)
 
+    def test_only_whole_rows_of_boxes_count(self):
+        """A full disk cuts the last number of a row, 10.3249 to 10; other damage leaves a number that none wrote."""
+        words = ["--set", "resolve.reynolds=[0]", "--resume"]
+        rows = self.resolve(*words[:-1]).stdout
+        path = self.out / "boxes.csv"
+        whole = path.read_text()
+        lines = whole.split("\n")[:-1]
+        self.assertEqual(len(lines), 3, "a header and two packings")
+        cells = lines[1].split(",")
+        forces = [",".join([*cells[:7], value, *cells[8:]]) for value in ("inf", "nan", "1" + cells[7])]
+        for damaged in (whole[:-1], whole[:-16], whole.replace(cells[7], "1" + cells[7]), *(whole.replace(lines[1], row) for row in forces),
+                        whole.replace(lines[1], ",".join(cells[:-1]))):
+            path.write_text(damaged)
+            again = self.resolve(*words)
+            self.assertIn("boxes.csv: 1 row is cut short, damaged or without a check: not used", again.stderr)
+            self.assertEqual(again.stdout, rows)
+            self.assertEqual(sorted(row.split(",")[7:9] for row in path.read_text().split("\n")[1:-1]),
+                             sorted(row.split(",")[7:9] for row in lines[1:]))
+
     def test_a_box_goes_on_where_it_was_stopped(self):
         # Double precision, whose limit of change it takes a second to reach; 22 spheres in one box.
         words = ["--set", "resolve.reynolds=[5]", "--set", "resolve.packings=1", "--set", "resolve.spheres=22",

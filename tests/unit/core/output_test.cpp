@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/output/rows.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {
@@ -234,11 +235,51 @@ TEST(History, ReadsBackToTheBitAndResumes) {
   cut += "0.35,0.3";
   write_atomically(scratch.path() / "history.csv", cut);
   const History history = read_history(scratch.path());
+  for (const char* row : {"0.31,inf\n", "0.31\n", "0.31,0.3x\n"}) {
+    write_atomically(scratch.path() / "history.csv", cut + "\n" + row);
+    EXPECT_THROW((void)read_history(scratch.path()), FileError) << row;
+  }
+  write_atomically(scratch.path() / "history.csv", cut);
   EXPECT_EQ(history.of("time_s").back(), 0.1 + 0.2);
   EXPECT_EQ(history.of("interface_m").back(), third);
   { const HistoryWriter writer(scratch.path(), columns, 0.2); }
   EXPECT_THAT(read_history(scratch.path()).of("time_s"), ElementsAre(0.1, 0.2));
   EXPECT_THROW(HistoryWriter(scratch.path(), {"time_s"}, 0.2), FileError);
+}
+
+/// What a table of rows keeps of a text up to 0.25 s, or why it is refused.
+std::string kept_of(const std::string& text) {
+  const test::Scratch scratch;
+  write_atomically(scratch.path() / "steps.csv", text);
+  try {
+    return kept_rows(scratch.path() / "steps.csv", "time_s,dt_s,limited_by\n", 0.25);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+}
+
+TEST(Rows, CountOnlyWhole) {
+  const std::string header = "time_s,dt_s,limited_by\n", rows = header + "0.1,0.1,\"drag at (0, 1)\"\n0.2,,\"\"\n";
+  EXPECT_EQ(kept_of(rows + "0.3,0.1,\"growth\"\n"), rows);
+  EXPECT_EQ(kept_of(rows + "0.2"), rows);  // 0.25 cut short
+  EXPECT_EQ(kept_of(rows + "0.21,0.1,\"gro"), rows);
+  EXPECT_EQ(kept_of("time"), header);
+  EXPECT_THAT(kept_of("time_s\n"), HasSubstr("has other columns"));
+  for (const char* row : {"0.2", "inf,0.1,\"a\"", "nan,0.1,\"a\"", "0.2,1e999,\"a\"", "0.2,0.1,\"a", "0.2,0.1,a",
+                          ",0.1,\"a\"", "0.2,0.1,\"a\",1", "0.2x,0.1,\"a\"", "1e,0.1,\"a\"", ""})
+    EXPECT_THAT(kept_of(rows + row + "\n0.24,0.1,\"a\"\n"), HasSubstr("steps.csv:4: ")) << row;
+}
+
+TEST(Rows, CarryAChecksum) {
+  const std::string row = "a1b2,12,1.5,10.3249", sealed = with_check(row);
+  EXPECT_EQ(without_check(sealed), row);
+  EXPECT_EQ(without_check(row), std::nullopt);
+  for (std::size_t n = 0; n < sealed.size(); ++n) {
+    EXPECT_EQ(without_check(sealed.substr(0, n)), std::nullopt) << n;
+    std::string other = sealed;
+    other[n] ^= 1;
+    EXPECT_EQ(without_check(other), std::nullopt) << n;
+  }
 }
 
 /// Writes files in memory until that ends, with some bytes more of it than this process has, and ends with code 0.

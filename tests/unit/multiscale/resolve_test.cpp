@@ -1,5 +1,6 @@
 #include "multiscale/resolve/rows.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -98,6 +99,8 @@ TEST(Resolve, BoxesSurviveTheirFile) {
   EXPECT_EQ(read.seconds, made.seconds);
   EXPECT_TRUE(box_of_text(box_text(made), 3).net.empty());
   EXPECT_TRUE(box_of_text("12,1e-6,2e-", 2).net.empty());
+  for (const char* cell : {"inf", "nan", "1e999", "10abc", "", " 1"})
+    EXPECT_TRUE(box_of_text(fmt::format("12,1e-6,2e-7,1000,8000,1.25,1.5,{}", cell), 1).net.empty()) << cell;
 }
 
 TEST(Resolve, RefusesGridsThatAreTooCoarse) {
