@@ -250,14 +250,17 @@ void CaseRun::finish(const std::string& state) {
 /// Warnings, then the card.
 void CaseRun::print_end(const std::string& record) {
   const core::Json json = core::parse_json(record);
-  for (const core::Json& warning : core::array_of(core::member_of(json, "warnings")))
-    core::print(stderr, "{} {}\n", core::painted(stderr, core::Colour::yellow, "warning:"), core::text_of(warning));
+  for (const core::Json& warning : core::array_of(core::member_of(json, "warnings"))) {
+    core::put(stderr, core::Colour::yellow, "warning:");
+    core::print(stderr, " {}\n", core::text_of(warning));
+  }
   if (!options_.details) print_shares(timers_);
   const std::string state = core::text_of(core::member_of(json, "state"));
-  core::print(
-      stderr, "\n{}\n{}\n", core::painted(stderr, core::Colour::bold, scene_.title.empty() ? "result" : scene_.title),
-      card_line("run",
-                fmt::format("{}, {:.4g} s of {} in {}", state, simulation().time(), model_name_, directory_.string())));
+  core::print(stderr, "\n");
+  core::put(stderr, core::Colour::bold, scene_.title.empty() ? "result" : scene_.title);
+  core::print(stderr, "\n{}\n",
+              card_line("run", fmt::format("{}, {:.4g} s of {} in {}", state, simulation().time(), model_name_,
+                                           directory_.string())));
   for (const std::string& line : result_lines(card_)) core::print(stderr, "{}\n", line);
   if (card_.seen.steady && !*card_.seen.steady)
     core::print(
@@ -315,10 +318,10 @@ void print_shares(const core::Timers& timers) {
       line += fmt::format("{}{} {:.0f} %", line.empty() ? "" : ", ", term.name, 100 * term.seconds / all);
     return core::print(stderr, "time by term: {}\n", line);
   }
-  for (const core::Timers::Term& term : terms)
-    core::print(
-        stderr, "{:26} {:3.0f} % {}\n", term.name, 100 * term.seconds / all,
-        core::painted(stderr, core::Colour::blue, std::string(std::size_t(bar * term.seconds / all + 0.5), '#')));
+  for (const core::Timers::Term& term : terms) {
+    core::print(stderr, "{:26} {:3.0f} % ", term.name, 100 * term.seconds / all);
+    core::put(stderr, core::Colour::blue, std::string(std::size_t(bar * term.seconds / all + 0.5), '#') + "\n");
+  }
 }
 
 void print_timers(const core::Timers& timers) {

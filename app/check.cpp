@@ -235,13 +235,15 @@ void add_particles(const core::Scene& scene, const ParticleRequirements& need, s
 /// Title, card, notes; those that do not fit on the screen are counted.
 void print_screen(const core::Scene& scene, std::vector<std::string> lines, const std::vector<std::string>& notes) {
   const std::string title = scene.title.empty() ? "a case without a title" : scene.title;
-  core::print("{}\n", core::painted(stdout, core::Colour::bold, title));
+  core::put(stdout, core::Colour::bold, title + "\n");
   for (const std::string& line : lines) core::print("{}\n", line);
   const std::size_t room = screen - 3 - std::min(lines.size(), screen - 3);  // beside title, empty line and last line
   const std::size_t shown = notes.size() <= room ? notes.size() : room - std::min<std::size_t>(room, 1);
   if (!notes.empty()) core::print("\n");
-  for (std::size_t n = 0; n < shown; ++n)
-    core::print("{} {}\n", core::painted(stdout, core::Colour::yellow, "note:"), notes[n]);
+  for (std::size_t n = 0; n < shown; ++n) {
+    core::put(stdout, core::Colour::yellow, "note:");
+    core::print(" {}\n", notes[n]);
+  }
   if (shown < notes.size()) core::print("and {} more notes: polybed check --details\n", notes.size() - shown);
   core::print("more: --details (numerics, memory), --resolved (all keys); polybed effects, polybed estimate\n");
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -94,7 +95,10 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool asked = error.get_exit_code() == 0;
-    app.exit(error);
+    std::ostringstream answer, refusal;
+    app.exit(error, answer, refusal);
+    core::put(stdout, answer.str());
+    core::put(stderr, refusal.str());
     if (!asked) return core::ExitCode::wrong_case;
     flush_standard_output();
     return core::ExitCode::done;

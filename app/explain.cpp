@@ -52,9 +52,9 @@ struct Meaning {
   core::Json json;
 };
 
-std::string title_of(const std::string& name, const std::string& kind) {
-  return core::painted(stdout, core::Colour::bold, name) + "  (" + kind + ")\n";
-}
+constexpr const char* before_kind = "  (";
+
+std::string title_of(const std::string& name, const std::string& kind) { return name + before_kind + kind + ")\n"; }
 
 Meaning meaning_of(const core::Key& key) {
   std::string text = title_of(key.path(), "key of the case file");
@@ -174,7 +174,13 @@ void run_explain(const std::string& word, bool json) {
     for (const Meaning& meaning : found) all.push_back(meaning.json);
     return core::print("{}\n", core::json_text(found.size() == 1 ? all.front() : core::Json{{"meanings", all}}));
   }
-  for (std::size_t n = 0; n < found.size(); ++n) core::print("{}{}", n > 0 ? "\n" : "", found[n].text);
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    const std::string& text = found[n].text;
+    const std::size_t name = text.find(before_kind);
+    if (n > 0) core::print("\n");
+    core::put(stdout, core::Colour::bold, text.substr(0, name));
+    core::put(stdout, text.substr(name));
+  }
 }
 
 }  // namespace polybed::app

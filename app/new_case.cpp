@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -41,18 +40,13 @@ std::string after(const std::string& text, const std::string& front) {
   return rest;
 }
 
-std::string text_of_file(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::vector<KnownCase> cases_in(const fs::path& folder, bool templates) {
   std::vector<KnownCase> found;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
     const fs::path file = entry.path() / "case.toml";
     if (!fs::exists(file)) continue;
-    const std::string text = text_of_file(file);
+    const std::string text = core::read_text(file);
     found.push_back(
         {entry.path().filename().string(), after(text, "title = "), after(text, "# takes "), entry.path(), templates});
   }
@@ -101,7 +95,7 @@ void run_new(const fs::path& name, const std::string& from) {
   core::make_directories(name);
   for (const fs::directory_entry& entry : fs::directory_iterator(chosen.folder))
     if (belongs_to_case(entry.path()))
-      core::write_atomically(name / entry.path().filename(), text_of_file(entry.path()));
+      core::write_atomically(name / entry.path().filename(), core::read_text(entry.path()));
   const std::string file = core::shell_word((name / "case.toml").string());
   const char* model = chosen.takes.find("polybed tfm") != std::string::npos || chosen.takes.empty() ? "tfm" : "dem";
   core::print("{}: {}\n{}", file, chosen.title, chosen.takes.empty() ? "" : "takes about " + chosen.takes + "\n");
@@ -124,8 +118,8 @@ void run_list_cases(bool json) {
     if (!one.is_template && templates) core::print("\nshipped cases, each with a README; polybed new takes them too\n");
     templates = one.is_template;
     const std::size_t title = 27;
-    core::print("{}{}", core::painted(stdout, core::Colour::bold, fmt::format("{:26}", one.name)),
-                beside(std::string(title - 1, ' '), title, one.title).substr(title - 1));
+    core::put(stdout, core::Colour::bold, fmt::format("{:26}", one.name));
+    core::put(stdout, beside(std::string(title - 1, ' '), title, one.title).substr(title - 1));
     if (!one.takes.empty()) core::print("{:25}  takes {}\n", "", one.takes);
   }
   core::print("\ntimes are of one core of the machine that they were measured on, with the pictures at the end\n");

@@ -46,7 +46,7 @@ std::string duration_text(double seconds) {
 
 Progress::Progress(bool quiet, double from, double until)
     : quiet_(quiet),
-      terminal_(isatty(2) == 1),
+      terminal_(is_terminal(stderr)),
       from_(from),
       until_(until),
       next_(from),
@@ -81,8 +81,7 @@ void Progress::show(const ProgressLine& line) {
   const int full = int(share * bar_width);
   const std::string bar = fmt::format("[{}{}] {}", std::string(std::size_t(full), '#'),
                                       std::string(std::size_t(bar_width - full), '.'), text);
-  print(stderr, "\r\033[K{}", cut(bar, terminal_columns()));
-  std::fflush(stderr);
+  put_in_place_of_line(stderr, cut(bar, terminal_columns()));
 }
 
 }  // namespace polybed::core

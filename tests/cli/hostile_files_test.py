@@ -1,5 +1,7 @@
 #!/usr/bin/python3
-"""Files that never end, nest without end, are long, hold numbers that cannot be, or lead to other files. Usage: hostile_files_test.py PROGRAM"""
+"""Files that never end, nest without end, are long, hold numbers that cannot be, lead to other files, or would act on a terminal.
+Usage: hostile_files_test.py PROGRAM"""
+import json
 import os
 import pathlib
 import resource
@@ -167,6 +169,46 @@ class Elsewhere(Scratch):
             self.refused(path.name, "p_ratio", change, "check", TABLE_CASE, *WET, "--set", f"effects.solids_stress=table:{path}")
             with self.assertRaises(polybed.solids_table.DamagedError):
                 polybed.solids_table.read_table(path)
+
+
+class OnTerminals(Scratch):
+    """No character of a file acts on a terminal: ESC and BEL, those of C1, and marks that turn the direction of writing."""
+
+    EVIL = "\x1b]0;owned\x07\x1b[2J\x9b31m\u202egnp"
+
+    def harmless(self, words, **options):
+        done = run(*words, **options)
+        for text in (done.stdout, done.stderr):
+            self.assertNotRegex(text, "[\0-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]", words)
+        return done.stdout + done.stderr
+
+    def test_titles_names_and_keys_are_shown_by_their_escapes(self):
+        escapes = self.EVIL.translate({ord(c): f"\\u{ord(c):04x}" for c in "\x1b\x07\x9b\u202e"})
+        case = self.write("case.toml", f'title = "{escapes}"\n' + small_bed("1 ms"))
+        folder = self.folder / "run"
+        for words in (["check", case], ["check", case, "--json"], ["check", case, "--resolved"], ["tfm", case, "-o", folder],
+                      ["effects", case]):
+            told = self.harmless(words)
+            if words[0] in ("check", "tfm"):
+                self.assertIn("\\u001b]0;owned\\u0007", told, words)
+        title = strict_json(self.ends(DONE, "check", case, "--json").stdout)["case"]
+        self.assertIn("owned", title)
+        for text in (f'"{escapes}" = 1\n', f'[fluid]\n"{escapes}" = 1\n', f'[effects]\ndrag = "{escapes}"\n', f"a = '{self.EVIL}'\n",
+                     f'[bed]\nstart = "list:{escapes}"\n'):
+            self.assertIn("\\u001b", self.harmless(["check", self.write("wrong.toml", text)]))
+        rows = self.write("rows.csv", f"eps,Re\n0.5,{self.EVIL}\n")
+        self.assertIn("\\u001b", self.harmless(["drag", "--csv", rows]))
+        self.assertIn("\\u001b", self.harmless(["fit", rows, "-o", self.folder / "fit"]))
+        law = self.write("law.json", json.dumps({"filetype": "polybed drag law", "version": 1, "law": self.EVIL}))
+        self.assertIn("\\u001b", self.harmless(["drag", "--law", f"file:{law}", "--voidage", "0.5", "--re", "1"]))
+        record = strict_json((folder / "run.json").read_text())
+        (folder / "run.json").write_text(json.dumps(record | {"filetype": self.EVIL}))
+        for command in ("report", "plot", "watch"):
+            self.assertIn("\\u001b", self.harmless([command, folder]))
+        with self.assertRaisesRegex(polybed.FormatError, r"\\u001b"):
+            polybed.read(folder)
+        (folder / "run.json").write_text(json.dumps(record | {"state": self.EVIL}))
+        self.assertIn("\\u001b", repr(polybed.read(folder)))
 
 
 class Deep(Scratch):

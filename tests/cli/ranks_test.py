@@ -87,6 +87,14 @@ class Ranks(Scratch):
         running.communicate(timeout=10)
         self.assertEqual(running.returncode, STOPPED)
 
+    def test_no_colours_go_into_a_pipe(self):
+        """mpirun gives a rank a terminal of its own for its answer."""
+        case = self.write("case.toml", small_bed("1 ms"))
+        for words in (["check", case], ["list", "cases"], ["tfm", case, "--no-picture", "-o", self.folder / "run"]):
+            done = bare("-n", 2, *words, TERM="xterm")
+            self.assertEqual(done.returncode, DONE, done.stderr)
+            self.assertNotIn("\033", done.stdout + done.stderr, words)
+
     def test_a_number_of_ranks_that_is_none_is_refused(self):
         for words in (["-n"], ["-n", "0", "list"], ["-n", "two", "list"], ["-n", "2"]):
             self.assertEqual(bare(*words).returncode, WRONG_CASE, words)
