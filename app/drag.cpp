@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -221,9 +220,7 @@ Row row_of(const std::string& line, std::size_t columns, std::size_t asked, cons
 /// Calls see(header, row) for every row of a file of points, with the columns of the header that define a point.
 template <class See>
 void read_points(const std::string& path, See&& see) {
-  (void)core::bytes_of_file(path, core::longest_file);
-  std::ifstream file(path);
-  if (!file) throw core::FileError(path + ": cannot be read");
+  std::istringstream file(core::read_text(path));
   std::vector<std::string> header;
   std::size_t columns = 0;
   std::string line;
@@ -240,7 +237,6 @@ void read_points(const std::string& path, See&& see) {
       see(header, std::optional<Row>(row_of(line, columns, header.size(), where)));
     }
   }
-  if (file.bad()) throw core::FileError(path + ": cannot be read");
   if (header.empty()) throw core::CaseError(path + ": no header and no rows");
 }
 

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,12 +50,12 @@ std::vector<Cell> cells_of(std::string_view line) {
 class ListReader {
  public:
   ListReader(const Scene& scene, std::string file) : scene_(scene), file_(std::move(file)) {}
-  ParticleList read(std::istream& in) {
+  ParticleList read(std::string_view text) {
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    std::string text;
-    while (std::getline(in, text)) {
+    while (!text.empty()) {
       ++line_;
-      std::string_view line = text;
+      std::string_view line = text.substr(0, text.find('\n'));
+      text.remove_prefix(std::min(line.size() + 1, text.size()));
       if (line_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
       if (trimmed(line).empty()) continue;
       if (!meaning_.empty()) {
@@ -68,7 +65,6 @@ class ListReader {
       read_header(cells_of(line));
       if (!problems_.empty()) throw StartError(problems_);  // without the columns nothing else can be said
     }
-    if (in.bad()) throw FileError(fmt::format("{}: cannot be read ({})", file_, std::strerror(errno)));
     line_ = 0;
     if (problems_.empty() && list_.species.empty())
       problems_.push_back({file_, 0, 0, "no particles: a header species,x,y,z and a line for each are needed"});
@@ -182,10 +178,7 @@ ParticleList read_particle_list(const Scene& scene) {
     throw StartError("bed.start = \"" + text_of(scene.bed.start) +
                      "\" names no list of particles: write \"list:FILE.csv\"");
   const std::string& file = scene.bed.start.file;
-  (void)bytes_of_file(file, longest_file);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw FileError(fmt::format("{}: cannot be read ({})", file, std::strerror(errno)));
-  return ListReader(scene, file).read(in);
+  return ListReader(scene, file).read(read_text(file));
 }
 
 }  // namespace polybed::core

@@ -22,10 +22,19 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Throws for what has no length of its own, and may have no end.
-void require_regular(const fs::path& path, const struct stat& status) {
-  if (S_ISDIR(status.st_mode)) cannot("read", path, EISDIR);
+void require_regular(const std::string& deed, const fs::path& path, const struct stat& status) {
+  if (S_ISDIR(status.st_mode)) cannot(deed, path, EISDIR);
   if (!S_ISREG(status.st_mode))
-    throw FileError(fmt::format("cannot read {}: it is no regular file, but a pipe or a device", path.string()));
+    throw FileError(fmt::format("cannot {} {}: it is no regular file, but a pipe or a device", deed, path.string()));
+}
+
+/// A regular file that is there; a pipe is not waited for. \param deed  as in "read"
+Descriptor opened(const std::string& deed, const fs::path& path, int way) {
+  Descriptor file(::open(path.c_str(), way | O_CLOEXEC | O_NONBLOCK));
+  struct stat status {};
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) cannot(deed, path, errno);
+  require_regular(deed, path, status);
+  return file;
 }
 
 /// 0 or the reason why not all bytes were taken.
@@ -51,11 +60,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-Descriptor opened_to_append(const fs::path& path) {
-  const int number = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
-  if (number < 0) cannot("write", path, errno);
-  return Descriptor(number);
-}
+Descriptor opened_to_append(const fs::path& path) { return opened("write", path, O_WRONLY | O_APPEND | O_NOFOLLOW); }
 
 Descriptor begun(const fs::path& path, std::string_view text) {
   write_atomically(path, text, Flush::content);
@@ -157,7 +162,7 @@ void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {
 std::size_t bytes_of_file(const fs::path& path, std::size_t most) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) cannot("read", path, errno);
-  require_regular(path, status);
+  require_regular("read", path, status);
   const auto size = std::size_t(status.st_size);
   if (size > most)
     throw FileError(fmt::format("{}: {} bytes is too long, at most {} are read", path.string(), size, most));
@@ -167,10 +172,7 @@ std::size_t bytes_of_file(const fs::path& path, std::size_t most) {
 void read_pieces(const fs::path& path, std::size_t begin, std::size_t end,
                  const std::function<void(std::span<const std::byte>)>& see) {
   constexpr std::size_t piece = 1 << 20;
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe would wait for a writer
-  struct stat status {};
-  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) cannot("read", path, errno);
-  require_regular(path, status);
+  const Descriptor file = opened("read", path, O_RDONLY);
   Bytes bytes(std::min(piece, end - begin));
   while (begin < end) {
     const ssize_t count = ::pread(file.number(), bytes.data(), std::min(piece, end - begin), off_t(begin));

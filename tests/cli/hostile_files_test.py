@@ -43,6 +43,30 @@ class Endless(Scratch):
             self.assertEqual(done.returncode, FILE, (words, done.stderr[-300:]))
             self.assertRegex(done.stderr, "no regular file, but a pipe or a device", words)
 
+    def test_nothing_waits_for_a_pipe_in_a_run_directory(self):
+        """A folder got from somebody: its files are read by commands and by a run that goes on."""
+        case, folder = self.write("case.toml", small_bed("2 ms")), self.folder / "run"
+        more = ["--set", "output.checkpoint_every=1e-3"]
+        self.ends(DONE, "tfm", case, *more, "-o", folder)
+        pages = [["report", folder], ["plot", folder]]
+        resumed = [["tfm", case, *more, "-o", folder, "--resume", "--until", "3 ms"]]
+        for name, commands in (("steps.csv", [pages[0], *resumed]), ("history.csv", [*pages, ["measure", folder], *resumed]),
+                               ("profiles.h5", [*pages, ["measure", folder], *resumed]), ("fields.h5", [*pages, *resumed]),
+                               ("run.json", pages)):
+            path, kept = folder / name, self.folder / "kept"
+            os.rename(path, kept)
+            os.mkfifo(path)
+            for words in commands:
+                self.assertRegex(self.ends(FILE, *words, timeout=20).stderr, rf"cannot read \S*{name}: it is no regular file", words)
+            os.unlink(path)
+            os.rename(kept, path)
+        os.unlink(folder / ".polybed")
+        os.mkfifo(folder / ".polybed")
+        self.ends(DONE, "watch", folder, timeout=20)
+        pipe = self.folder / "rows"
+        os.mkfifo(pipe)
+        self.assertIn("no regular file", self.ends(FILE, "fit", pipe, "-o", self.folder / "fit", timeout=20).stderr)
+
     def listed(self, file):
         bed = 'volume_share = [0.8, 0.2]\nstatic_height = "12 mm"\n'
         text = small_bed("1 ms").replace(bed, f'start = "list:{file}"\n').replace("start_solids_fraction = 0.4\n", "")
