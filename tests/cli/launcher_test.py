@@ -8,7 +8,7 @@ import shutil
 import subprocess
 
 import program
-from program import DONE, FILE, ROOT, Scratch
+from program import DONE, FILE, ROOT, Scratch, WRONG_CASE
 
 SOURCES = re.findall(r"(?m)^add_subdirectory\((\w+)\)", (ROOT / "CMakeLists.txt").read_text())
 FOLDERS = ("cmake", *SOURCES, "python/polybed")
@@ -113,6 +113,17 @@ class Launcher(Scratch):
         self.assertIn("a.cpp: error: broken", shown)
         self.assertIn("the build failed; the whole log is", shown)
         self.assertEqual(self.piped()[:2], (DONE, "ran list\n"))
+
+    def test_a_hard_case_that_there_is_not_is_refused_before_anything_is_built(self):
+        (self.folder / "cases/hard").mkdir(parents=True)
+        (self.folder / "tests").mkdir()
+        shutil.copy(ROOT / "cases/hard/expected.csv", self.folder / "cases/hard")
+        for words, code in ((["--only", "T99"], WRONG_CASE), (["--only=I6,T99"], WRONG_CASE), (["--only", "I6,T1"], DONE)):
+            done = subprocess.run([self.folder / "polybed", "stability", *words], env=self.settings | {"POLYBED_YES": "1"}, capture_output=True,
+                                  text=True, timeout=60)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertEqual("there is no hard case T99" in done.stderr, code == WRONG_CASE)
+            self.assertEqual((self.folder / "build").exists(), code == DONE)
 
 
 if __name__ == "__main__":
