@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Every relative link of a page names a file of the repository, and a heading of it where it names one; no page of docs is out of reach."""
+"""Every relative link of a page names a file of the repository, and a heading of it where it names one; no page of docs is out of reach.
+A file that a source names with its folder exists."""
 import re
 import sys
 
@@ -35,6 +36,14 @@ def broken(path, text):
             yield f"the link {link} names no heading"
 
 
+NAMED = re.compile(r"(?<![\w./{}-])((?:app|cases|closures|core|dem|docs|fluid|lbm|measures|multiscale|python|relevance|tests|tfm)/[\w./-]*\.(?:md|hpp|cpp|py))\b")
+
+
+def gone(text):
+    """Files of this repository that a text names and that there are not; an example in a test has no such folder."""
+    return sorted({name for name in NAMED.findall(text) if not (ROOT / name).exists()})
+
+
 def unreached(pages):
     """Pages of docs that no chain of links from the README leads to."""
     left, seen = [ROOT / "README.md"], set()
@@ -51,6 +60,7 @@ def self_test():
     here = ROOT / "README.md"
     assert list(broken(here, "[a](no-such-file.md)")) == ["the link no-such-file.md names no file"]
     assert list(broken(here, "[a](README.md#no-such-heading)")) == ["the link README.md#no-such-heading names no heading"]
+    assert gone("// docs/effects.md and docs/reference/effects.md") == ["docs/effects.md"]
     assert not list(broken(here, "[a](https://example.org) [b](README.md#polybed) `[c](no)`"))
 
 
@@ -59,4 +69,6 @@ if __name__ == "__main__":
     pages = tracked(".md")
     problems = [f"{p.relative_to(ROOT)}: {problem}" for p in pages for problem in broken(p, p.read_text())]
     problems += [f"{p.relative_to(ROOT)}: no page links to it" for p in unreached(pages)]
+    sources = [p for p in tracked(".hpp", ".cpp", ".py") if p.parent != ROOT / "tests/architecture"]
+    problems += [f"{p.relative_to(ROOT)}: {name} is gone" for p in sources for name in gone(p.read_text())]
     sys.exit(report(problems, "links of the docs"))

@@ -17,7 +17,7 @@ core::Scene box_of(const Sphere& sphere, double cell, std::array<int, 3> cells) 
   return scene;
 }
 
-/// Settling in gas that rises, dem.md: d 0.1 mm, 2000 kg/m3, Schiller and Naumann's drag, g = 9.80665.
+/// Settling in gas that rises: d 0.1 mm, 2000 kg/m3, Schiller and Naumann's drag, g = 9.80665.
 TEST(DemSphere, SettlesAgainstRisingGas) {
   const Sphere sphere{1e-4, 2000, gas, 9.80665, 0.40};
   core::Scene scene = box_of(sphere, 0.2, {5, 5, 5});

@@ -1,4 +1,4 @@
-"""Whether a run has become steady: what its heights still drift by, as fluid/drift.hpp has it of a run that goes on."""
+"""Whether a run has become steady: what its heights still drift by, as measures/drift.hpp has it of a run that goes on."""
 
 import numpy as np
 

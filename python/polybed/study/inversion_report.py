@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, field
 from polybed.study.inversion_search import Found
 
 AT_HEIGHT = 0.98  # interface over bed height of a mixed bed: within one of the 50 slices that the interface is found on
-GOAL = 0.05  # relative difference of the models' velocities (docs/calibration.md, section 8)
+GOAL = 0.05  # relative difference of the models' velocities
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""Two runs of one case, one by each model, measured over the same window and scored (docs/calibration.md, section 8)."""
+"""Two runs of one case, one by each model, measured over the same window and scored."""
 
 import math
 from dataclasses import dataclass, field
