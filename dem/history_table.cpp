@@ -15,7 +15,8 @@ measures::Table<Told> history_table(const Parts& parts) {
   add(parts.ledger,
       {"dissipated", "J", "lost in contacts since the start", [](const Told& t) { return t.totals.dissipated; }});
   add(parts.ledger, {"work", "J",
-                     "done on the particles by the fluid, the walls and the flow of a sheared box since the start: "
+                     "done on the particles since the start by the fluid, by the flow of a sheared box, and by joined "
+                     "faces, which gravity pulls them through: "
                      "kinetic + rotational + elastic + potential + dissipated - work stays what it was",
                      [](const Told& t) { return t.totals.work; }});
   add(parts.ledger && parts.outflow, {"carried_out", "J",

@@ -94,7 +94,7 @@ TotalsOfRanks::TotalsOfRanks(const Model& model) : model_(model) {
   add_contacts(model, model.pairs(), false, elastic, greatest_);
   add_contacts(model, model.walls(), true, elastic, greatest_);
   const CountedEnergy counted = model.counted_energy();
-  EnergySum work = counted.flow_work;
+  EnergySum work = counted.joined_work;
   work.add(counted.fluid_work);
   const std::array<EnergySum, energies> sums{
       kinetic.sum(), rotational.sum(),  potential.sum(),   elastic.sum(),     counted.dissipated,

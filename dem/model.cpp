@@ -79,7 +79,10 @@ void Model::make_parts(const std::vector<Particle>& all) {
     pair_forces_.keep(*ledger);
     verlet_.keep(*ledger);
   }
-  if (scene_.dem.ledger && sheared) pair_forces_.keep(*add_part<FlowWork>(force_unit_, energy_unit_, limits_.dt));
+  if (scene_.dem.ledger && (sheared || falls_through_joined_faces(box_, gravity_))) {
+    auto* work = add_part<JoinedWork>(force_unit_, energy_unit_, limits_.dt);
+    if (sheared) pair_forces_.keep(*work);
+  }
   const SolidsVolume solids = volume_of(all, scene_.species.size());
   if (has_affine_drag(scene_)) add_part<AffineDrag>(scene_, materials_, solids, box_.size, force_unit_, energy_unit_);
   if (scene_.fluid.present() && !sheared) {
@@ -111,7 +114,9 @@ void Model::measure(const std::vector<Particle>& all) {
   const double weight = std::hypot(gravity_[0], gravity_[1], gravity_[2]) * length;
   const double speed = limits_.greatest_speed;
   // What the sums may grow to: the energy of all at the greatest speed, and a reserve for what is dissipated meanwhile.
-  energy_unit_ = FixedPoint::for_sums_of(mass * (speed * speed + weight), 1024);
+  // Through joined faces gravity supplies energy without end.
+  const double reserve = falls_through_joined_faces(box_, gravity_) ? 0x1p30 : 1024;
+  energy_unit_ = FixedPoint::for_sums_of(mass * (speed * speed + weight), reserve);
   momentum_unit_ = FixedPoint::for_sums_of(mass * speed, 1024);
 }
 
@@ -228,19 +233,27 @@ void Model::set_step_for(double began, std::int64_t began_at, double speed) {
 void Model::wrap() {
   for (std::size_t i = 0; i < particles_.owned; ++i) {
     Vector& x = particles_.place[i].x;
+    Motion& m = particles_.motion[i];
+    const Vector from = x;
+    const double speed = m.v[0];
     if (box_.periodic[1] && (x[1] < 0 || x[1] >= box_.size[1])) {
       const double boxes = std::floor(x[1] / box_.size[1]);
       x[0] -= boxes * box_.image_shift(clock());
-      Motion& m = particles_.motion[i];
-      const double from = m.v[0];
       m.v[0] -= boxes * box_.image_speed();
-      for (const auto& part : parts_) part->wrapped(1 / m.inverse_mass, from, m.v[0]);
     }
     for (std::size_t k = 0; k < 3; ++k)
       if (box_.periodic[k]) {
         x[k] -= std::floor(x[k] / box_.size[k]) * box_.size[k];
         if (x[k] >= box_.size[k]) x[k] = 0;  // of a tiny negative number, whose sum with the length is the length
       }
+    bool wrapped = false;
+    double gained = 0.5 * (m.v[0] - speed) * (m.v[0] + speed);
+    for (std::size_t k = 0; k < 3; ++k) {
+      wrapped = wrapped || x[k] < from[k] || x[k] > from[k];
+      gained -= gravity_[k] * (x[k] - from[k]);
+    }
+    for (const auto& part : parts_)
+      if (wrapped) part->wrapped(gained / m.inverse_mass);
   }
 }
 

@@ -27,9 +27,9 @@ struct Around {
 
 /// Energies counted since the start, of one rank, in the unit of energy.
 struct CountedEnergy {
-  EnergySum dissipated;  ///< in contacts
-  EnergySum fluid_work;  ///< of a fluid on the particles
-  EnergySum flow_work;   ///< of the joined faces of a sheared box
+  EnergySum dissipated;   ///< in contacts
+  EnergySum fluid_work;   ///< of a fluid on the particles
+  EnergySum joined_work;  ///< of joined faces, of a sheared box or along gravity
 };
 
 /// A checkpoint whose particles are back in place.
@@ -66,8 +66,8 @@ class StepPart {
   // In this order while the pairs are listed anew.
   /// While contacts are still known: how many particles are about to leave, of all ranks.
   virtual std::int64_t count_leaving(const Model&) { return 0; }
-  /// A particle has come back through the other face of a sheared box. \param mass  kg  \param from, to  v_x, m/s
-  virtual void wrapped(double /*mass*/, double /*from*/, double /*to*/) {}
+  /// A particle has come back through the other one of two joined faces. \param gained  energy, J
+  virtual void wrapped(double /*gained*/) {}
   virtual void take_out(Particles&) {}
   /// Before particles change ranks and places, and after.
   virtual void send_ahead(Exchange&, const Particles&) {}

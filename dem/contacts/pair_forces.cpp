@@ -174,7 +174,7 @@ void PairForces::add_pairs(Particles& particles, Contacts& contacts, const Image
     p = loader_.find_pairs(particles, contacts, images, p, std::int32_t(end), batch_);
     loader_.load_pairs(particles, contacts, images, batch_);
     treat(particles, contacts, false, dt);
-    if (flow_work_ != nullptr) flow_work_->act(batch_, counted_, contacts, images);
+    if (joined_work_ != nullptr) joined_work_->act(batch_, counted_, contacts, images);
     Load* const load = particles.load.data();
     for (int c = 0; c < batch_.count; ++c) add_to_pair(batch_, c, load[batch_.first[c]], load[batch_.second[c]]);
   }

@@ -9,7 +9,7 @@
 #include "dem/contacts/loader.hpp"
 #include "dem/contacts/materials.hpp"
 #include "dem/effects.hpp"
-#include "dem/flow_work.hpp"
+#include "dem/joined_work.hpp"
 #include "dem/ledger.hpp"
 #include "dem/particles.hpp"
 
@@ -30,7 +30,7 @@ class PairForces {
   /// Counts energies in a ledger from now on, which must stay.
   void keep(Ledger& ledger) { ledger_ = &ledger; }
   /// Likewise the work of a sheared box, beside a ledger.
-  void keep(FlowWork& work) { flow_work_ = &work; }
+  void keep(JoinedWork& work) { joined_work_ = &work; }
 
   // Forces and torques of all pairs of a list are added to the loads of its particles, and its memory moves on: first
   // of the pairs that need no ghost, then, once the ghosts are there, of the others.
@@ -60,8 +60,8 @@ class PairForces {
   const PairLaws& laws_;
   FixedPoint force_, torque_;
   double max_overlap_;
-  Ledger* ledger_ = nullptr;       ///< absent: energies are not counted
-  FlowWork* flow_work_ = nullptr;  ///< absent: the box is not sheared, or energies are not counted
+  Ledger* ledger_ = nullptr;           ///< absent: energies are not counted
+  JoinedWork* joined_work_ = nullptr;  ///< null: the box is not sheared, or energies are not counted
   ContactBatch batch_;
   alignas(64) ContactBatch::Row counted_ = {};  ///< by the ledger: 1, or 0 of pairs that another rank counts
   PairTrouble trouble_;

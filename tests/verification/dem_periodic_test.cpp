@@ -154,6 +154,34 @@ TEST(DemPeriodic, ZeroAndLengthAreOnePlace) {
   EXPECT_LT(beads.place(0).x[0], side);
 }
 
+// Gravity along joined directions: what a particle gains by coming back higher is work. A sphere alone falls freely,
+// and the ledger of a crowd closes to V5, also after a checkpoint.
+TEST(DemPeriodic, GravityWorksThroughJoinedFaces) {
+  core::Scene scene = periodic_box({side, side, depth});
+  scene.column.gravity = 9.81;
+  scene.column.down = {0.6, -0.8, 0};
+  Beads alone(scene, {{"a", {0.001, 0.001, 0.001}}});
+  const double before = dem::totals_of(alone.model).sum(), time = 0.05;
+  alone.until(time);
+  const dem::Totals fallen = dem::totals_of(alone.model);
+  const double mass = mass_of(0.5 * diameter, 2500), energy = 0.5 * mass * 9.81 * time * 9.81 * time;
+  compare("energy of a free fall", fallen.kinetic, energy, 1e-9);
+  compare("sum of a free fall", fallen.sum(), before, 1e-9, energy);
+  EXPECT_GT(fallen.work, 0.5 * energy) << "12 mm in a box of 5";
+
+  Beads many(scene, crowd()), resumed(scene, crowd());
+  const double start = dem::totals_of(many.model).sum();
+  many.steps(2000);
+  resumed.model.resume(many.model.checkpoint());
+  for (Beads* beads : {&many, &resumed}) {
+    beads->steps(2000);
+    const dem::Totals now = dem::totals_of(beads->model);
+    EXPECT_NE(now.work, 0);
+    compare("ledger of a crowd", now.sum(), start, 1e-3, std::max(now.kinetic + now.rotational, now.dissipated));
+  }
+  EXPECT_EQ(dem::totals_of(many.model).work, dem::totals_of(resumed.model).work);
+}
+
 // Far from the origin, 1e6 diameters: what touches is found, and Hertz' force is right to what the places leave,
 // 1e-13 m of 1e-5 m.
 TEST(DemPeriodic, FarFromTheOrigin) {

@@ -1,4 +1,4 @@
-// Work that the flow of a sheared box does on the particles in it.
+// Work that joined faces do on the particles between them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,16 @@
 
 namespace polybed::dem {
 
-/// What the joined faces of a sheared box give: energies are those at rest with its bottom.
+/// Whether a particle that leaves through a joined face comes back higher or lower.
+[[nodiscard]] inline bool falls_through_joined_faces(const Box& box, const Vector& gravity) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (box.periodic[k] && gravity[k] != 0) return true;
+  return false;
+}
+
+/// Where gravity has a part along a joined direction, a particle that leaves through a face comes back higher or lower
+/// through the other one, and its potential energy changes by m g . (x - x_back). In a sheared box energies are those
+/// at rest with its bottom, and the faces work as follows.
 ///
 /// A contact across the faces acts on a particle and on the image of another, which is faster by b U than the other
 /// itself, b boxes up. Its force F on the first works F . (v_i - v_j) = F . (v_i - v_image) + F_x b U on the two: the
@@ -20,10 +29,10 @@ namespace polybed::dem {
 /// step after the time it is found for, so the parts of two successive forces add up to the work over a drift, and the
 /// half step of a contact that parts is not lost. A particle that leaves through a face and comes back through the
 /// other changes its speed by U: what its energy changes by is the faces' work too.
-class FlowWork final : public StepPart {
+class JoinedWork final : public StepPart {
  public:
   /// \param force  unit of the forces of a batch  \param energy  unit of the sum, J  \param dt  s
-  FlowWork(FixedPoint force, FixedPoint energy, double dt)
+  JoinedWork(FixedPoint force, FixedPoint energy, double dt)
       : per_force_(0.5 * dt * force.unit * energy.per_unit), per_energy_(energy.per_unit) {}
 
   /// After the forces of a batch are found. \param counted  1, or 0 for pairs that another rank counts
@@ -40,11 +49,14 @@ class FlowWork final : public StepPart {
     sum_.add(now_);
     pass_on();
   }
-  void wrapped(double mass, double from, double to) override {
-    sum_.add(0.5 * mass * (to - from) * (to + from) * per_energy_);
+  void wrapped(double gained) override { sum_.add(gained * per_energy_); }
+  /// What another run has counted is not of this one; the forces of its start are due.
+  void begin_from_other(Particles&) override {
+    sum_ = EnergySum();
+    pass_on();
   }
 
-  void count(CountedEnergy& energy) const override { energy.flow_work.add(sum_); }
+  void count(CountedEnergy& energy) const override { energy.joined_work.add(sum_); }
   void write(core::Checkpoint& checkpoint, const Particles&, const core::Ranks* ranks) const override {
     write_sum(checkpoint, ranks, "flow_work", sum_);
     write_sum(checkpoint, ranks, "flow_work_due", before_);
