@@ -53,6 +53,8 @@ class Ledger final : public StepPart {
 
   void count(CountedEnergy& energy) const override { energy.dissipated.add(lost_); }
   void require(const core::Checkpoint& checkpoint) const override { require_sum(checkpoint, "dissipated"); }
+  /// What was lost before the run began is not of it.
+  void begin_from_other(Particles&) override { lost_ = EnergySum(); }
   void read(const Restored& from) override { lost_ = sum_on_first(from.ranks, from.checkpoint, "dissipated"); }
 
  private:

@@ -371,6 +371,9 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
   restore(checkpoint, false);
   steps_ = marked_at_ = 0;
   reported_ = 0;
+  // Walls and materials need not be those of the checkpoint: what touches, and how hard, is found anew.
+  std::fill(particles_.load.begin(), particles_.load.end(), Load{});
+  find_forces(0);
   for (const auto& part : parts_) part->begin_from_other(particles_);
 }
 

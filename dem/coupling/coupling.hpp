@@ -39,7 +39,10 @@ class Coupling final : public StepPart {
   void surround(Around& around) override { around.fluid = &motion_; }
   /// The fluid between the particles at the start of a run.
   void begin(Particles& particles) override;
-  void begin_from_other(Particles& particles) override { begin(particles); }
+  void begin_from_other(Particles& particles) override {
+    motion_.set_work({});
+    begin(particles);
+  }
   /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
   void hold(const Particles& particles) override;
   /// Loads of the particles where they are now.

@@ -53,6 +53,33 @@ TEST(DemOpening, PushesFromItsRim) {
   }
 }
 
+// A bed that lay on a whole bottom: at the start of another run nothing is left of the contact with what has been
+// opened, neither its force nor the springs of friction and rolling, nor what has been lost before.
+TEST(DemOpening, ForgetsTheBottomThatWasThere) {
+  core::Scene scene = opened(false);
+  scene.column.gravity = 9.81;
+  scene.effects["rolling"] = "epsd";
+  scene.dem.rolling_friction = 0.2;
+  core::set_friction(scene, 0.5);
+  core::set_restitution(scene, 0.5);
+  core::Scene shut = scene;
+  shut.dem.opening.reset();
+  const std::vector<Bead> bead{{"a", {0.01, r, 0.01}, {0.01, 0, 0}}};
+  Beads before(shut, bead), after(scene, bead);
+  before.until(0.05);
+  EXPECT_EQ(before.model.walls().touching.size(), 1U);
+  EXPECT_GT(dem::totals_of(before.model).dissipated, 0);
+  after.model.start_from(before.model.checkpoint());
+  const dem::Totals start = dem::totals_of(after.model);
+  EXPECT_TRUE(after.model.walls().touching.empty());
+  EXPECT_EQ(start.elastic, 0);
+  EXPECT_EQ(start.dissipated, 0);
+  EXPECT_EQ(after.force(0), (dem::Vector{0, 0, 0}));
+  after.until(0.01);
+  const dem::Totals now = dem::totals_of(after.model);
+  compare("ledger after the opening", now.sum(), start.sum(), 1e-6, now.kinetic);
+}
+
 // Without loss a sphere that strikes the rim and falls through takes with it what it had at the start, m g h and
 // m v^2/2. 1e-4: the integration's error of an impact of 100 steps.
 TEST(DemOpening, TakesOutTheEnergyThatCameIn) {
