@@ -43,7 +43,8 @@ class DemRun final : public CaseRun {
       if (first_ && !options_.quiet) core::print(stderr, "warning: {}\n", line);
     if (scene_.bed.start.kind == core::StartKind::settled && !options_.resume) {
       if (!options_.quiet) core::print(stderr, "the bed settles first\n");
-      const core::Checkpoint rest = dem::settled(scene_, model_.limits().dt, ranks_);
+      const core::Checkpoint rest =
+          dem::settled(scene_, model_.limits().dt, ranks_, [this](const dem::Settling& bed) { show_settling(bed); });
       if (!options_.quiet) core::print(stderr, "at rest after {:.3g} s\n", rest.time("time"));
       model_.start_from(rest);
     }
@@ -88,6 +89,17 @@ class DemRun final : public CaseRun {
   }
 
   void flush_rows() override { observers_->flush(); }
+
+  /// Every few seconds.
+  void show_settling(const dem::Settling& bed) {
+    constexpr double pause = 5;  // s
+    if (options_.quiet || wall_seconds() < settling_shown_ + pause) return;
+    settling_shown_ = wall_seconds();
+    core::print(stderr,
+                "settling: {:.3g} s simulated, about {:.3g} expected; energy of motion {:.2g} times that of rest\n",
+                bed.time, bed.expected, bed.over_rest);
+  }
+
   core::Simulation& simulation() override { return model_; }
 
   std::vector<core::Observer> observers() override {
@@ -262,6 +274,7 @@ class DemRun final : public CaseRun {
   dem::Work work_, before_;           ///< of the last record; what the processes before this one have counted
   std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
   double cpu_ = 0;
+  double settling_shown_ = 0;  ///< when, s
 };
 
 void run_dem(const RunOptions& options) {

@@ -14,6 +14,7 @@
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "dem/packing.hpp"
+#include "relevance/effects/rolling.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
@@ -23,10 +24,26 @@ namespace {
 /// Restitution while the bed comes to rest: far from 1, and not so low that the dashpot limits the step.
 constexpr double dull = 0.3;
 constexpr double at_rest = 1e-6;
-constexpr double falls = 100;
+constexpr double of_fall = 0.05;              ///< between two looks at the bed
+constexpr double longest_wait = 20;           ///< over the time expected; 0.7 to 1.9 were met
 constexpr std::int64_t steps_to_a_stop = 64;  ///< as often as a run asks whether the user wants to stop
 
+bool rolls_without_spring(const core::Scene& scene) {
+  return relevance::effects::rolling.has(scene, relevance::effects::without_spring);
+}
+
+/// A constant rolling moment changes its sign with the spin from step to step and keeps a bed creeping; the spring with
+/// the same greatest moment lets it rest, and what rests under it needs no more. An arm of half a radius makes it as
+/// stiff as the step can bear.
+void roll_with_spring(core::Scene& scene) {
+  constexpr double greatest_arm = 0.5, damping = 0.3;  // over R*; over the critical one
+  scene.effects[relevance::effects::rolling.role] = relevance::effects::with_spring;
+  scene.dem.rolling_friction = std::min(scene.dem.rolling_friction, greatest_arm);
+  scene.dem.rolling_damping = damping;
+}
+
 core::Scene falling(core::Scene scene, double step) {
+  if (rolls_without_spring(scene)) roll_with_spring(scene);
   scene.bed.start = {core::StartKind::mixed};
   scene.dem.fixed_step = step;
   scene.dem.opening.reset();
@@ -35,6 +52,20 @@ core::Scene falling(core::Scene scene, double step) {
   core::set_restitution(scene, dull);
   for (core::ContactPair& pair : scene.contact_pairs) pair.restitution.reset();
   return scene;
+}
+
+/// Takes numbers out of the memory of each contact. \param place  of the first
+void forget(core::Checkpoint& checkpoint, std::size_t place, std::size_t count) {
+  constexpr std::size_t ids = 2;
+  std::int64_t& size = checkpoint.integers.at("memory_size");
+  const std::size_t width = ids + std::size_t(size), from = ids + place;
+  size -= std::int64_t(count);
+  const auto contacts = checkpoint.arrays.find("contacts");  // on the first rank
+  if (contacts == checkpoint.arrays.end()) return;
+  std::vector<double> kept;
+  for (std::size_t n = 0; n < contacts->second.size(); ++n)
+    if (n % width < from || n % width >= from + count) kept.push_back(contacts->second[n]);
+  contacts->second = std::move(kept);
 }
 
 /// Energy that lifts each particle by its radius, J.
@@ -70,7 +101,8 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
   return in_fluid * (dry + drop / (slowest * std::pow(1 - solids / height, hindrance)));
 }
 
-core::Checkpoint settled(const core::Scene& scene, double step, const std::shared_ptr<const core::Ranks>& ranks) {
+core::Checkpoint settled(const core::Scene& scene, double step, const std::shared_ptr<const core::Ranks>& ranks,
+                         const std::function<void(const Settling&)>& see) {
   if (!(scene.column.gravity > 0))
     throw core::StartError(
         "bed.start = \"settled\": without column.gravity nothing settles; use \"random\" or \"mixed\"");
@@ -78,20 +110,36 @@ core::Checkpoint settled(const core::Scene& scene, double step, const std::share
   Model model(falling(scene, step), timers, ranks);
   const double fall = std::sqrt(2 * scene.column.size[1] / scene.column.gravity);
   const double rest = at_rest * lifting_energy(model);
-  const auto often = std::int64_t(std::ceil(0.05 * fall / step));
-  while (model.time() < falls * fall) {
+  const auto often = std::int64_t(std::ceil(of_fall * fall / step));
+  Settling state{0, settling_time(scene, model.materials(), model.box()), 0};
+  const double most = std::max(longest_wait * state.expected, 2 * of_fall * fall);
+  Totals totals;
+  while (model.time() < most) {
     for (std::int64_t n = 0; n < often; ++n) {
       if (n % steps_to_a_stop == 0) core::on_all(ranks.get(), [] { core::stop_if_wanted("the bed settled"); });
-      model.step(falls * fall);
+      model.step(1e300);
     }
-    const Totals totals = totals_of(model);
-    if (totals.kinetic > rest) continue;  // a bead may spin on for seconds about its point of contact
-    model.restart();
-    return model.checkpoint();
+    totals = totals_of(model);
+    if (totals.kinetic <= rest) {  // a bead may spin on for seconds about its point of contact
+      model.restart();
+      core::Checkpoint checkpoint = model.checkpoint();
+      const PairLaws& laws = model.laws();
+      if (rolls_without_spring(scene)) {
+        const int spring = laws.rolling->memory_size();
+        forget(checkpoint, std::size_t(laws.contact_memory() - spring), std::size_t(spring));
+      }
+      return checkpoint;
+    }
+    state.time = model.time();
+    state.over_rest = totals.kinetic / rest;
+    if (see) see(state);
   }
   throw core::NumericsError(fmt::format(
-      "bed.start = \"settled\": the bed has not come to rest in {:.3g} s; start from \"mixed\" and look at it",
-      falls * fall));
+      "bed.start = \"settled\": the bed has not come to rest in {:.3g} s, {:g} times the time expected: its energy of "
+      "motion is {:.3g} times that of rest, and the fastest particle moves at {:.3g} m/s; start from \"mixed\" and "
+      "look "
+      "at it",
+      model.time(), longest_wait, state.over_rest, totals.greatest_speed));
 }
 
 }  // namespace polybed::dem

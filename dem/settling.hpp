@@ -1,6 +1,7 @@
 // A bed at rest to start from.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "core/case/scene.hpp"
@@ -11,14 +12,22 @@
 
 namespace polybed::dem {
 
+/// How far a bed has come.
+struct Settling {
+  double time = 0, expected = 0;  ///< s, simulated and by settling_time()
+  double over_rest = 0;           ///< energy of motion over that of rest
+};
+
 /// The particles of a scene, let fall from a loose random bed until they rest, with little bounce so that this takes
-/// little time, on a closed bottom, in a fluid that does not flow in. At rest: their kinetic energy without that
-/// of spin, which a contact at a point does not resist, is a millionth of what lifts each by its radius. Collective; on
-/// the first rank a checkpoint for Model::start_from. Throws core::NumericsError if they do not come to rest in the
-/// time in which a particle falls through the box a hundred times, core::CaseError without gravity.
-/// \param step  of the model that starts from it, s
+/// little time, on a closed bottom, in a fluid that does not flow in, with a spring of rotation in place of a constant
+/// rolling moment. At rest: their kinetic energy without that of spin, which a contact at a point does not resist, is a
+/// millionth of what lifts each by its radius. Collective; on the first rank a checkpoint for Model::start_from. Throws
+/// core::NumericsError, with what still moves, if they do not come to rest in twenty times settling_time(),
+/// core::CaseError without gravity.
+/// \param step  of the model that starts from it, s  \param see  called now and then, on every rank
 [[nodiscard]] core::Checkpoint settled(const core::Scene& scene, double step,
-                                       const std::shared_ptr<const core::Ranks>& ranks);
+                                       const std::shared_ptr<const core::Ranks>& ranks,
+                                       const std::function<void(const Settling&)>& see = {});
 
 /// s, that this takes about: 2.2 falls through the height of the start, and in a fluid half as much again and the time
 /// in which the slowest species settles. Measured were 0.7 to 1.9 times that in nine dry beds, 0.9 to 1.2 in three in

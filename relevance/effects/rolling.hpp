@@ -16,6 +16,8 @@ inline std::optional<EffectRow> weigh_rolling(const Weighing& by, EffectRow row)
   return row;
 }
 
+/// The law whose contacts come to rest.
+inline constexpr const char* with_spring = "epsd";
 inline constexpr Trait without_spring{"a constant moment, which has nothing to damp"};
 
 inline const Effect rolling{

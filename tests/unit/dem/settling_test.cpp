@@ -1,9 +1,12 @@
 // How long a bed is expected to take until it rests, against one that settles.
 #include "dem/settling.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "core/timers.hpp"
+#include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "dem/scene.hpp"
 
@@ -46,6 +49,52 @@ TEST(Settling, TakesAboutTheTimeExpected) {
     EXPECT_LT(time, 2 * expected) << fluid;
     EXPECT_GT(time, expected / 2) << fluid;
   }
+}
+
+// A constant rolling moment keeps a bed creeping, since its sign follows that of the spin. The bed rests all the same,
+// and the run begins from it with its own law: the same contacts, no energy of rolling springs.
+TEST(Settling, EndsUnderAConstantRollingMoment) {
+  core::Scene scene = settling("none");
+  scene.effects["rolling"] = "cdt";
+  scene.dem.rolling_friction = 0.2;
+  core::set_friction(scene, 0.2);
+  core::Timers timers;
+  Model model(scene, timers);
+  const core::Checkpoint rest = settled(scene, model.limits().dt, nullptr);
+  EXPECT_LT(rest.numbers.at("time"), 2 * settling_time(scene, model.materials(), model.box()));
+  model.start_from(rest);
+  const Totals start = totals_of(model);
+  EXPECT_GT(start.contacts, 500);
+  EXPECT_EQ(start.dissipated, 0);
+  while (model.time() < 0.01) model.step(1e300);
+  const Totals now = totals_of(model);
+  EXPECT_NEAR(now.sum(), start.sum(), 1e-3 * (now.kinetic + now.rotational + now.elastic + now.dissipated));
+}
+
+// Spheres without friction slide through joined sides for ever: the end says so, and has been seen coming.
+TEST(Settling, SaysWhatDoesNotRest) {
+  core::Scene scene = settling("none");
+  scene.effects["contact"] = "hertz";
+  scene.column.sides = core::Boundary::periodic;
+  scene.bed.particles = {5};
+  scene.dem.start_speed = 0.2;
+  core::Timers timers;
+  const Model model(scene, timers);
+  double last = 0;
+  int looks = 0;
+  const auto see = [&](const Settling& bed) {
+    EXPECT_GT(bed.time, last);
+    EXPECT_GT(bed.over_rest, 1);
+    last = bed.time;
+    ++looks;
+  };
+  try {
+    (void)settled(scene, model.limits().dt, nullptr, see);
+    ADD_FAILURE() << "at rest";
+  } catch (const core::NumericsError& error) {
+    EXPECT_THAT(error.what(), testing::ContainsRegex("has not come to rest in .* the fastest particle moves at"));
+  }
+  EXPECT_GT(looks, 5);
 }
 
 }  // namespace
