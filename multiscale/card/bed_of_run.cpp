@@ -119,18 +119,25 @@ void find_outflow(const core::Scene& scene, const Window& window, BedOfRun& bed)
   }
 }
 
-std::optional<double> discharge_of(const core::Scene& scene, const Window& window) {
-  if (!scene.dem.opening) return {};
+/// A few particles make no rate, and what ran before the opening was blocked is not one of the hopper.
+void find_discharge(const core::Scene& scene, const Window& window, BedOfRun& bed) {
+  constexpr double least_particles = 10, most_left = 0.5;
+  if (!scene.dem.opening) return;
   Series out(window.time.size(), 0);
+  double number = 0;
   for (const core::Species& species : scene.species)
-    if (const Series* one = column(window.history, "out_" + species.name + "_kg"))
+    if (const Series* one = column(window.history, "out_" + species.name + "_kg")) {
       for (std::size_t n = 0; n < out.size(); ++n) out[n] += (*one)[n];
+      number += one->back() / (species.density * closures::sphere_volume(species.diameter / 2));
+    }
+  const Inventory all = inventory_of(scene, window);
+  bed.blocked = window.first > 0 && out[std::size_t(window.first)] == out.back() && all.last > most_left * all.first;
+  if (bed.blocked || number < least_particles) return;
   const auto reached = [&](double share) {
     return std::size_t(std::lower_bound(out.begin(), out.end(), share * out.back()) - out.begin());
   };
   const std::size_t from = reached(0.1), to = reached(0.9);
-  if (!(out.back() > 0) || to <= from) return {};
-  return (out[to] - out[from]) / (window.time[to] - window.time[from]);
+  if (to > from) bed.discharge = (out[to] - out[from]) / (window.time[to] - window.time[from]);
 }
 
 void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) {
@@ -195,7 +202,7 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   bed.state = state_of(scene, window, bed);
   bed.layers = layers_of(scene, window, bed);
   find_outflow(scene, window, bed);
-  bed.discharge = discharge_of(scene, window);
+  find_discharge(scene, window, bed);
   judge_drift(scene, window, bed);
   return bed;
 }

@@ -216,6 +216,7 @@ std::vector<std::string> result_lines(const Card& card) {
   if (seen.mixing) lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", *seen.mixing)));
   if (!seen.out.empty()) lines.push_back(card_line("has left", out_text(seen)));
   if (seen.discharge) lines.push_back(card_line("discharge", in_kilograms(*seen.discharge) + "/s"));
+  if (seen.blocked) lines.push_back(card_line("discharge", "none: nothing leaves any more, and over half remains"));
   if (seen.height || seen.steady) lines.push_back(card_line("steady", steady_text(seen)));
   if (!card.limited_by.empty()) lines.push_back(card_line("step", "limited by " + card.limited_by));
   std::string left_out = left_out_text(card.left_out);

@@ -97,6 +97,18 @@ class Card(Scratch):
         self.assertIsNone(card["u_mf_m_s"])
         self.assertIsNone(card["state"])
 
+    def test_a_blocked_hopper_has_none(self):
+        """Rough spheres over a slot of 1.5 diameters: some fall, then an arch."""
+        run = self.folder / "blocked"
+        words = [f"--set={key}" for key in ("bed.particles=[200]", "dem.opening=6 mm", "dem.friction=0.9", "effects.rolling=epsd",
+                                            "dem.rolling_friction=0.3", "dem.rolling_damping=0.3")]
+        done = self.ends(DONE, "dem", TEMPLATES / "hopper/case.toml", "-o", run, "--until", "0.4 s", "--no-picture", *words)
+        card = self.card(run)
+        self.assertGreater(card["out_kg"]["glass"], 0)
+        self.assertLess(card["recovery"]["glass"], 0.3)
+        self.assertIsNone(card["discharge_kg_s"])
+        self.assertRegex(done.stderr, r"(?m)^discharge +none: nothing leaves any more")
+
     def test_a_single_sphere_is_no_bed(self):
         run = self.folder / "sphere"
         done = self.ends(DONE, "dem", TEMPLATES / "sphere/case.toml", "-o", run, "--until", "10 ms", "--no-picture")
