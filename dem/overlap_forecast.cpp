@@ -56,7 +56,7 @@ double stiffening(const NormalLaw& law, int kind, double overlap, double allowed
 }
 
 OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& materials, const NormalLaw& law,
-                                 double speed) {
+                                 double speed, Met met) {
   constexpr double used = 0.8;  // of what is allowed
   OverlapForecast worst;
   const auto& species = materials.species();
@@ -65,9 +65,11 @@ OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& mate
       const bool wall = b == species.size();
       const int kind = wall ? materials.wall_kind(int(a)) : materials.kind(int(a), int(b));
       const PairMaterial& pair = materials.kinds()[std::size_t(kind)];
-      const double mass =
-          wall ? species[a].mass
-               : closures::mass_on_a_contact(species[a].mass, species[a].radius, species[b].mass, species[b].radius);
+      double mass = species[a].mass;
+      if (!wall)
+        mass = met == Met::single
+                   ? std::max(mass, species[b].mass)
+                   : closures::mass_on_a_contact(mass, species[a].radius, species[b].mass, species[b].radius);
       // The same energy as an impact of the reduced mass.
       const double overlap = law.overlap_of_impact(kind, speed * std::sqrt(mass / pair.mass));
       const double share = overlap / (2 * pair.least_radius);

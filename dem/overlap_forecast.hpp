@@ -28,11 +28,14 @@ struct OverlapForecast {
   std::string warning;    ///< what is too soft and what would do; empty: nothing
 };
 
+/// What a large particle meets: a bed of smaller ones that share its mass, or a single one on a wall.
+enum class Met { bed, single };
+
 /// The deepest contact to expect: of each pair the heavier one comes at the speed given and meets the other held by its
-/// neighbours, closures::mass_on_a_contact. Met were 0.4 to 1.04 of it, see docs/guide/particles.md: what is advised
-/// keeps a fifth of dem.max_overlap in reserve.
+/// neighbours, closures::mass_on_a_contact, or by a wall alone, which takes all of its mass. Met in beds were 0.4 to
+/// 1.04 of it, see docs/guide/particles.md: what is advised keeps a fifth of dem.max_overlap in reserve.
 /// \param speed  of impacts, m/s
 [[nodiscard]] OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& materials,
-                                               const NormalLaw& law, double speed);
+                                               const NormalLaw& law, double speed, Met met = Met::bed);
 
 }  // namespace polybed::dem

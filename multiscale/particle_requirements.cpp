@@ -179,7 +179,7 @@ void choose_stiffness(core::Scene& scene) {
   const dem::Materials materials(scene);
   const dem::Speeds speeds = dem::known_speeds(scene, materials, box, start_of(scene, materials, box).foremost);
   const dem::HertzContact hertz(materials, scene.dem.tail);
-  const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, hertz, speeds.impact);
+  const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, hertz, speeds.impact, dem::Met::single);
   scene.dem.youngs_modulus = dem::rounded_up(core::least_modulus * std::max(1.0, overlap.stiffening));
 }
 

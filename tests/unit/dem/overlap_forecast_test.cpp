@@ -54,6 +54,23 @@ TEST(OverlapForecast, OfLinearSprings) {
   EXPECT_THAT(forecast(spheres("linear"), 2).warning, testing::HasSubstr("use dem.normal_stiffness = \"3300 N/m\""));
 }
 
+// A sphere of twice the diameter weighs 8 times as much: shared by the 4 that it covers 2 times, on one alone all of
+// it. Overlaps go with m^(2/5).
+TEST(OverlapForecast, OfASingleOneUnderALargeOne) {
+  core::Scene scene = spheres();
+  scene.species.push_back(scene.species[0]);
+  scene.species[1].name = "large";
+  scene.species[1].diameter *= 2;
+  scene.bed.particles = {10, 10};
+  const Materials materials(scene);
+  const PairLaws laws = make_pair_laws(scene, materials);
+  const OverlapForecast bed = overlap_forecast(scene, materials, *laws.normal, 1);
+  const OverlapForecast single = overlap_forecast(scene, materials, *laws.normal, 1, Met::single);
+  EXPECT_EQ(bed.pair, "a and large");
+  EXPECT_EQ(single.pair, "a and large");
+  EXPECT_NEAR(single.overlap / bed.overlap, std::pow(4, 0.4), 1e-12);
+}
+
 TEST(OverlapForecast, NamesTheKeysThatCount) {
   core::Scene scene = spheres();
   core::Species hard = scene.species[0];
