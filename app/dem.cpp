@@ -149,7 +149,8 @@ class DemRun final : public CaseRun {
   /// Warnings on the step and the contacts that follow from the case alone.
   [[nodiscard]] std::vector<std::string> warnings_before() const {
     std::vector<std::string> lines;
-    for (const std::string& line : {model_.limits().warning, model_.overlap_expected().warning})
+    for (const std::string& line :
+         {model_.limits().warning, model_.overlap_expected().warning, fluid_every_warning(scene_, model_.limits().dt)})
       if (!line.empty()) lines.push_back(line);
     return lines;
   }

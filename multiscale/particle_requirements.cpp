@@ -19,6 +19,7 @@
 #include "dem/scene.hpp"
 #include "dem/settling.hpp"
 #include "relevance/effects/contact.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -88,19 +89,40 @@ Start start_of(const core::Scene& scene, const dem::Materials& materials, const 
   return start;
 }
 
+/// Whether the scene's particles move in a fluid that is solved for.
+bool couples(const core::Scene& scene) { return scene.fluid.present() && scene.column.shear_rate == 0; }
+
+/// Courant number of the fluid in a time: of what flows in, between packed particles, and of the viscous stress.
+double courant_of(const core::Scene& scene, double dt) {
+  double inflow = 0;
+  const auto see = [&](const std::vector<std::pair<double, double>>& velocity) {
+    for (const auto& [t, u] : velocity) inflow = std::max(inflow, std::abs(u));
+  };
+  see(scene.inlet.superficial_velocity);
+  for (const core::Jet& jet : scene.jets) see(jet.superficial_velocity);
+  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const double convected = inflow / (1 - scene.bed.solids_fraction) * dt / grid.smallest_spacing();
+  if (!core::acts(scene, "fluid_stress")) return convected;
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  double per_square = 0;
+  for (int axis = 0; axis < grid.dimensions; ++axis) per_square += std::pow(grid.spacing[std::size_t(axis)], -2);
+  return std::max(convected, 2 * fluid.viscosity / fluid.density * dt * per_square);
+}
+
 constexpr double mega = 1e-6;
 
 std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materials& materials, std::int64_t particles,
                                     double dt, double steps) {
-  if (!scene.fluid.present() || scene.column.shear_rate != 0) return {};
+  if (!couples(scene)) return {};
   const core::Grid grid = core::grid_of(scene.column, nullptr);
   FluidNeed need;
-  need.every = scene.dem.fluid_every;
+  need.every = scene.dem.fluid_every.value_or(core::most_fluid_every);
   need.step = need.every * dt;
   need.steps = std::floor(steps / need.every);
   need.cells = grid.cell_count();
   need.kernel = dem::kernel_of(scene, grid.smallest_spacing(), materials.greatest_diameter(), particles);
   need.memory = bytes_per_cell * double(need.cells);
+  need.warning = fluid_every_warning(scene, dt);
   return need;
 }
 
@@ -129,7 +151,7 @@ std::int64_t ParticleRequirements::count() const { return sum_of(numbers); }
 
 std::vector<std::string> ParticleRequirements::warnings() const {
   std::vector<std::string> lines;
-  for (const std::string& line : {limits.warning, overlap.warning})
+  for (const std::string& line : {limits.warning, overlap.warning, fluid ? fluid->warning : std::string()})
     if (!line.empty()) lines.push_back(line);
   return lines;
 }
@@ -181,6 +203,30 @@ void choose_stiffness(core::Scene& scene) {
   const dem::HertzContact hertz(materials, scene.dem.tail);
   const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, hertz, speeds.impact, dem::Met::single);
   scene.dem.youngs_modulus = dem::rounded_up(core::least_modulus * std::max(1.0, overlap.stiffening));
+}
+
+void choose_fluid_every(core::Scene& scene) {
+  if (scene.dem.fluid_every || !couples(scene) || scene.effects.count(relevance::effects::contact.role) == 0) return;
+  constexpr double sound = 0.5;  // Courant number
+  try {
+    const double each = courant_of(scene, particle_requirements_of(scene).limits.dt);
+    scene.dem.fluid_every = std::clamp(int(sound / std::max(each, 1e-9)), 1, core::most_fluid_every);
+  } catch (const core::CaseError&) {
+    // The particle model says why it cannot build this scene when it is asked to run it.
+  }
+}
+
+std::string fluid_every_warning(const core::Scene& scene, double dt) {
+  if (!couples(scene)) return "";
+  const int every = scene.dem.fluid_every.value_or(core::most_fluid_every);
+  const double each = courant_of(scene, dt);
+  if (!(every * each > 1)) return "";
+  const int fitting = int(1 / each);
+  return fmt::format(
+      "dem.fluid_every = {}: the fluid is expected to move by {:.2g} cells in its step of {:.3g} s, and the run stops "
+      "above 1; {}",
+      every, every * each, every * dt,
+      fitting > 0 ? fmt::format("use at most {}", fitting) : "use larger cells, or a smaller dem.fixed_step");
 }
 
 void write_step(core::Json& json, const dem::StepLimits& limits, double greatest_speed) {

@@ -22,7 +22,8 @@ struct FluidNeed {
   double steps = 0;  ///< in the whole run
   std::size_t cells = 0;
   dem::Kernel kernel;
-  double memory = 0;  ///< bytes
+  double memory = 0;    ///< bytes
+  std::string warning;  ///< steps that are too long; empty: none
 };
 
 struct ParticleRequirements {
@@ -54,6 +55,14 @@ inline constexpr double many_more_steps = 1.25;
 /// Gives a scene whose particles touch after Hertz and that states no modulus one: core::least_modulus, or more where
 /// the speeds to expect need it to keep overlaps within dem.max_overlap. Steps are the longer the softer contacts are.
 void choose_stiffness(core::Scene& scene);
+
+/// Gives a scene whose particles are coupled to a fluid and that does not say how many of their steps make one of the
+/// fluid that number: core::most_fluid_every, or as many as keep the fluid's Courant number below one half.
+void choose_fluid_every(core::Scene& scene);
+
+/// What is wrong with the number that a scene states: the fluid is expected to cross a cell in a step, and the run will
+/// stop; empty: nothing. \param dt  of the particles, s
+[[nodiscard]] std::string fluid_every_warning(const core::Scene& scene, double dt);
 
 /// "step": its length and what sets it. \param greatest_speed  expected, m/s
 void write_step(core::Json& json, const dem::StepLimits& limits, double greatest_speed);

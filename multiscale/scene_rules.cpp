@@ -172,6 +172,7 @@ core::Scene read_chosen_case(const std::filesystem::path& path, const std::vecto
   core::Scene chosen = with_choice(read_case(path, overrides));
   if (!chosen.chooser.chosen.empty()) core::refuse(scene_rules(), chosen);  // what is chosen beside what is given
   choose_stiffness(chosen);
+  choose_fluid_every(chosen);
   if (const auto file = relevance::drag_file(core::law_of(chosen, "drag")))
     chosen.drag_record = relevance::record_of(*file, relevance::read_drag_file(*file));
   return chosen;

@@ -184,11 +184,14 @@ struct Tfm {
 /// E of particles whose case gives none, where they are slow, Pa.
 inline constexpr double least_modulus = 5e6;
 
+/// Solid steps per fluid step where nothing asks for fewer.
+inline constexpr int most_fluid_every = 16;
+
 struct Dem {
   double steps_per_contact = 20;
   std::optional<double> youngs_modulus;  ///< Pa; else chosen for the speeds to expect, at least least_modulus
   double poisson_ratio = 0.25;
-  int fluid_every = 16;
+  std::optional<int> fluid_every;  ///< solid steps per fluid step; else chosen for the fluid's velocity, at most 16
   Kernel kernel = Kernel::automatic;
   std::optional<double> kernel_width;  ///< of diffusion, full width at half height, m
   OwnShare own_share = OwnShare::kept;

@@ -79,7 +79,9 @@ Table dem_table() {
                                             help("likewise; the TFM's species exchange reads it too"))),
           shared<Dem>(&Scene::material, key(&Material::restitution, "restitution", above(0, 1),
                                             help("likewise; the TFM's species exchange reads it too"))),
-          key(&Dem::fluid_every, "fluid_every", range(1, 1e6), help("solid steps per fluid step")),
+          key(&Dem::fluid_every, "fluid_every", range(1, 1e6),
+              help("solid steps per fluid step; default: 16, or as many as move the fluid by no more than half a cell "
+                   "at the velocity between packed particles of what flows in")),
           key(&Dem::kernel, "kernel",
               help("how particles are averaged for the fluid: bilinear in the cells around them; diffusion: "
                    "with a width of its own; auto: diffusion where a cell is smaller than 1.5 of the largest "

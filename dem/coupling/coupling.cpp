@@ -26,6 +26,8 @@ std::vector<double> diameters(const Materials& materials) {
   return d;
 }
 
+int every_of(const core::Scene& scene) { return scene.dem.fluid_every.value_or(core::most_fluid_every); }
+
 /// Full width of the kernel, m.
 double width_of(const core::Scene& scene, const Materials& materials, std::int64_t count) {
   const double cell = core::grid_of(scene.column, nullptr).smallest_spacing();
@@ -84,12 +86,12 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       width_(width_of(scene, materials, count)),
       smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
-      sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, scene.dem.fluid_every * dt),
+      sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, every_of(scene) * dt),
       phase_(flow_.grid(), has_inertia()),
       scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
       gather_(core::whole_column(flow_.grid()), diameters(materials)),
       motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy, scene.dem.ledger),
-      every_(scene.dem.fluid_every),
+      every_(every_of(scene)),
       held_(scene.bed.held),
       dt_(dt) {
   if (scene.dem.own_share == core::OwnShare::removed)

@@ -74,7 +74,7 @@ class BedRun {
     for (double until = settle * transit; model_.time() < until;) model_.step(1e300);
     std::vector<double> phi, stress, balance, theta;
     // Drag is integrated between the fluid's steps: looks that fall on all phases of one see its mean.
-    const int every = box_.dem.fluid_every + 1;
+    const int every = model_.coupling()->every() + 1;
     for (int b = 1; b <= blocks_of_a_bed; ++b) {
       Slabs sum;
       std::int64_t looks = 0;

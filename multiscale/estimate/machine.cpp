@@ -120,7 +120,7 @@ Machine measure_machine(double seconds) {
   const core::Scene dry = scene_in(no_fluid, {"bed.start_solids_fraction=0.5"});
   machine.particles.particle_step = seconds_of_step<dem::Model>(dry, each) / particles;
   const double step = seconds_of_step<dem::Model>(scene_in(liquid, {"bed.start_solids_fraction=0.5"}), each);
-  const double every = scene.dem.fluid_every;
+  const double every = scene.dem.fluid_every.value_or(core::most_fluid_every);
   const double expected = shipped.particle_step_in_fluid * particles + shipped.step +
                           (shipped.fluid_step + shipped.exchange * particles + shipped.cell * cells) / every;
   machine.particles.particle_step_in_fluid *= step / expected;

@@ -31,6 +31,39 @@ every = "15 ms"
 history_every = "0.125 ms"
 checkpoint_every = "15 ms"
 """
+# 200 spheres of 4 mm over a jet of air: a fall tells their speed, the jet that of the fluid. 42/0.42 m/s cross half a cell of 10 mm
+# in 50 microseconds.
+JET = """[column]
+size = ["50 mm", "120 mm"]
+depth = "8.8 mm"
+cells = [5, 12]
+[fluid]
+density = 1.205
+viscosity = 1.8e-5
+[[species]]
+name = "bead"
+diameter = "4 mm"
+density = 2700
+[bed]
+particles = [200]
+solids_fraction = 0.58
+start = "mixed"
+start_solids_fraction = 0.45
+[inlet]
+superficial_velocity = 0
+[[jet]]
+from = ["20 mm"]
+to = ["30 mm"]
+superficial_velocity = "42 m/s"
+[effects]
+others = "none"
+drag = "gidaspow"
+contact = "linear"
+[dem]
+normal_stiffness = 20000
+[run]
+until = "5 ms"
+"""
 STRIP = ROOT / "cases/quarter-b/case.toml"
 RESULTS = ("checkpoint.h5", "fields.h5", "particles.h5", "profiles.h5")
 FIELDS = {"voidage", "pressure", "u_fluid", "phi_fine", "u_fine", "phi_coarse", "u_coarse"}
@@ -204,6 +237,20 @@ class Check(Bed):
             self.assertRegex(text, line)
         finer = self.ends(DONE, "check", self.case, "--details", "--set", "column.cells=[6,36]").stdout
         self.assertIn("kernel diffusion, 8 mm wide: 4 of the largest diameters, as the smallest cell has only 0.833", finer)
+
+    def test_steps_of_the_fluid_fit_a_jet(self):
+        case = self.write("jet.toml", JET)
+        need = strict_json(self.ends(DONE, "check", case, "--json").stdout)
+        every, fluid = need["dem"]["fluid"]["every"], need["dem"]["fluid"]["dt_s"]
+        self.assertEqual(every, int(50e-6 / need["dem"]["step"]["dt_s"]))
+        self.assertAlmostEqual(fluid, every * need["dem"]["step"]["dt_s"], places=12)
+        self.assertFalse([note for note in need["notes"] if "fluid_every" in note])
+        record = strict_json(self.dem(DONE, "jet", "--json", case=case).stdout)
+        self.assertEqual(record["fluid"]["every"], every)
+        self.assertLess(record["fluid"]["greatest_courant"], 1)
+        told = " ".join(strict_json(self.ends(DONE, "check", case, "--json", "--set", "dem.fluid_every=50").stdout)["notes"])
+        self.assertRegex(told, r"dem\.fluid_every = 50: the fluid is expected to move by [\d.]+ cells in its step")
+        self.assertIn(f"use at most {int(100e-6 / need['dem']['step']['dt_s'])}", told)
 
     def test_what_keeps_it_from_running_is_told(self):
         def notes(*words):

@@ -28,7 +28,7 @@ double expected_drop(const std::string& law, double velocity, const Liquid& flui
 
 double drop_of(const core::Scene& scene, int fluid_steps = 30) {
   Beads bed(scene, cubic_lattice("a", spacing, size));
-  bed.steps(fluid_steps * scene.dem.fluid_every);
+  bed.steps(fluid_steps * bed.model.coupling()->every());
   return bed.model.coupling()->pressure_drop();
 }
 
@@ -73,7 +73,7 @@ TEST(DemFixedBed, DoesNotDependOnTheCellsUnderAKernel) {
   scene.dem.kernel = core::Kernel::diffusion;
   scene.dem.fixed_step = *scene.dem.fixed_step / 4;
   Beads bed(scene, cubic_lattice("a", spacing, scene.column.size));
-  bed.steps(30 * scene.dem.fluid_every);
+  bed.steps(30 * bed.model.coupling()->every());
   const fluid::Flow& flow = bed.model.coupling()->flow();
   const auto p = [&](int j) { return flow.state().pressure[std::size_t(flow.grid().index(5, j))]; };
   compare("gradient", (p(24) - p(40)) / 20e-3, expected_drop("ergun", 0.02, water) / size[1], solver);

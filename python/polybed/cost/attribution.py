@@ -16,7 +16,7 @@ def run_solver(sweeper):
         given = scene.of("tfm.pressure_tolerance", min(1e-4, 0.1 * scene.of("tfm.rtol")))
         sweeper.run_with(SOLVER, "pressure solved 100 times as exactly", setting("tfm.pressure_tolerance", given / 100))
     elif scene.has_fluid:
-        sweeper.run_with(SOLVER, "fluid solved 8 times as often", f"dem.fluid_every={max(1, scene.of('dem.fluid_every') // 8)}")
+        sweeper.run_with(SOLVER, "fluid solved 8 times as often", f"dem.fluid_every={max(1, scene.of('dem.fluid_every', 16) // 8)}")
 
 
 def run_inputs(sweeper):

@@ -80,7 +80,7 @@ def steps_axis(scene, _):
 
 
 def coupling_axis(scene, _):
-    return numbers("coupling", "dem.fluid_every", [50, 16, 5], scene.of("dem.fluid_every"), True, [2, 1])
+    return numbers("coupling", "dem.fluid_every", [50, 16, 5], scene.of("dem.fluid_every", 16), True, [2, 1])
 
 
 def window_axis(scene, _):

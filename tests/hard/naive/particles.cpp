@@ -37,7 +37,7 @@ ParticleRun::ParticleRun(const std::string& name, const core::Scene& scene, dem:
       materials_(scene),
       particles_(std::move(particles)),
       dt_(dt),
-      every_(scene.dem.fluid_every),
+      every_(scene.dem.fluid_every.value_or(core::most_fluid_every)),
       flow_(scene, core::grid_of(scene.column, nullptr), 1e-8),
       forces_(scene, materials_, flow_.constants().density, flow_.constants().viscosity),
       phase_(flow_.grid(), forces_.has_added_mass() && treatment_ != Treatment::added_mass_lagged),
