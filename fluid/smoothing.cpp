@@ -29,7 +29,6 @@ void for_each_entry(int count, core::Index stride, const core::Index* starts, in
 }  // namespace
 
 double smoothing_width(double smallest_cell, double largest_diameter, std::size_t particles) {
-  constexpr std::size_t fewest_of_a_bed = 10;
   const bool single = particles < fewest_of_a_bed;
   // In cells of 2.5 diameters a sphere alone stirs its own cell so much that it falls 4.7 % too fast, with the wide
   // kernel 0.6 %.

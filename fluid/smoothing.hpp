@@ -10,9 +10,12 @@
 
 namespace polybed::fluid {
 
+/// Fewer particles have no neighbours that even out what each stirs.
+inline constexpr std::size_t fewest_of_a_bed = 10;
+
 /// The width that the kernel has unless the case says, m: 0, plain weights, where the smallest cell is at least 1.5 of
-/// the largest diameters, else 4 of these. For single particles (fewer than 10), whose own disturbance of the fluid
-/// must not be taken for its speed, 6 of them below cells of 5.
+/// the largest diameters, else 4 of these. For single particles (fewer than fewest_of_a_bed), whose own disturbance of
+/// the fluid must not be taken for its speed, 6 of them below cells of 5.
 [[nodiscard]] double smoothing_width(double smallest_cell, double largest_diameter, std::size_t particles);
 
 /// tau, m2, after which diffusion has made of a point the Gaussian exp(-r^2/(4 tau)) of full width w at half height:

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "closures/own_wake.hpp"
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
@@ -32,6 +36,21 @@ int every_of(const core::Scene& scene) { return scene.dem.fluid_every.value_or(c
 double width_of(const core::Scene& scene, const Materials& materials, std::int64_t count) {
   const double cell = core::grid_of(scene.column, nullptr).smallest_spacing();
   return kernel_of(scene, cell, materials.greatest_diameter(), count).width;
+}
+
+/// What few particles see of their own wakes; none where the formula does not hold: in two dimensions, without viscous
+/// stress, where a wake never decays, or in cells so small that a particle is most of what it sees.
+std::optional<OwnWake> own_wake_of(const core::Scene& scene, const core::Grid& grid, double width, double diameter,
+                                   std::int64_t count) {
+  if (count >= std::int64_t(fluid::fewest_of_a_bed) || grid.dimensions < 3 || !core::acts(scene, "fluid_stress"))
+    return {};
+  constexpr double most = 0.5;  // share of the slip
+  double square = 0;
+  for (const double h : grid.spacing) square += h * h / 3;
+  const OwnWake wake{2 * 2 * fluid::smoothing_time(width), std::sqrt(square)};
+  const Lines in_one_cell;
+  const double creeping = closures::own_wake(1, 0, wake.spread(in_one_cell, {}), 0) * 3 * std::numbers::pi * diameter;
+  return creeping < most ? std::optional(wake) : std::nullopt;
 }
 
 /// Whether each rank solves for a block of the fluid. The kernel's smoothing wants the whole column.
@@ -94,6 +113,9 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       every_(every_of(scene)),
       held_(scene.bed.held),
       dt_(dt) {
+  if (const auto wake =
+          own_wake_of(scene, core::whole_column(flow_.grid()), width_, materials.greatest_diameter(), count))
+    forces_.see_past_own_wake(*wake);
   if (scene.dem.own_share == core::OwnShare::removed)
     own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials), forces_.needs_squares());
   for (Field& component : vorticity_)

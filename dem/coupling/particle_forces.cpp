@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "closures/added_mass.hpp"
+#include "closures/own_wake.hpp"
 #include "closures/sphere.hpp"
 #include "core/vectors.hpp"
 #include "dem/contacts/batch.hpp"
@@ -33,7 +34,7 @@ void ParticleForces::find(const Particles& particles, const Gather& gather, std:
                           const OwnShare* own) {
   for (std::size_t begin = 0; begin < particles.owned; begin += Batch::most) {
     const std::size_t count = std::min(Batch::most, particles.owned - begin);
-    const Asked asked{particles, gather, own, diameter_, needs_squares_};
+    const Asked asked{particles, gather, own, wake_ ? &*wake_ : nullptr, diameter_, needs_squares_};
     core::in_vectors<see>(asked, begin, count, loads.data() + begin, batch_);
     clamped_ += core::in_vectors<average>(count, batch_);
     if (laws_.added_mass != nullptr) add_mass(count, loads.data() + begin);
@@ -43,7 +44,7 @@ void ParticleForces::find(const Particles& particles, const Gather& gather, std:
 
 /// The fields where the particles are.
 void ParticleForces::see(const Asked& asked, std::size_t begin, std::size_t count, FluidLoad* loads, Batch& batch) {
-  const auto& [particles, gather, own, diameter, needs_squares] = asked;
+  const auto& [particles, gather, own, wake, diameter, needs_squares] = asked;
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = begin + n;
     const std::int32_t species = particles.species[i];
@@ -58,18 +59,19 @@ void ParticleForces::see(const Asked& asked, std::size_t begin, std::size_t coun
     const Stream stream = gather.stream(lines);
     FluidLoad& load = loads[n];
     load.velocity = stream.velocity;
-    double square = 0;
+    Vector squares;
     for (std::size_t k = 0; k < 3; ++k) {
       load.force[k] = -volume * stream.gradient[k];
       const double slip = stream.velocity[k] - particles.motion[i].v[k];
-      square += slip * slip;
+      squares[k] = slip * slip;
     }
+    if (wake != nullptr) batch.spread[n] = wake->spread(lines, squares);
     batch.fraction[n] = solids.fraction;
     batch.per_mean[n] = solids.per_mean;
     batch.average[n] = solids.average;
     batch.share[n] = solids.own;
     batch.size[n] = d;
-    batch.slip[n] = square;
+    batch.slip[n] = squares[0] + squares[1] + squares[2];
   }
 }
 
@@ -98,9 +100,32 @@ void ParticleForces::add_mass(std::size_t count, FluidLoad* loads) const {
         closures::added_mass_inertia(laws_.added_mass(1 - batch_.voidage[n]), fluid_density_, batch_.size[n]);
 }
 
-/// k = 3 pi mu D eps f: pure drag over U_f - U_p.
 void ParticleForces::drag(const Particles& particles, std::size_t begin, std::size_t count,
                           std::vector<FluidLoad>& loads) {
+  ask_drag(particles, begin, count, loads);
+  if (wake_) remove_own_wake(particles, begin, count, loads);
+}
+
+/// The fluid seen moves with the particle by F G, G = closures::own_wake: F = k (U_f + F G - U_p) for the U_f seen, so
+/// that drag over the slip seen is k/(1 - k G). k and G depend on the slip without the wake, 1/(1 - k G) of that seen.
+void ParticleForces::remove_own_wake(const Particles& particles, std::size_t begin, std::size_t count,
+                                     std::vector<FluidLoad>& loads) {
+  constexpr int rounds = 4;  // k G is at most a half: each gains a digit
+  const Batch::Row seen = batch_.slip;
+  const auto rest = [&](std::size_t n) {
+    return 1 - loads[begin + n].drag *
+                   closures::own_wake(viscosity_, fluid_density_, batch_.spread[n], batch_.slip[n] / batch_.voidage[n]);
+  };
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t n = 0; n < count; ++n) batch_.slip[n] = seen[n] / rest(n);
+    ask_drag(particles, begin, count, loads);
+  }
+  for (std::size_t n = 0; n < count; ++n) loads[begin + n].drag /= rest(n);
+}
+
+/// k = 3 pi mu D eps f: pure drag over U_f - U_p.
+void ParticleForces::ask_drag(const Particles& particles, std::size_t begin, std::size_t count,
+                              std::vector<FluidLoad>& loads) {
   const auto first = [count](auto& row) { return std::span(row).first(count); };
   closures::drag_of_particles(*laws_.drag, first(batch_.voidage), first(batch_.per_mean), first(batch_.average),
                               first(batch_.per_square), largest_, first(batch_.share), first(batch_.size),

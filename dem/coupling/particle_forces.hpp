@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "closures/drag.hpp"
@@ -9,6 +10,7 @@
 #include "dem/coupling/fluid_motion.hpp"
 #include "dem/coupling/gather.hpp"
 #include "dem/coupling/own_share.hpp"
+#include "dem/coupling/own_wake.hpp"
 #include "dem/effects/maker.hpp"
 
 namespace polybed::dem {
@@ -28,6 +30,10 @@ class ParticleForces {
   void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
             const OwnShare* own = nullptr);
 
+  /// From here on drag follows from the velocity without what each particle gives it by its own drag,
+  /// closures::own_wake: for particles so few that no neighbour feels the same.
+  void see_past_own_wake(const OwnWake& wake) { wake_ = wake; }
+
   /// Whether drag asks for sum phi_j/D_j^2 around a particle.
   [[nodiscard]] bool needs_squares() const { return needs_squares_; }
   [[nodiscard]] bool has_added_mass() const { return laws_.added_mass != nullptr; }
@@ -37,12 +43,13 @@ class ParticleForces {
   struct Batch {
     static constexpr std::size_t most = 256;  ///< particles
     using Row = std::array<double, most>;
-    Row fraction, voidage, per_mean, average, per_square{}, share, size, slip, f;
+    Row fraction, voidage, per_mean, average, per_square{}, share, size, slip, f, spread;
   };
   struct Asked {
     const Particles& particles;
     const Gather& gather;
     const OwnShare* own;
+    const OwnWake* wake;
     const std::vector<double>& diameter;
     bool needs_squares;
   };
@@ -50,6 +57,8 @@ class ParticleForces {
   static std::uint64_t average(std::size_t count, Batch& batch);
   void add_mass(std::size_t count, FluidLoad* loads) const;
   void drag(const Particles& particles, std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
+  void ask_drag(const Particles& particles, std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
+  void remove_own_wake(const Particles& particles, std::size_t begin, std::size_t count, std::vector<FluidLoad>& loads);
 
   LoadLaws laws_;
   std::vector<double> diameter_;  ///< of each species, m
@@ -58,6 +67,7 @@ class ParticleForces {
   bool needs_squares_ = false;
   closures::GuardCount count_;
   std::uint64_t clamped_ = 0;
+  std::optional<OwnWake> wake_;
   Batch batch_;
 };
 
