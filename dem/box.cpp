@@ -12,6 +12,15 @@ bool lies_on(const Plate& plate, const Vector& point) {
 
 }  // namespace
 
+Vector Box::wrapped(Vector x) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (periodic[k]) {
+      x[k] -= std::floor(x[k] / size[k]) * size[k];
+      if (x[k] >= size[k]) x[k] = 0;  // of a tiny negative number, whose sum with the length is the length
+    }
+  return x;
+}
+
 void Box::add_plate(const Plate& plate) {
   const auto join = [this](int a, int b) {
     const Plate &one = plates[std::size_t(a)], &other = plates[std::size_t(b)];

@@ -89,6 +89,8 @@ struct Box {
   /// Whether all its walls are whole faces.
   [[nodiscard]] bool plain() const { return !opening && plates.empty(); }
 
+  /// A place brought back between the joined faces of a box at rest.
+  [[nodiscard]] Vector wrapped(Vector x) const;
   /// Adds a plate, and a wall that it is.
   void add_plate(const Plate& plate);
   /// Whether a plate pushes a centre near it: not by an edge from which the centre is nearer to the face of the plate

@@ -40,17 +40,8 @@ HardSpheres::HardSpheres(const std::vector<Particle>& all, const std::vector<Reg
   }
 }
 
-Vector HardSpheres::wrapped(Vector x) const {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (box_.periodic[k]) {
-      x[k] -= std::floor(x[k] / box_.size[k]) * box_.size[k];
-      if (x[k] >= box_.size[k]) x[k] = 0;
-    }
-  return x;
-}
-
 void HardSpheres::list(double reach) {
-  for (Place& p : particles_.place) p.x = wrapped(p.x);
+  for (Place& p : particles_.place) p.x = box_.wrapped(p.x);
   NeighbourSearch(box_, materials_, reach).find_pairs(particles_, 0, {}, {true, true, true}, near_);
 }
 
@@ -67,7 +58,8 @@ double HardSpheres::greatest_overlap() const {
 }
 
 void HardSpheres::give_back(std::vector<Particle>& all) const {
-  for (std::size_t n = 0; n < all.size(); ++n) all[std::size_t(order_[n])].place.x = wrapped(particles_.place[n].x);
+  for (std::size_t n = 0; n < all.size(); ++n)
+    all[std::size_t(order_[n])].place.x = box_.wrapped(particles_.place[n].x);
 }
 
 }  // namespace polybed::dem

@@ -43,8 +43,6 @@ class HardSpheres {
   void give_back(std::vector<Particle>& all) const;
 
  private:
-  [[nodiscard]] Vector wrapped(Vector x) const;
-
   Box box_;
   const Materials& materials_;
   Images images_;

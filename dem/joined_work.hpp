@@ -49,7 +49,9 @@ class JoinedWork final : public StepPart {
     sum_.add(now_);
     pass_on();
   }
-  void wrapped(double gained) override { sum_.add(gained * per_energy_); }
+  void wrapped(double gained) override {
+    if (gained < 0 || gained > 0) sum_.add(gained * per_energy_);  // not what is no number
+  }
   /// What another run has counted is not of this one; the forces of its start are due.
   void begin_from_other(Particles&) override {
     sum_ = EnergySum();

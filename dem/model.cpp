@@ -113,10 +113,10 @@ void Model::measure(const std::vector<Particle>& all) {
   const double length = std::max({box_.size[0], box_.size[1], box_.size[2]});
   const double weight = std::hypot(gravity_[0], gravity_[1], gravity_[2]) * length;
   const double speed = limits_.greatest_speed;
-  // What the sums may grow to: the energy of all at the greatest speed, and a reserve for what is dissipated meanwhile.
-  // Through joined faces gravity supplies energy without end.
-  const double reserve = falls_through_joined_faces(box_, gravity_) ? 0x1p30 : 1024;
-  energy_unit_ = FixedPoint::for_sums_of(mass * (speed * speed + weight), reserve);
+  // What the sums may grow to: the energy of all at the greatest speed, and a reserve for what is dissipated meanwhile;
+  // a large one where gravity supplies energy without end.
+  energy_unit_ = FixedPoint::for_sums_of(mass * (speed * speed + weight),
+                                         falls_through_joined_faces(box_, gravity_) ? 0x1p30 : 1024);
   momentum_unit_ = FixedPoint::for_sums_of(mass * speed, 1024);
 }
 
@@ -241,19 +241,10 @@ void Model::wrap() {
       x[0] -= boxes * box_.image_shift(clock());
       m.v[0] -= boxes * box_.image_speed();
     }
-    for (std::size_t k = 0; k < 3; ++k)
-      if (box_.periodic[k]) {
-        x[k] -= std::floor(x[k] / box_.size[k]) * box_.size[k];
-        if (x[k] >= box_.size[k]) x[k] = 0;  // of a tiny negative number, whose sum with the length is the length
-      }
-    bool wrapped = false;
+    x = box_.wrapped(x);
     double gained = 0.5 * (m.v[0] - speed) * (m.v[0] + speed);
-    for (std::size_t k = 0; k < 3; ++k) {
-      wrapped = wrapped || x[k] < from[k] || x[k] > from[k];
-      gained -= gravity_[k] * (x[k] - from[k]);
-    }
-    for (const auto& part : parts_)
-      if (wrapped) part->wrapped(gained / m.inverse_mass);
+    for (std::size_t k = 0; k < 3; ++k) gained -= gravity_[k] * (x[k] - from[k]);
+    for (const auto& part : parts_) part->wrapped(gained / m.inverse_mass);
   }
 }
 

@@ -66,7 +66,7 @@ class StepPart {
   // In this order while the pairs are listed anew.
   /// While contacts are still known: how many particles are about to leave, of all ranks.
   virtual std::int64_t count_leaving(const Model&) { return 0; }
-  /// A particle has come back through the other one of two joined faces. \param gained  energy, J
+  /// A particle is back between the joined faces. \param gained  energy, J; 0 if it has not left
   virtual void wrapped(double /*gained*/) {}
   virtual void take_out(Particles&) {}
   /// Before particles change ranks and places, and after.
