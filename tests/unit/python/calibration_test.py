@@ -21,6 +21,9 @@ from polybed.calibration.check import deviation, deviation_lines, points_between
 from polybed.calibration.plan import Plan, Point
 from polybed.calibration.service import NUMBERS, Failure, Service
 from polybed.calibration.text import box_lines
+from polybed.solids_table import checksum, read_table
+from polybed.study.ending import StudyError
+from polybed.study.stress_uncertainty import moved_table
 
 DRY = {"regime": "dry", "reference": "GD-CS e_eff", "binary": False, "seeds": 2,
        "axes": {"phi": [0.1, 0.2, 0.3, 0.4, 0.45], "stokes": [0], "e": [0.8, 0.9], "mu_p": [0], "x2": [0]}}
@@ -357,6 +360,30 @@ class Checks(Scratch):
         with Service() as service, self.assertRaises(Failure) as refused:
             service.ask("table", self.folder / "table.h5")
         self.assertEqual(refused.exception.code, 4)
+
+    def test_a_table_is_moved_by_its_errors(self):
+        self.judged(self.table())
+        given, path = self.folder / "table.h5", self.folder / "moved.h5"
+        self.assertEqual(moved_table(given, -1, path), f'effects.solids_stress="table:{path}"')
+        one, other = read_table(given), read_table(path)
+        for name in one.names():
+            error = one[f"{name}_se"] if name in ("p_ratio", "mu_ratio") else 0
+            np.testing.assert_array_equal(other[name], one[name] - error)
+        # so far that its pressure falls: a hundredth of it is left at the last solids fraction
+        with h5py.File(given, "r+") as file:
+            file["p_ratio_se"][-1] = 0.99
+            file.attrs["crc32"] = checksum({name: data[...] for name, data in file.items()})
+        with self.assertRaises(StudyError) as refused:
+            moved_table(given, -1, self.folder / "fallen.h5")
+        self.assertIn("moved by -1 standard errors: its pressure falls at phi", str(refused.exception))
+        self.assertFalse(list(self.folder.glob("fallen*")))
+
+    def test_a_table_of_a_bed_without_errors_is_not_moved(self):
+        fit.Table({"phi": [0.3, 0.5], "p_bed": [1.0, 2.0]}, {"filetype": "polybed solids table", "version": 1, "regime": "bed"}).write(
+            self.folder / "bed.h5")
+        with self.assertRaises(StudyError) as refused:
+            moved_table(self.folder / "bed.h5", 1, self.folder / "moved.h5")
+        self.assertIn("p_bed_se", str(refused.exception))
 
 
 if __name__ == "__main__":
