@@ -28,7 +28,7 @@ namespace {
 constexpr double band = 4;
 /// Memory that the peak of a run grows by with each particle of a dense bed, with its ledger of energy
 /// (docs/record/cost.md), and what output takes at any size; bytes.
-constexpr double bytes_per_particle = 1000, output = 12e6;
+constexpr double bytes_per_particle = 1000, bytes_of_output = 12e6;
 
 /// Memory that the peak of a run grows by with each cell of the fluid.
 constexpr double bytes_per_cell = 1100;
@@ -167,7 +167,7 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   const dem::Speeds speeds = dem::expected_speeds(scene, materials, box, start.foremost);
   need.limits = dem::step_limits(scene, materials, laws, speeds.greatest);
   need.overlap = dem::overlap_forecast(scene, materials, *laws.normal, speeds.impact);
-  need.program = core::process_memory().now + output;
+  need.program = core::process_memory().now + bytes_of_output;
   need.particles = bytes_per_particle * double(need.count());
   need.steps = std::ceil(scene.run.until / need.limits.dt);
   need.particle_steps = need.steps * double(need.count());
