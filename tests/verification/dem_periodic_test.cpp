@@ -172,6 +172,7 @@ TEST(DemPeriodic, GravityWorksThroughJoinedFaces) {
   Beads many(scene, crowd()), resumed(scene, crowd());
   const double start = dem::totals_of(many.model).sum();
   many.steps(2000);
+  many.model.restart();
   resumed.model.resume(many.model.checkpoint());
   for (Beads* beads : {&many, &resumed}) {
     beads->steps(2000);

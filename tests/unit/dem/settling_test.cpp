@@ -77,6 +77,7 @@ TEST(Settling, SaysWhatDoesNotRest) {
   scene.effects["contact"] = "hertz";
   scene.column.sides = core::Boundary::periodic;
   scene.bed.particles = {5};
+  scene.bed.start_solids_fraction = 0.02;
   scene.dem.start_speed = 0.2;
   core::Timers timers;
   const Model model(scene, timers);
