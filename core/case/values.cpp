@@ -10,10 +10,28 @@
 
 namespace polybed::core {
 
-std::string shown(const toml::node& node) {
+namespace {
+
+/// As in a case file; numbers by their fewest digits: 0.95, not 0.94999999999999996.
+std::string as_typed(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) {
+    const std::string text = fmt::format("{}", number->get());
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
+  if (const toml::array* array = node.as_array()) {
+    std::vector<std::string> entries;
+    for (const toml::node& entry : *array) entries.push_back(as_typed(entry));
+    return fmt::format("[ {} ]", fmt::join(entries, ", "));
+  }
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
-  std::string text = out.str();
+  return out.str();
+}
+
+}  // namespace
+
+std::string shown(const toml::node& node) {
+  std::string text = as_typed(node);
   std::replace(text.begin(), text.end(), '\n', ' ');
   constexpr std::size_t longest = 60;
   return text.size() > longest ? text.substr(0, longest) + "..." : text;

@@ -110,6 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
               "expected a number with a unit such as \"1 m\""},
         Wrong{"diameter = \"0.8 mm\"", "diameter = nan", "case.toml:10:12: species.diameter = nan is out of range"},
         Wrong{"diameter = \"0.8 mm\"", "diameter = inf", "out of range"},
+        Wrong{"diameter = \"0.8 mm\"", "diameter = -0.95", "species.diameter = -0.95 is out of range"},
         Wrong{"cells = [12, 120]", "cells = [12, 120.5]",
               "case.toml:4:14: column.cells = 120.5: expected a whole number"},
         Wrong{"cells = [12, 120]", "cells = [12]", "column.cells has 1 numbers, column.size 2"},
