@@ -45,9 +45,30 @@ struct DragRichardsonZaki {
     if (re_t < 1) return guard == Guard::on ? -0.2 / std::log(5.0) : -0.03 * exponent(re_t);
     return re_t <= 500 ? -0.1 * exponent(re_t) : 0;
   }
-  /// ln Re_t of ln Re_t + q(Re_t) ln eps = ln Re, by bisection: the left side grows with Re_t, jumps included.
+  /// ln Re_t of ln Re_t + q(Re_t) ln eps = ln Re. The left side grows with Re_t, so each range of q is tried in turn.
   [[nodiscard]] double terminal(double eps, double log_re) const {
     const double log_eps = std::log(eps);
+    if (guard != Guard::on) return bisected(log_eps, log_re);
+    const double slope = -0.2 / std::log(5.0), first = std::log(0.2), last = std::log(500.0);
+    const double slow = log_re - 4.65 * log_eps, fast = log_re - 2.39 * log_eps;
+    if (slow <= first) return slow;
+    const double between = (slow + slope * log_eps * first) / (1 + slope * log_eps);
+    if (between < 0) return between;
+    return fast > last ? fast : by_newton(log_eps, log_re, std::max(fast, 0.0), last);
+  }
+  /// The root where q = 4.45 Re_t^-0.1: of a concave function, so that steps from any place but the first come from
+  /// one side.
+  [[nodiscard]] static double by_newton(double log_eps, double log_re, double start, double last) {
+    double root = start;
+    for (int n = 0; n < 30; ++n) {
+      const double q = 4.45 * std::exp(-0.1 * root), step = (root + q * log_eps - log_re) / (1 - 0.1 * q * log_eps);
+      root -= step;
+      if (std::abs(step) <= 4e-16 * std::max(1.0, std::abs(root))) break;
+    }
+    return std::min(root, last);
+  }
+  /// The same of an exponent with jumps.
+  [[nodiscard]] double bisected(double log_eps, double log_re) const {
     double low = log_re, high = log_re - 4.65 * log_eps + 1e-12;
     for (int n = 0; n < 200 && high - low > 1e-15 * std::max(1.0, std::abs(high)); ++n) {
       const double middle = 0.5 * (low + high);
