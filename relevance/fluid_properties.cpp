@@ -1,5 +1,7 @@
 #include "relevance/fluid_properties.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "closures/equation_of_state.hpp"
@@ -37,7 +39,8 @@ FluidConstants fluid_constants(const core::Fluid& fluid) {
       constants.density = water ? water_density(fluid, t) : closures::air_density(t, fluid.outlet_pressure);
     if (!fluid.viscosity) constants.viscosity = water ? closures::water_viscosity(t) : closures::air_viscosity(t);
   } catch (const std::out_of_range& error) {
-    throw core::CaseError(std::string("fluid.temperature: ") + error.what());
+    throw core::CaseError(
+        fmt::format("fluid.temperature: {}; beyond it give fluid.density and fluid.viscosity", error.what()));
   }
   return constants;
 }

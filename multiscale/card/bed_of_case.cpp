@@ -152,8 +152,9 @@ BedOfCase bed_of_case(const core::Scene& scene) {
     SpeciesInFluid& one = bed.species.emplace_back();
     one.name = species.name;
     one.minimum_fluidisation = balance.minimum_fluidisation(alone);
-    if (excess > 0 && gravity > 0)
-      one.terminal = closures::settling_velocity(species.diameter, excess, fluid.density, fluid.viscosity, gravity);
+    if (excess != 0 && gravity > 0)
+      (excess > 0 ? one.terminal : one.rising) =
+          closures::settling_velocity(species.diameter, std::abs(excess), fluid.density, fluid.viscosity, gravity);
     if (fluid.density < greatest_density_of_gas) one.geldart = geldart_class(species.diameter, excess);
   }
   const std::vector<double> share = shares_of(scene);

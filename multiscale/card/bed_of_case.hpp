@@ -19,7 +19,8 @@ enum class Fluidisation { unknown, packed, fluidised, carried_out };
 struct SpeciesInFluid {
   std::string name;
   std::optional<double> minimum_fluidisation;  ///< of a bed of this species alone, superficial, m/s
-  std::optional<double> terminal;              ///< of a single particle, m/s
+  std::optional<double> terminal;              ///< of a single particle that falls, m/s
+  std::optional<double> rising;                ///< of one that is lighter than the fluid, m/s
   std::string geldart;                         ///< A | B | C | D in a gas; else empty
 };
 

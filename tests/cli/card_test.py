@@ -154,6 +154,13 @@ class Card(Scratch):
 
 
 class Screen(Scratch):
+    def test_what_is_lighter_than_its_fluid_rises(self):
+        """By hand: 2.01 mm, 60 kg/m3 lighter than water, and the same heavier, move at one speed, with Schiller and Naumann's drag."""
+        speeds = [re.search(rf"{word} at +fine .*coarse (.*) m*m/s", self.ends(DONE, "check", CASE, "--set", f"fluid.density={density}", "--set",
+                  "fluid.viscosity=1e-3", "--set", f"species.coarse.density={1000 + sign * 60}", "--set", f"species.fine.density={1000 + sign * 50}").stdout)
+                  for word, sign, density in (("falls", 1, 1000), ("rises", -1, 1000))]
+        self.assertEqual(*(speed[1] for speed in speeds))
+
     def test_check_is_one_screen(self):
         cases = sorted(ROOT.glob("cases/*/case.toml")) + sorted(TEMPLATES.glob("*/case.toml"))
         self.assertGreater(len(cases), 20)

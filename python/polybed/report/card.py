@@ -45,8 +45,9 @@ def recorded(card):
         ratio = card["u_over_u_mf"]
         inlet = f"; the inlet's velocity is {ratio:.2g} times that" if ratio else ""
         rows.append(["fluidises at", listed(card["u_mf_m_s"], "m/s") + inlet])
-    if card["terminal_m_s"]:
-        rows.append(["falls at", listed(card["terminal_m_s"], "m/s")])
+    falling = {name: speed for name, speed in (card["terminal_m_s"] or {}).items() if speed is not None}
+    if falling:
+        rows.append(["falls at", listed(falling, "m/s")])
     if card["geldart"]:
         rows.append(["Geldart class", ", ".join(f"{name} {kind}" for name, kind in card["geldart"].items())])
     if card["mixing"] is not None:

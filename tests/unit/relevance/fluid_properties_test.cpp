@@ -27,5 +27,19 @@ TEST(Properties, WhatIsGivenOverridesWhatIsKnown) {
   EXPECT_EQ(fluid_constants(water).density, density);
 }
 
+TEST(Properties, BeyondTheTablesTheMessageSaysWhatToGive) {
+  core::Fluid water;
+  water.name = "water";
+  water.temperature = 333.15;
+  try {
+    (void)fluid_constants(water);
+    FAIL() << "taken";
+  } catch (const core::CaseError& error) {
+    const std::string told = error.what();
+    EXPECT_NE(told.find("outside 0 to 40 degC; beyond it give fluid.density and fluid.viscosity"), std::string::npos)
+        << told;
+  }
+}
+
 }  // namespace
 }  // namespace polybed::relevance
