@@ -12,6 +12,7 @@
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "multiscale/python_module.hpp"
+#include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
@@ -124,10 +125,18 @@ void CaseRun::run_to_end() {
 void CaseRun::go() {
   core::Progress progress(options_.quiet, simulation().time(), scene_.run.until);
   core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, breakpoints()};
+  const double begin = core::cpu_seconds();
+  int steps = 0;
   core::run(
       simulation(), stops, observers(), !options_.resume, [&](double) { write_checkpoint(); },
       [&] {
         if (broken_law_) throw core::ConservationError(*broken_law_);
+        // As many steps as `polybed check` times; on ranks each knows what it does itself alone.
+        ++steps;
+        if (!refined_ && ranks_ == nullptr && core::cpu_seconds() - begin > sample_seconds) {
+          refined_ = true;
+          prediction_ = predicted_by((core::cpu_seconds() - begin - timers_.seconds("output")) / steps);
+        }
         if (progress.due(simulation().time())) progress.show(line());
         return after_step();
       });
@@ -183,8 +192,8 @@ void CaseRun::print_promise() const {
   core::print(stderr, "{}", neglected_table(*promise_));
   for (const core::Timers::Term& term : timers_.terms())
     if (term.name == monitor_term)
-      core::print(stderr, "watching it took {:.2g} % of the time\n",
-                  100 * term.seconds / std::max(core::cpu_seconds() - cpu_begin_, 1e-9));
+      core::print(stderr, "watching it took {} of the time\n",
+                  relevance::percent(term.seconds / std::max(core::cpu_seconds() - cpu_begin_, 1e-9)));
 }
 
 void CaseRun::write_checkpoint() {

@@ -71,6 +71,8 @@ class CaseRun {
   [[nodiscard]] virtual std::string limited_by() const = 0;
   /// What the whole run will take, told before it.
   [[nodiscard]] virtual TimeBand predicted() = 0;
+  /// The same by what a step of this run has taken, CPU s.
+  [[nodiscard]] virtual TimeBand predicted_by(double /*seconds_per_step*/) { return predicted(); }
 
   /// With what a row of the history has measured. A run that has broken a conservation law ends after the step, all
   /// that is due then being written, unless it is permissive. Collective.
@@ -138,6 +140,7 @@ class CaseRun {
   BedOfCase expected_;                     ///< on the first rank
   Card card_;                              ///< of the last record
   TimeBand prediction_;                    ///< of the whole run
+  bool refined_ = false;                   ///< it rests on steps of this run
   bool ended_ = false;                     ///< the run will not go on
   std::optional<std::string> broken_law_;  ///< what to say of it
 };

@@ -174,6 +174,9 @@ class TfmRun final : public CaseRun {
   }
 
   TimeBand predicted() override { return tfm_time(scene_, model_, known_machine()); }
+  TimeBand predicted_by(double seconds_per_step) override {
+    return tfm_time(scene_, model_, known_machine(), seconds_per_step);
+  }
 
   void print_summary() override {
     const tfm::Work work = model_.work();

@@ -19,4 +19,10 @@ Timers::Term& Timers::term(std::string_view name) {
   return terms_.back();
 }
 
+double Timers::seconds(std::string_view name) const {
+  for (const Term& t : terms_)
+    if (t.name == name) return t.seconds;
+  return 0;
+}
+
 }  // namespace polybed::core

@@ -48,6 +48,8 @@ class Timers {
     return Scope(weight > 0 ? &term(name) : nullptr, weight);
   }
   [[nodiscard]] const std::vector<Term>& terms() const { return terms_; }
+  /// What a term has taken so far, s; 0 of one that has not been.
+  [[nodiscard]] double seconds(std::string_view name) const;
 
  private:
   static constexpr std::size_t most_terms = 64;  ///< so that terms never move while a scope holds one

@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t sample_cells = 12000;  ///< enough that their memory stands out, few enough for a second
 constexpr int sample_steps = 100;
-constexpr double sample_seconds = 0.25;  ///< of stepping, CPU
 
 std::size_t cell_count(const core::Scene& scene) {
   const auto& cells = scene.column.cells;
@@ -90,7 +89,8 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
     const double step = need.integrator == explicit_steps ? tfm::explicit_step(bed.scales)
                         : need.integrator == split_steps  ? tfm::split_step(constants, bed.scales, inside, rtol)
                                                           : tfm::implicit_step(constants, inside, rtol);
-    bed.step = scene.tfm.fixed_step.value_or(std::min(step, scene.run.until));  // where nothing moves it has no end
+    const double longest = std::min(scene.run.until, *scene.output.checkpoint_every);
+    bed.step = scene.tfm.fixed_step.value_or(std::min(step, longest));
     return bed;
   };
   const double rest = scene.bed.solids_fraction;

@@ -21,6 +21,9 @@ struct MemoryNeed {
   [[nodiscard]] double total() const { return state + fields + solver + program; }
 };
 
+/// For which steps are timed, on a part of a bed before a run and on the run itself, CPU s.
+inline constexpr double sample_seconds = 0.25;
+
 /// Computing time of the whole run, s: the middle of a band and its ends.
 struct TimeNeed {
   double steps = 0, seconds_per_step = 0;

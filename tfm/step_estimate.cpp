@@ -114,23 +114,28 @@ double explicit_step(const std::vector<TimeScale>& scales) {
 
 namespace {
 
-/// The slower of convection and free fall through a cell, s, at a tolerance of which steps are a cubic root.
-double accurate_step(const Constants& constants, double velocity, double rtol, double share) {
+/// The slower of convection and of the fall of solids through a cell, s, at a tolerance of which steps are a cubic
+/// root.
+/// \param free  solids fall freely, as where a stream lifts them; else no faster than a lone particle
+double accurate_step(const Constants& constants, double velocity, double rtol, double share, bool free) {
   constexpr double measured_at = 1e-3;
   const double h = constants.grid.smallest_spacing();
   const double pull = constants.gravity * std::abs(1 - constants.fluid.density / mean_density(constants));
-  const double rate = std::abs(velocity) / h + std::sqrt(pull / h);
+  const double fall = std::sqrt(pull / h), lone = greatest_terminal_velocity(constants) / h;
+  const double rate = std::abs(velocity) / h + (free ? fall : std::min(fall, lone));
   return rate > 0 ? share / rate * std::cbrt(rtol / measured_at) : infinite;
 }
+
+constexpr double implicit_share = 0.5, split_share = 0.75;
 
 }  // namespace
 
 double implicit_step(const Constants& constants, double velocity, double rtol) {
-  return accurate_step(constants, velocity, rtol, 0.5);
+  return accurate_step(constants, velocity, rtol, implicit_share, velocity != 0);
 }
 
 double split_step(const Constants& constants, const std::vector<TimeScale>& scales, double velocity, double rtol) {
-  return std::min(explicit_step(scales), accurate_step(constants, velocity, rtol, 0.75));
+  return std::min(explicit_step(scales), accurate_step(constants, velocity, rtol, split_share, velocity != 0));
 }
 
 double split_steps_per_implicit(const core::Scene& scene, const Constants& constants, const Effects& effects,
@@ -139,8 +144,9 @@ double split_steps_per_implicit(const core::Scene& scene, const Constants& const
   const double rest = scene.bed.solids_fraction;
   const double phi = !effects.drag ? rest : expanded_fraction(constants, drag->second, velocity, rest);
   const std::vector<TimeScale> scales = time_scales_of_bed(scene, constants, effects, {phi, velocity}, true);
-  return implicit_step(constants, velocity / (1 - phi), scene.tfm.rtol) /
-         split_step(constants, scales, velocity / (1 - phi), scene.tfm.rtol);
+  const double inside = velocity / (1 - phi), rtol = scene.tfm.rtol;  // solids that fall together overturn the fluid
+  return accurate_step(constants, inside, rtol, implicit_share, true) /
+         std::min(explicit_step(scales), accurate_step(constants, inside, rtol, split_share, true));
 }
 
 }  // namespace polybed::tfm

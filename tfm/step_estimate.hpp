@@ -47,8 +47,9 @@ struct UniformBed {
 [[nodiscard]] double explicit_step(const std::vector<TimeScale>& scales);
 
 /// The step that the implicit integrator is expected to take at a tolerance: its error test follows the slower of
-/// convection, h/U, and free fall through a cell, sqrt(h/g'), g' = g |1 - rho_f/rho_s|; the error of a step of second
-/// order goes with the third power of its length. Measured, docs/record/cost.md.
+/// convection, h/U, and free fall through a cell, sqrt(h/g'), g' = g |1 - rho_f/rho_s|; in a fluid at rest of the fall
+/// of a lone particle, h/u_t, where that is slower. The error of a step of second order goes with the third power of
+/// its length. Measured, docs/record/cost.md.
 /// \param velocity  of the fluid between the particles, m/s
 [[nodiscard]] double implicit_step(const Constants& constants, double velocity, double rtol);
 

@@ -23,11 +23,12 @@ TimeBand band_of(double seconds, double middle, double factor) {
 }
 
 /// Of the two-fluid model, taken over expected, from the runs of docs/record/cost.md: 0.4 to 2.6 of explicit ones, 0.8
-/// to 4.4 of implicit ones, which start with many Newton iterations. A probe knows what a step costs and how long the
-/// first ones are, not those of the expanded bed.
-constexpr double explicit_middle = 1, implicit_middle = 2.3, tfm_factor = 2.2, probe_factor = 1.6;
+/// to 4.4 of implicit ones, which start with many Newton iterations, 0.3 to 1.0 of split ones, whose steps grow as the
+/// bed comes to rest. A probe knows what a step costs and how long the first ones are, not those of the expanded bed.
+constexpr double explicit_middle = 1, implicit_middle = 2.3, split_middle = 0.55, tfm_factor = 2.2, probe_factor = 1.6;
 double tfm_middle(core::TfmIntegrator integrator) {
-  return integrator == core::TfmIntegrator::implicit_steps ? implicit_middle : explicit_middle;
+  using enum core::TfmIntegrator;
+  return integrator == implicit_steps ? implicit_middle : integrator == split_steps ? split_middle : explicit_middle;
 }
 /// Of the particles: a dilute bed is up to four times as fast as the dense ones that were measured.
 constexpr double dem_middle = 1, dem_factor = 2;
@@ -142,6 +143,10 @@ TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machi
   return with_start(band_of(expected_of(scene, model, step).time->expected, tfm_middle(model.integrator_kind()),
                             factor_of(tfm_factor, machine)),
                     scene, machine);
+}
+
+TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine, double seconds_per_step) {
+  return tfm_time(scene, expected_of(scene, model, seconds_per_step), machine);
 }
 
 TimeBand tfm_time(const core::Scene& scene, const Requirements& need, const Machine& machine) {

@@ -50,6 +50,10 @@ struct CostEstimate {
 /// stepped.
 [[nodiscard]] TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine);
 
+/// The same with what a step costs, measured on the run itself, CPU s.
+[[nodiscard]] TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machine& machine,
+                                double seconds_per_step);
+
 /// The same with what a step costs, measured on a part of the bed. \param need  with its time
 [[nodiscard]] TimeBand tfm_time(const core::Scene& scene, const Requirements& need, const Machine& machine);
 

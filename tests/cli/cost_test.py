@@ -12,6 +12,17 @@ import program
 from program import DONE, NUMBERS, WRONG_CASE, Scratch, strict_json
 
 BED = program.small_bed("0.1 s")  # a tenth of a second of computing
+CLAY = """column = { size = [0.02, 0.2], cells = [1, 10], sides = "periodic", closed = true }
+fluid = { name = "water", temperature = "20 degC" }
+bed = { volume_share = [1], static_height = "10 mm", solids_fraction = 0.55, start_solids_fraction = 0.03, perturbation = 0 }
+run = { until = "1 h" }
+effects = { others = "none", drag = "wen_yu", solids_stress = "frictional" }
+tfm = { rtol = 1e-6 }
+[[species]]
+name = "clay"
+diameter = "2 um"
+density = 2650
+"""
 SWEEP = ["--axes", "rtol,scheme", "--no-picture", "--quiet", "--budget", "500s"]
 ROWS = ["time integration", "space", "solver and coupling tolerance", "statistics", "closure spread", "level"]
 
@@ -49,6 +60,25 @@ class Estimate(Scratch):
             text = self.ends(DONE, "estimate", case, *words, "--set", "run.until=30").stdout
             number, step = re.search(r"steps +([\d.e+-]+) of ([\d.e+-]+) s", text).groups()
             self.assertAlmostEqual(float(number) * float(step), 30, delta=0.05 * 30)
+
+    def test_steps_of_a_bed_that_settles_slowly(self):
+        """A lone particle falls a cell in 1.5 h, freely in 57 ms: by the latter an hour would take 1.3 million steps. A tight tolerance, since
+        the steps of a loose one are as few as the checkpoints."""
+        case = self.write("clay.toml", CLAY)
+        expected = strict_json(self.ends(DONE, "estimate", case, "--json").stdout)["steps"]
+        run = strict_json(self.ends(DONE, "tfm", case, "--json", "--quiet", "--no-picture", "-o", self.folder / "clay").stdout)
+        self.assertLess(expected, 2 * run["work"]["steps"])
+        self.assertGreater(expected, run["work"]["steps"] / 2)
+
+    def test_a_run_is_predicted_by_its_own_first_steps(self):
+        """Some seconds of computing: what check and estimate say, and what the run says once it has timed its steps, are one forecast."""
+        case = self.write("case.toml", BED)
+        longer = ["--set", "run.until=4"]
+        told = strict_json(self.ends(DONE, "estimate", case, *longer, "--json").stdout)["cpu_s"]["expected"]
+        run = strict_json(self.ends(DONE, "tfm", case, *longer, "--json", "--quiet", "--no-picture", "-o", self.folder / "long").stdout)
+        predicted = run["prediction"]["cpu_s"]
+        # Each by a quarter of a second of steps on a machine that others use, too.
+        self.assertLess(max(predicted, told) / min(predicted, told), 3)
 
     def test_a_run_tells_what_was_predicted(self):
         case = self.write("case.toml", BED)

@@ -59,6 +59,14 @@ TEST(ExpectedStep, ByHand) {
   EXPECT_NEAR(implicit_step(spheres(1e-3, 2000), 0.01, 0.125e-3), 0.5 * step, 1e-12 * step);
 }
 
+// In a fluid at rest spheres of 0.1 mm fall 5 mm/s: a cell of 1 mm takes ten times as long as a free fall.
+TEST(ImplicitStep, FollowsTheFallOfALoneParticleWhereNothingFlows) {
+  const Constants constants = spheres(1e-4, 2000);
+  const double falls = 1e-3 / terminal_velocity(constants, 0);
+  EXPECT_NEAR(implicit_step(constants, 0, 1e-3), 0.5 * falls, 1e-12 * falls);
+  EXPECT_GT(implicit_step(constants, 0, 1e-3), 10 * implicit_step(constants, 1e-9, 1e-3));
+}
+
 // The spheres of StokesByHand on cells of 1 mm at a voidage of 0.7. Drag: b = 18e-3 * 0.7/1e-8 = 1.26e6 kg/(m3 s). What
 // is left explicit relaxes at 0.3 b (1/1000 - 1/2000)^2/(0.7/1000 + 0.3/2000) = 111.18/s, so steps are at most
 // 1.4/111.18 s = 12.6 ms; the error test asks for 0.75/(5.45 + 70.0357) s = 9.9 ms, 1.5 times an implicit step.
