@@ -8,9 +8,14 @@
 
 namespace polybed::relevance {
 
+std::string two_digits(double value) {
+  constexpr double rounds_to_three = 99.5, million = 1e6;
+  return std::abs(value) >= rounds_to_three && std::abs(value) < million ? fmt::format("{:.0f}", value)
+                                                                         : fmt::format("{:.2g}", value);
+}
+
 std::string percent(double share) {
-  if (share > 0 && share < 1e-5) return "less than 0.001 %";
-  return share < 0.995 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+  return share > 0 && share < 1e-5 ? "less than 0.001 %" : two_digits(100 * share) + " %";
 }
 
 bool Encountered::certain() const {

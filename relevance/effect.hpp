@@ -16,7 +16,8 @@
 
 namespace polybed::relevance {
 
-/// Re_p beyond which lift and spin forces are no more than known by their order, also in sign (docs/effects.md).
+/// Re_p beyond which lift and spin forces are no more than known by their order, also in sign
+/// (docs/reference/effects.md).
 inline constexpr double greatest_certain_reynolds = 100;
 
 /// Of particles.

@@ -261,10 +261,9 @@ Survey survey(const core::Scene& scene) {
   find_scales_of_run(scene, fluid.density, s);
   s.is_gas = scene.fluid.substance() == core::Substance::air ||
              scene.fluid.equation_of_state == core::Compressibility::ideal_gas || fluid.density < lightest_liquid;
-  s.drag_law = core::names_law(scene, "drag") ? core::law_of(scene, "drag") : "cello";
-  const std::string partition = core::law_of(scene, "partition");
-  const closures::DragLaw law =
-      partition == core::automatic ? drag_law_named(s.drag_law) : drag_law_named(s.drag_law, partition);
+  s.drag_scene = drag_scene_of(scene, s);
+  s.drag = drag_taken(scene, s);
+  const closures::DragLaw law = drag_law_named(s.drag.law, s.drag.partition);
   for (const core::Fluid& state : fluids_of(scene)) {
     BedInFluid bed(scene, state, law, s);
     const bool one = s.least_velocity == s.greatest_velocity;

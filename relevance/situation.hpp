@@ -7,6 +7,7 @@
 
 #include "closures/drag.hpp"
 #include "core/case/scene.hpp"
+#include "relevance/advised_drag.hpp"
 
 namespace polybed::relevance {
 
@@ -57,7 +58,8 @@ struct Survey {
   std::vector<double> share;                                       ///< x_j
   double mixture_part = 0;                                         ///< greatest |f_j/f_mean - 1| of the bulk
   double greatest_slip_difference = 0, voidage_of_difference = 1;  ///< of two species, |U_j - U_k|, m/s
-  std::string drag_law;                                            ///< the one the forces are balanced with
+  DragScene drag_scene{};
+  AdvisedDrag drag;  ///< the laws that the forces are balanced with
 
   double cell = 0;                  ///< least spacing of the run's grid, m; 0: none
   double clump_acceleration = 0;    ///< greatest of a packed clump of one species, m/s2

@@ -3,7 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
+#include "closures/bed_expansion.hpp"
 #include "closures/drag.hpp"
+#include "closures/mixture.hpp"
+#include "closures/terminal_velocity.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
 
@@ -20,18 +26,46 @@ inline std::vector<core::Law> laws_of_drag() {
   return laws;
 }
 
+/// Where a law carries the settled bed, beside the fall of its particles; empty where nothing settles.
+inline std::string lifting_text(const Weighing& by) {
+  const Survey& s = by.survey;
+  std::vector<double> diameter;
+  double excess = -s.fluid_density;
+  for (std::size_t j = 0; j < by.scene.species.size(); ++j) {
+    diameter.push_back(by.scene.species[j].diameter);
+    excess += s.share[j] * by.scene.species[j].density;
+  }
+  const double mean = closures::sauter_diameter(s.share, diameter), gravity = by.scene.column.gravity;
+  if (!(excess * gravity > 0 && by.scene.bed.solids_fraction > 0)) return "";
+  const closures::DragLaw law = drag_law_named(s.drag.law, s.drag.partition);
+  const auto f = [&](double eps, double re) { return closures::pure_drag_at(law, eps, re); };
+  const double lifts = closures::carrying_velocity(f, {mean, excess, s.fluid_density, s.viscosity, gravity},
+                                                   1 - by.scene.bed.solids_fraction),
+               falls = closures::settling_velocity(mean, excess, s.fluid_density, s.viscosity, gravity);
+  return fmt::format("; by it the bed is lifted at {:.3g} mm/s, {}a particle falls at {:.3g} mm/s", 1e3 * lifts,
+                     lifts > falls ? "though " : "and ", 1e3 * falls);
+}
+
 inline std::optional<EffectRow> weigh_drag(const Weighing& by, EffectRow row) {
-  if (!by.survey.has_fluid) return std::nullopt;
+  const Survey& survey = by.survey;
+  if (!survey.has_fluid) return std::nullopt;
   const double tolerance = by.scene.chooser.tolerance;
-  row.model = by.survey.drag_law;
+  row.model = survey.drag.law;
   row.state = EffectRow::State::on;
-  row.value = by.survey.mixture_part;
+  row.value = survey.mixture_part;
   row.threshold = tolerance;
   row.share_off = 1;
   row.reason = "always on";
-  if (by.scene.species.size() > 1)
+  if (const std::string why = unsuited(survey.drag.law, survey.drag_scene); !why.empty()) {
+    const AdvisedDrag advised = advised_drag(by.scene, survey.drag_scene);
+    row.model = advised.law;
+    row.reason = why + (ignores_neighbours(survey.drag.law) ? lifting_text(by) : "");
+    if (advised.partition != "none" && !is_mean_law(survey.drag.law))
+      row.reason += fmt::format("; with partition = \"{}\"", advised.partition);
+  } else if (by.scene.species.size() > 1 && survey.drag.partition == "none") {
     row.reason += fmt::format("; the sizes are dragged up to {} apart from their mean: {}", percent(*row.value),
                               *row.value > tolerance ? "take a law for mixtures" : "any law will do");
+  }
   return row;
 }
 

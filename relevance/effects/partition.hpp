@@ -17,18 +17,19 @@ inline std::vector<core::Law> laws_of_partition() {
   return laws;
 }
 
-/// Never chosen: whether spheres are fixed or suspended decides, which no number of a single particle does.
+/// Decided by what is dragged, fixed or suspended, and by whether the drag law can be shared: no number does.
 inline std::optional<EffectRow> weigh_partition(const Weighing& by, EffectRow row) {
   if (!by.survey.has_fluid || by.scene.species.size() < 2) return std::nullopt;
-  row.model = core::law_of(by.scene, "partition");
-  const auto expanded = [&](const Situation& s) {  // more open than the settled bed, and no lone particle
-    return s.voidage < 1 && s.voidage > 1 - by.scene.bed.solids_fraction + 1e-9;
-  };
-  const auto& all = by.survey.situations;
-  const bool expands = !by.scene.bed.held && std::any_of(all.begin(), all.end(), expanded);
-  row.reason = expands ? "fluidised: suspended spheres drag less than fixed ones, so take a mean law of expanded beds, "
-                         "drag = \"richardson_zaki\" or \"wen_yu\", with partition = \"brinkman_oseen\""
-                       : "fixed: drag = \"brinkman_oseen\" alone is the most accurate for fixed spheres";
+  const AdvisedDrag& drag = by.survey.drag;
+  const AdvisedDrag advised = advised_drag(by.scene, by.survey.drag_scene);
+  const bool shared = drag.partition != "none", could = advised.partition != "none" && is_mean_law(drag.law);
+  row.model = shared ? drag.partition : advised.partition;
+  row.choice = true;
+  if (shared || (could && by.survey.mixture_part > by.scene.chooser.tolerance)) row.state = EffectRow::State::on;
+  row.reason = by.survey.drag_scene == DragScene::fixed
+                   ? "fixed: drag = \"brinkman_oseen\" alone is the most accurate for fixed spheres"
+               : advised.partition == "none" ? "the drag law acts on each species by itself"
+                                             : "suspended spheres of several sizes";
   return row;
 }
 

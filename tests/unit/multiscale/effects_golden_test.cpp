@@ -72,7 +72,7 @@ Survey survey_of(const std::vector<Golden>& species) {
   const closures::DragLaw law = closures::drag_law("cello", closures::Guard::on);
   Survey s;
   const Golden& g = species.front();
-  s.drag_law = "cello";
+  s.drag.law = "cello";
   s.width = 1e-3 * g.width;
   s.height = s.column_height = 1;
   s.fluid_density = g.fluid_density;
