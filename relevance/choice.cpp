@@ -10,9 +10,8 @@ namespace polybed::relevance {
 namespace {
 
 /// The roles that the case decides itself. What it does not name is off.
-DecisionRule rule_for(const core::Scene& scene, const Menu& menu, bool free) {
+DecisionRule rule_of_case(const core::Scene& scene, const Menu& menu) {
   DecisionRule rule{scene.chooser.tolerance, scene.chooser.purpose == core::Purpose::transient, {}, {}};
-  if (free) return rule;
   for (const MenuEntry& entry : menu) {
     const std::string law = core::law_of(scene, entry.effect->role);
     if (law != core::automatic) (core::is_off(law) ? rule.off : rule.on).insert(entry.effect->role);
@@ -34,10 +33,13 @@ Choice choose(const core::Scene& scene, const Menu& menu) {
   choice.surfaces = surfaces_of(scene, of_scene);
   choice.rows = weigh(scene, of_scene, menu);
   choice.of_case = choice.rows;
-  decide(choice.rows, rule_for(scene, menu, !has_auto(scene)));
+  DecisionRule rule = rule_of_case(scene, menu);
+  decide(choice.of_case, rule);
+  rule.off.clear();
+  if (!has_auto(scene)) rule.on.clear();
+  decide(choice.rows, rule);
   choice.neglected_sum = neglected_sum(choice.rows);
   choice.sum_up_to = neglected_up_to(choice.rows);
-  decide(choice.of_case, rule_for(scene, menu, false));
   choice.case_sum = neglected_sum(choice.of_case);
   return choice;
 }
@@ -49,7 +51,7 @@ core::Scene with_choice(core::Scene scene, const Menu& menu) {
     const std::string& role = entry.effect->role;
     if (core::law_of(scene, role) != core::automatic) continue;
     scene.chooser.chosen.push_back(role);
-    const EffectRow* row = find_row(choice.rows, role);
+    const EffectRow* row = find_row(choice.of_case, role);
     const bool on = row != nullptr && row->state == EffectRow::State::on && row->not_built.empty();
     if (on && entry.effect->set_keys) entry.effect->set_keys(scene, choice.surfaces);
     on ? void(scene.effects[role] = row->model) : void(scene.effects.erase(role));

@@ -18,13 +18,13 @@ struct DecisionRule {
   std::set<std::string> on, off;  ///< roles that the case itself decides
 };
 
-/// Decides rows that are not yet decided (docs/effects.md):
-///   forces of acceleration only in transients; an uncertain number is a band and switches nothing;
+/// Decides rows that are not yet decided (docs/reference/effects.md):
+///   forces of acceleration only in transients; a number that may lie on either side of R is undecided and off;
 ///   R > tolerance is on; of the remaining forces the largest goes on while their sum exceeds the tolerance.
 void decide(std::vector<EffectRow>& rows, const DecisionRule& rule);
 
-/// Sum of what is left out, as a share of the weight: of forces on particles their bounds, bands apart; of drag, stress
-/// and exchange the part that is missing. What is called for and not built counts.
+/// Sum of what is left out, as a share of the weight: of forces on particles their bounds, of what is undecided the
+/// upper end; of drag, stress and exchange the part that is missing. What is called for and not built counts.
 [[nodiscard]] double neglected_sum(const std::vector<EffectRow>& rows);
 
 /// The same on the scales that a run may reach, within the ranges of the laws: no less.
@@ -43,9 +43,8 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule);
 [[nodiscard]] double neglected_up_to(const std::vector<EffectRow>& rows, const std::string& model);
 
 struct Choice {
-  std::vector<EffectRow> rows;
-  std::vector<EffectRow>
-      of_case;  ///< decided by the roles that the case has; those of the choice if it leaves any to it
+  std::vector<EffectRow> rows;     ///< what is recommended, whatever the case switches off
+  std::vector<EffectRow> of_case;  ///< as the case is: decided by its roles, and what it leaves open chosen beside them
   double tolerance = 0;
   double neglected_sum = 0;  ///< of the choice, as a share of the buoyant weight
   double sum_up_to = 0;      ///< of the choice, on the scales that a run may reach
@@ -53,8 +52,8 @@ struct Choice {
   Surfaces surfaces{};       ///< that cohesion was weighed with
 };
 
-/// The choice for a scene: free where the case decides every role itself (what it should have decided), else of what it
-/// leaves to "auto". Throws core::CaseError if the fluid is not known at a temperature asked for.
+/// The choice for a scene: free where the case decides every role itself (what it should have decided), else beside
+/// what it switches on. Throws core::CaseError if the fluid is not known at a temperature asked for.
 [[nodiscard]] Choice choose(const core::Scene& scene, const Menu& menu);
 
 /// Whether a scene has a role that it leaves to the chooser.

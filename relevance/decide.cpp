@@ -11,14 +11,15 @@ namespace {
 using State = EffectRow::State;
 using Kind = EffectRow::Kind;
 
-/// Whether the value itself is the top of a band.
-bool is_uncertain(const EffectRow& row) { return row.band && row.band->most == row.value; }
+/// Whether the value itself is the top of a band, whose lower end leaves open what it means.
+bool is_uncertain(const EffectRow& row) {
+  return row.band && row.band->most == row.value && !(row.threshold && row.band->least > *row.threshold);
+}
 
 /// A number without a power of ten.
 std::string plain(double value) {
-  constexpr double least = 1e-3, hundred = 100;
-  if (value < least) return "less than 0.001";
-  return value < hundred ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+  constexpr double least = 1e-3;
+  return value < least ? "less than 0.001" : two_digits(value);
 }
 
 /// A value of a row as its phrase has it.
@@ -72,12 +73,10 @@ void decide_by_number(EffectRow& row) {
     row.reason = fmt::format("{}, {}", in_words(row), limit_text(row, true));
     return;
   }
-  row.neglected = row.below ? 0 : *row.value;
+  row.neglected = row.below ? 0 : row.upper_end();
   row.reason = fmt::format("{}, {}", in_words(row), limit_text(row, false));
-  if (!row.band) return;
-  const bool known_small = !row.below && row.band->most <= *row.threshold;
-  if (known_small) return;
-  if (uncertain) row.neglected.reset();
+  if (!row.band || row.band->most <= *row.threshold) return;
+  row.state = State::undecided;
   row.reason = band_in_words(row) + ", too uncertain to decide";
 }
 
@@ -85,9 +84,7 @@ void decide_by_number(EffectRow& row) {
 /// other than of a force.
 std::optional<double> bound_of(const EffectRow& row, bool always, bool transient) {
   if (!row.value || row.below || (always && !row.summed)) return row.neglected;
-  if (row.of_acceleration && !transient) return 0;
-  const bool known = !is_uncertain(row) || (row.threshold && row.band->most <= *row.threshold);
-  return known ? row.value : std::nullopt;
+  return row.of_acceleration && !transient ? 0 : row.upper_end();
 }
 
 /// What leaving a row out adds to the sum: of a force its bound; else what is missing of drag or weight.
@@ -95,8 +92,15 @@ double counted(const EffectRow& row, const std::optional<double>& bound) {
   return row.summed ? bound.value_or(0) : row.share_off.value_or(0);
 }
 
-/// Whether leaving a row out counts in the sum.
-bool counts(const EffectRow& row) { return row.state == State::off && counted(row, row.neglected) > 0; }
+/// What leaving a row out certainly adds to the sum: of what is undecided its part that is known, else nothing.
+double certainly(const EffectRow& row) {
+  if (row.state == State::off) return counted(row, row.neglected);
+  const bool known = row.state == State::undecided && row.summed && row.band->most != row.value;
+  return known ? *row.value : 0;
+}
+
+/// Whether a run does without a row.
+bool is_off(const EffectRow& row) { return row.state != State::on || !row.not_built.empty(); }
 
 /// A row as the case has it.
 void take_from_case(EffectRow& row, bool on, bool transient) {
@@ -104,8 +108,8 @@ void take_from_case(EffectRow& row, bool on, bool transient) {
   const bool vanishes = row.of_acceleration && !transient;
   if (on)
     row.neglected.reset();
-  else if (row.value && !row.below && !is_uncertain(row))
-    row.neglected = vanishes ? 0 : *row.value;
+  else if (row.value && !row.below)
+    row.neglected = vanishes ? 0 : row.upper_end();
   row.reason = fmt::format("{} in the case{}", on ? "on" : "off", row.reason.empty() ? "" : "; " + row.reason);
 }
 
@@ -114,11 +118,11 @@ void limit_sum(std::vector<EffectRow>& rows, const DecisionRule& rule) {
     double sum = 0, held = 0;
     EffectRow* largest = nullptr;
     for (EffectRow& row : rows) {
-      if (!counts(row)) continue;
-      const double share = counted(row, row.neglected);
+      const double share = certainly(row);
+      if (!(share > 0)) continue;
       const bool free = !rule.off.contains(row.effect) && row.not_built.empty();
       (free ? sum : held) += share;
-      if (free && (largest == nullptr || share > counted(*largest, largest->neglected))) largest = &row;
+      if (free && (largest == nullptr || share > certainly(*largest))) largest = &row;
     }
     // Where the case itself leaves out too much, no other effect makes up for it.
     if (held <= rule.tolerance) sum += held;
@@ -159,13 +163,13 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule) {
 double neglected_sum(const std::vector<EffectRow>& rows) {
   double sum = 0;
   for (const EffectRow& row : rows)
-    if (row.state == State::off || !row.not_built.empty()) sum += counted(row, row.neglected);
+    if (is_off(row)) sum += counted(row, row.neglected);
   return sum;
 }
 
 bool is_left_out(const EffectRow& row, const std::string& model) {
   const bool has_law = row.models.find(model) != std::string::npos;
-  return has_law ? row.state == State::off || !row.not_built.empty() : row.on_particles;
+  return has_law ? is_off(row) : row.on_particles;
 }
 
 double neglected_sum(const std::vector<EffectRow>& rows, const std::string& model) {
@@ -185,8 +189,7 @@ double neglected_up_to(const std::vector<EffectRow>& rows, const std::string& mo
 double neglected_up_to(const std::vector<EffectRow>& rows) {
   double sum = 0;
   for (const EffectRow& row : rows)
-    if (row.state == State::off || !row.not_built.empty())
-      sum += std::max(counted(row, row.neglected), row.summed ? row.up_to.value_or(0) : 0);
+    if (is_off(row)) sum += std::max(counted(row, row.neglected), row.summed ? row.up_to.value_or(0) : 0);
   return sum;
 }
 

@@ -53,7 +53,7 @@ constexpr std::size_t most_species = 4;  // that a line names one by one
 std::string of_species(const BedOfCase& bed, std::optional<double> SpeciesInFluid::*velocity) {
   std::vector<std::string> parts;
   for (const SpeciesInFluid& species : bed.species)
-    parts.push_back(species.name + " " + (species.*velocity ? with_prefix(*(species.*velocity), "m/s") : "-"));
+    if (species.*velocity) parts.push_back(species.name + " " + with_prefix(*(species.*velocity), "m/s"));
   if (parts.size() > most_species) {
     parts.erase(parts.begin() + 1, parts.end() - 1);
     return parts.front() + " to " + parts.back();
@@ -74,7 +74,9 @@ void add_velocities(const BedOfCase& bed, std::vector<std::string>& lines) {
       text += fmt::format("; u = {} is {:.2g} times that", with_prefix(*bed.velocity, "m/s"), *ratio);
     lines.push_back(card_line("fluidises at", text));
   }
-  lines.push_back(card_line("falls at", of_species(bed, &SpeciesInFluid::terminal)));
+  for (const auto& [heading, velocity] :
+       {std::pair{"falls at", &SpeciesInFluid::terminal}, std::pair{"rises at", &SpeciesInFluid::rising}})
+    if (const std::string text = of_species(bed, velocity); !text.empty()) lines.push_back(card_line(heading, text));
   std::vector<std::string> classes;
   for (const SpeciesInFluid& species : bed.species)
     if (!species.geldart.empty())
@@ -151,15 +153,9 @@ std::string left_out_text(const LeftOut& left_out) {
   std::string text = "forces of " + relevance::percent(left_out.sum) + " of the weight";
   if (!matters(left_out))
     return text + ", within the " + relevance::percent(left_out.promise) + " allowed: does not matter";
-  std::vector<const LeftOutEffect*> forces;
-  for (const LeftOutEffect& one : left_out.effects)
-    if ((one.row.summed || one.row.share_off) && one.bound && *one.bound > 0) forces.push_back(&one);
-  std::sort(forces.begin(), forces.end(), [](const auto* a, const auto* b) { return *a->bound > *b->bound; });
-  constexpr std::size_t most_named = 2;
-  std::vector<std::string> names;
-  for (std::size_t n = 0; n < std::min(forces.size(), most_named); ++n) names.push_back(forces[n]->row.effect);
-  return text + ", above the " + relevance::percent(left_out.promise) + " allowed: matters, mostly " + each(names) +
-         "; see polybed effects";
+  text += ", above the " + relevance::percent(left_out.promise) + " allowed: matters";
+  for (const std::string& line : remedies(left_out)) text += "; " + line;
+  return text;
 }
 
 void write_card(core::Json& json, const core::Scene& scene, const Card& card) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "multiscale/effects/left_out.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/roles.hpp"
 
@@ -18,19 +19,16 @@ namespace {
 using State = relevance::EffectRow::State;
 using Kind = relevance::EffectRow::Kind;
 
-std::string number(const std::optional<double>& value) {
-  constexpr double hundred = 100, million = 1e6;
-  if (!value) return "-";
-  return *value >= hundred && *value < million ? fmt::format("{:.0f}", *value) : fmt::format("{:.2g}", *value);
-}
+std::string number(const std::optional<double>& value) { return value ? relevance::two_digits(*value) : "-"; }
 
 std::string value_text(const relevance::EffectRow& row) {
-  if (row.band && row.band->most == row.value) return fmt::format("{:.2g}..{:.2g}", row.band->least, row.band->most);
-  return number(row.value);
+  if (!row.band || (row.band->most != row.value && row.state != State::undecided)) return number(row.value);
+  return number(row.band->least) + ".." + number(row.band->most);
 }
 
 std::string state_text(const relevance::EffectRow& row) {
   if (row.state == State::unknown) return "unknown";
+  if (row.state == State::undecided) return "undecided";
   if (row.state == State::off) return row.kind == Kind::unmodelled ? "no" : "off";
   return row.kind == Kind::unmodelled || !row.not_built.empty() ? "MISSING" : "on";
 }
@@ -95,23 +93,26 @@ bool acts_in(const relevance::EffectRow& row, const Models& models) {
 }
 
 /// What the table advises of a row.
-enum class Advice { none, add, replace, may_leave_out };
+enum class Advice { none, add, replace, may_leave_out, try_it };
 
 Advice advice_of(const core::Scene& scene, const relevance::EffectRow& row) {
   const std::string has = case_text(scene, row);
   if (row.kind != Kind::role || has.empty() || has == core::automatic || row.state == State::unknown ||
       !acts_in(row, models_of(scene)))
     return Advice::none;
-  if (row.state == State::on) return has == off ? Advice::add : has != row.model ? Advice::replace : Advice::none;
+  if (row.state == State::undecided) return has == off ? Advice::try_it : Advice::none;
+  if (row.state == State::on && has == off) return row.choice ? Advice::replace : Advice::add;
+  if (row.state == State::on) return has != row.model ? Advice::replace : Advice::none;
   return has != off && row.neglected ? Advice::may_leave_out : Advice::none;
 }
 
 const char* mark_of(Advice advice) {
-  const char* marks[] = {" ", "*", "~", "-"};
+  const char* marks[] = {" ", "*", "~", "-", "?"};
   return marks[std::size_t(advice)];
 }
 
 std::string advised_law(const relevance::EffectRow& row) {
+  if (row.state == State::undecided) return "undecided";
   return row.state == State::on ? row.model : row.has_number() ? "off" : "-";  // of what no number decides nothing
 }
 
@@ -147,13 +148,13 @@ std::string sums_text(const core::Scene& scene, const relevance::Choice& choice)
                                  relevance::percent(choice.tolerance), core::name_of(scene.chooser.purpose));
   text += "  as recommended: " + by_model(choice.rows);
   if (!relevance::has_auto(scene)) text += "  as the case is: " + by_model(choice.of_case);
-  std::vector<std::string> of_particles;
-  for (const relevance::EffectRow& row : choice.rows)
-    if (row.state == State::on && row.on_particles && !acts_in(row, {"tfm"})) of_particles.push_back(row.effect);
-  if (!of_particles.empty() && std::find(models.begin(), models.end(), "tfm") != models.end())
-    text += indented(fmt::format("the two-fluid model has no law of {}: it leaves that out in any case",
-                                 fmt::join(of_particles, ", ")),
-                     2);
+  std::vector<std::pair<std::string, std::string>> told;  // a remedy, and the models that it is one for
+  for (const std::string& model : models)
+    for (const std::string& line : remedies(left_out(scene, model))) {
+      const auto same = std::find_if(told.begin(), told.end(), [&](const auto& one) { return one.first == line; });
+      same == told.end() ? void(told.emplace_back(line, model)) : void(same->second += ", " + model);
+    }
+  for (const auto& [line, of] : told) text += indented(of + ": " + line, 2);
   if (choice.sum_up_to > choice.tolerance)
     text += indented(fmt::format("in a run up to {}, where the fluid is sheared within a cell or impacts spin "
                                  "particles; polybed effects audit RUN measures it",
@@ -175,9 +176,14 @@ std::string cost_text(const core::Scene& scene, const relevance::Choice& choice,
 
 /// A line for the case with its reason, beside it where that fits. A change that is a choice stands behind #.
 std::string line_for_case(Advice advice, const relevance::EffectRow& row, const std::string& cost) {
-  const std::string law = row.state == State::on ? row.model : "none";
+  const std::string law = row.state == State::on || advice == Advice::try_it ? row.model : "none";
   const std::string line = fmt::format("{}{} = \"{}\"", advice == Advice::add ? "" : "# ", row.effect, law);
-  const std::string reason = reason_text(row) + cost, beside = fmt::format("{:36}  # {}\n", line, reason);
+  const std::string open = row.band
+                               ? fmt::format("undecided: {} to {} of the weight", relevance::percent(row.band->least),
+                                             relevance::percent(row.band->most))
+                               : "";
+  const std::string reason = (advice == Advice::try_it ? open : reason_text(row)) + cost,
+                    beside = fmt::format("{:36}  # {}\n", line, reason);
   return beside.size() <= width + 1 ? beside : wrapped(reason, "# ") + line + "\n";
 }
 
@@ -191,7 +197,14 @@ std::string lines_for_case(const core::Scene& scene, const relevance::Choice& ch
     chosen = chosen || advice != Advice::add;
     lines += line_for_case(advice, row, advice == Advice::add ? cost_text(scene, choice, row) : "");
   }
-  if (lines.empty()) return "Nothing to change: the case has what is recommended.\n";
+  if (lines.empty()) {
+    const Models models = models_of(scene);
+    const bool whole = std::all_of(models.begin(), models.end(), [&](const std::string& model) {
+      return relevance::neglected_sum(choice.of_case, model) <= choice.tolerance;
+    });
+    return whole ? "Nothing to change: the case has what is recommended.\n"
+                 : "Nothing to add: what the case leaves out has no law in its model, see below.\n";
+  }
   return fmt::format("lines for [effects] of the case, or effects = \"auto\" at its top{}:\n\n",
                      chosen ? " (a law behind # is a choice)" : "") +
          lines;
@@ -208,9 +221,9 @@ std::string short_table(const core::Scene& scene, const relevance::Choice& choic
   const Models models = models_of(scene);
   std::vector<std::string> unneeded, missing, unknown;
   for (const relevance::EffectRow& row : choice.rows) {
-    const bool acts = row.state == State::on || (case_text(scene, row) != off && !case_text(scene, row).empty());
+    const bool acts = row.state == State::on || core::is_law(core::law_of(scene, row.effect));
     if (row.kind == Kind::role && !acts_in(row, models)) continue;
-    if (row.kind == Kind::role && acts)
+    if (row.kind == Kind::role && (acts || row.state == State::undecided))
       lines += role_line(scene, row);
     else if (row.kind == Kind::role)
       unneeded.push_back(row.effect);
@@ -245,7 +258,7 @@ std::string effects_table(const core::Scene& scene, const relevance::Choice& cho
          fmt::format("  {:20} {:15} {:15} {:>15} {:>11}  {}\n", "effect", "this case", "recommended", "value",
                      "matters if", "acts in") +
          (details ? whole_table(scene, choice) : short_table(scene, choice)) +
-         "* to switch on, ~ another law is recommended, - may be left out" +
+         "* switch on, ~ a better law, - may be left out, ? undecided" +
          (details ? "\n" : "; more: --details, polybed explain\n");
 }
 
@@ -255,20 +268,27 @@ core::Json finite_or_null(const std::optional<double>& value) {
   return core::or_null(value && std::isfinite(*value) ? value : std::nullopt);
 }
 
+const char* verdict_of(State state) {
+  const char* verdicts[] = {"on", "off", "undecided", "unknown"};
+  return verdicts[std::size_t(state)];
+}
+
 core::Json json_of(const core::Scene& scene, const relevance::EffectRow& row) {
-  core::Json json = {{"effect", row.effect},
-                     {"model", row.model},
-                     {"on", row.state == State::unknown ? core::Json() : core::Json(row.state == State::on)},
-                     {"number", row.number},
-                     {"value", finite_or_null(row.value)},
-                     {"threshold", finite_or_null(row.threshold)},
-                     {"neglected_bound", finite_or_null(row.neglected)},
-                     {"reason", reason_text(row)},
-                     {"models", row.models},
-                     {"below", row.below},
-                     {"kind", row.kind == Kind::role        ? "role"
-                              : row.kind == Kind::condition ? "condition"
-                                                            : "unmodelled"}};
+  core::Json json = {
+      {"effect", row.effect},
+      {"model", row.model},
+      {"on", row.state == State::on || row.state == State::off ? core::Json(row.state == State::on) : core::Json()},
+      {"verdict", verdict_of(row.state)},
+      {"number", row.number},
+      {"value", finite_or_null(row.value)},
+      {"threshold", finite_or_null(row.threshold)},
+      {"neglected_bound", finite_or_null(row.neglected)},
+      {"reason", reason_text(row)},
+      {"models", row.models},
+      {"below", row.below},
+      {"kind", row.kind == Kind::role        ? "role"
+               : row.kind == Kind::condition ? "condition"
+                                             : "unmodelled"}};
   if (row.up_to) json["up_to"] = *row.up_to;
   json["built"] = row.not_built.empty() && row.kind != Kind::unmodelled;
   json["in_case"] = case_text(scene, row);

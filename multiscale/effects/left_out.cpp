@@ -28,18 +28,37 @@ std::string why_left_out(const relevance::EffectRow& row, const std::string& mod
   }
   if (!relevance::is_left_out(row, model)) return "";
   if (row.models.find(model) == std::string::npos) return "no law of it in this model";
-  return row.state == State::off ? "off in the case" : row.not_built;
+  return row.state == State::off ? "off in the case" : row.state == State::undecided ? "undecided" : row.not_built;
 }
 
 const char* name_of(Kind kind) {
   return kind == Kind::role ? "role" : kind == Kind::condition ? "condition" : "unmodelled";
 }
 
+using relevance::two_digits;
+
 std::string with_bound(const LeftOutEffect& one) {
-  std::string text = fmt::format("{} {:.2g}", one.row.effect, *one.bound);
-  if (one.row.band && one.row.band->most > *one.bound)
-    text += fmt::format(" (uncertain, to {:.2g})", one.row.band->most);
-  return text;
+  const bool by_band = one.row.band && one.row.band->most == *one.bound;
+  return fmt::format("{} {}{}", one.row.effect, by_band ? two_digits(one.row.band->least) + " to " : "",
+                     two_digits(*one.bound));
+}
+
+/// With its share of the weight; of what is uncertain from its least to its greatest.
+std::string with_share(const LeftOutEffect& one) {
+  const bool by_band = one.row.band && one.row.band->most == *one.bound;
+  return fmt::format("{} {}{}", one.row.effect, by_band ? relevance::percent(one.row.band->least) + " to " : "",
+                     relevance::percent(*one.bound));
+}
+
+bool is_among(const std::vector<LeftOutEffect>& effects, const std::string& effect) {
+  return std::any_of(effects.begin(), effects.end(), [&](const auto& one) { return one.row.effect == effect; });
+}
+
+/// What is wrong with a law in any model: it ignores the neighbours that a bed has.
+std::string wrong_drag_of(const core::Scene& scene, const relevance::Choice& choice) {
+  const std::string law = core::law_of(scene, "drag");
+  const relevance::EffectRow* drag = relevance::find_row(choice.rows, "drag");
+  return drag != nullptr && drag->model != law && relevance::ignores_neighbours(law) ? drag->reason : "";
 }
 
 /// The largest first, those beyond the most that are named as a count.
@@ -54,11 +73,11 @@ std::string largest_of(std::vector<LeftOutEffect> effects) {
 
 std::string sum_text(const LeftOut& left_out) {
   const std::map<std::string, std::string> names{{"tfm", "two-fluid model"}, {"dem", "particle model"}};
-  std::string text =
-      fmt::format("left out of the {}: forces of {:.2g} of the weight (promise {:.2g}{})", names.at(left_out.model),
-                  left_out.sum, left_out.promise, left_out.sum > left_out.promise ? ": more than promised" : "");
+  std::string text = fmt::format("left out of the {}: forces of {} of the weight (promise {:.2g}{})",
+                                 names.at(left_out.model), two_digits(left_out.sum), left_out.promise,
+                                 left_out.sum > left_out.promise ? ": more than promised" : "");
   if (left_out.up_to > std::max(left_out.sum, left_out.promise))
-    text += fmt::format(", in a run up to {:.2g}", left_out.up_to);
+    text += fmt::format(", in a run up to {}", two_digits(left_out.up_to));
   return text;
 }
 
@@ -77,13 +96,48 @@ LeftOut left_out(const core::Scene& scene, const std::string& model) {
       all.effects.push_back({row, why, row.summed ? row.bound : row.share_off ? row.share_off : row.bound});
   for (const LeftOutEffect& one : all.effects) {
     const relevance::EffectRow* free = relevance::find_row(choice.rows, one.row.effect);
-    const bool wanted = one.row.kind == Kind::role && free != nullptr && free->state == State::on;
+    const bool wanted = one.row.kind == Kind::role && free != nullptr && free->state == State::on && !free->choice;
     if (wanted && free->not_built.empty() && one.row.models.find(model) != std::string::npos)
       all.called_for.push_back(one);
   }
   std::stable_sort(all.called_for.begin(), all.called_for.end(),
                    [](const auto& a, const auto& b) { return a.bound.value_or(0) > b.bound.value_or(0); });
+  all.wrong_drag = wrong_drag_of(scene, choice);
   return all;
+}
+
+std::vector<std::string> remedies(const LeftOut& left_out) {
+  if (!(left_out.sum > left_out.promise)) return {};
+  std::vector<LeftOutEffect> effects = left_out.effects;
+  std::stable_sort(effects.begin(), effects.end(),
+                   [](const auto& a, const auto& b) { return a.bound.value_or(0) > b.bound.value_or(0); });
+  std::vector<std::string> add, no_law, undecided, not_built;
+  constexpr double little = 0.1;  // of what may be left out: it changes nothing in the sum
+  for (const LeftOutEffect& one : effects) {
+    const bool counts = one.row.summed || one.row.share_off;
+    if (!counts || !(one.bound.value_or(0) > little * left_out.promise)) continue;
+    const bool open = one.row.band && one.row.band->most == *one.bound && one.row.band->least <= left_out.promise;
+    const bool has_law = one.row.models.find(left_out.model) != std::string::npos;
+    if (is_among(left_out.called_for, one.row.effect))
+      add.push_back(with_share(one));
+    else if (!has_law)
+      no_law.push_back(with_share(one));
+    else if (!one.row.not_built.empty())
+      not_built.push_back(with_share(one) + " (" + one.row.not_built + ")");
+    else if (open)
+      undecided.push_back(with_share(one));
+  }
+  std::vector<std::string> lines;
+  const auto tell = [&](const std::string& front, const std::vector<std::string>& named) {
+    if (!named.empty()) lines.push_back(front + fmt::format("{}", fmt::join(named, ", ")));
+  };
+  tell("switch on ", add);
+  const std::map<std::string, std::string> without{{"tfm", "no law in the two-fluid model, but in polybed dem: "},
+                                                   {"dem", "no law in the particle model: "}};
+  tell(without.at(left_out.model), no_law);
+  tell("a run cannot have ", not_built);
+  tell("undecided, try with and without: ", undecided);
+  return lines;
 }
 
 void write_left_out(core::Json& json, const LeftOut& left_out) {
@@ -106,10 +160,13 @@ void write_left_out(core::Json& json, const LeftOut& left_out) {
 }
 
 std::string called_for_line(const LeftOut& left_out) {
-  if (left_out.called_for.empty()) return "";
+  const std::string drag = left_out.wrong_drag.empty() ? "" : "drag: " + left_out.wrong_drag;
+  if (left_out.called_for.empty()) return drag;
   std::vector<std::string> named;
-  for (const LeftOutEffect& one : left_out.called_for) named.push_back(one.bound ? with_bound(one) : one.row.effect);
-  return fmt::format("off in the case, but needed: {}; see polybed effects", fmt::join(named, ", "));
+  for (const LeftOutEffect& one : left_out.called_for)
+    named.push_back(one.bound.value_or(0) > 0 ? with_bound(one) : one.row.effect);
+  return fmt::format("{}{}off in the case, but needed: {}; see polybed effects", drag, drag.empty() ? "" : "; ",
+                     fmt::join(named, ", "));
 }
 
 std::string chosen_line(const core::Scene& scene) {

@@ -14,8 +14,8 @@ namespace polybed::multiscale {
 
 /// One effect that is left out.
 struct LeftOutEffect {
-  relevance::EffectRow row;     ///< decided by the case
-  std::string why;              ///< off in the case | no law of it in this model | not modelled | what it would need
+  relevance::EffectRow row;  ///< decided by the case
+  std::string why;  ///< off in the case | undecided | no law of it in this model | not modelled | what it needs
   std::optional<double> bound;  ///< by row.number, of a force as a share of the weight; empty: not known
 };
 
@@ -28,6 +28,7 @@ struct LeftOut {
   std::vector<LeftOutEffect> effects;
   /// Of them those that the scene calls for, though this model has laws of them: off by the case, largest share first.
   std::vector<LeftOutEffect> called_for;
+  std::string wrong_drag;  ///< why the drag law cannot be right here; empty: nothing is wrong with it
 };
 
 /// What a run of a scene leaves out, by the rules of docs/reference/effects.md; nothing is run, it takes some
@@ -39,7 +40,11 @@ struct LeftOut {
 /// The member "neglected" of an open object.
 void write_left_out(core::Json& json, const LeftOut& left_out);
 
-/// A line that names what the scene calls for and the case has off; empty without any.
+/// What can be done about the effects that the sum consists of, those of any weight, as phrases: what to switch on,
+/// what this model has no law of, what is undecided, what a run cannot have. Empty where the sum is within the promise.
+[[nodiscard]] std::vector<std::string> remedies(const LeftOut& left_out);
+
+/// A line that names what the scene calls for and the case has off, or a drag law that cannot be right; empty without.
 [[nodiscard]] std::string called_for_line(const LeftOut& left_out);
 
 /// A line that names what was chosen where the case left it to the chooser, and counts what was left out; empty where

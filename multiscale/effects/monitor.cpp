@@ -125,12 +125,12 @@ std::vector<std::string> Monitor::judge(const core::Ranks* ranks, double time) {
     if (o.above == 0) continue;
     if (samples_above_[n] == 0) since_[n] = time;
     if (++samples_above_[n] != samples_before_warning) continue;
-    lines.push_back(
-        fmt::format("{} neglected (bound {:.2g} %) reaches {:.2g} % for {:.2g} % of the particles near x = {:.3g} m, y "
-                    "= {:.3g} m since "
-                    "t = {:.4g} s",
-                    o.of_all ? "the sum of all forces" : o.effect, 100 * o.bound, 100 * o.greatest,
-                    100.0 * double(o.above) / double(o.count), o.place[0], o.place[1], since_[n]));
+    lines.push_back(fmt::format(
+        "{} neglected (bound {}) reaches {} for {} of the particles near x = {:.3g} m, y "
+        "= {:.3g} m since "
+        "t = {:.4g} s",
+        o.of_all ? "the sum of all forces" : o.effect, relevance::percent(o.bound), relevance::percent(o.greatest),
+        relevance::percent(double(o.above) / double(o.count)), o.place[0], o.place[1], since_[n]));
     find_setting(o);
   }
   warnings_.insert(warnings_.end(), lines.begin(), lines.end());

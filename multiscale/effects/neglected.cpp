@@ -23,6 +23,10 @@ std::size_t bin_of(double share) {
   return std::size_t(std::clamp(place, 0.0, double(bins - 1)));
 }
 
+std::string per_cent(std::uint64_t part, std::uint64_t whole) {
+  return relevance::two_digits(100.0 * double(part) / double(std::max<std::uint64_t>(whole, 1)));
+}
+
 }  // namespace
 
 void Observed::add(double share, const Encounter& met, double tolerance) {
@@ -155,14 +159,14 @@ bool Neglected::recall(const core::Json& past) {
 }
 
 std::string neglected_table(const Neglected& neglected) {
+  using relevance::two_digits;
   std::string text = fmt::format("{:12} {:>9} {:>9} {:>9} {:>10} {:>12}  {}\n", "left out", "bound", "greatest",
                                  "99 % below", "above tol.", "out of range", "greatest at");
   for (const Observed& o : neglected.observed())
-    text += fmt::format("{:12} {:9.2g} {:9.2g} {:9.2g} {:9.2g}% {:11.2g}%  ({:.4g}, {:.4g}, {:.4g}) m, t = {:.4g} s\n",
-                        o.effect, o.bound, o.greatest, o.count > 0 ? o.percentile() : 0.0,
-                        100.0 * double(o.above) / double(std::max<std::uint64_t>(o.count, 1)),
-                        100.0 * double(o.outside) / double(std::max<std::uint64_t>(o.count + o.outside, 1)), o.place[0],
-                        o.place[1], o.place[2], o.time);
+    text += fmt::format("{:12} {:>9} {:>9} {:>9} {:>9}% {:>11}%  ({:.4g}, {:.4g}, {:.4g}) m, t = {:.4g} s\n", o.effect,
+                        two_digits(o.bound), two_digits(o.greatest), two_digits(o.count > 0 ? o.percentile() : 0.0),
+                        per_cent(o.above, o.count), per_cent(o.outside, o.count + o.outside), o.place[0], o.place[1],
+                        o.place[2], o.time);
   if (!neglected.not_evaluated().empty())
     text += fmt::format("not evaluated: {}\n", fmt::join(neglected.not_evaluated(), ", "));
   return text;

@@ -60,9 +60,9 @@ inline std::optional<EffectRow> weigh_drag(const Weighing& by, EffectRow row) {
     const AdvisedDrag advised = advised_drag(by.scene, survey.drag_scene);
     row.model = advised.law;
     row.reason = why + (ignores_neighbours(survey.drag.law) ? lifting_text(by) : "");
-    if (advised.partition != "none" && !is_mean_law(survey.drag.law))
+    if (core::is_law(advised.partition) && !is_mean_law(survey.drag.law))
       row.reason += fmt::format("; with partition = \"{}\"", advised.partition);
-  } else if (by.scene.species.size() > 1 && survey.drag.partition == "none") {
+  } else if (by.scene.species.size() > 1 && core::is_off(survey.drag.partition)) {
     row.reason += fmt::format("; the sizes are dragged up to {} apart from their mean: {}", percent(*row.value),
                               *row.value > tolerance ? "take a law for mixtures" : "any law will do");
   }

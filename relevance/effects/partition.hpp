@@ -22,14 +22,14 @@ inline std::optional<EffectRow> weigh_partition(const Weighing& by, EffectRow ro
   if (!by.survey.has_fluid || by.scene.species.size() < 2) return std::nullopt;
   const AdvisedDrag& drag = by.survey.drag;
   const AdvisedDrag advised = advised_drag(by.scene, by.survey.drag_scene);
-  const bool shared = drag.partition != "none", could = advised.partition != "none" && is_mean_law(drag.law);
+  const bool shared = core::is_law(drag.partition), could = core::is_law(advised.partition) && is_mean_law(drag.law);
   row.model = shared ? drag.partition : advised.partition;
   row.choice = true;
   if (shared || (could && by.survey.mixture_part > by.scene.chooser.tolerance)) row.state = EffectRow::State::on;
   row.reason = by.survey.drag_scene == DragScene::fixed
                    ? "fixed: drag = \"brinkman_oseen\" alone is the most accurate for fixed spheres"
-               : advised.partition == "none" ? "the drag law acts on each species by itself"
-                                             : "suspended spheres of several sizes";
+               : core::is_off(advised.partition) ? "the drag law acts on each species by itself"
+                                                 : "suspended spheres of several sizes";
   return row;
 }
 

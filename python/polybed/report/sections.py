@@ -57,10 +57,15 @@ def limits(run):
         f"The step at the end, {text(step['dt_s'], 's')}, is the shortest of these; run.json.")
 
 
+def percent(share):
+    """A share with two digits, or all before the point: no power of ten."""
+    return f"{100 * share:.0f} %" if abs(share) >= 0.995 else f"{100 * share:.2g} %"
+
+
 def work(record):
     """Counters and time by term."""
     total = sum(record.get("timers", {}).values())
-    rows = [[name, text(seconds, "s"), f"{100 * seconds / total:.2g} %"]
+    rows = [[name, text(seconds, "s"), percent(seconds / total)]
             for name, seconds in sorted(record.get("timers", {}).items(), key=lambda term: -term[1]) if total > 0]
     counters = ", ".join(f"{name.replace('_', ' ')} {count:.6g}" for name, count in record.get("work", {}).items()
                          if isinstance(count, (int, float)) and not isinstance(count, bool))
@@ -79,8 +84,8 @@ def invariants(record):
 def bound_of(row):
     if row.get("bound") is None:
         return "unknown"
-    shown = f"{100 * row['bound']:.2g} %"
-    return shown + (f", up to {100 * row['up_to']:.2g} %" if row.get("up_to") is not None else "")
+    shown = percent(row["bound"])
+    return shown + (f", up to {percent(row['up_to'])}" if row.get("up_to") is not None else "")
 
 
 def effects(record, case):
@@ -94,8 +99,8 @@ def effects(record, case):
     if shown:
         found += Html("<h3>Left out</h3>") + table(["effect", "bound", "judged by", "why"], shown, "words")
     if isinstance(neglected.get("sum"), (int, float)):
-        found += source(f"The forces left out sum to at most {100 * neglected['sum']:.2g} % of the buoyant weight of the particles; "
-                        f"the case allows {100 * neglected.get('promise', 0):.2g} % (chooser.tolerance). "
+        found += source(f"The forces left out sum to at most {percent(neglected['sum'])} of the buoyant weight of the particles; "
+                        f"the case allows {percent(neglected.get('promise', 0))} (chooser.tolerance). "
                         "The bound of another row is that of the number named beside it.")
     return found
 

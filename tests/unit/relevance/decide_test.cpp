@@ -67,14 +67,46 @@ TEST(Decision, CountsSharesOfWhatIsNoForce) {
   EXPECT_DOUBLE_EQ(neglected_sum(rows, "dem"), 0.015 + 0.012);
 }
 
-TEST(Decision, SwitchesNothingByABand) {
-  std::vector<EffectRow> rows{force("a", 0.5)};
+// Undecided is neither on nor "not needed", counts with its upper end, and switches nothing else on.
+TEST(Decision, LeavesOpenWhatABandLeavesOpen) {
+  std::vector<EffectRow> rows{force("a", 0.5), force("b", 0.004)};
   rows[0].band = NumberBand{0.001, 0.5};
   rows[0].phrase = "push: {} the weight";
   decide(rows, {0.02, false, {}, {}});
-  EXPECT_FALSE(on(rows[0]));
-  EXPECT_FALSE(rows[0].neglected.has_value());
+  EXPECT_EQ(rows[0].state, EffectRow::State::undecided);
+  EXPECT_EQ(rows[1].state, EffectRow::State::off);
   EXPECT_EQ(rows[0].reason, "push: 0.1 % to 50 % of the weight, too uncertain to decide");
+  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.504);
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "dem"), 0.504);
+}
+
+// A small certain value beside a band that reaches further is as open; a band on one side of the limit is decided.
+TEST(Decision, DecidesByABandOnOneSideOfTheLimit) {
+  std::vector<EffectRow> rows{force("open", 0.001), force("on", 0.5), force("off", 0.01)};
+  rows[0].band = NumberBand{0, 0.3};
+  rows[1].band = NumberBand{0.03, 0.5};
+  rows[2].band = NumberBand{0.001, 0.01};
+  decide(rows, {0.02, false, {}, {}});
+  EXPECT_EQ(rows[0].state, EffectRow::State::undecided);
+  EXPECT_TRUE(on(rows[1]) && !on(rows[2]));
+  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.31);
+  rows = {force("open", 0.015), force("small", 0.012)};  // what is certain of it takes part in the sum that decides
+  rows[0].band = NumberBand{0, 0.3};
+  decide(rows, {0.02, false, {}, {}});
+  EXPECT_TRUE(on(rows[0]) && !on(rows[1]));
+  rows = {force("on", 0.5)};
+  rows[0].band = NumberBand{0.03, 0.5};
+  decide(rows, {0.02, false, {}, {"on"}});  // switched off by the case
+  EXPECT_DOUBLE_EQ(neglected_sum(rows), 0.5);
+}
+
+TEST(Numbers, HaveNoPowerOfTenBelowAMillion) {
+  EXPECT_EQ(percent(0.9999), "100 %");
+  EXPECT_EQ(percent(0.9951), "100 %");
+  EXPECT_EQ(percent(0.0995), "10 %");
+  EXPECT_EQ(percent(27), "2700 %");
+  EXPECT_EQ(two_digits(99.6), "100");
+  EXPECT_EQ(two_digits(0.014), "0.014");
 }
 
 TEST(Decision, CountsWhatIsCalledForAndNotBuilt) {
@@ -90,15 +122,15 @@ TEST(Decision, CountsForEachModelWhatItHasNoLawOf) {
   std::vector<EffectRow> rows{force("a", 0.5), force("b", 0.004), force("c", 0.3), force("d", 0.03)};
   for (EffectRow& row : rows) row.on_particles = true;
   rows[0].models = rows[1].models = rows[2].models = "dem";
-  rows[2].band = NumberBand{0.001, 0.3};  // not known within the range: bounds nothing
+  rows[2].band = NumberBand{0.001, 0.3};  // too uncertain to decide: by its upper end
   decide(rows, {0.02, false, {"c"}, {}});
   EXPECT_TRUE(on(rows[0]) && !on(rows[1]) && on(rows[2]) && on(rows[3]));
   EXPECT_DOUBLE_EQ(neglected_sum(rows, "dem"), 0.004);
   EXPECT_DOUBLE_EQ(neglected_sum(rows, "dem"), neglected_sum(rows));
-  EXPECT_DOUBLE_EQ(neglected_sum(rows, "tfm"), 0.504);
+  EXPECT_DOUBLE_EQ(neglected_sum(rows, "tfm"), 0.804);
   rows[0].up_to = 0.7;
   EXPECT_DOUBLE_EQ(neglected_up_to(rows, "dem"), 0.004);
-  EXPECT_DOUBLE_EQ(neglected_up_to(rows, "tfm"), 0.704);
+  EXPECT_DOUBLE_EQ(neglected_up_to(rows, "tfm"), 1.004);
 }
 
 // A mean of 0 in what is steady is 0 in any model.
