@@ -74,7 +74,7 @@ class Service {
 
  private:
   core::Json read_case(const Texts& words) {
-    scene_ = read_chosen_case(words.at(0), Texts(words.begin() + 1, words.end()));
+    scene_ = read_chosen_case(words.at(0), Texts(words.begin() + 1, words.end()), {});
     const Plan plan = plan_of(scene_);
     const MeanSphere mean = mean_sphere(scene_.species, scene_.bed.volume_share);
     core::Json numbers = core::Json::array();
@@ -250,7 +250,7 @@ void answer_calibration(int questions, int answers, std::shared_ptr<const core::
 /// Runs one box and writes its file. Collective for a fluidised one.
 void run_box_into(const std::string& file, const std::string& case_path, const std::vector<std::string>& overrides,
                   const std::string& point) {
-  write_box(file, run_box(read_chosen_case(case_path, overrides), point_of(point)));
+  write_box(file, run_box(read_chosen_case(case_path, overrides, {}), point_of(point)));
 }
 
 constexpr const char* study = "polybed.calibration";

@@ -15,7 +15,7 @@
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
-#include "multiscale/scene_rules.hpp"
+#include "multiscale/scene_warnings.hpp"
 
 namespace polybed::app {
 

@@ -17,7 +17,6 @@
 #include "core/print.hpp"
 #include "core/progress.hpp"
 #include "core/timers.hpp"
-#include "dem/rules.hpp"
 #include "fluid/inlet.hpp"
 #include "multiscale/card/card.hpp"
 #include "multiscale/effects/left_out.hpp"
@@ -27,9 +26,9 @@
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "multiscale/scene_warnings.hpp"
 #include "relevance/drag_law.hpp"
 #include "tfm/model.hpp"
-#include "tfm/rules.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::app {
@@ -112,6 +111,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
   const tfm::Constants& constants = model.constants();
   Derived derived;
   derived.notes = scene_warnings(scene);
+  for (std::string& line : grid_warnings(scene)) derived.notes.push_back(std::move(line));
   derived.fluid = constants.fluid;
   if (scene.fluid.compressible())
     derived.sound = fluid::speed_of_sound(fluid::equation_of_state(scene.fluid, constants.fluid.density),
@@ -284,6 +284,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
     write_particle_requirements(json, scene, need);
     if (const auto discharge = bed_of_case(scene).discharge) json["expected_discharge_kg_s"] = discharge->rate;
     write_size_classes(json, scene);
+    json["refused"] = refusals_of(scene);
     json["notes"] = notes;
     return core::print("{}\n", core::json_text(json));
   }
@@ -303,7 +304,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
 /// goes to the notes.
 std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::vector<std::string>& notes) {
   if (!scene.effects.contains("contact")) return {};
-  std::vector<std::string> reasons = dem::only_for_continuum(scene);
+  std::vector<std::string> reasons = core::texts_of(rules_of_dem().problems(scene));
   try {
     if (reasons.empty()) return particle_requirements_of(scene);
   } catch (const core::CaseError& error) {
@@ -338,9 +339,9 @@ void print_details(const core::Scene& scene, const Derived& derived, const Requi
 }
 
 void run_check(const RunOptions& options) {
-  const core::Scene scene = read_scene(options);
-  if (const auto reasons = tfm::only_for_particles(scene); !reasons.empty())
-    return check_particle_scene(scene, reasons, options);
+  const core::Scene scene = read_scene(options, either_model());
+  if (const auto reasons = rules_of_tfm().problems(scene); !reasons.empty())
+    return check_particle_scene(scene, core::texts_of(reasons), options);
   std::vector<std::string> hindrances;
   const std::optional<ParticleRequirements> particles =
       as_particles(scene, hindrances);  // while memory is the program's
@@ -367,6 +368,7 @@ void run_check(const RunOptions& options) {
     write_requirements(json, need);
     if (particles) write_particle_requirements(json["dem"], scene, *particles);
     write_size_classes(json, scene);
+    json["refused"] = refusals_of(scene);
     json["notes"] = derived.notes;
     return core::print("{}\n", core::json_text(json));
   }

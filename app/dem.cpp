@@ -11,12 +11,11 @@
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "dem/observers.hpp"
-#include "dem/rules.hpp"
 #include "dem/settling.hpp"
 #include "multiscale/fluid_report.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/run_record.hpp"
-#include "multiscale/scene_rules.hpp"
+#include "multiscale/scene_warnings.hpp"
 #include "relevance/effect_row.hpp"
 
 namespace polybed::app {
@@ -279,8 +278,7 @@ class DemRun final : public CaseRun {
 };
 
 void run_dem(const RunOptions& options) {
-  const core::Scene scene = read_scene(options);
-  dem::refuse_continuum_scene(scene);
+  const core::Scene scene = read_scene(options, {&rules_of_dem()});
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::give_back_what_is_freed();

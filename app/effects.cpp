@@ -19,7 +19,7 @@ struct EffectsOptions {
 };
 
 void run_effects(const CaseOptions& options, bool details) {
-  const core::Scene scene = read_case(options.case_path, options.overrides);
+  const core::Scene scene = read_case(options.case_path, options.overrides, either_model());
   const relevance::Choice choice = choose(scene);
   if (!options.json) return core::print("{}", effects_table(scene, choice, details));
   core::Json json;

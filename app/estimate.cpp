@@ -8,11 +8,8 @@
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/print.hpp"
-#include "dem/rules.hpp"
 #include "multiscale/estimate/estimate.hpp"
-#include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
-#include "tfm/rules.hpp"
 
 namespace polybed::app {
 
@@ -45,14 +42,16 @@ double seconds_of(const std::string& text) {
   return time->value;
 }
 
+/// The models asked for.
+Models models_of(const EstimateOptions& options) {
+  if (options.model.empty()) return either_model();
+  return {options.model == "dem" ? &rules_of_dem() : &rules_of_tfm()};
+}
+
 /// The model asked for; else the two-fluid model where it runs the case.
 std::string model_of(const EstimateOptions& options, const core::Scene& scene) {
-  const bool particles = options.model == "dem" || (options.model.empty() && !tfm::only_for_particles(scene).empty());
-  if (particles)
-    dem::refuse_continuum_scene(scene);
-  else
-    tfm::refuse_particle_scene(scene);
-  return particles ? "dem" : "tfm";
+  if (!options.model.empty()) return options.model;
+  return rules_of_tfm().problems(scene).empty() ? "tfm" : "dem";
 }
 
 void run_estimate(const EstimateOptions& options) {
@@ -62,7 +61,7 @@ void run_estimate(const EstimateOptions& options) {
       throw core::CaseError("CASE is missing: polybed estimate CASE, or polybed estimate --machine");
     return;
   }
-  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
+  const core::Scene scene = read_chosen_case(options.case_path, options.overrides, models_of(options));
   const double probe = options.probe.empty() ? 0 : seconds_of(options.probe);
   const Machine machine = known_machine();
   const CostEstimate estimate = model_of(options, scene) == "dem" ? estimate_dem(scene, machine, probe, options.ranks)

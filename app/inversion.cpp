@@ -267,7 +267,7 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
 }
 
 void run_without_a_run(const InversionOptions& options) {
-  const core::Scene scene = read_chosen_case(options.case_path, options.overrides);
+  const core::Scene scene = read_chosen_case(options.case_path, options.overrides, {});
   if (options.method == "all") {
     const std::vector<MethodRow> rows = all_methods(binary_bed(scene));
     if (options.json) return print_methods_json(rows);
@@ -292,8 +292,18 @@ void run_without_a_run(const InversionOptions& options) {
   core::print("{}", lines_of(beside));
 }
 
+/// Of --temperature beside a density and a viscosity that do not follow from it.
+void refuse_idle_temperature(const core::Scene& scene) {
+  if (!scene.fluid.density || !scene.fluid.viscosity) return;
+  throw core::CaseError(std::vector{scene.places.problem(
+      {"fluid.density", "fluid.viscosity"},
+      "--temperature cannot act: fluid.density and fluid.viscosity are given as numbers; leave them out of a case of "
+      "fluid.name = \"water\" or \"air\", or give those at the other temperature by --set")});
+}
+
 void run_inversion(const InversionOptions& options) {
   InversionOptions chosen = options;
+  if (!options.temperature.empty()) refuse_idle_temperature(read_case(options.case_path, options.overrides, {}));
   if (!options.temperature.empty()) chosen.overrides.push_back("fluid.temperature=\"" + options.temperature + "\"");
   if (!options.law.empty()) chosen.overrides.push_back("effects.drag=\"" + options.law + "\"");
   if (!options.partition.empty()) chosen.overrides.push_back("effects.partition=\"" + options.partition + "\"");
@@ -305,7 +315,7 @@ void run_inversion(const InversionOptions& options) {
       throw core::CaseError(
           "--closure-uncertainty and --stress-uncertainty are two studies: give one of them at a time");
     if (options.method == "all") throw core::CaseError("--closure-uncertainty is of one method, not of all");
-    run_closure_uncertainty(chosen, "inversion", options.method);
+    run_closure_uncertainty(chosen, "inversion", {}, options.method);
   }
   options.scan.empty() ? run_without_a_run(chosen) : run_inversion_scan(chosen);
 }

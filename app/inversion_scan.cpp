@@ -8,11 +8,9 @@
 #include "app/study_request.hpp"
 #include "core/case/units.hpp"
 #include "core/error.hpp"
-#include "dem/rules.hpp"
 #include "multiscale/inversion/models.hpp"
 #include "multiscale/python_module.hpp"
 #include "relevance/drag_law.hpp"
-#include "tfm/rules.hpp"
 
 namespace polybed::app {
 
@@ -49,8 +47,8 @@ ScanRange range_of(const InversionOptions& options, const std::optional<Inversio
 }
 
 void refuse_what_a_model_cannot_run(const InversionOptions& options, const core::Scene& scene) {
-  if (options.scan != "dem") tfm::refuse_particle_scene(scene);
-  if (options.scan != "tfm") dem::refuse_continuum_scene(scene);
+  if (options.scan != "dem") refuse(scene, {&rules_of_tfm()});
+  if (options.scan != "tfm") refuse(scene, {&rules_of_dem()});
   if (!options.stress_uncertainty) return;
   if (options.scan == "dem") throw core::CaseError("--stress-uncertainty is of the two-fluid model: --scan tfm");
   require_table(scene);
@@ -72,7 +70,7 @@ std::string request_of(const InversionOptions& options, const ScanRange& range,
 }  // namespace
 
 void run_inversion_scan(const InversionOptions& options) {
-  const core::Scene scene = read_scene(options);
+  const core::Scene scene = read_scene(options, {});
   const std::optional<InversionPoint> balance = force_balance(scene);
   refuse_what_a_model_cannot_run(options, scene);
   core::Json beside;

@@ -12,10 +12,8 @@
 #include "core/error.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
-#include "dem/rules.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
-#include "tfm/rules.hpp"
 
 namespace polybed::app {
 
@@ -42,15 +40,15 @@ core::Json forms_of_drag() {
 void print_list_json(const std::vector<core::Role>& all) {
   core::Json roles = core::Json::array(), rules = core::Json::array();
   for (const core::Role& role : all) roles.push_back(json_of(role));
-  // models: that judge by them; another model may run a case that breaks one
+  // models: that a scene must satisfy it for; another model can run a case that breaks one
   const auto add = [&](std::span<const core::Rule> some, const char* models) {
     for (const core::Rule& rule : some)
       rules.push_back({{"message", rule.message}, {"models", models}, {"keys", rule.keys}});
   };
   add(core::case_rules(), "tfm, dem");
   add(scene_rules(), "tfm, dem");
-  add(tfm::model_rules(), "tfm");
-  add(dem::model_rules(), "dem");
+  for (const core::ModelRules* model : either_model())
+    for (const auto* some : {&model->cannot, &model->rules}) add(*some, model->model.c_str());
   core::print("{}\n", core::json_text({{"roles", roles}, {"rules", rules}, {"drag_forms", forms_of_drag()}}));
 }
 

@@ -53,7 +53,7 @@ void require_what_resolve_needs(const ResolveOptions& options, const core::Scene
 
 /// Rows of the points, from the rate that the coarsest box of the first one reaches on one core.
 void estimate_resolve(const ResolveOptions& options) {
-  const core::Scene scene = read_case(options.case_path, options.overrides);
+  const core::Scene scene = read_case(options.case_path, options.overrides, {});
   require_what_resolve_needs(options, scene);
   const core::Resolve& plan = scene.resolve;
   const ResolvePoint first{plan.voidage[0], plan.reynolds[0], 0, plan.grids - 1};
@@ -90,7 +90,7 @@ class ResolveRun {
         ranks_(core::Ranks::of_program()),
         first_(core::is_first(ranks_.get())),
         rank_(ranks_ ? ranks_->rank() : 0),
-        scene_(read_case(options.case_path, options.overrides)) {
+        scene_(read_case(options.case_path, options.overrides, {})) {
     options_.quiet = options_.quiet || !first_;
     require_what_resolve_needs(options_, scene_);
     directory_ = options.output.empty() ? default_run_directory(options.case_path, "resolve") : options.output;

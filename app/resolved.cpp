@@ -7,8 +7,7 @@
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "core/version.hpp"
-#include "dem/rules.hpp"
-#include "tfm/rules.hpp"
+#include "multiscale/scene_rules.hpp"
 
 namespace polybed::app {
 
@@ -27,16 +26,15 @@ std::string hash_of_scanned(core::Scene scene) {
 }  // namespace
 
 void print_resolved(const RunOptions& options) {
-  const core::Scene scene = read_scene(options);
+  const core::Scene scene = read_scene(options, either_model());
   const std::string text = core::resolved_case(scene);
   if (!options.json) return core::print("{}\n", text);
-  const core::Json refused = {{"tfm", tfm::only_for_particles(scene)}, {"dem", dem::only_for_continuum(scene)}};
   core::print("{}\n", core::json_text({{"git_commit", core::git_commit()},
                                        {"case", text},
                                        {"hash", core::case_hash(scene)},
                                        {"scan_hash", hash_of_scanned(scene)},
                                        {"overrides", scene.overrides},
-                                       {"refused", refused}}));
+                                       {"refused", refusals_of(scene)}}));
 }
 
 }  // namespace polybed::app

@@ -7,7 +7,6 @@
 #include "core/output/files.hpp"
 #include "core/print.hpp"
 #include "multiscale/roles.hpp"
-#include "multiscale/scene_rules.hpp"
 
 namespace polybed::app {
 
@@ -53,16 +52,17 @@ core::Scene without_added(core::Scene scene, const std::string& before, const st
 
 }  // namespace
 
-core::Scene read_scene(const RunOptions& options) {
+core::Scene read_scene(const RunOptions& options, const Models& models) {
   std::vector<std::string> overrides = options.overrides;
   if (!options.until.empty()) {
     const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
     overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
   }
-  core::Scene scene = read_chosen_case(options.case_path, overrides);
+  core::Scene scene = read_chosen_case(options.case_path, overrides, models);
   if (options.until.empty()) return scene;
   try {  // checkpoints are part of the result: they do not move with --until
-    scene.output.checkpoint_every = read_chosen_case(options.case_path, options.overrides).output.checkpoint_every;
+    scene.output.checkpoint_every =
+        read_chosen_case(options.case_path, options.overrides, models).output.checkpoint_every;
   } catch (const core::CaseError&) {  // of a case that --until completes
   }
   return scene;

@@ -11,11 +11,12 @@
 #include "core/case/scene.hpp"
 #include "core/output/checkpoint.hpp"
 #include "core/output/directory.hpp"
+#include "multiscale/scene_rules.hpp"
 
 namespace polybed::app {
 
-/// The case of the command line, with --set and --until taken into it.
-[[nodiscard]] core::Scene read_scene(const RunOptions& options);
+/// The case of the command line, with --set and --until taken into it, for models that are to run it.
+[[nodiscard]] core::Scene read_scene(const RunOptions& options, const Models& models);
 
 /// runs/<case name>-<model>, where a case.toml is called by its folder.
 [[nodiscard]] std::filesystem::path default_run_directory(const std::filesystem::path& case_path,

@@ -24,8 +24,9 @@ core::Json common_request(const RunOptions& options, const std::string& kind) {
           {"picture", options.picture}};
 }
 
-void run_closure_uncertainty(const RunOptions& options, const std::string& kind, const std::string& method) {
-  const core::Scene scene = read_scene(options);
+void run_closure_uncertainty(const RunOptions& options, const std::string& kind, const Models& models,
+                             const std::string& method) {
+  const core::Scene scene = read_scene(options, models);
   if (!scene.effects.contains("drag"))
     throw core::CaseError("--closure-uncertainty is that of a drag law: [effects] drag = ...");
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
@@ -44,7 +45,7 @@ void require_table(const core::Scene& scene) {
 }
 
 void run_stress_uncertainty(const RunOptions& options) {
-  require_table(read_scene(options));
+  require_table(read_scene(options, {&rules_of_tfm()}));
   become_python("polybed.study.stress_uncertainty", {core::json_text(common_request(options, "tfm"))});
 }
 

@@ -7,6 +7,7 @@
 #include "app/studies.hpp"
 #include "core/case/scene.hpp"
 #include "core/output/json.hpp"
+#include "multiscale/scene_rules.hpp"
 
 namespace polybed::app {
 
@@ -16,8 +17,8 @@ namespace polybed::app {
 
 /// Becomes the study that finds the answer of polybed inversion or tfm with the case's drag law and with the law moved
 /// within its band. Throws core::CaseError if the case has no drag law.
-/// \param kind  "inversion" or "tfm"  \param method  of the inversion
-[[noreturn]] void run_closure_uncertainty(const RunOptions& options, const std::string& kind,
+/// \param kind  "inversion" or "tfm"  \param models  that run the case  \param method  of the inversion
+[[noreturn]] void run_closure_uncertainty(const RunOptions& options, const std::string& kind, const Models& models,
                                           const std::string& method = "");
 
 /// Becomes the study that runs the case with its stress table, and with the table at plus and minus one standard error

@@ -13,6 +13,7 @@
 #include "core/print.hpp"
 #include "fluid/inlet.hpp"
 #include "multiscale/requirements.hpp"
+#include "multiscale/scene_warnings.hpp"
 #include "multiscale/tfm_record.hpp"
 #include "relevance/effect_row.hpp"
 #include "tfm/evenness.hpp"
@@ -30,6 +31,7 @@ class TfmRun final : public CaseRun {
       : CaseRun(options, std::move(scene), std::move(directory), std::move(ranks), "tfm"),
         model_(scene_, timers_, ranks_) {
     model_.go_on_above_packing(options_.permissive);
+    for (const std::string& line : grid_warnings(scene_)) say({"warning: " + line});
     if (first_ && !options_.quiet)
       for (const std::string& line : model_.effects().warnings) core::print(stderr, "{}\n", line);
     model_.show(model_.time());
@@ -234,9 +236,9 @@ class TfmRun final : public CaseRun {
 void run_tfm(const RunOptions& options) {
   if (options.closure_uncertainty && options.stress_uncertainty)
     throw core::CaseError("--closure-uncertainty and --stress-uncertainty are two studies: give one of them at a time");
-  if (options.closure_uncertainty) run_closure_uncertainty(options, "tfm");
+  if (options.closure_uncertainty) run_closure_uncertainty(options, "tfm", {&rules_of_tfm()});
   if (options.stress_uncertainty) run_stress_uncertainty(options);
-  const core::Scene scene = read_scene(options);
+  const core::Scene scene = read_scene(options, {&rules_of_tfm()});
   const fs::path directory = run_directory(options, "tfm");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank

@@ -13,8 +13,8 @@ enum class ExitCode : int { done = 0, wrong_case = 2, numerics = 3, file = 4, mp
 
 /// One problem of a case file: where it is and what to do about it.
 struct CaseProblem {
-  std::string file;     ///< as given on the command line; "--set" for an override
-  int line = 0;         ///< 1-based; 0 if the problem has no place (a key that is missing)
+  std::string file;     ///< as given on the command line; "--set" for an override; empty: no file was read
+  int line = 0;         ///< 1-based; 0 if the problem has no place (a table that is missing)
   int column = 0;       ///< 1-based
   std::string message;  ///< key, value, allowed range with unit, suggestion
 
@@ -22,7 +22,7 @@ struct CaseProblem {
   [[nodiscard]] std::string text() const {
     std::string place = file;
     if (line > 0) place += ":" + std::to_string(line) + ":" + std::to_string(column);
-    return place + ": " + message;
+    return place.empty() ? message : place + ": " + message;
   }
 };
 

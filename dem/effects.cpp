@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "dem/effects/maker.hpp"
+#include "dem/rules.hpp"
 #include "relevance/effect_rules.hpp"
 
 namespace polybed::dem {
@@ -35,8 +36,7 @@ PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials, co
   for_each_called<MakePair>(list, scene, [&](MakePair make, const std::string& law) {
     make({scene, materials, law, laws, around_normal});
   });
-  if (!laws.normal)
-    throw core::StartError("effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear");
+  if (!laws.normal) throw core::StartError(contact_rule().problems(scene));
   return laws;
 }
 

@@ -55,9 +55,8 @@ class HardSpheres {
 /// Moves spheres apart, lighter ones further, until none overlap; in a bed near the densest by less than a thousandth
 /// of the smaller radius. Until then each pair is held at a random gap, as in a fluid of hard spheres: pushed to
 /// contact alone, most would end in contact.
-/// \param gap  m, the largest
-/// Throws core::StartError if they do not fit.
-void push_apart(HardSpheres& spheres, double gap);
+/// Returns 0, or, if they do not fit, the overlap that is left over the smaller radius. \param gap  m, the largest
+[[nodiscard]] double push_apart(HardSpheres& spheres, double gap);
 
 /// Sweeps of Metropolis et al. (J. Chem. Phys. 21, 1953): each sphere in turn tries a random step and takes it if it
 /// overlaps none. This leaves the statistics of a fluid of hard spheres as they are, and any others it brings there.

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "dem/packing.hpp"
 #include "dem/parallel/ordered_rows.hpp"
+#include "dem/rules.hpp"
 #include "dem/scene.hpp"
 #include "dem/trouble.hpp"
 
@@ -26,10 +27,15 @@ std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pa
   return work;
 }
 
+const core::Scene& fitting(const core::Scene& scene) {
+  core::refuse(start_rules(), scene);
+  return scene;
+}
+
 }  // namespace
 
 Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks)
-    : scene_(scene),
+    : scene_(fitting(scene)),
       ranks_(std::move(ranks)),
       timers_(timers),
       box_(box_of(scene)),
@@ -48,7 +54,6 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       search_(box_, materials_, skin_ + laws_.reach()),
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
-  require_room_for_images(box_, materials_.greatest_diameter(), laws_.reach(), skin_);
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
   if (laws_.film) laws_.film->set_step(limits_.dt);
   measure(start_);

@@ -73,24 +73,21 @@ std::vector<double> heights(const core::Scene& scene, const Materials& materials
   return height;
 }
 
-/// Layers of the species, each as high as its volume asks for; or one for all of them.
+/// Layers of a bed, each as high as the volume of its species needs; or one for all of them.
 std::vector<Layer> layers(const core::Scene& scene, const Materials& materials, const Box& box,
                           const std::vector<std::int64_t>& numbers) {
   const std::vector<double> height = heights(scene, materials, box, numbers);
   double sum = std::accumulate(height.begin(), height.end(), 0.0);
   if (scene.bed.start.kind == core::StartKind::random) sum = box.size[1];
   const double floor = floor_of(scene);
-  if (floor + sum > box.size[1])
-    throw core::StartError(fmt::format(
-        "column.size: the particles fill {:.4g} m of its height at a solids fraction of {:.3g}, which is more than it "
-        "has{}, {:.4g} m",
-        sum, start_fraction(scene), floor > 0 ? " above the top of [[wall]]" : "", box.size[1] - floor));
   std::vector<Layer> layers(numbers.size(), {floor, floor + sum});
   if (scene.bed.start.kind != core::StartKind::layered) return layers;
   double low = floor;
-  for (std::size_t j = 0; j < numbers.size(); ++j) {
-    layers[j] = {low, low + height[j]};
-    low += height[j];
+  for (const std::vector<std::size_t>& members : core::layers_of(scene.bed, numbers.size())) {
+    double high = low;
+    for (const std::size_t j : members) high += height[j];
+    for (const std::size_t j : members) layers[j] = {low, high};
+    low = high;
   }
   return layers;
 }
@@ -120,24 +117,16 @@ void shear(std::vector<Particle>& particles, double rate) {
   }
 }
 
-void require_room(const Particle& p, const Region& region, const Box& box) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!box.periodic[k] && region.high[k] - region.low[k] < 2 * p.place.radius)
-      throw core::StartError(fmt::format("column.size: {:.4g} m has no room for a particle of diameter {:.4g} m",
-                                         region.high[k] - region.low[k], 2 * p.place.radius));
-}
-
-/// \param layer  of each species
-void place_without_overlap(std::vector<Particle>& particles, const std::vector<Layer>& layer, const Box& box,
-                           const Materials& materials, std::uint64_t seed) {
-  if (particles.empty()) return;
+/// Returns what push_apart() does. \param layer  of each species
+double place_without_overlap(std::vector<Particle>& particles, const std::vector<Layer>& layer, const Box& box,
+                             const Materials& materials, std::uint64_t seed) {
+  if (particles.empty()) return 0;
   std::vector<Region> region;
   double volume = 0, top = 0, bottom = box.size[1];
   std::map<std::pair<double, double>, std::vector<Particle*>> together;
   for (Particle& p : particles) {
     const Layer& own = layer[std::size_t(p.species)];
     region.push_back({{0, own.low, 0}, {box.size[0], own.high, box.size[2]}});
-    require_room(p, region.back(), box);
     together[{own.low, own.high}].push_back(&p);
     volume += closures::sphere_volume(p.place.radius);
     top = std::max(top, own.high);
@@ -145,9 +134,10 @@ void place_without_overlap(std::vector<Particle>& particles, const std::vector<L
   }
   for (auto& [heights, group] : together) spread(group, region[std::size_t(group.front()->id)], seed);
   HardSpheres spheres(particles, region, box, materials);
-  push_apart(spheres, gap * materials.least_diameter());
+  if (const double overlap = push_apart(spheres, gap * materials.least_diameter()); overlap > 0) return overlap;
   equilibrate(spheres, materials.least_diameter(), volume / (box.size[0] * (top - bottom) * box.size[2]), seed);
   spheres.give_back(particles);
+  return 0;
 }
 
 }  // namespace
@@ -170,6 +160,28 @@ double start_height(const core::Scene& scene, const Materials& materials, const 
   return std::min(box.size[1], floor_of(scene) + std::accumulate(height.begin(), height.end(), 0.0));
 }
 
+std::string no_room_for(const core::Scene& scene, const Materials& materials, const Box& box) {
+  if (scene.bed.start.kind == core::StartKind::list) return "";
+  const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);
+  const std::vector<Layer> layer = layers(scene, materials, box, numbers);
+  double top = 0;
+  for (const Layer& one : layer) top = std::max(top, one.high);
+  const double floor = floor_of(scene);
+  if (top > box.size[1])
+    return fmt::format(
+        "they fill {:.4g} m of the column's height at a solids fraction of {:.3g}, which is more than it has{}, "
+        "{:.4g} m: enlarge column.size",
+        top - floor, start_fraction(scene), floor > 0 ? " above the top of [[wall]]" : "", box.size[1] - floor);
+  for (std::size_t j = 0; j < layer.size() && !box.periodic[1]; ++j)
+    if (const double room = layer[j].high - layer[j].low, diameter = 2 * materials.species()[j].radius;
+        numbers[j] > 0 && room < diameter)
+      return fmt::format(
+          "their bed is {:.4g} m high, less than a particle, {:.4g} m: take more of them, or a smaller "
+          "bed.start_solids_fraction",
+          room, diameter);
+  return "";
+}
+
 std::vector<Particle> start_particles(const core::Scene& scene, const Materials& materials, const Box& box) {
   if (scene.bed.start.kind == core::StartKind::list) return listed(scene, materials);
   const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);
@@ -180,7 +192,12 @@ std::vector<Particle> start_particles(const core::Scene& scene, const Materials&
   for (std::size_t j = 0; j < numbers.size(); ++j)
     for (std::int64_t n = 0; n < numbers[j]; ++n)
       particles.push_back(particle(materials, std::int32_t(j), std::int64_t(particles.size())));
-  place_without_overlap(particles, layer, box, materials, seed);
+  if (const double overlap = place_without_overlap(particles, layer, box, materials, seed); overlap > 0)
+    throw core::StartError(std::vector{scene.places.problem(
+        {"bed.start_solids_fraction", "bed.solids_fraction", "column.size"},
+        fmt::format("bed: the particles do not fit: some still overlap by {:.2g} of their radius; give the bed more "
+                    "room (column.size, bed.start_solids_fraction)",
+                    overlap))});
   set_in_motion(particles, scene.dem.start_speed, seed);
   shear(particles, scene.column.shear_rate);
   return particles;

@@ -1,6 +1,7 @@
 // Where the particles are at the start.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/case/scene.hpp"
@@ -13,6 +14,9 @@ namespace polybed::dem {
 /// Numbers of particles of each species: as the case gives them, or from the volumes of the bed.
 [[nodiscard]] std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Materials& materials,
                                                          const Box& box);
+
+/// Why the particles of a start that is not a list have no room in the column; empty if they have.
+[[nodiscard]] std::string no_room_for(const core::Scene& scene, const Materials& materials, const Box& box);
 
 /// m, below which the particles of a start that is not a list are: of a bed that is placed at a solids fraction its
 /// top, else that of the box.

@@ -1,12 +1,9 @@
 // Random particles pushed apart until none overlap.
 #include "dem/hard_spheres.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/numerics/random.hpp"
 #include "dem/contacts/batch.hpp"
@@ -77,7 +74,7 @@ double touching(HardSpheres& spheres, const Contacts::Pair& pair) {
 
 }  // namespace
 
-void push_apart(HardSpheres& spheres, double gap) {
+double push_apart(HardSpheres& spheres, double gap) {
   std::vector<Push> pushes;
   for (int n = 0; n < listings; ++n) {
     core::stop_if_wanted("particles were placed");
@@ -93,16 +90,13 @@ void push_apart(HardSpheres& spheres, double gap) {
     core::stop_if_wanted("particles were placed");
     spheres.list(1.5 * gap);
     overlap = spheres.greatest_overlap();
-    if (overlap <= (n < patience ? 0 : left_over)) return;
+    if (overlap <= (n < patience ? 0 : left_over)) return 0;
     // A little further than need be, so that the last overlaps end soon.
     const double more = 1 + (n < patience ? 0.02 : 1.5 * left_over);
     fill(pushes, spheres, [&](const Contacts::Pair& pair) { return more * touching(spheres, pair); });
     for (int round = 0; round < last_rounds; ++round) push_all(spheres, pushes);
   }
-  throw core::StartError(
-      fmt::format("bed: the particles do not fit: some still overlap by {:.2g} of their radius; give the bed more room "
-                  "(column.size, bed.start_solids_fraction)",
-                  overlap));
+  return overlap;
 }
 
 }  // namespace polybed::dem

@@ -34,8 +34,4 @@ const std::vector<core::Rule>& model_rules() {
   return all;
 }
 
-std::vector<std::string> only_for_continuum(const core::Scene& scene) { return core::faults_of(model_rules(), scene); }
-
-void refuse_continuum_scene(const core::Scene& scene) { core::refuse(model_rules(), scene); }
-
 }  // namespace polybed::dem

@@ -1,7 +1,6 @@
 // What the particle model asks of a scene.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/case/rule.hpp"
@@ -12,13 +11,13 @@ namespace polybed::dem {
 /// What the keys of [dem] require, of the effects that read them and whatever effects there are.
 [[nodiscard]] std::vector<core::Rule> key_rules();
 
+/// What the particles at their start require; dem::Model refuses a scene that breaks one of these.
+[[nodiscard]] std::vector<core::Rule> start_rules();
+
+/// That there is a law of contact.
+[[nodiscard]] core::Rule contact_rule();
+
 /// What this model alone asks of a scene.
 [[nodiscard]] const std::vector<core::Rule>& model_rules();
-
-/// What keeps a scene from the particle model, each with its key; empty if nothing does.
-[[nodiscard]] std::vector<std::string> only_for_continuum(const core::Scene& scene);
-
-/// Throws core::CaseError with all of it.
-void refuse_continuum_scene(const core::Scene& scene);
 
 }  // namespace polybed::dem

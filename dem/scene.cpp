@@ -124,9 +124,7 @@ Speeds expected_speeds(const core::Scene& scene, const Materials& materials, con
   const Speeds known = known_speeds(scene, materials, box, start);
   if (known.greatest > 0) return known;
   if (!scene.dem.fixed_step)
-    throw core::StartError(
-        "dem.greatest_speed: without gravity, shear or particles that move nothing tells how fast they will be; give "
-        "the greatest speed expected, which sets the time step");
+    throw core::StartError(std::vector{scene.places.problem({"dem.greatest_speed", "column.gravity"}, unknown_speed)});
   double least = std::numeric_limits<double>::infinity();
   for (const Particle& p : start) least = std::min(least, 2 * p.place.radius);
   const double speed = 0.01 * least / *scene.dem.fixed_step;
@@ -160,20 +158,17 @@ FixedPoint torque_unit(const FixedPoint& force, const Materials& materials) {
   return {force.per_unit / arm, force.unit * arm};
 }
 
-void require_room_for_images(const Box& box, double greatest_diameter, double reach, double skin) {
+std::string no_room_for_images(const Box& box, std::size_t k, double greatest_diameter, double reach, double skin) {
   const bool sheared = box.shear_rate != 0;
   const double least = 2 * (greatest_diameter + reach + (sheared ? skin : 0));
   constexpr std::array<const char*, 3> names = {"width", "height", "depth"};
-  for (std::size_t k = 0; k < 3; ++k)
-    if (box.periodic[k] && box.size[k] < least * (1 - 1e-12))
-      throw core::StartError(
-          fmt::format(
-              "column.{}: {:.6g} m is periodic and must be at least {:.6g} m, two of the largest particles{}{}, "
-              "or a particle touches another and its image",
-              k == 2 ? "depth" : "size", box.size[k], least,
-              reach > 0 ? " and twice what they reach beyond contact" : "",
-              sheared ? " and, as the box is sheared, twice the skin (dem.skin)" : "") +
-          (k == 2 ? "" : fmt::format(" ({})", names[k])));
+  if (!box.periodic[k] || box.size[k] >= least * (1 - 1e-12)) return "";
+  return fmt::format(
+             "{:.6g} m is periodic and must be at least {:.6g} m, two of the largest particles{}{}, or a particle "
+             "touches another and its image",
+             box.size[k], least, reach > 0 ? " and twice what they reach beyond contact" : "",
+             sheared ? " and, as the box is sheared, twice the skin (dem.skin)" : "") +
+         (k == 2 ? "" : fmt::format(" ({})", names[k]));
 }
 
 SolidsVolume volume_of(const std::vector<Particle>& particles, std::size_t species) {

@@ -1,6 +1,7 @@
 // What the particle model reads from a scene: its box, gravity, units of force, skin and speeds.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/case/scene.hpp"
@@ -50,10 +51,16 @@ struct Speeds {
 [[nodiscard]] FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws);
 [[nodiscard]] FixedPoint torque_unit(const FixedPoint& force, const Materials& materials);
 
-/// Throws core::CaseError if a particle could touch another and its image: periodic directions need room for two of
+/// Why a particle could touch another and its image along an axis; empty if none can: joined sides need room for two of
 /// the largest and twice the reach. T: so does the thesis, whose depth for system B is too small by a hair.
 /// \param greatest_diameter  m  \param reach  of forces beyond contact, m
 /// \param skin  of the list of neighbours, m: a sheared box needs room for it, too, as its list has but one image
-void require_room_for_images(const Box& box, double greatest_diameter, double reach, double skin);
+[[nodiscard]] std::string no_room_for_images(const Box& box, std::size_t axis, double greatest_diameter, double reach,
+                                             double skin);
+
+/// What is said where nothing tells the speed of the particles.
+inline constexpr const char* unknown_speed =
+    "dem.greatest_speed: without gravity, shear or particles that move nothing tells how fast they will be; give the "
+    "greatest speed expected, which sets the time step";
 
 }  // namespace polybed::dem

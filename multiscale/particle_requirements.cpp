@@ -16,6 +16,7 @@
 #include "core/progress.hpp"
 #include "dem/effects/contact_hertz.hpp"
 #include "dem/packing.hpp"
+#include "dem/rules.hpp"
 #include "dem/scene.hpp"
 #include "dem/settling.hpp"
 #include "relevance/effects/contact.hpp"
@@ -160,7 +161,7 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   const dem::Box box = dem::box_of(scene);
   const dem::Materials materials(scene);
   const dem::PairLaws laws = dem::make_pair_laws(scene, materials);
-  dem::require_room_for_images(box, materials.greatest_diameter(), laws.reach(), dem::skin_of(scene, materials));
+  core::refuse(dem::start_rules(), scene);
   ParticleRequirements need;
   Start start = start_of(scene, materials, box);
   need.numbers = std::move(start.numbers);

@@ -233,9 +233,11 @@ Requirements expected_of(const core::Scene& scene, const tfm::Model& model, doub
 
 void refuse_beyond_memory(const core::Scene& scene, const MemoryNeed& need, const core::AvailableMemory& available) {
   if (need.total() <= available.bytes) return;
-  throw core::CaseError(fmt::format(
-      "column.cells = [{}]: the run would need about {:.3g} GB of memory; {} leaves {:.3g} GB: choose fewer",
-      fmt::join(scene.column.given_cells, ", "), 1e-9 * need.total(), available.limit, 1e-9 * available.bytes));
+  throw core::CaseError(std::vector{scene.places.problem(
+      {"column.cells"},
+      fmt::format(
+          "column.cells = [{}]: the run would need about {:.3g} GB of memory; {} leaves {:.3g} GB: choose fewer",
+          fmt::join(scene.column.given_cells, ", "), 1e-9 * need.total(), available.limit, 1e-9 * available.bytes))});
 }
 
 void require_memory(const core::Scene& scene) {

@@ -6,9 +6,8 @@
 
 #include "closures/size_classes.hpp"
 #include "dem/effects/maker.hpp"
-#include "dem/rules.hpp"
+#include "multiscale/scene_rules.hpp"
 #include "tfm/effects/maker.hpp"
-#include "tfm/rules.hpp"
 
 namespace polybed::multiscale {
 
@@ -40,8 +39,8 @@ bool can_be_added(const relevance::MenuEntry& entry, const std::string& model) {
 std::vector<core::Role> all_roles() { return relevance::roles_of(menu()); }
 
 std::vector<std::string> models_of(const core::Scene& scene) {
-  if (!tfm::only_for_particles(scene).empty()) return {"dem"};
-  if (!dem::only_for_continuum(scene).empty()) return {"tfm"};
+  if (!rules_of_tfm().problems(scene).empty()) return {"dem"};
+  if (!rules_of_dem().problems(scene).empty()) return {"tfm"};
   const bool touching = core::acts(scene, "contact"), pressing = core::acts(scene, "solids_stress");
   if (touching != pressing) return {touching ? "dem" : "tfm"};
   return {"tfm", "dem"};

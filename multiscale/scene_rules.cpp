@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "closures/max_packing.hpp"
@@ -17,6 +18,7 @@
 #include "multiscale/roles.hpp"
 #include "relevance/drag_file.hpp"
 #include "relevance/drag_law.hpp"
+#include "relevance/effect_rules.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "tfm/rules.hpp"
 
@@ -109,73 +111,54 @@ std::vector<core::Rule> scene_rules_of_both() {
            more_than_the_column_takes}};
 }
 
-/// The least velocity of a table, m/s.
-double least_velocity(const std::vector<std::pair<double, double>>& table) {
-  double least = 0;
-  for (const auto& [time, velocity] : table) least = std::min(least, velocity);
-  return least;
-}
-
-/// Whether fluid flows in at the bottom at some time.
-bool flows_in(const core::Scene& scene) {
-  const auto positive = [](const auto& table) {
-    return std::any_of(table.begin(), table.end(), [](const auto& point) { return point.second > 0; });
-  };
-  return positive(scene.inlet.superficial_velocity) ||
-         std::any_of(scene.jets.begin(), scene.jets.end(),
-                     [&](const core::Jet& jet) { return positive(jet.superficial_velocity); });
-}
-
 }  // namespace
 
 const std::vector<core::Rule>& scene_rules() {
-  static const std::vector<core::Rule> all = [] {
-    std::vector<core::Rule> rules = relevance::rules_of(menu());
-    for (const auto& more : {dem::key_rules(), tfm::key_rules(), tfm::start_rules(), calibrate_rules(), resolve_rules(),
-                             scene_rules_of_both()})
-      rules.insert(rules.end(), more.begin(), more.end());
-    return rules;
-  }();
+  static const std::vector<core::Rule> all = relevance::joined(
+      {relevance::rules_of(menu(), "tfm, dem"), calibrate_rules(), resolve_rules(), scene_rules_of_both()});
   return all;
 }
 
-std::vector<std::string> scene_warnings(const core::Scene& scene) {
-  std::vector<std::string> warnings;
-  const auto drawn = [&](const std::string& what, double velocity) {
-    if (velocity < 0)
-      warnings.push_back(
-          fmt::format("{} = {:.4g} m/s is negative: fluid leaves at the bottom and enters at the top, "
-                      "and the bed is pressed down",
-                      what, velocity));
-  };
-  drawn("inlet.superficial_velocity", least_velocity(scene.inlet.superficial_velocity));
-  for (std::size_t n = 0; n < scene.jets.size(); ++n)
-    drawn(fmt::format("superficial_velocity of [[jet]] number {}", n + 1),
-          least_velocity(scene.jets[n].superficial_velocity));
-  if (!scene.fluid.present() || !(scene.column.gravity > 0) || !flows_in(scene)) return warnings;
-  const double density = relevance::fluid_constants(scene.fluid).density;
-  for (const core::Species& species : scene.species)
-    if (species.density < density)
-      warnings.push_back(
-          fmt::format("species \"{}\" ({:.4g} kg/m3) is lighter than the fluid ({:.4g} kg/m3), which flows in "
-                      "from below: it floats up and {}",
-                      species.name, species.density, density,
-                      scene.column.outlet == core::Outlet::open ? "leaves at the top" : "gathers under the screen"));
-  return warnings;
+const core::ModelRules& rules_of_tfm() {
+  static const core::ModelRules all{
+      "tfm", tfm::model_rules(),
+      relevance::joined({relevance::rules_of(menu(), "tfm"), tfm::key_rules(), tfm::start_rules()})};
+  return all;
 }
 
-core::Scene read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return core::read_case(path, overrides, all_roles(), size_classes, scene_rules(), core::OtherRoles::chosen);
+const core::ModelRules& rules_of_dem() {
+  static const core::ModelRules all{
+      "dem", relevance::joined({dem::model_rules(), {dem::contact_rule()}}),
+      relevance::joined({relevance::rules_of(menu(), "dem"), dem::key_rules(), dem::start_rules()})};
+  return all;
 }
 
-core::Scene read_chosen_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  core::Scene chosen = with_choice(read_case(path, overrides));
-  if (!chosen.chooser.chosen.empty()) core::refuse(scene_rules(), chosen);  // what is chosen beside what is given
+core::Scene read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                      const Models& models) {
+  return core::read_case(path, overrides, all_roles(), size_classes, core::Rulebook(scene_rules(), models),
+                         core::OtherRoles::chosen);
+}
+
+core::Scene read_chosen_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                             const Models& models) {
+  core::Scene chosen = with_choice(read_case(path, overrides, models));
+  if (!chosen.chooser.chosen.empty()) refuse(chosen, models);  // what is chosen beside what is given
   choose_stiffness(chosen);
   choose_fluid_every(chosen);
   if (const auto file = relevance::drag_file(core::law_of(chosen, "drag")))
     chosen.drag_record = relevance::record_of(*file, relevance::read_drag_file(*file));
   return chosen;
+}
+
+core::Json refusals_of(const core::Scene& scene) {
+  core::Json json;
+  for (const core::ModelRules* model : either_model()) json[model->model] = core::texts_of(model->problems(scene));
+  return json;
+}
+
+void refuse(const core::Scene& scene, const Models& models) {
+  const core::Rulebook rulebook(scene_rules(), models);
+  if (const auto problems = rulebook.refusals(scene); !problems.empty()) throw core::CaseError(problems);
 }
 
 }  // namespace polybed::multiscale

@@ -7,7 +7,7 @@
 
 #include "core/numerics/ranks.hpp"
 #include "multiscale/run_record.hpp"
-#include "multiscale/scene_rules.hpp"
+#include "multiscale/scene_warnings.hpp"
 
 namespace polybed::multiscale {
 
@@ -150,7 +150,7 @@ std::string run_record_text(const RunRecord& record) {
   if (record.promise != nullptr) write_neglected(json, *record.promise);
   Json& warnings = json["warnings"] = exceeded_lines(record.observers.invariants().worst());
   for (const auto& lines : {drift_lines(record.observers.drifts()), model.effects().warnings,
-                            scene_warnings(record.scene), record.warnings})
+                            scene_warnings(record.scene), grid_warnings(record.scene), record.warnings})
     for (const std::string& line : lines) warnings.push_back(line);
   return core::json_text(json);
 }

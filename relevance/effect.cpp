@@ -53,9 +53,11 @@ std::vector<core::Role> roles_of(const Menu& menu) {
   return roles;
 }
 
-std::vector<core::Rule> rules_of(const Menu& menu) {
+std::vector<core::Rule> rules_of(const Menu& menu, const std::string& models) {
   std::vector<core::Rule> rules;
-  for (const MenuEntry& entry : menu) rules.insert(rules.end(), entry.effect->rules.begin(), entry.effect->rules.end());
+  for (const MenuEntry& entry : menu)
+    if (models.empty() || entry.models == models)
+      rules.insert(rules.end(), entry.effect->rules.begin(), entry.effect->rules.end());
   return rules;
 }
 

@@ -100,8 +100,8 @@ void add(Menu& menu, const Effect& effect, const std::string& model, const std::
 /// What [effects] may name.
 [[nodiscard]] std::vector<core::Role> roles_of(const Menu& menu);
 
-/// The rules of all its effects.
-[[nodiscard]] std::vector<core::Rule> rules_of(const Menu& menu);
+/// The rules of its effects. \param models  of those that exactly these models act on, as MenuEntry has them; empty: all
+[[nodiscard]] std::vector<core::Rule> rules_of(const Menu& menu, const std::string& models = "");
 
 /// A row that is not yet weighed.
 [[nodiscard]] EffectRow row_of(const MenuEntry& entry);

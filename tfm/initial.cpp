@@ -91,6 +91,22 @@ void perturb_layer(const core::Grid& grid, int y, double share, std::uint64_t se
     }
 }
 
+/// Volume of each species per area, m, in a layered bed between two such volumes of all solids under it.
+std::vector<double> layered_volume(const core::Bed& bed, std::size_t species, double total, double from, double to) {
+  std::vector<double> volume(species, 0.0);
+  double end = 0;
+  for (const std::vector<std::size_t>& layer : core::layers_of(bed, species)) {
+    double share = 0;
+    for (const std::size_t j : layer) share += bed.volume_share[j];
+    const double begin = end;
+    end += share * total;
+    const double overlap = std::max(0.0, std::min(to, end) - std::max(from, begin));
+    for (const std::size_t j : layer)
+      if (share > 0) volume[j] = overlap * (bed.volume_share[j] / share);
+  }
+  return volume;
+}
+
 /// One layer of the block's cells; nothing if the block has none of it.
 void fill_layer(const core::Grid& grid, int y, double value, core::Field& field) {
   if (y < 0 || y >= grid.cells[1]) return;
@@ -121,16 +137,14 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
   }
   const bool uneven = bed.start.kind == core::StartKind::mixed && bed.perturbation > 0 &&
                       grid.column_cells(0) * grid.column_cells(2) > 1;
+  const bool is_layered = bed.start.kind == core::StartKind::layered;
   double below = 0;  // solids volume per area under the cell, m
   for (int y = 0; y < grid.column_cells(1); ++y) {
     const double here = column[std::size_t(y)] * grid.spacing[1];
-    double layer_end = 0;
+    const std::vector<double> layered =
+        is_layered ? layered_volume(bed, constants.species(), total, below, below + here) : std::vector<double>();
     for (std::size_t j = 0; j < constants.species(); ++j) {
-      const double layer_begin = layer_end;
-      layer_end += bed.volume_share[j] * total;
-      const double overlap = std::max(0.0, std::min(below + here, layer_end) - std::max(below, layer_begin));
-      const double phi = bed.start.kind == core::StartKind::layered ? overlap / grid.spacing[1]
-                                                                    : bed.volume_share[j] * column[std::size_t(y)];
+      const double phi = is_layered ? layered[j] / grid.spacing[1] : bed.volume_share[j] * column[std::size_t(y)];
       fill_layer(grid, y - grid.before[1], phi, solids.fraction[j]);
     }
     if (uneven) perturb_layer(grid, y, bed.perturbation, bed.seed, solids);

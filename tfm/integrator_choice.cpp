@@ -34,11 +34,14 @@ IntegratorChoice choose_integrator(const core::Scene& scene, const Constants& co
                                       ? cheapest(scene, constants, effects, greatest_inflow)
                                       : IntegratorChoice{scene.tfm.integrator, "as the case says"};
   if (choice.kind == core::TfmIntegrator::split_steps && (effects.compressible || !effects.drag))
-    throw core::StartError(fmt::format("tfm.integrator = \"imex\" takes the drag implicitly: it needs {}",
-                                       effects.compressible ? "an incompressible fluid" : "a drag law"));
+    throw core::StartError(std::vector{scene.places.problem(
+        {"tfm.integrator"}, fmt::format("tfm.integrator = \"imex\" takes the drag implicitly: it needs {}",
+                                        effects.compressible ? "an incompressible fluid" : "a drag law"))});
   const std::string wrong = wrong_with_implicit_tolerance(scene.tfm.rtol);
   if (choice.kind == core::TfmIntegrator::implicit_steps && !wrong.empty())
-    throw core::StartError(fmt::format("tfm.rtol = {} with the implicit integrator: {}", scene.tfm.rtol, wrong));
+    throw core::StartError(std::vector{
+        scene.places.problem({"tfm.rtol", "tfm.integrator"},
+                             fmt::format("tfm.rtol = {} with the implicit integrator: {}", scene.tfm.rtol, wrong))});
   return choice;
 }
 

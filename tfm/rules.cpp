@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <variant>
+#include <algorithm>
+#include <functional>
+#include <map>
 
-#include "closures/stress_frictional.hpp"
 #include "core/case/scene.hpp"
+#include "core/case/size_classes.hpp"
+#include "core/numerics/blocks.hpp"
+#include "fluid/inlet.hpp"
 #include "relevance/effects/solids_stress.hpp"
-#include "tfm/packing_limit.hpp"
 
 namespace polybed::tfm {
 
@@ -28,35 +31,8 @@ Broken wall_without_viscosity(const Scene& scene) {
                          !relevance::effects::solids_stress.has(scene, relevance::effects::with_collisions));
 }
 
-/// tfm.max_packing if it is a number, else 0.
-double packing_number(const Scene& scene) {
-  const double* number = std::get_if<double>(&scene.tfm.max_packing);
-  return number == nullptr ? 0 : *number;
-}
-
 bool packing_follows(const Scene& scene, core::PackingRule rule) {
   return scene.tfm.max_packing == core::MaxPacking(rule);
-}
-
-Broken packing_below_onset(const Scene& scene) {
-  const double most = packing_number(scene);
-  const bool below = most <= scene.tfm.frictional_onset + closures::FrictionalLaw::margin;
-  if (!has_stress(scene) || !(most > 0) || !below) return {};
-  return Broken({fmt::format("{}", most), fmt::format("{}", scene.tfm.frictional_onset)});
-}
-
-Broken bed_below_onset(const Scene& scene) {
-  const double fraction = scene.bed.solids_fraction;
-  const bool below = fraction > 0 && fraction <= scene.tfm.frictional_onset;
-  if (!has_stress(scene) || !packing_follows(scene, core::PackingRule::automatic) || !below) return {};
-  return Broken({fmt::format("{}", fraction), fmt::format("{}", scene.tfm.frictional_onset)});
-}
-
-/// A run stops where solids lie above the maximum packing by as much.
-Broken start_above_packing(const Scene& scene) {
-  const double given = packing_number(scene), start = scene.bed.start_solids_fraction;
-  if (!has_stress(scene) || !(given > 0) || start - given <= most_above_packing) return {};
-  return Broken({fmt::format("{}", given), fmt::format("{:.4g}", start), fmt::format("{:g}", most_above_packing)});
 }
 
 /// The end of a message.
@@ -65,6 +41,25 @@ constexpr const char* only_particles = ": polybed dem can run it, polybed tfm ca
 core::Rule for_particles(std::vector<std::string> keys, const std::string& what, bool (*is_so)(const Scene&)) {
   return {std::move(keys), what + only_particles,
           [is_so](const Scene& scene) { return core::broken_if(is_so(scene)); }};
+}
+
+/// Species that are fed on every face of the top, so that none of them can leave through it.
+Broken outlet_fed_shut(const Scene& scene) {
+  Broken broken;
+  if (scene.column.outlet != core::Outlet::open || scene.column.closed) return broken;
+  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  std::map<std::string, std::vector<double>> fed;  // of each face, by species
+  for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
+    const core::Feed& feed = scene.feeds[n];
+    if (feed.at != core::FeedEnd::top) continue;
+    const std::vector<double> share = fluid::face_shares(grid, feed.from, feed.to);
+    std::vector<double>& sum = fed.try_emplace(feed.species, share.size(), 0.0).first->second;
+    const bool was_shut = std::find(sum.begin(), sum.end(), 0.0) == sum.end();
+    std::transform(sum.begin(), sum.end(), share.begin(), sum.begin(), std::plus());
+    if (!was_shut && std::find(sum.begin(), sum.end(), 0.0) == sum.end())
+      broken.add({feed.species}, core::entry_of(scene, n));
+  }
+  return broken;
 }
 
 bool leans(const Scene& scene) {
@@ -82,7 +77,7 @@ core::Rule for_leaning_particles(const std::string& key, const std::string& wher
 }  // namespace
 
 std::vector<core::Rule> key_rules() {
-  return {
+  std::vector<core::Rule> rules{
       {{"tfm.solids_wall", "effects.solids_viscosity", "effects.solids_stress"},
        "tfm.solids_wall = \"johnson_jackson\" acts through a viscosity of the solids: effects.solids_viscosity, or "
        "effects.solids_stress = \"kinetic\"",
@@ -93,25 +88,23 @@ std::vector<core::Rule> key_rules() {
          return core::broken_if(has_stress(scene) && packing_follows(scene, core::PackingRule::fedors_landel) &&
                                 scene.species.size() != 2);
        }},
-      {{"tfm.max_packing", "tfm.frictional_onset"},
-       "tfm.max_packing = {} must lie above tfm.frictional_onset = {}",
-       packing_below_onset},
-      {{"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"},
-       "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
-       bed_below_onset},
       {{"tfm.form", "fluid.equation_of_state"},
        "tfm.form = \"B\" is for incompressible fluids: the pressure that follows a gas would not hold up the solids",
        [](const Scene& scene) {
          return core::broken_if(scene.tfm.form == core::PressureForm::B &&
                                 scene.fluid.equation_of_state != core::Compressibility::incompressible);
        }},
+      {{"feed.from", "feed.to", "feed.at", "feed.species", "column.", "species.name", "species.diameter", "dem.skin"},
+       "[[feed]] of {} takes every cell of the top, where none of it can leave then though column.outlet = \"open\": "
+       "give "
+       "feed.from and feed.to for a part of the top, or column.outlet = \"screen\"",
+       outlet_fed_shut},
       {{"tfm.fixed_step", "tfm.integrator"},
        "tfm.fixed_step works with explicit and imex steps only",
-       [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }},
-      {{"tfm.rtol", "tfm.integrator"}, "tfm.rtol = {} with the implicit integrator: {}", [](const Scene& scene) {
-         const std::string wrong = wrong_with_implicit_tolerance(scene.tfm.rtol);
-         return is_implicit(scene) && !wrong.empty() ? Broken({fmt::format("{}", scene.tfm.rtol), wrong}) : Broken();
-       }}};
+       [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }}};
+  const std::vector<core::Rule> of_stress = stress_rules();
+  rules.insert(rules.end(), of_stress.begin(), of_stress.end());
+  return rules;
 }
 
 std::string wrong_with_implicit_tolerance(double rtol) {
@@ -119,13 +112,6 @@ std::string wrong_with_implicit_tolerance(double rtol) {
   return rtol > most    ? fmt::format("at most {}, beyond which its predictor jumps past packing", most)
          : rtol < least ? fmt::format("at least {}, below which round-off stops its Newton iteration", least)
                         : "";
-}
-
-std::vector<core::Rule> start_rules() {
-  return {{{"tfm.max_packing", "bed.solids_fraction", "bed.start_solids_fraction", "bed.start"},
-           "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower "
-           "bed.start_solids_fraction",
-           start_above_packing}};
 }
 
 const std::vector<core::Rule>& model_rules() {
@@ -150,7 +136,9 @@ const std::vector<core::Rule>& model_rules() {
   return all;
 }
 
-std::vector<std::string> only_for_particles(const Scene& scene) { return core::faults_of(model_rules(), scene); }
+std::vector<std::string> only_for_particles(const Scene& scene) {
+  return core::texts_of(core::problems_of(model_rules(), scene));
+}
 
 void refuse_particle_scene(const Scene& scene) { core::refuse(model_rules(), scene); }
 

@@ -12,7 +12,11 @@ namespace polybed::tfm {
 /// What the keys of [tfm] require, whatever effects there are.
 [[nodiscard]] std::vector<core::Rule> key_rules();
 
-/// Of the solids at the start: a run stops where they lie too far above the maximum packing.
+/// Of these what the maximum packing and tables of the stress require.
+[[nodiscard]] std::vector<core::Rule> stress_rules();
+
+/// What the bed at its start and the integrator require: a model that is made from a scene which breaks one of these
+/// throws core::StartError.
 [[nodiscard]] std::vector<core::Rule> start_rules();
 
 /// What is wrong with a relative tolerance of implicit steps; empty where nothing is.

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include "core/case/case_rules.hpp"
 #include "core/case/depth.hpp"
@@ -21,9 +19,11 @@ namespace {
 /// One reading of a case: the scene as it grows, and the problems found so far.
 class CaseReader {
  public:
-  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules,
+  CaseReader(std::string name, std::span<const Role> roles, const ClassRule& classes, const Rulebook& rules,
              OtherRoles others)
-      : name_(std::move(name)), roles_(roles), classes_(classes), rules_(rules), others_(others), values_(name_) {}
+      : name_(std::move(name)), roles_(roles), classes_(classes), rules_(rules), others_(others), values_(name_) {
+    scene_.places = Places(name_);
+  }
 
   void read(toml::table& root, std::span<const std::string> overrides) {
     spell_out_effects(root);
@@ -31,6 +31,7 @@ class CaseReader {
     scene_.overrides.assign(overrides.begin(), overrides.end());
     const Key& title = find_table("")->keys.front();
     for (const auto& [name, node] : root) {
+      add_places_of_table(name, node);
       if (name.str() == "effects")
         read_effects(node);
       else if (name.str() == title.name)
@@ -56,6 +57,16 @@ class CaseReader {
   }
 
  private:
+  void add_place(const std::string& path, std::size_t entry, const toml::source_region& region) {
+    scene_.places.add(path, entry, values_.place_of(region));
+  }
+
+  void add_places_of_table(const toml::key& name, const toml::node& node) {
+    const toml::array* entries = node.as_array();
+    if (entries == nullptr) return add_place(std::string(name.str()), 0, name.source());
+    for (std::size_t n = 0; n < entries->size(); ++n) add_place(std::string(name.str()), n, entries->get(n)->source());
+  }
+
   void read_table(const toml::table& table, const Table& known, std::size_t index) {
     for (const auto& [key, node] : table) {
       const auto found =
@@ -111,7 +122,7 @@ class CaseReader {
         read_others(value);
         continue;
       }
-      given_.emplace(fmt::format("effects.{}", name.str()), name.source());
+      add_place(fmt::format("effects.{}", name.str()), 0, name.source());
       const auto role = std::find_if(roles_.begin(), roles_.end(), [&](const Role& r) { return r.name == name.str(); });
       if (role == roles_.end()) {
         wrong_key(name, "effects");
@@ -145,10 +156,10 @@ class CaseReader {
   void leave_others_to_chooser() {
     if (others_ == OtherRoles::off) return;
     for (const Role& role : roles_)
-      if (!given_.contains("effects." + role.name)) scene_.effects.emplace(role.name, automatic);
+      if (!is_given("effects." + role.name)) scene_.effects.emplace(role.name, automatic);
   }
   void read_key(const Key& key, std::size_t index, const toml::node& node) {
-    if (!given_.emplace(key.path(), node.source()).second) repeated_.insert(key.path());
+    add_place(key.path(), index, node.source());
     const std::size_t problems = values_.problems().size();
     const Value value = values_.read(key, node);
     if (!std::holds_alternative<std::monostate>(value)) key.set(scene_, index, value);
@@ -162,32 +173,31 @@ class CaseReader {
 
   /// How much there is in the bed: said once.
   void check_amount() {
-    const auto given = [&](const std::string& path) { return given_.contains(path); };
+    const auto given = [&](const std::string& path) { return is_given(path); };
     const bool by_particles = given("bed.particles"), list = scene_.bed.start.kind == StartKind::list;
     for (const char* key : {"bed.volume_share", "bed.static_height"}) {
       if (by_particles && given(key))
-        values_.add(fmt::format("{} and bed.particles both say how much there is: give one", key));
+        add({"bed.particles"}, fmt::format("{} and bed.particles both say how much there is: give one", key));
       if (by_particles || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
-      values_.add(fmt::format("{} is missing (or give bed.particles)", key));
+      add({key}, fmt::format("{} is missing (or give bed.particles)", key));
       wrong_.add(key);
     }
     // A feed is held against the packing of the settled bed, whatever the bed begins as.
     const bool anywhere = scene_.bed.start.kind == StartKind::random && by_particles;
     if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
     if ((list || anywhere) && scene_.feeds.empty()) return;
-    values_.add("bed.solids_fraction is missing: of the settled bed");
+    add({"bed.solids_fraction"}, "bed.solids_fraction is missing: of the settled bed");
     wrong_.add("bed.solids_fraction");
   }
 
   /// A fluid with density and viscosity needs no name.
   void check_fluid() {
-    const auto given = [&](const char* path) { return given_.contains(path); };
+    const auto given = [&](const char* path) { return is_given(path); };
     if (given("fluid.name") || !wrong_.sound("fluid.name")) return;
     if (given("fluid.density") && given("fluid.viscosity")) return;
-    values_.add(
+    add({"fluid.name"},
         "fluid.name is missing: \"water\" or \"air\" with fluid.temperature, \"none\" for particles without a fluid, "
-        "or "
-        "give fluid.density and fluid.viscosity");
+        "or give fluid.density and fluid.viscosity");
     wrong_.add("fluid.name");
   }
 
@@ -236,20 +246,24 @@ class CaseReader {
     resolve(scene_, name_, wrong_);
     for (const Rule& rule : case_rules())
       if (!rule.first) judge(rule);
-    for (const Rule& rule : rules_) judge(rule);
+    add(rules_.refusals(scene_, wrong_, !values_.problems().empty()));
   }
 
-  /// Whether the scene breaks a rule whose keys are sound; it is reported at the first of them that the case gives.
+  /// Whether the scene breaks a rule whose keys are sound, which is reported.
   bool judge(const Rule& rule) {
-    if (!std::all_of(rule.keys.begin(), rule.keys.end(), [&](const std::string& key) { return wrong_.sound(key); }))
-      return false;
-    const auto is_given = [&](const std::string& key) { return given_.contains(key); };
-    const auto place = std::find_if(rule.keys.begin(), rule.keys.end(), is_given);
-    const bool has_line = place != rule.keys.end() && !repeated_.contains(*place);  // else it may be another entry's
-    const std::vector<std::string> faults = rule.faults(scene_);
-    for (const std::string& fault : faults) has_line ? values_.add(given_.at(*place), fault) : values_.add(fault);
-    return !faults.empty();
+    const std::vector<CaseProblem> problems = problems_of({&rule, 1}, scene_, wrong_);
+    add(problems);
+    return !problems.empty();
   }
+
+  void add(std::initializer_list<std::string> keys, std::string message) {
+    values_.problems().push_back(scene_.places.problem(keys, std::move(message)));
+  }
+  void add(const std::vector<CaseProblem>& problems) {
+    values_.problems().insert(values_.problems().end(), problems.begin(), problems.end());
+  }
+
+  [[nodiscard]] bool is_given(const std::string& path) const { return scene_.places.has(path); }
 
   /// A table that cannot be read: none of its keys has a value.
   void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message) {
@@ -282,20 +296,17 @@ class CaseReader {
   std::string name_;
   std::span<const Role> roles_;
   const ClassRule& classes_;
-  std::span<const Rule> rules_;
+  const Rulebook& rules_;
   OtherRoles others_;
   CaseValues values_;
   Scene scene_;
-  std::map<std::string, toml::source_region> given_;  ///< the keys that the case sets, by path, and where
-  std::set<std::string> repeated_;                    ///< those of several entries of an array
   WrongKeys wrong_;
 };
 
 }  // namespace
 
 Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                 std::span<const Role> roles, const ClassRule& classes, std::span<const Rule> rules,
-                 OtherRoles others) {
+                 std::span<const Role> roles, const ClassRule& classes, const Rulebook& rules, OtherRoles others) {
   if (const auto problem = too_deep(text, name)) throw CaseError(std::vector{*problem});
   toml::table root;
   try {
@@ -312,7 +323,7 @@ Scene parse_case(std::string_view text, const std::string& name, std::span<const
 }
 
 Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides, std::span<const Role> roles,
-                const ClassRule& classes, std::span<const Rule> rules, OtherRoles others) {
+                const ClassRule& classes, const Rulebook& rules, OtherRoles others) {
   constexpr std::size_t largest = 10'000'000;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw FileError(path.string() + " is a folder: name its case.toml");

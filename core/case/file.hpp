@@ -25,16 +25,16 @@ inline constexpr const char* other_roles = "others";
 /// "species.fine.diameter=1 mm"
 /// \param roles      what [effects] may name
 /// \param classes    how a distribution of sizes becomes species; without it a case may have none
-/// \param rules      what a scene must satisfy beyond case_rules(); reported together with all others
+/// \param rules      what a scene and the models that are to run it must satisfy beyond case_rules(); reported with all others
 /// \param others     what becomes of roles that the case does not name
 [[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
-                              std::span<const Role> roles, const ClassRule& classes = {},
-                              std::span<const Rule> rules = {}, OtherRoles others = OtherRoles::off);
+                              std::span<const Role> roles, const ClassRule& classes = {}, const Rulebook& rules = {},
+                              OtherRoles others = OtherRoles::off);
 
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
-                               std::span<const Role> roles, const ClassRule& classes = {},
-                               std::span<const Rule> rules = {}, OtherRoles others = OtherRoles::off);
+                               std::span<const Role> roles, const ClassRule& classes = {}, const Rulebook& rules = {},
+                               OtherRoles others = OtherRoles::off);
 
 /// The whole case in SI as TOML; reads back to the same scene.
 [[nodiscard]] std::string resolved_case(const Scene& scene);

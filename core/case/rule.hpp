@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "core/case/scene.hpp"
+#include "core/error.hpp"
 
 namespace polybed::core {
 
@@ -38,13 +40,17 @@ class Broken {
  public:
   using Words = std::vector<std::string>;  ///< of one fault, in the order of the gaps of the rule's message
   Broken() = default;
+  struct Fault {
+    Words words;
+    std::optional<std::size_t> entry;  ///< of the array of tables that the first key of the rule belongs to
+  };
   Broken(Words words) { add(std::move(words)); }
-  void add(Words words) { faults_.push_back(std::move(words)); }
+  void add(Words words, std::optional<std::size_t> entry = {}) { faults_.push_back({std::move(words), entry}); }
   explicit operator bool() const { return !faults_.empty(); }
-  [[nodiscard]] const std::vector<Words>& faults() const { return faults_; }
+  [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
 
  private:
-  std::vector<Words> faults_;
+  std::vector<Fault> faults_;
 };
 
 /// One requirement.
@@ -56,17 +62,46 @@ struct Rule {
   /// the first of its keys.
   bool first = false;
 
-  /// The message with the words of each fault.
-  [[nodiscard]] std::vector<std::string> faults(const Scene& scene) const;
+  /// The message with the words of each fault, at its place in the case.
+  [[nodiscard]] std::vector<CaseProblem> problems(const Scene& scene) const;
 };
 
 /// Broken without words.
 [[nodiscard]] inline Broken broken_if(bool broken) { return broken ? Broken(Broken::Words()) : Broken(); }
 
-/// The messages of all rules that a scene breaks.
-[[nodiscard]] std::vector<std::string> faults_of(std::span<const Rule> rules, const Scene& scene);
+/// Of all rules that a scene breaks. \param wrong  keys that no rule is judged by
+[[nodiscard]] std::vector<CaseProblem> problems_of(std::span<const Rule> rules, const Scene& scene,
+                                                   const WrongKeys& wrong = {});
 
-/// Throws CaseError with them, if there are any: for scenes that no reader has seen.
+/// Their texts, with their places.
+[[nodiscard]] std::vector<std::string> texts_of(const std::vector<CaseProblem>& problems);
+
+/// Throws CaseError with the problems of all rules that a scene breaks, if there are any.
 void refuse(std::span<const Rule> rules, const Scene& scene);
+
+/// What a model asks of a scene beyond what all models do.
+struct ModelRules {
+  std::string model;         ///< its command, "tfm"
+  std::vector<Rule> cannot;  ///< what it has no equations for: a scene that breaks one of them is for another model
+  std::vector<Rule> rules;   ///< what its keys, its effects and its start require
+
+  /// What keeps a scene from the model; of a scene for another model only that.
+  [[nodiscard]] std::vector<CaseProblem> problems(const Scene& scene, const WrongKeys& wrong = {}) const;
+};
+
+/// What a case is judged by as it is read.
+struct Rulebook {
+  std::span<const Rule> rules = {};            ///< of every scene
+  std::vector<const ModelRules*> models = {};  ///< that are to run it, or of which one is
+
+  Rulebook() = default;
+  Rulebook(const std::vector<Rule>& of_all, std::vector<const ModelRules*> of_models = {})
+      : rules(of_all), models(std::move(of_models)) {}
+
+  /// What refuses a scene: the rules of every scene that it breaks and, if there are such or no model could run it,
+  /// those of the models that it is for. \param more  there are problems beside these
+  [[nodiscard]] std::vector<CaseProblem> refusals(const Scene& scene, const WrongKeys& wrong = {},
+                                                  bool more = false) const;
+};
 
 }  // namespace polybed::core

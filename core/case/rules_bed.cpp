@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/case/case_rules.hpp"
+#include "core/case/size_classes.hpp"
 
 namespace polybed::core {
 
@@ -26,15 +27,15 @@ bool can_name_files(const std::string& name) {
 Broken names_taken(const Scene& scene) {
   Broken broken;
   std::set<std::string> names{wall, "fluid"};  // of contact pairs and of the dataset u_fluid
-  for (const Species& species : scene.species)
-    if (!names.insert(species.name).second) broken.add({species.name});
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    if (!names.insert(scene.species[j].name).second) broken.add({scene.species[j].name}, entry_of(scene, j));
   return broken;
 }
 
 Broken names_unfit(const Scene& scene) {
   Broken broken;
-  for (const Species& species : scene.species)
-    if (!can_name_files(species.name)) broken.add({species.name});
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    if (!can_name_files(scene.species[j].name)) broken.add({scene.species[j].name}, entry_of(scene, j));
   return broken;
 }
 
@@ -67,21 +68,22 @@ std::vector<Rule> species_rules() {
 
 Broken partners_unknown(const Scene& scene) {
   Broken broken;
-  for (const ContactPair& pair : scene.contact_pairs)
-    for (const std::string& name : pair.between)
+  for (std::size_t n = 0; n < scene.contact_pairs.size(); ++n)
+    for (const std::string& name : scene.contact_pairs[n].between)
       if (name != wall &&
           std::none_of(scene.species.begin(), scene.species.end(), [&](const auto& s) { return s.name == name; }))
-        broken.add({name});
+        broken.add({name}, entry_of(scene, n));
   return broken;
 }
 
 Broken pairs_twice(const Scene& scene) {
   Broken broken;
   std::set<std::pair<std::string, std::string>> seen;
-  for (const ContactPair& pair : scene.contact_pairs) {
+  for (std::size_t n = 0; n < scene.contact_pairs.size(); ++n) {
+    const ContactPair& pair = scene.contact_pairs[n];
     if (pair.between.size() != 2) continue;
     const auto [first, second] = std::minmax(pair.between[0], pair.between[1]);
-    if (!seen.emplace(first, second).second) broken.add({first, second});
+    if (!seen.emplace(first, second).second) broken.add({first, second}, entry_of(scene, n));
   }
   return broken;
 }
@@ -90,8 +92,8 @@ Broken pairs_twice(const Scene& scene) {
 Rule rule_of_pairs(const std::string& message, bool (*wrong)(const std::vector<std::string>& between)) {
   return {{"contact_pair.between"}, message, [wrong](const Scene& scene) {
             Broken broken;
-            for (const ContactPair& pair : scene.contact_pairs)
-              if (wrong(pair.between)) broken.add({});
+            for (std::size_t n = 0; n < scene.contact_pairs.size(); ++n)
+              if (wrong(scene.contact_pairs[n].between)) broken.add({}, entry_of(scene, n));
             return broken;
           }};
 }
@@ -178,6 +180,14 @@ std::vector<Rule> start_of_bed_rules() {
             "bed.particles"},
            "the bed at its start is {} m high, the column {} m: enlarge column.size",
            bed_above_the_column},
+          {{"bed.layer", "bed.start"},
+           "bed.layer cannot act: bed.start is not \"layered\"",
+           [](const Scene& scene) {
+             return broken_if(!scene.bed.layer.empty() && scene.bed.start.kind != StartKind::layered);
+           }},
+          {{"bed.layer", "species.name"},
+           "bed.layer has {} numbers, there are {} species",
+           [](const Scene& scene) { return miscounted(scene, scene.bed.layer, !scene.bed.layer.empty()); }},
           {{"bed.start"},
            "bed.start = \"{}\": no such file in the working directory or beside the case file",
            list_missing}};

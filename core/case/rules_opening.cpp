@@ -7,6 +7,7 @@
 
 #include "core/case/case_rules.hpp"
 #include "core/case/resolve.hpp"
+#include "core/case/size_classes.hpp"
 
 namespace polybed::core {
 
@@ -23,9 +24,10 @@ template <class Part>
 Broken corners_miscounted(const Scene& scene, const std::vector<Part>& parts) {
   Broken broken;
   const std::size_t n = corner_size(scene);
-  for (const Part& part : parts)
-    if (!is_all(part) && (part.from.size() != n || part.to.size() != n))
-      broken.add({std::to_string(part.from.size()), std::to_string(part.to.size()), std::to_string(n)});
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (!is_all(parts[k]) && (parts[k].from.size() != n || parts[k].to.size() != n))
+      broken.add({std::to_string(parts[k].from.size()), std::to_string(parts[k].to.size()), std::to_string(n)},
+                 entry_of(scene, k));
   return broken;
 }
 
@@ -33,13 +35,16 @@ template <class Part>
 Broken beside_the_end(const Scene& scene, const std::vector<Part>& parts) {
   Broken broken;
   const std::array<double, 2> size{scene.column.size[0], scene.column.size[2]};
-  for (const Part& part : parts)
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Part& part = parts[k];
     for (std::size_t d = 0; d < part.from.size(); ++d)
       if (!(part.from[d] < part.to[d] && part.to[d] <= size[d] * (1 + 1e-12))) {
         broken.add(
-            {fmt::format("{:.4g}", part.from[d]), fmt::format("{:.4g}", part.to[d]), fmt::format("{:.4g}", size[d])});
+            {fmt::format("{:.4g}", part.from[d]), fmt::format("{:.4g}", part.to[d]), fmt::format("{:.4g}", size[d])},
+            entry_of(scene, k));
         break;
       }
+  }
   return broken;
 }
 
@@ -55,7 +60,7 @@ Broken jets_overlap(const Scene& scene) {
   Broken broken;
   for (std::size_t a = 0; a < scene.jets.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      if (!apart(scene.jets[a], scene.jets[b])) broken.add({std::to_string(b + 1), std::to_string(a + 1)});
+      if (!apart(scene.jets[a], scene.jets[b])) broken.add({std::to_string(b + 1), std::to_string(a + 1)}, a);
   return broken;
 }
 
@@ -65,27 +70,32 @@ Broken feeds_overlap(const Scene& scene) {
     for (std::size_t b = 0; b < a; ++b) {
       const Feed &one = scene.feeds[a], &other = scene.feeds[b];
       if (one.species == other.species && one.at == other.at && !apart(one, other))
-        broken.add({one.species, std::to_string(b + 1), std::to_string(a + 1)});
+        broken.add({one.species, std::to_string(b + 1), std::to_string(a + 1)}, entry_of(scene, a));
     }
   return broken;
 }
 
 Broken feeds_of_no_species(const Scene& scene) {
   Broken broken;
-  for (const Feed& feed : scene.feeds)
-    if (std::none_of(scene.species.begin(), scene.species.end(), [&](const auto& s) { return s.name == feed.species; }))
-      broken.add({feed.species});
+  for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
+    const std::string& name = scene.feeds[n].species;
+    if (std::none_of(scene.species.begin(), scene.species.end(), [&](const auto& s) { return s.name == name; }))
+      broken.add({name}, entry_of(scene, n));
+  }
   return broken;
 }
 
 Broken feeds_denser_than_the_bed(const Scene& scene) {
   Broken broken;
   const double settled = scene.bed.solids_fraction;
-  for (const Feed& feed : scene.feeds)
+  for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
+    const Feed& feed = scene.feeds[n];
     for (const auto& [time, flux] : feed.superficial_velocity)
       if (flux > settled * feed.velocity)
         broken.add({feed.species, fmt::format("{:.4g}", flux), fmt::format("{:.4g}", feed.velocity),
-                    fmt::format("{:.4g}", flux / settled)});
+                    fmt::format("{:.4g}", flux / settled)},
+                   entry_of(scene, n));
+  }
   return broken;
 }
 
@@ -126,7 +136,8 @@ Rule opening_rule(std::vector<std::string> rests_on, const std::string& message,
             Broken all;
             if (!scene.dem.opening) return all;
             const Broken found = broken(scene);
-            for (Broken::Words words : found.faults()) {
+            for (const Broken::Fault& fault : found.faults()) {
+              Broken::Words words = fault.words;
               words.insert(words.begin(), fmt::format("{:g}", *scene.dem.opening));
               all.add(std::move(words));
             }
@@ -157,9 +168,11 @@ std::vector<Rule> bottom_rules() {
 
 Broken wall_ends_miscounted(const Scene& scene) {
   Broken broken;
-  for (const InnerWall& wall : scene.walls)
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const InnerWall& wall = scene.walls[n];
     if (wall.from.size() != 2 || wall.to.size() != 2)
-      broken.add({std::to_string(wall.from.size()), std::to_string(wall.to.size())});
+      broken.add({std::to_string(wall.from.size()), std::to_string(wall.to.size())}, n);
+  }
   return broken;
 }
 
@@ -172,7 +185,8 @@ Broken walls_outside(const Scene& scene) {
     };
     if (beyond(0) || beyond(1))
       broken.add({std::to_string(n + 1), fmt::format("{:.4g}", scene.column.size[0]),
-                  fmt::format("{:.4g}", scene.column.size[1])});
+                  fmt::format("{:.4g}", scene.column.size[1])},
+                 n);
   }
   return broken;
 }
@@ -180,7 +194,7 @@ Broken walls_outside(const Scene& scene) {
 Broken walls_without_length(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.walls.size(); ++n)
-    if (scene.walls[n].from == scene.walls[n].to) broken.add({std::to_string(n + 1)});
+    if (scene.walls[n].from == scene.walls[n].to) broken.add({std::to_string(n + 1)}, n);
   return broken;
 }
 

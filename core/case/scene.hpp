@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/case/choices.hpp"
+#include "core/case/places.hpp"
 
 namespace polybed::core {
 
@@ -95,10 +96,14 @@ struct Bed {
   double start_solids_fraction = 0;      ///< of the bed at the start; the mass is that of the settled bed
   std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
   Start start;
+  std::vector<std::int64_t> layer;  ///< of each species in the start "layered", from the bottom; empty: each its own
   std::uint64_t seed = 1;
   double perturbation = 1e-3;  ///< share by which cells of a mixed start differ at random
   bool held = false;           ///< particles do not move: a fixed bed; key of [dem]
 };
+
+/// The species of each layer of a bed that starts layered, from the bottom.
+[[nodiscard]] std::vector<std::vector<std::size_t>> layers_of(const Bed& bed, std::size_t species);
 
 struct Inlet {
   /// (time s, superficial velocity m/s): constant before the first and after the last, linear between.
@@ -287,6 +292,7 @@ struct Scene {
   /// What the file of the drag law said when the case was read, JSON: a record, not read again; empty without one.
   std::string drag_record;
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
+  Places places;                       ///< of the keys and tables of the case: a record, not read again
 };
 
 /// The word in place of a law that leaves it to the chooser.

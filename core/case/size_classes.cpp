@@ -89,10 +89,13 @@ void expand_size_classes(Scene& scene, const ClassRule& rule) {
   if (!shares_fit && bed.start.kind != StartKind::list) return;  // a rule tells of it
   std::vector<Species> species;
   std::vector<double> shares;
+  std::vector<std::int64_t> layer;
+  const bool layer_fits = bed.layer.size() == scene.species.size();
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
     const Expanded classes = expanded(scene.species[n], rule, scene.size_classes);
     for (std::size_t k = 0; k < classes.species.size(); ++k) {
       species.push_back(classes.species[k]);
+      layer.push_back(layer_fits ? bed.layer[n] : std::int64_t(n + 1));
       if (shares_fit) shares.push_back(bed.volume_share[n] * classes.share[k]);
     }
   }
@@ -100,6 +103,7 @@ void expand_size_classes(Scene& scene, const ClassRule& rule) {
   scene.contact_pairs = expanded_pairs(scene.contact_pairs, scene.size_classes);
   scene.species = std::move(species);
   if (shares_fit) bed.volume_share = std::move(shares);
+  if (bed.start.kind == StartKind::layered && (layer_fits || bed.layer.empty())) bed.layer = std::move(layer);
 }
 
 }  // namespace polybed::core

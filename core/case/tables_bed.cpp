@@ -113,9 +113,14 @@ Table bed_table() {
           key(&Bed::particles, "particles", range(0, 1e12),
               help("numbers of particles of each species, instead of volume_share and static_height")),
           key(&Bed::start, "start",
-              help("the bed at time zero; layered: in the order of the species, the first at the bottom; "
+              help("the bed at time zero; layered: in the order of the species, the first at the bottom, the size "
+                   "classes of a species as one layer; "
                    "settled: in equilibrium; for the DEM only: random: anywhere in the column, list: particles "
                    "one by one, SI, columns species, x, y, z and if not zero vx, vy, vz, wx, wy, wz, y upward")),
+          key(&Bed::layer, "layer", range(1, 15),
+              help(
+                  "of start = \"layered\": number of the layer of each species, 1 at the bottom; species of one number "
+                  "are mixed; default: a layer for each species")),
           key(&Bed::seed, "seed", range(0, 9.2e18), help("of random numbers")),
           key(&Bed::perturbation, "perturbation", range(0, 0.1),
               help("share by which the solids fractions of a mixed start differ from cell to cell at random, so that a "

@@ -90,15 +90,14 @@ Value CaseValues::read(const Key& key, const toml::node& node) {
   return {};
 }
 
+Place CaseValues::place_of(const toml::source_region& region) const {
+  if (region.path && *region.path != file_) return {*region.path, 0, 0};
+  return {file_, int(region.begin.line), int(region.begin.column)};
+}
+
 void CaseValues::add(const toml::source_region& place, std::string message) {
-  CaseProblem problem{file_, 0, 0, std::move(message)};
-  if (place.path && *place.path != file_) {
-    problem.file = *place.path;  // from the command line, where a line and a column say nothing
-  } else if (place.begin.line > 0) {
-    problem.line = int(place.begin.line);
-    problem.column = int(place.begin.column);
-  }
-  problems_.push_back(std::move(problem));
+  const Place at = place_of(place);
+  problems_.push_back({at.file, at.line, at.column, std::move(message)});
 }
 
 void CaseValues::expected(const Key& key, const toml::node& node, std::string_view what) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/case/keys.hpp"
+#include "core/case/places.hpp"
 #include "core/error.hpp"
 
 namespace polybed::core {
@@ -25,7 +26,9 @@ class CaseValues {
   /// What a node says, as the kind of the key asks; nothing after a problem.
   Value read(const Key& key, const toml::node& node);
 
-  /// Notes a problem at a place; a region without a line (a command line's value) has none.
+  /// Where a node stands; a region of the command line has no line.
+  [[nodiscard]] Place place_of(const toml::source_region& region) const;
+  /// Notes a problem at a place.
   void add(const toml::source_region& place, std::string message);
   /// Notes a problem of the file as a whole.
   void add(std::string message) { add(toml::source_region{}, std::move(message)); }

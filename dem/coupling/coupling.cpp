@@ -58,10 +58,11 @@ bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int
   constexpr std::size_t worth_sharing = 20'000;  // cells: below, messages cost more than they save
   const core::FluidRanks wish = scene.dem.fluid_ranks;
   const bool wide = width_of(scene, materials, count) > 0;
-  if (wish == core::FluidRanks::shared && wide)
-    throw core::StartError(
+  if (wish == core::FluidRanks::shared && wide)  // of a list, whose particles no rule counts
+    throw core::StartError(std::vector{scene.places.problem(
+        {"dem.fluid_ranks"},
         "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
-        "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"");
+        "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"")});
   if (wide || wish == core::FluidRanks::each) return false;
   return wish == core::FluidRanks::shared || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
 }

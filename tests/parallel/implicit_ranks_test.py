@@ -32,7 +32,7 @@ TIGHT_UNTIL = "0.2 ms"
 ONE = '[[species]]\nname = "a"\ndiameter = "{}"\ndensity = {}\n'
 POWDER, SAND, FINE = (ONE.format(*of) for of in (("80 um", 1500), ("0.5 mm", 2500), ("0.3 mm", 2500)))
 TWO = FINE + '[[species]]\nname = "b"\ndiameter = "0.5 mm"\ndensity = 1600\n'
-FEED = '[[feed]]\nspecies = "a"\nat = "top"\nsuperficial_velocity = "1 mm/s"\nvelocity = "20 mm/s"\n'
+FEED = '[[feed]]\nspecies = "a"\nat = "top"\nsuperficial_velocity = "1 mm/s"\nvelocity = "20 mm/s"\nfrom = ["2 mm"]\nto = ["6 mm"]\n'
 
 
 # A run has 400 rows of the history unless told otherwise, for each of which ranks wait for each other: more than for its steps.

@@ -10,7 +10,6 @@
 #include "closures/stress_ratios.hpp"
 #include "closures/stress_reference.hpp"
 #include "core/case/scene.hpp"
-#include "core/error.hpp"
 #include "core/numerics/operators.hpp"
 #include "fluid/solids_table.hpp"
 #include "relevance/effects/granular_temperature.hpp"
@@ -103,7 +102,6 @@ void make_table_stress(const Making& m, const std::string& file) {
     return;
   }
   const fluid::SolidsTable table = fluid::read_solids_table(file);
-  require_regime(scene, "solids_stress", file, regime);
   if (table.bed.phi.empty())
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else
@@ -123,18 +121,13 @@ void make_table_stress(const Making& m, const std::string& file) {
   auto kinetic = std::make_unique<KineticStress>(scene, constants, boundaries, transported,
                                                  effects.solids_stress->max_packing(), fields);
   std::vector<double> restitution;
-  for (const core::Species& s : scene.species) {
+  for (const core::Species& s : scene.species)
     restitution.push_back(table.reference_restitution(s.restitution, s.friction));
-    if (!(restitution.back() > 0))
-      throw core::StartError(file + ": a restitution of " + std::to_string(s.restitution) + " with a friction of " +
-                             std::to_string(s.friction) + " is beyond e - 1.5 mu exp(-3 mu), which the table is over");
-  }
   kinetic->multiply(std::move(ratios), restitution, file);
   effects.collisions = std::move(kinetic);
 }
 
 void make_solids_stress(const Making& m) {
-  const relevance::Effect& temperature = relevance::effects::granular_temperature;
   if (const auto file = table_file(m.law)) {
     make_table_stress(m, *file);
   } else {
@@ -144,10 +137,6 @@ void make_solids_stress(const Making& m) {
                                                              relevance::effects::is_transported(m.scene),
                                                              m.effects.solids_stress->max_packing(), m.fields);
   }
-
-  if (core::acts(m.scene, temperature.role) && dynamic_cast<KineticStress*>(m.effects.collisions.get()) == nullptr)
-    throw core::StartError("effects.granular_temperature = \"" + core::law_of(m.scene, temperature.role) +
-                           "\" acts only with solids_stress = \"kinetic\" or a dry table");
 }
 
 }  // namespace

@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "tfm/initial.hpp"
+#include "tfm/max_packing.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::tfm {
@@ -16,34 +15,19 @@ namespace {
 
 constexpr std::size_t most_species = 15;  ///< as the case file allows
 
-/// Volume of the settled solids per area, m; of a column that begins without solids, as if it were full of them.
-double settled_height(const core::Scene& scene) {
-  return scene.bed.static_height > 0 ? solids_height(scene.bed) : scene.column.size[1] * scene.bed.solids_fraction;
-}
-
-/// The packing at which the settled bed has the case's solids fraction where it carries half its own weight.
-double packing_of_bed(const core::Scene& scene, const Constants& constants) {
-  double excess = 0;
-  for (std::size_t j = 0; j < constants.species(); ++j)
-    excess += constants.bed_share[j] * std::abs(constants.density[j] - constants.fluid.density);
-  const double half_weight = 0.5 * excess * std::max(constants.gravity, 1e-3) * settled_height(scene);
-  return closures::max_packing_for(scene.bed.solids_fraction, half_weight, scene.tfm.frictional_pressure,
-                                   scene.tfm.frictional_onset);
-}
-
 }  // namespace
 
 FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& constants,
                                    const fluid::Boundaries& boundaries, Fields& fields, bool alone)
     : constants_(constants),
       boundaries_(boundaries),
+      mixture_packing_(mixture_rule(scene)),
+      species_packing_(species_packings(scene)),
       bulk_viscosity_(bulk_viscosity_of(scene, constants.grid)),
       cell_width_(constants.grid.smallest_spacing()) {
   law_.strength = scene.tfm.frictional_pressure;
   law_.onset = scene.tfm.frictional_onset;
-  choose_packing(scene);
-  if (law_.max_packing <= law_.onset + closures::FrictionalLaw::margin)
-    throw core::StartError("tfm.max_packing must lie above tfm.frictional_onset");
+  law_.max_packing = max_packing_of(scene, constants.bed_share, constants.fluid.density);
   const double heavy = alone ? (mean_density(constants) - constants.fluid.density) * constants.gravity : 0;
   for (std::size_t a = 0; a < 3 && heavy != 0; ++a)
     lies_towards_[a] = std::copysign(constants.down[a], heavy * constants.down[a]);
@@ -54,26 +38,6 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
   fields.stress.pressure = core::make_field(constants.grid);
   fields.stress.slope = core::make_field(constants.grid);
   fields.stress.damping = core::make_field(constants.grid);
-}
-
-void FrictionalStress::choose_packing(const core::Scene& scene) {
-  if (const double* number = std::get_if<double>(&scene.tfm.max_packing)) {
-    law_.max_packing = *number;
-    return;
-  }
-  const auto rule = std::get<core::PackingRule>(scene.tfm.max_packing);
-  if (rule == core::PackingRule::automatic) {
-    law_.max_packing = packing_of_bed(scene, constants_);
-    if (!(law_.max_packing < 1))
-      throw core::StartError(
-          "tfm.max_packing = \"auto\": the bed is too light to be held at bed.solids_fraction; give a number, e.g. "
-          "0.64");
-    return;
-  }
-  mixture_packing_ =
-      rule == core::PackingRule::fedors_landel ? closures::packing_fedors_landel : closures::packing_yu_standish;
-  for (const core::Species& species : scene.species) species_packing_.push_back(species.max_packing);
-  law_.max_packing = mixture_packing_(constants_.bed_share, constants_.diameter, species_packing_);
 }
 
 /// Calls body(cell, phi_max) for the cells of a box.

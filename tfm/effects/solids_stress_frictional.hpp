@@ -38,7 +38,6 @@ class FrictionalStress : public StressEffect {
   [[nodiscard]] double solids_fraction_at(double pressure) const override;
 
  private:
-  void choose_packing(const core::Scene& scene);
   void charge_lift(int axis, Fields& fields) const;
   void hold_surface(Fields& fields) const;
   void add_bulk_viscosity(Fields& fields) const;
@@ -47,8 +46,8 @@ class FrictionalStress : public StressEffect {
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
-  closures::FrictionalLaw law_;                         ///< its maximum packing is that of the whole bed's composition
-  closures::MixturePacking mixture_packing_ = nullptr;  ///< of a cell's composition; null: one for all cells
+  closures::FrictionalLaw law_;               ///< its maximum packing is that of the whole bed's composition
+  closures::MixturePacking mixture_packing_;  ///< of a cell's composition; null: one for all cells
   std::vector<double> species_packing_;
   double bulk_viscosity_, cell_width_;
   double wave_speed_ = 0;  ///< of elastic waves at the bottom of the settled bed, m/s; 0 where no surface is held

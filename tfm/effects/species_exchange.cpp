@@ -32,7 +32,6 @@ using core::Index;
 class TableExchange : public SolidsExchange {
  public:
   /// Needs a granular temperature, which the stress of the solids has to have made. \param file  of the table
-  /// Throws core::CaseError if there is none, the case has not two species or the table holds no exchange.
   TableExchange(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                 const fluid::SolidsTable& table, const std::string& file, Fields& fields)
       : constants_(constants),
@@ -40,14 +39,6 @@ class TableExchange : public SolidsExchange {
         fastest_(table.exchange_drift),
         contact_(scene.tfm.exchange_pressure),
         use_{"species exchange " + file} {
-    const std::string law = "effects.species_exchange = \"table:" + file + "\" ";
-    if (constants.species() != 2)
-      throw core::StartError(law + "is of two species, the case has " + std::to_string(constants.species()));
-    if (table.exchange.value.empty())
-      throw core::StartError(law +
-                             "holds no beta_12: polybed calibrate measures it in dry boxes, with calibrate.share");
-    if (fields.solids.temperature.empty())
-      throw core::StartError(law + "needs granular temperatures: solids_stress = \"kinetic\" or a dry table");
     const fluid::TablePlace place = fluid::place_of(scene);
     ratio_ = fluid::exchange_at(table, place);
     restitution_ = table.reference_restitution(place.restitution, place.friction);
@@ -192,14 +183,9 @@ namespace makers {
 
 namespace {
 
-/// A table of what two species exchange, which has to be of dry boxes and for a scene that is dry.
+/// A table of what two species exchange.
 fluid::SolidsTable exchange_table(const core::Scene& scene, const std::string& file,
                                   std::vector<std::string>& warnings) {
-  if (const core::BoxRegime regime = fluid::regime_of_table(file); regime != core::BoxRegime::dry)
-    throw core::StartError("effects.species_exchange = \"table:" + file + "\" is a " +
-                           std::string(core::name_of(regime)) +
-                           " table: what species exchange is measured in dry boxes alone");
-  require_regime(scene, "species_exchange", file, core::BoxRegime::dry);
   fluid::SolidsTable table = fluid::read_solids_table(file);
   for (const std::string& line : fluid::beyond(table, fluid::place_of(scene)))
     warnings.push_back("species exchange " + file + ": " + line);

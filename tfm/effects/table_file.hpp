@@ -15,8 +15,9 @@ namespace polybed::tfm {
   return law.starts_with(word) ? std::optional(law.substr(word.size())) : std::nullopt;
 }
 
-/// Throws core::CaseError unless a table of sheared particles is of the scene's regime: the other misses the stress by
-/// factors.
-void require_regime(const core::Scene& scene, const std::string& role, const std::string& file, core::BoxRegime regime);
+/// Why a table does not fit a scene as its solids_stress, or as its species_exchange; empty if it does, or if the file
+/// cannot be read, which the model tells.
+[[nodiscard]] std::string wrong_with_stress_table(const core::Scene& scene, const std::string& file);
+[[nodiscard]] std::string wrong_with_exchange_table(const core::Scene& scene, const std::string& file);
 
 }  // namespace polybed::tfm

@@ -241,6 +241,12 @@ TEST(SizeDistribution, GivesWayToItsClasses) {
   const std::string resolved = resolved_case(scene);
   EXPECT_THAT(resolved, Not(HasSubstr("\ndistribution")));
   EXPECT_EQ(resolved_case(parse_case(resolved, "again.toml", {}, roles)), resolved);
+  EXPECT_THAT(scene.bed.layer, testing::IsEmpty());
+  const std::vector<std::string> layered{"bed.start=layered"};
+  const Scene layers = parse_case(text, "case.toml", layered, roles, half_and_twice);
+  EXPECT_THAT(layers.bed.layer, testing::ElementsAre(1, 1, 2));
+  const std::string of_layers = resolved_case(layers);
+  EXPECT_EQ(resolved_case(parse_case(of_layers, "again.toml", {}, roles)), of_layers);
   const std::vector<std::string> set{"species.fine.median=1 mm"};
   EXPECT_EQ(parse_case(text, "case.toml", set, roles, half_and_twice).species[0].diameter, 0.5e-3);
 }

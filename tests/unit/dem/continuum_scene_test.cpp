@@ -11,12 +11,11 @@ namespace {
 
 TEST(ContinuumScene, IsToldWithAllItsKeysAtOnce) {
   core::Scene scene;
-  EXPECT_THAT(only_for_continuum(scene), testing::IsEmpty());
-  EXPECT_NO_THROW(refuse_continuum_scene(scene));
+  EXPECT_NO_THROW(core::refuse(model_rules(), scene));
   scene.column.outlet = core::Outlet::open;
   scene.feeds.emplace_back();
   try {
-    refuse_continuum_scene(scene);
+    core::refuse(model_rules(), scene);
     FAIL() << "not refused";
   } catch (const core::CaseError& error) {
     EXPECT_THAT(error.what(),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -192,6 +193,31 @@ TEST(Packing, KeepsToLayersAndWalls) {
       EXPECT_LE(p.place.x[k], 0.012 - p.place.radius);
     }
   }
+}
+
+// Species of one layer are mixed there: those of 1 and 1.5 mm below, those of 2 mm above.
+TEST(Packing, MixesTheSpeciesOfALayer) {
+  core::Scene scene = box_of_spheres({{1e-3, 600}, {1.5e-3, 200}, {2e-3, 100}}, 0.5);
+  scene.column.size = {0.012, 0.05, 0.012};
+  scene.column.sides = scene.column.ends = core::Boundary::wall;
+  scene.bed.start = {core::StartKind::layered};
+  scene.bed.start_solids_fraction = 0.45;
+  scene.bed.layer = {1, 1, 2};
+  const std::vector<Particle> particles = placed(scene);
+  const double volume = 600 * closures::sphere_volume(0.5e-3) + 200 * closures::sphere_volume(0.75e-3);
+  const double border = volume / (0.45 * 0.012 * 0.012);
+  std::array<double, 3> lowest{1, 1, 1}, highest{};
+  for (const Particle& p : particles) {
+    const auto j = std::size_t(p.species);
+    lowest[j] = std::min(lowest[j], p.place.x[1]);
+    highest[j] = std::max(highest[j], p.place.x[1]);
+  }
+  for (const std::size_t j : {0U, 1U}) {
+    EXPECT_LT(lowest[j], 0.2 * border);
+    EXPECT_GT(highest[j], 0.8 * border);
+    EXPECT_LT(highest[j], border);
+  }
+  EXPECT_GT(lowest[2], border);
 }
 
 // Boxes of calibrations are this dense; overlaps of a thousandth of a radius are left there.

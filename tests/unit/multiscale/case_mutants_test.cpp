@@ -14,12 +14,10 @@
 #include "core/error.hpp"
 #include "core/timers.hpp"
 #include "dem/model.hpp"
-#include "dem/rules.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
 #include "tfm/model.hpp"
-#include "tfm/rules.hpp"
 
 namespace polybed::multiscale {
 namespace {
@@ -42,16 +40,22 @@ bool begins(const core::Scene& scene) {
   const double cells = double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2];
   if (cells > most_cells) return false;
   core::Timers timers;
-  if (tfm::only_for_particles(scene).empty()) {
+  if (rules_of_tfm().problems(scene).empty()) {
     tfm::Model model(scene, timers);
     model.step(scene.run.until);
     return true;
   }
-  if (!dem::only_for_continuum(scene).empty()) return false;
+  if (!rules_of_dem().problems(scene).empty()) return false;
   if (double(particle_requirements_of(scene).count()) > most_particles) return false;
   dem::Model model(scene, timers);
   model.step(scene.run.until);
   return true;
+}
+
+/// Of what is refused after reading: each problem has its place in the case.
+void expect_places(const core::CaseError& error) {
+  EXPECT_FALSE(error.problems().empty()) << error.what();
+  for (const core::CaseProblem& problem : error.problems()) EXPECT_GT(problem.line, 0) << problem.text();
 }
 
 /// As the commands do after reading: the choice of effects, the model. Refusals are theirs to tell.
@@ -60,16 +64,16 @@ void use(const core::Scene& scene, bool step, Count& count) {
   try {
     chosen = with_choice(scene);
     ++count.weighed;
-    core::refuse(scene_rules(), chosen);  // what is chosen beside what is given
+    refuse(chosen, either_model());  // what is chosen beside what is given
   } catch (const core::CaseError& error) {
-    EXPECT_NE(std::string(error.what()), "");
+    expect_places(error);
     ++count.refused_later;
     return;
   }
   try {
     if (step) count.begun += begins(chosen);
   } catch (const core::StartError& error) {  // no other error of a case: it has kept every rule
-    EXPECT_NE(std::string(error.what()), "");
+    expect_places(error);
     ++count.refused_later;
   } catch (const core::NumericsError& error) {
     EXPECT_NE(std::string(error.what()), "");
@@ -80,7 +84,8 @@ void use(const core::Scene& scene, bool step, Count& count) {
 void read(const std::string& text, const Seed& seed, bool step, Count& count) {
   try {
     const std::vector<core::Role> roles = all_roles();
-    const core::Scene scene = core::parse_case(text, seed.path, {}, roles, size_classes, scene_rules());
+    const core::Scene scene = core::parse_case(text, seed.path, {}, roles, size_classes,
+                                               core::Rulebook(scene_rules(), either_model()), core::OtherRoles::chosen);
     ++count.read;
     const std::string whole = core::resolved_case(scene);
     EXPECT_EQ(core::resolved_case(core::parse_case(whole, seed.path, {}, roles, size_classes)), whole) << text;

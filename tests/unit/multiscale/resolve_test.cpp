@@ -35,8 +35,7 @@ BoxDrag box(double cells, std::vector<double> net) {
 
 std::string broken(const core::Scene& scene) {
   std::string text;
-  for (const core::Rule& rule : resolve_rules())
-    for (const std::string& fault : rule.faults(scene)) text += fault + "\n";
+  for (const core::CaseProblem& problem : core::problems_of(resolve_rules(), scene)) text += problem.text() + "\n";
   return text;
 }
 
@@ -112,6 +111,16 @@ TEST(Resolve, RefusesGridsThatAreTooCoarse) {
   scene = two_sizes();
   scene.resolve.reynolds = {0, 200};
   EXPECT_THAT(broken(scene), testing::HasSubstr("resolve.reynolds = 200"));
+  // Four seeds ended as no number. By hand: pores of 4.16 cells, 0.004 (6/4.16)^8 = 0.075; 8 cells have 0.0104 and
+  // 0.0075.
+  scene.species[1].diameter = scene.species[0].diameter;
+  scene.resolve.voidage = {0.5099};
+  scene.resolve.reynolds = {11.8};
+  scene.resolve.cells_per_diameter = 6;
+  EXPECT_THAT(broken(scene), testing::HasSubstr("the viscosity would be 0.0078 in cells and steps, stable from 0.075; "
+                                                "take resolve.cells_per_diameter = 8 or more"));
+  scene.resolve.cells_per_diameter = 8;
+  EXPECT_EQ(broken(scene), "");
   scene = two_sizes();
   scene.resolve.spheres = 4;
   EXPECT_THAT(broken(scene), testing::HasSubstr("leaves none of species 'coarse'"));

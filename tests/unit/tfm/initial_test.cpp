@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/timers.hpp"
 #include "scenes/beds.hpp"
 #include "tfm/evenness.hpp"
@@ -45,6 +47,33 @@ TEST(Initial, AMixedStartDiffersFromCellToCellByTheShareAskedFor) {
 TEST(Initial, ThePerturbationFollowsFromTheSeed) {
   EXPECT_EQ(fractions(uneven_bed(1e-3)), fractions(uneven_bed(1e-3)));
   EXPECT_NE(fractions(uneven_bed(1e-3)), fractions(uneven_bed(1e-3, 2)));
+}
+
+// Two size classes of a species share the lower layer, 0.569 of the volume, in their proportion; the other lies above.
+TEST(Initial, SizeClassesOfASpeciesAreOneLayer) {
+  core::Scene scene = uneven_bed(0);
+  scene.species.insert(scene.species.begin() + 1, scene.species[0]);
+  scene.species[1].name = "fine.2";
+  scene.bed.volume_share = {0.369, 0.2, 0.431};
+  scene.bed.start = {core::StartKind::layered};
+  scene.bed.layer = {1, 1, 2};
+  scene.effects.erase("species_exchange");
+  core::Timers timers;
+  Model model(scene, timers);
+  model.show(0);
+  const auto& phi = model.fields().solids.fraction;
+  const core::Grid& grid = model.constants().grid;
+  std::array<double, 3> volume{};  // of a column of cells, over its area
+  for (int y = 0; y < 20; ++y) {
+    const auto c = std::size_t(grid.index(0, y));
+    EXPECT_NEAR(phi[1][c] * 0.369, phi[0][c] * 0.2, 1e-15);
+    if (y < 5) {
+      EXPECT_EQ(phi[2][c], 0);
+    }
+    for (std::size_t j = 0; j < 3; ++j) volume[j] += phi[j][c] * grid.spacing[1];
+  }
+  for (std::size_t j = 0; j < 3; ++j)
+    EXPECT_NEAR(volume[j], scene.bed.volume_share[j] * 0.04 * 0.62, 1e-15);  // of 0.4 of 0.1 m at 0.62
 }
 
 TEST(Evenness, WarnsOfABedThatIsOneColumnOfCells) {

@@ -1,0 +1,51 @@
+// Where a case gives its keys and tables: problems are reported there.
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace polybed::core {
+
+struct Place {
+  std::string file;  ///< or the override of the command line, which has no line
+  int line = 0, column = 0;
+};
+
+class Places {
+ public:
+  Places() = default;
+  /// \param file  the name of the case in messages
+  explicit Places(std::string file) : file_(std::move(file)) {}
+
+  /// Adds a key by its path, "jet.from", or a table by its name. Returns false if an entry of the array has it already.
+  /// \param entry  of an array of tables, else 0
+  bool add(const std::string& path, std::size_t entry, Place place);
+  [[nodiscard]] bool has(const std::string& path) const { return at_.contains(path); }
+
+  /// A problem at the first of these keys that the case gives, else at the first of their tables, else of the file as a
+  /// whole. \param entry  of the first key's array of tables; a key of several entries has a place only if it is known
+  [[nodiscard]] CaseProblem problem(std::span<const std::string> keys, std::string message,
+                                    std::optional<std::size_t> entry = {}) const;
+  [[nodiscard]] CaseProblem problem(std::initializer_list<std::string> keys, std::string message) const {
+    return problem(std::vector<std::string>(keys), std::move(message), {});
+  }
+
+ private:
+  /// Null if there is none.
+  [[nodiscard]] const Place* find(const std::string& path, std::size_t entry) const;
+  [[nodiscard]] const Place* of_entry(std::span<const std::string> keys, std::size_t entry) const;
+  [[nodiscard]] const Place* of_any(std::span<const std::string> keys) const;
+
+  std::string file_;
+  std::map<std::string, std::map<std::size_t, Place>> at_;
+};
+
+}  // namespace polybed::core

@@ -1,0 +1,159 @@
+#include "multiscale/scene_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "closures/max_packing.hpp"
+#include "core/case/resolve.hpp"
+#include "relevance/fluid_properties.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using Table = std::vector<std::pair<double, double>>;  ///< (time, velocity)
+using Lines = std::vector<std::string>;
+
+/// What flows through the bottom: the inlet and the jets, each by its name.
+std::vector<std::pair<std::string, Table>> inflows_of(const core::Scene& scene) {
+  std::vector<std::pair<std::string, Table>> inflows{{"inlet.superficial_velocity", scene.inlet.superficial_velocity}};
+  for (std::size_t n = 0; n < scene.jets.size(); ++n)
+    inflows.emplace_back(fmt::format("superficial_velocity of [[jet]] number {}", n + 1),
+                         scene.jets[n].superficial_velocity);
+  return inflows;
+}
+
+/// m/s, 0 if none is negative, or positive.
+double least_of(const Table& table) {
+  double least = 0;
+  for (const auto& [time, velocity] : table) least = std::min(least, velocity);
+  return least;
+}
+double greatest_of(const Table& table) {
+  double greatest = 0;
+  for (const auto& [time, velocity] : table) greatest = std::max(greatest, velocity);
+  return greatest;
+}
+
+bool has_shares(const core::Scene& scene) { return scene.bed.volume_share.size() == scene.species.size(); }
+
+/// Whether the bed as a whole is lighter than the fluid.
+bool floats(const core::Scene& scene, double fluid_density) {
+  double excess = 0;
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    excess += (has_shares(scene) ? scene.bed.volume_share[j] : 1) * (scene.species[j].density - fluid_density);
+  return excess < 0;
+}
+
+/// A fluid that is drawn out at the bottom.
+void warn_of_downflow(const core::Scene& scene, double density, Lines& warnings) {
+  const bool hangs = scene.column.gravity > 0 && floats(scene, density);
+  for (const auto& [name, table] : inflows_of(scene)) {
+    const double velocity = least_of(table);
+    if (!(velocity < 0)) continue;
+    warnings.push_back(fmt::format("{} = {:.4g} m/s is negative: fluid leaves at the bottom and enters at the top, {}",
+                                   name, velocity,
+                                   hangs ? "and the bed hangs from the top" : "and the bed is pressed down"));
+  }
+  if (hangs && least_of(scene.inlet.superficial_velocity) < 0 && scene.column.cells[0] * scene.column.cells[2] > 1)
+    warnings.push_back(fmt::format(
+        "a bed that hangs has no prescribed velocity above it: the fluid enters where the bed is thin, so that "
+        "a channel forms and the rest of the bed is up to a third too dense. Compute its mirror image, which "
+        "has the same solution: density 2 rho_f - rho ({:.5g} kg/m3 for \"{}\") and the inlet upward",
+        2 * density - scene.species.front().density, scene.species.front().name));
+}
+
+void warn_of_floating_species(const core::Scene& scene, double density, Lines& warnings) {
+  const auto inflows = inflows_of(scene);
+  if (std::none_of(inflows.begin(), inflows.end(), [](const auto& inflow) { return greatest_of(inflow.second) > 0; }))
+    return;
+  for (const core::Species& species : scene.species)
+    if (species.density < density)
+      warnings.push_back(
+          fmt::format("species \"{}\" ({:.4g} kg/m3) is lighter than the fluid ({:.4g} kg/m3), which flows in "
+                      "from below: it floats up and {}",
+                      species.name, species.density, density,
+                      scene.column.outlet == core::Outlet::open ? "leaves at the top" : "gathers under the screen"));
+}
+
+/// A gas without compressibility: its density changes by M^2/2 where it comes to rest.
+void warn_of_fast_gas(const core::Scene& scene, double density, Lines& warnings) {
+  constexpr double adiabatic_exponent = 1.4, fast = 0.3;  // 5 % of the density
+  if (scene.fluid.compressible() || density >= relevance::lightest_liquid) return;
+  const double sound = std::sqrt(adiabatic_exponent * scene.fluid.outlet_pressure / density);
+  for (const auto& [name, table] : inflows_of(scene)) {
+    const double mach = std::max(greatest_of(table), -least_of(table)) / sound;
+    if (mach > fast)
+      warnings.push_back(fmt::format(
+          "{} reaches {:.2g} times the speed of sound, {:.3g} m/s, in a gas that is incompressible here: its density "
+          "would change by about {:.0f} %; use fluid.equation_of_state = \"ideal_gas\", or a slower flow",
+          name, mach, sound, 100 * std::min(0.5 * mach * mach, 1.0)));
+  }
+}
+
+/// Spheres that are denser than they pack at random.
+void warn_of_dense_packing(const core::Scene& scene, Lines& warnings) {
+  constexpr double random_packing = 0.64, margin = 0.01;
+  if (!has_shares(scene) || scene.species.empty()) return;
+  std::vector<double> diameter, packing;
+  for (const core::Species& species : scene.species) {
+    diameter.push_back(species.diameter);
+    packing.push_back(std::max(random_packing, species.max_packing));
+  }
+  const double densest = closures::packing_yu_standish(scene.bed.volume_share, diameter, packing),
+               given = scene.bed.solids_fraction;
+  if (given > densest + margin)
+    warnings.push_back(fmt::format(
+        "bed.solids_fraction = {:g}: spheres of these sizes pack at random to {:.2g} at most, only a crystal "
+        "is denser; such a bed is {:.0f} % higher when it has settled at random, and its drag lower",
+        given, densest, 100 * (given / densest - 1)));
+}
+
+/// Rows of cells that the settled bed needs, and all of the column.
+void warn_of_coarse_grid(const core::Scene& scene, Lines& warnings) {
+  constexpr double least_rows = 4;
+  const double row = scene.column.size[1] / scene.column.cells[1], bed = scene.bed.static_height;
+  if (scene.bed.held || !scene.feeds.empty() || !(bed > 0)) return;
+  if (const double rows = bed / row; rows < least_rows || scene.column.cells[1] < least_rows)
+    warnings.push_back(fmt::format(
+        "column.cells: the settled bed of {:.3g} mm is {:.2g} rows of cells high, {:.3g} mm each: heights are "
+        "off by up to a row, the pressure drop by up to 60 %; take rows of a tenth of the bed",
+        1e3 * bed, rows, 1e3 * row));
+}
+
+void warn_of_fine_grid(const core::Scene& scene, Lines& warnings) {
+  double least = scene.column.size[1] / scene.column.cells[1];
+  for (const std::size_t axis : {0, 2})
+    if (scene.column.cells[axis] > 1) least = std::min(least, scene.column.size[axis] / scene.column.cells[axis]);
+  const double largest = core::largest_diameter(scene);
+  if (least < largest)
+    warnings.push_back(fmt::format(
+        "column.cells: cells of {:.3g} mm are {:.2g} of the largest diameters wide: the equations average over "
+        "many particles, so that what differs over less than some diameters has no meaning, and a finer grid "
+        "shows more of it and does not converge; take cells of 1.5 diameters or more",
+        1e3 * least, least / largest));
+}
+
+}  // namespace
+
+std::vector<std::string> scene_warnings(const core::Scene& scene) {
+  Lines warnings;
+  if (!scene.fluid.present()) return warnings;
+  const double density = relevance::fluid_constants(scene.fluid).density;
+  warn_of_downflow(scene, density, warnings);
+  if (scene.column.gravity > 0) warn_of_floating_species(scene, density, warnings);
+  warn_of_fast_gas(scene, density, warnings);
+  if (scene.bed.start.kind != core::StartKind::list) warn_of_dense_packing(scene, warnings);
+  return warnings;
+}
+
+std::vector<std::string> grid_warnings(const core::Scene& scene) {
+  Lines warnings;
+  warn_of_coarse_grid(scene, warnings);
+  warn_of_fine_grid(scene, warnings);
+  return warnings;
+}
+
+}  // namespace polybed::multiscale

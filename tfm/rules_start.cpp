@@ -1,0 +1,200 @@
+// What the maximum packing, tables of the stress, the bed at its start and the integrator require of a scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "closures/stress_frictional.hpp"
+#include "core/error.hpp"
+#include "fluid/inlet.hpp"
+#include "relevance/fluid_properties.hpp"
+#include "tfm/effects/table_file.hpp"
+#include "tfm/max_packing.hpp"
+#include "tfm/packing_limit.hpp"
+#include "tfm/rules.hpp"
+
+namespace polybed::tfm {
+
+namespace {
+
+using core::Broken;
+using core::Scene;
+
+bool is_pressed(const Scene& scene) { return core::acts(scene, "solids_stress"); }
+
+/// kg/m3; nothing if it is not known, for which there is a rule.
+std::optional<double> density_of_fluid(const Scene& scene) {
+  if (!scene.fluid.present()) return {};
+  try {
+    return relevance::fluid_constants(scene.fluid).density;
+  } catch (const core::CaseError&) {
+    return {};
+  }
+}
+
+bool has_shares(const Scene& scene) {
+  return !scene.species.empty() && scene.bed.volume_share.size() == scene.species.size();
+}
+
+bool has_rule(const Scene& scene, core::PackingRule rule) { return scene.tfm.max_packing == core::MaxPacking(rule); }
+
+/// phi_max of shares of the species, where it can be told.
+std::optional<double> packing_of(const Scene& scene, const std::vector<double>& share) {
+  const bool wrong_pair = has_rule(scene, core::PackingRule::fedors_landel) && scene.species.size() != 2;
+  const std::optional<double> density = density_of_fluid(scene);
+  if (!is_pressed(scene) || !has_shares(scene) || wrong_pair || !density) return {};
+  return max_packing_of(scene, share, *density);
+}
+
+/// tfm.max_packing as the case gives it, a rule with what it gives.
+std::string packing_text(const Scene& scene, double packing) {
+  const auto* rule = std::get_if<core::PackingRule>(&scene.tfm.max_packing);
+  return rule == nullptr ? fmt::format("{}", packing)
+                         : fmt::format("\"{}\" ({:.4g} here)", core::name_of(*rule), packing);
+}
+
+bool is_below_onset(const Scene& scene, double packing) {
+  return packing <= scene.tfm.frictional_onset + closures::FrictionalLaw::margin;
+}
+
+Broken packing_below_onset(const Scene& scene) {
+  const std::optional<double> most = packing_of(scene, scene.bed.volume_share);
+  if (!most || has_rule(scene, core::PackingRule::automatic) || !is_below_onset(scene, *most)) return {};
+  return Broken({packing_text(scene, *most), fmt::format("{}", scene.tfm.frictional_onset)});
+}
+
+Broken bed_below_onset(const Scene& scene) {
+  const double fraction = scene.bed.solids_fraction;
+  const std::optional<double> most = packing_of(scene, scene.bed.volume_share);
+  if (!most || !has_rule(scene, core::PackingRule::automatic) || !(fraction > 0)) return {};
+  if (fraction > scene.tfm.frictional_onset && !is_below_onset(scene, *most)) return {};
+  return Broken({fmt::format("{}", fraction), fmt::format("{}", scene.tfm.frictional_onset)});
+}
+
+Broken bed_too_light(const Scene& scene) {
+  if (!has_rule(scene, core::PackingRule::automatic) || bed_below_onset(scene)) return {};
+  const std::optional<double> most = packing_of(scene, scene.bed.volume_share);
+  return core::broken_if(most && scene.bed.solids_fraction > 0 && !(*most < 1));
+}
+
+/// A run stops where solids lie above the maximum packing by as much.
+Broken start_above_packing(const Scene& scene) {
+  const double start = scene.bed.start_solids_fraction;
+  if (has_rule(scene, core::PackingRule::automatic) || !has_shares(scene)) return {};
+  Broken broken;
+  const auto judge = [&](const std::vector<double>& share) {
+    const std::optional<double> most = packing_of(scene, share);
+    if (broken || !most || start - *most <= most_above_packing) return;
+    broken.add({packing_text(scene, *most), fmt::format("{:.4g}", start), fmt::format("{:g}", most_above_packing)});
+  };
+  if (scene.bed.start.kind != core::StartKind::layered || mixture_rule(scene) == nullptr) {
+    judge(scene.bed.volume_share);
+    return broken;
+  }
+  for (const std::vector<std::size_t>& layer : core::layers_of(scene.bed, scene.species.size())) {
+    std::vector<double> share(scene.species.size(), 0.0);
+    double sum = 0;
+    for (const std::size_t j : layer) sum += scene.bed.volume_share[j];
+    for (const std::size_t j : layer) share[j] = scene.bed.volume_share[j] / sum;
+    if (sum > 0) judge(share);
+  }
+  return broken;
+}
+
+Broken settled_without_stress(const Scene& scene) {
+  return core::broken_if(scene.bed.start.kind == core::StartKind::settled && !is_pressed(scene));
+}
+
+Broken settled_and_light(const Scene& scene) {
+  const std::optional<double> fluid = density_of_fluid(scene);
+  if (scene.bed.start.kind != core::StartKind::settled || !has_shares(scene) || !fluid) return {};
+  double excess = 0;
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    excess += scene.bed.volume_share[j] * (scene.species[j].density - *fluid);
+  return core::broken_if(!(excess > 0));
+}
+
+Broken split_without_drag(const Scene& scene) {
+  const bool split = scene.tfm.integrator == core::TfmIntegrator::split_steps;
+  if (!split || (!scene.fluid.compressible() && core::acts(scene, "drag"))) return {};
+  return Broken({scene.fluid.compressible() ? "an incompressible fluid" : "a drag law"});
+}
+
+/// Whether steps are implicit by the case, or by what "auto" is sure to choose.
+bool steps_are_implicit(const Scene& scene) {
+  if (scene.tfm.integrator != core::TfmIntegrator::automatic)
+    return scene.tfm.integrator == core::TfmIntegrator::implicit_steps;
+  const std::optional<double> density = density_of_fluid(scene);
+  double inflow = fluid::Ramp(scene.inlet.superficial_velocity).greatest();
+  for (const core::Jet& jet : scene.jets) inflow = std::max(inflow, fluid::Ramp(jet.superficial_velocity).greatest());
+  for (const core::Feed& feed : scene.feeds)
+    if (feed.at == core::FeedEnd::bottom) inflow = std::max(inflow, fluid::Ramp(feed.superficial_velocity).greatest());
+  return scene.fluid.compressible() || (density && *density < relevance::lightest_liquid) || scene.column.closed ||
+         inflow == 0;
+}
+
+Broken implicit_tolerance(const Scene& scene) {
+  const std::string wrong = wrong_with_implicit_tolerance(scene.tfm.rtol);
+  return steps_are_implicit(scene) && !wrong.empty() ? Broken({fmt::format("{}", scene.tfm.rtol), wrong}) : Broken();
+}
+
+/// Of a role that a table fills: what is wrong with the table here.
+core::Rule table_rule(const std::string& role, std::string (*wrong)(const Scene&, const std::string& file)) {
+  return {{"effects." + role, "effects.solids_stress", "effects.granular_temperature", "effects.solids_viscosity",
+           "effects.drag", "tfm.solids_wall", "species.", "bed.", "fluid.", "column.", "calibrate.regime",
+           "inlet.superficial_velocity"},
+          "effects." + role + ": {}",
+          [role, wrong](const Scene& scene) {
+            const auto file = table_file(core::law_of(scene, role));
+            const std::string problem = file ? wrong(scene, *file) : "";
+            return problem.empty() ? Broken() : Broken({problem});
+          }};
+}
+
+/// Keys that the maximum packing follows from.
+std::vector<std::string> packing_keys(std::vector<std::string> first) {
+  for (const char* key : {"bed.volume_share", "bed.static_height", "bed.particles", "species.diameter",
+                          "species.density", "species.max_packing", "fluid.", "column."})
+    first.emplace_back(key);
+  return first;
+}
+
+}  // namespace
+
+std::vector<core::Rule> stress_rules() {
+  return {
+      {packing_keys({"tfm.max_packing", "tfm.frictional_onset"}),
+       "tfm.max_packing = {} must lie above tfm.frictional_onset = {}", packing_below_onset},
+      {packing_keys({"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"}),
+       "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
+       bed_below_onset},
+      {packing_keys({"tfm.max_packing", "bed.solids_fraction", "tfm.frictional_onset"}),
+       "tfm.max_packing = \"auto\": the bed is too light to be held at bed.solids_fraction; give a number, e.g. 0.64",
+       bed_too_light},
+      table_rule("solids_stress", wrong_with_stress_table),
+      table_rule("species_exchange", wrong_with_exchange_table)};
+}
+
+std::vector<core::Rule> start_rules() {
+  return {
+      {packing_keys({"tfm.max_packing", "bed.solids_fraction", "bed.start_solids_fraction", "bed.start", "bed.layer"}),
+       "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower "
+       "bed.start_solids_fraction",
+       start_above_packing},
+      {{"bed.start", "effects.solids_stress"},
+       "bed.start = \"settled\" needs effects.solids_stress: nothing else carries a bed of this model",
+       settled_without_stress},
+      {{"bed.start", "bed.volume_share", "bed.particles", "species.density", "fluid."},
+       "bed.start = \"settled\" needs solids heavier than the fluid",
+       settled_and_light},
+      {{"tfm.integrator", "effects.drag", "fluid.equation_of_state"},
+       "tfm.integrator = \"imex\" takes the drag implicitly: it needs {}",
+       split_without_drag},
+      {{"tfm.rtol", "tfm.integrator", "fluid.", "inlet.superficial_velocity", "jet.", "feed.", "column.closed"},
+       "tfm.rtol = {} with the implicit integrator: {}",
+       implicit_tolerance}};
+}
+
+}  // namespace polybed::tfm
