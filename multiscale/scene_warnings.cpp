@@ -60,8 +60,8 @@ void warn_of_downflow(const core::Scene& scene, double density, Lines& warnings)
   if (hangs && least_of(scene.inlet.superficial_velocity) < 0 && scene.column.cells[0] * scene.column.cells[2] > 1)
     warnings.push_back(fmt::format(
         "a bed that hangs has no prescribed velocity above it: the fluid enters where the bed is thin, so that "
-        "a channel forms and the rest of the bed is up to a third too dense. Compute its mirror image, which "
-        "has the same solution: density 2 rho_f - rho ({:.5g} kg/m3 for \"{}\") and the inlet upward",
+        "a channel forms and the rest of the bed is up to a third too dense. Compute its mirror image, "
+        "whose steady bed is the same: density 2 rho_f - rho ({:.5g} kg/m3 for \"{}\") and the inlet upward",
         2 * density - scene.species.front().density, scene.species.front().name));
 }
 
