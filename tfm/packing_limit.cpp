@@ -14,8 +14,6 @@ namespace polybed::tfm {
 
 namespace {
 
-constexpr std::size_t most_species = 15;  // as the case file allows
-
 /// phi less the greatest that a composition can have.
 double above_greatest(const Constants& constants, double phi, std::span<const double> share,
                       const StressEffect* stress) {

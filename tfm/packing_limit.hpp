@@ -1,12 +1,15 @@
 // How far solids lie above the packing that they can have, whether a stress limits it or none.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "tfm/effects.hpp"
 #include "tfm/state_layout.hpp"
 
 namespace polybed::tfm {
+
+constexpr std::size_t most_species = 15;  ///< as the case file allows
 
 /// What an owned cell holds.
 struct CellSolids {

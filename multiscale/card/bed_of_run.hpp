@@ -42,9 +42,9 @@ struct BedOfRun {
 /// What the rows say; entries that a history lacks are empty, and all of fewer than ten listed particles.
 /// Packed and fluidised are told apart by the pressure drop, 95 % of the weight; carried out is a bed of which less
 /// than 1 % is left, or, if it does not hang, whose centre is above three quarters of the column. Mixed are centres
-/// closer than a tenth of the bed height. The discharge is the mean rate between a tenth and nine tenths of what has left, at
-/// least ten particles. A hopper is blocked when nothing has left it over the window and more than half remains: then
-/// it has no discharge.
+/// closer than a tenth of the bed height. The discharge is the mean rate between a tenth and nine tenths of what has
+/// left, at least ten particles. A hopper is blocked when nothing has left it over the window and more than half
+/// remains: then it has no discharge.
 [[nodiscard]] BedOfRun bed_of_run(const core::Scene& scene, const core::History& history);
 
 }  // namespace polybed::multiscale

@@ -5,17 +5,12 @@
 #include <cmath>
 
 #include "tfm/max_packing.hpp"
+#include "tfm/packing_limit.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::tfm {
 
 using core::Index;
-
-namespace {
-
-constexpr std::size_t most_species = 15;  ///< as the case file allows
-
-}  // namespace
 
 FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& constants,
                                    const fluid::Boundaries& boundaries, Fields& fields, bool alone)
