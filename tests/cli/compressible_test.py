@@ -33,6 +33,8 @@ drag = "gidaspow"
 until = "20 ms"
 [output]
 checkpoint_every = "5 ms"
+every = "1 ms"
+history_every = "0.1 ms"
 """
 
 
