@@ -179,10 +179,11 @@ class Table(Scratch):
     def test_roles_that_contradict_each_other_are_told_with_both_lines(self):
         case = self.write("wrong.toml", BEADS + '[effects]\ncontact = "hertz"\ndrag = "cello"\nmagnus = "rubinow_keller"\n')
         line = len(BEADS.splitlines()) + 2
-        for command in ("effects", "check", "dem"):
-            told = self.ends(WRONG_CASE, command, case).stderr
-            self.assertIn(f"wrong.toml:{line}:1: effects.contact", told)
-            self.assertIn(f"wrong.toml:{line + 2}:1: effects.magnus", told)
+        noted = strict_json(self.ends(DONE, "check", case, "--json").stdout)  # the two-fluid model has neither
+        self.assertEqual(noted["refused"]["tfm"], [])
+        for told in (self.ends(WRONG_CASE, "dem", case).stderr, "\n".join(noted["refused"]["dem"]), "\n".join(noted["notes"])):
+            self.assertIn(f"wrong.toml:{line}:1: polybed dem cannot run it: effects.contact", told)
+            self.assertIn(f"wrong.toml:{line + 2}:1: polybed dem cannot run it: effects.magnus", told)
 
 
 class Auto(Scratch):
@@ -234,7 +235,7 @@ class Auto(Scratch):
         """By hand: rough surfaces pull with A R/(12 z^2) of their asperities, across nothing with A = 1e-19 J."""
         dry = re.sub(r"(?s)\[fluid\].*?\[\[", '[fluid]\nname = "none"\n[[', BEADS).replace(
             '[inlet]\nsuperficial_velocity = "30 mm/s"\n', "").replace('"1 mm"', '"20 um"').replace(
-            'volume_share = [1]\nstatic_height = "12 mm"', 'particles = [100]').replace("[6, 30]", '[6, 30]\ndepth = "60 um"')
+            'volume_share = [1]\nstatic_height = "12 mm"', 'particles = [10000]').replace("[6, 30]", '[6, 30]\ndepth = "60 um"')
         case = self.write("dry.toml", 'effects = "auto"\n' + dry)
         resolved = strict_json(self.ends(DONE, "check", case, "--json").stdout)["case"]
         self.assertIn('cohesion = "van_der_waals"', resolved)
