@@ -300,24 +300,15 @@ void Model::list_pairs(KeptContacts kept) {
 void Model::find_forces(double dt) {
   const Images now = images();
   const std::uint64_t ghosts_timed = ranks_ ? timed_ : 0;
-  {
-    const auto scope = timers_.scope("ghosts", ghosts_timed);
-    exchange_.send_ghosts(particles_);
-  }
-  {
-    const auto scope = timers_.scope("pair forces", timed_);
-    pair_forces_.add_inner_pairs(particles_, pairs_, now, dt);
-  }
-  if (!box_.walls.empty()) {
-    const auto scope = timers_.scope("walls", timed_);
-    pair_forces_.add_walls(particles_, walls_, dt);
-  }
-  {
-    const auto scope = timers_.scope("ghosts", ghosts_timed);
-    exchange_.receive_ghosts(particles_);
-  }
-  const auto scope = timers_.scope("pair forces", timed_);
-  pair_forces_.add_outer_pairs(particles_, pairs_, now, dt);
+  const auto timed = [&](const char* term, std::uint64_t times, auto&& work) {
+    const auto scope = timers_.scope(term, times);
+    work();
+  };
+  timed("ghosts", ghosts_timed, [&] { exchange_.send_ghosts(particles_); });
+  timed("pair forces", timed_, [&] { pair_forces_.add_inner_pairs(particles_, pairs_, now, dt); });
+  if (!box_.walls.empty()) timed("walls", timed_, [&] { pair_forces_.add_walls(particles_, walls_, dt); });
+  timed("ghosts", ghosts_timed, [&] { exchange_.receive_ghosts(particles_); });
+  timed("pair forces", timed_, [&] { pair_forces_.add_outer_pairs(particles_, pairs_, now, dt); });
 }
 
 Work Model::work() const {
