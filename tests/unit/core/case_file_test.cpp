@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
         fed("[[feed]]\nspecies = \"fine\"\nat = \"side\"\nvelocity = 1\nsuperficial_velocity = 0.1",
             "case.toml:20:6: feed.at = \"side\": allowed are bottom | top"),
         fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = -0.1",
-            "case.toml:21:24: feed.superficial_velocity = -0.10000000000000001 is out of range: at least 0"),
+            "case.toml:21:24: feed.superficial_velocity = -0.1 is out of range: at least 0"),
         fed("[[feed]]\nspecies = \"fine\"\nvelocity = 0.1\nsuperficial_velocity = 0.1",
             "raise feed.velocity above 0.1667 m/s"),
         fed("[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1\nfrom = [0.02]",

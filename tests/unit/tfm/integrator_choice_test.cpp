@@ -82,6 +82,7 @@ TEST(IntegratorChoice, ACoarseToleranceIsRefusedToImplicitSteps) {
 TEST(Momentum, OfTheModelIsThatOfTheScene) {
   core::Timers timers;
   core::Scene scene = glass(0.8e-3);
+  scene.effects["solids_stress"] = "frictional";  // it falls together in 0.015 s
   scene.fluid.density = 1.2;
   scene.fluid.viscosity = 1.8e-5;
   const auto velocities = [&](core::Momentum form) {
