@@ -53,8 +53,7 @@ std::optional<double> reach_of(const Scene& scene, const Materials& materials) {
 /// \param axis  of the box
 core::Rule room_for_images(const std::string& key, std::initializer_list<std::size_t> axes) {
   std::vector<std::string> keys{key};
-  for (const char* other :
-       {"column.size", "column.depth", "column.sides", "column.ends", "species.", "dem.", "contact_pair.", "effects."})
+  for (const char* other : {"column.", "wall.", "fluid.", "species.", "dem.", "contact_pair.", "effects."})
     keys.emplace_back(other);
   return {std::move(keys), key + ": {}", [axes = std::vector(axes)](const Scene& scene) {
             Broken broken;
