@@ -237,8 +237,8 @@ class Comparison(Scratch):
         """Every mean of both models and every score of comparison.json, and beside the folder of each run its commit."""
         for name, measure in found["measures"].items():
             self.assertIn("".join(f"<td>{cell}</td>" for cell in page.measure_row(name, measure)), text)
-        self.assertIn(f"<td>bed height (mm)</td><td>{1e3 * found['measures']['bed_height_m']['tfm']:.4g} &plusmn; ", text)
-        self.assertIn(f"<td>{1e3 * found['measures']['bed_height_m']['dem']:.4g} &plusmn; ", text)
+        self.assertIn(f"<td>bed height (mm)</td><td>{1e3 * found['measures']['bed_height_m']['tfm']:.4g} ± ", text)
+        self.assertIn(f"<td>{1e3 * found['measures']['bed_height_m']['dem']:.4g} ± ", text)
         for name, score in found["scores"].items():
             if name != "order":
                 self.assertIn(f"<td>{page.score_words(name)}</td><td>{page.number(score['value'], score['error'])}</td>", text)
@@ -278,8 +278,8 @@ class Comparison(Scratch):
         self.ends(DONE, "compare", self.case, "--tfm", self.folder / "both/tfm", "--dem", self.folder / "both/dem", "-o",
                   self.folder / "scanned", "--inversion", path.parent)
         text = (self.folder / "scanned/comparison.html").read_text()
-        self.assertIn(f"<td>{page.SCORES['u_inv']}</td><td>0.05 &plusmn; 0.01</td>", text)
-        self.assertIn("<td>two-fluid</td><td>21 &plusmn; 0.1</td><td>20.7 to 21.3</td><td>bracket</td>", text)
+        self.assertIn(f"<td>{page.SCORES['u_inv']}</td><td>0.05 ± 0.01</td>", text)
+        self.assertIn("<td>two-fluid</td><td>21 ± 0.1</td><td>20.7 to 21.3</td><td>bracket</td>", text)
         self.assertIn(f"<code>{path}</code> (commit {found['git_commit']})", text)
         for run in runs:
             self.assertIn(f"<code>{run['directory']}</code> (commit {run['git_commit']})", text)

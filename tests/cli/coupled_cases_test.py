@@ -68,9 +68,9 @@ class CoupledCases(Scratch):
                      column__size="[0.004234,0.32]", column__cells="[2,195]")
 
     def test_a_strip_of_system_c_is_carried(self):
-        """26.8165 mm3 of 2450 and 24.2230 mm3 of 1500 kg/m3 in water of 996.59 over 3.84 mm2: 130.723 Pa. Inertia of the
+        """26.8165 mm3 of 2450 and 24.2230 mm3 of 1500 kg/m3 in water of 996.515 over 3.84 mm2: 130.733 Pa. Inertia of the
         water as in the strip of B: 1 %; 0.12 % was seen."""
-        self.carried("thesis-c", 130.723, 5e-3, 0.01, run__until=0.01, output__history_every=5e-4, bed__particles="[5226,99]",
+        self.carried("thesis-c", 130.733, 5e-3, 0.01, run__until=0.01, output__history_every=5e-4, bed__particles="[5226,99]",
                      column__size="[0.0024,0.1359]", column__cells="[2,113]")
 
     def test_drafting_kissing_tumbling(self):
