@@ -64,7 +64,7 @@ class Table(Scratch):
                      and set(answer["models"]) & set(row["models"].split(", "))]
             first = next(n for n, line in enumerate(lines) if line.startswith("forces left out"))
             for row in added:
-                self.assertTrue(any(line.startswith(f'{row["effect"]} = "{row["model"]}"') for line in lines[:first]),
+                self.assertTrue(any(line.removeprefix("# ").startswith(f'{row["effect"]} = "{row["model"]}"') for line in lines[:first]),
                                 f"{name}: {row['effect']}")
 
     def test_reasons_are_in_plain_words(self):
@@ -112,7 +112,7 @@ class Table(Scratch):
         hand = self.write("hand.toml", BY_HAND)
         off = self.write("off.toml", BEADS + '[effects]\ndrag = "wen_yu"\nfluid_stress = "none"\n')
         for case, words in ((hand, []), (off, []), (hand, ["--set", "effects.fluid_stress=newtonian"]),
-                            (hand, ["--set", "chooser.hamaker=1e-16"]), (ROOT / "cases/templates/classifier/case.toml", []),
+                            (hand, ["--set", "dem.hamaker_constant=1e-16"]), (ROOT / "cases/templates/classifier/case.toml", []),
                             (ROOT / "cases/templates/liquid-bed/case.toml", [])):
             text = self.ends(DONE, "effects", case, *words).stdout
             screen = self.ends(DONE, "check", case, *words).stdout

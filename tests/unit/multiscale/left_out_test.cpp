@@ -124,7 +124,7 @@ TEST(LeftOut, SaysWhatCanBeDoneAboutTheSum) {
   };
   EXPECT_EQ(told({"chooser.tolerance=1e4"}, "tfm"), "");
   EXPECT_NE(told({}, "tfm").find("switch on fluid_stress"), std::string::npos);
-  const std::string on = "effects.fluid_stress=newtonian", strong = "chooser.hamaker=1e-16";
+  const std::string on = "effects.fluid_stress=newtonian", strong = "dem.hamaker_constant=1e-16";
   EXPECT_NE(told({on, strong}, "tfm").find("no law in the two-fluid model, but in polybed dem: cohesion"),
             std::string::npos);
   EXPECT_NE(told({on, strong}, "dem").find("switch on cohesion"), std::string::npos);
