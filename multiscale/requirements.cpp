@@ -89,7 +89,7 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
     const double step = need.integrator == explicit_steps ? tfm::explicit_step(bed.scales)
                         : need.integrator == split_steps  ? tfm::split_step(constants, bed.scales, inside, rtol)
                                                           : tfm::implicit_step(constants, inside, rtol);
-    const double longest = std::min(scene.run.until, *scene.output.checkpoint_every);
+    const double longest = std::min(scene.run.until, scene.output.checkpoint_every.value_or(scene.run.until));
     bed.step = scene.tfm.fixed_step.value_or(std::min(step, longest));
     return bed;
   };

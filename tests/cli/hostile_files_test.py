@@ -218,7 +218,7 @@ class OnTerminals(Scratch):
         title = strict_json(self.ends(DONE, "check", case, "--json").stdout)["case"]
         self.assertIn("owned", title)
         for text in (f'"{escapes}" = 1\n', f'[fluid]\n"{escapes}" = 1\n', f'[effects]\ndrag = "{escapes}"\n'):
-            self.assertIn("\\u001b", self.harmless(["check", self.write("wrong.toml", text)]))
+            self.assertIn("\\u001b", self.harmless(["check", self.write("wrong.toml", text)]).lower())
         for text in (f"a = '{self.EVIL}'\n", f'[bed]\nstart = "list:{escapes}"\n'):
             self.harmless(["check", self.write("wrong.toml", text)])
         rows = self.write("rows.csv", f"eps,Re\n0.5,{self.EVIL}\n")

@@ -127,8 +127,9 @@ TEST(Neglected, BoundsWhatARunMayMeet) {
 }
 
 TEST(Conflicts, AreToldWithBothLines) {
+  const core::Rulebook by_particles(scene_rules(), Models{&rules_of_dem()});
   try {
-    (void)core::parse_case(text, "case.toml", {}, all_roles(), size_classes, scene_rules());
+    (void)core::parse_case(text, "case.toml", {}, all_roles(), size_classes, by_particles);
     FAIL() << "taken";
   } catch (const core::CaseError& error) {
     ASSERT_EQ(error.problems().size(), 2U);
@@ -136,7 +137,7 @@ TEST(Conflicts, AreToldWithBothLines) {
     EXPECT_EQ(error.problems()[1].line, 14);
   }
   const std::vector<std::string> rough{"effects.contact=hertz_mindlin"};
-  EXPECT_NO_THROW((void)core::parse_case(text, "case.toml", rough, all_roles(), size_classes, scene_rules()));
+  EXPECT_NO_THROW((void)core::parse_case(text, "case.toml", rough, all_roles(), size_classes, by_particles));
 }
 
 }  // namespace
