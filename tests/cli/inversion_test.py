@@ -136,7 +136,7 @@ class WithoutARun(Scratch):
         self.assertAlmostEqual(1e3 * low, 28.2, delta=0.05)  # as printed
         self.assertEqual((found["measured_m_s"], found["simulated_m_s"]), ([0.03], [0.025, 0.035]))
         text = self.ends(DONE, "inversion", self.SYSTEM_B).stdout
-        for line in ("28.19 to 34.27 mm/s", "measured: 30.00 mm/s", "simulated by others: 25.00 to 35.00 mm/s"):
+        for line in ("28.22 to 34.27 mm/s", "measured: 30.00 mm/s", "simulated by others: 25.00 to 35.00 mm/s"):
             self.assertIn(line, text)
         self.assertIn("inversion.measured", self.ends(WRONG_CASE, "inversion", self.SYSTEM_B, "--set",
                                                       "inversion.measured=[0.03, 0.02]").stderr)

@@ -10,7 +10,7 @@ BED = """title = "glass beads of 2 mm in air"
 [column]
 size = ["20 mm", "50 mm"]
 cells = [4, 10]
-depth = "4.8 mm"
+depth = "5 mm"
 [fluid]
 name = "air"
 temperature = "20 degC"
