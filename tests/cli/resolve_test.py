@@ -82,7 +82,7 @@ class Resolve(Scratch):
         path = self.out / "boxes.csv"
         whole = path.read_text()
         lines = whole.split("\n")[:-1]
-        self.assertEqual(len(lines), 3, "a header and two packings")
+        self.assertEqual(len(lines), 5, "a header, and two packings on two grids")
         cells = lines[1].split(",")
         forces = [",".join([*cells[:7], value, *cells[8:]]) for value in ("inf", "nan", "1" + cells[7])]
         for damaged in (whole[:-1], whole[:-16], whole.replace(cells[7], "1" + cells[7]), *(whole.replace(lines[1], row) for row in forces),

@@ -116,7 +116,8 @@ void FrictionalStress::charge_lift(int axis, Fields& fields) const {
   core::for_each_row(grid, boundaries_.moving_faces(axis, false), [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f) {
       lift[f] = 0;
-      if (!(phi[f + above] < phi[f + under])) continue;
+      const double looser = 1 - phi[f + above] / law_.onset;
+      if (!(looser > 0 && phi[f + above] < phi[f + under])) continue;
       const double carried = std::max(pressure[f + under], phi[f + under] < phi[f + below] ? pressure[f + below] : 0.0);
       if (!(carried > 0)) continue;
       double flux = 0, fraction = 0;
@@ -126,7 +127,8 @@ void FrictionalStress::charge_lift(int axis, Fields& fields) const {
         fraction += part;
       }
       const double excess = 0.5 * (phi[f + under] - std::max(phi[f + above], 0.0));
-      lift[f] = std::min(carried / carried_whole, 1.0) * weight * excess * flux / (std::abs(flux) + fraction * slow);
+      lift[f] = std::min(carried / carried_whole, 1.0) * std::min(20 * looser, 1.0) * weight * excess * flux /
+                (std::abs(flux) + fraction * slow);
     }
   });
 }

@@ -22,8 +22,8 @@ namespace polybed::tfm {
 /// the cell below is the fuller one, solids that rise gain (phi_K - phi_S)/2 more potential energy than gravity takes,
 /// and solids that fall release as much less than it gives. On packed solids this difference fed a motion without end.
 /// It is charged to the motion: a jump of pressure across the face, rho' g h (phi_K - phi_S)/2 U/(|U| + U_0), that
-/// opposes the mean velocity U of the solids, as far as K carries half a packed cell. U_0 = g' h/c, c the speed of
-/// elastic waves at the bottom, so that it relaxes no faster than these waves.
+/// opposes the mean velocity U of the solids, as far as K carries half a packed cell and S is looser than the onset.
+/// U_0 = g' h/c, c the speed of elastic waves at the bottom, so that it relaxes no faster than these waves.
 class FrictionalStress : public StressEffect {
  public:
   /// \param alone  no other pressure of the solids is added, which would press at the surface too
