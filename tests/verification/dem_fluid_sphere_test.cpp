@@ -86,8 +86,8 @@ double stirred(double cells, int n, double width) {
   return beads.motion(0).v[1] / glass.at(0.1)[0] - 1;
 }
 
-// Measured; the limits are a half more. In cells of 2.5 d the sphere is 4.7 % too fast without a kernel. In cells of 40 d
-// it has moved by less than a cell and lacks 1e-4: what it is corrected for is a steady wake, longer than its own.
+// Measured; the limits are a half more. In cells of 2.5 d the sphere is 4.7 % too fast without a kernel. In cells of 40
+// d it has moved by less than a cell and lacks 1e-4: what it is corrected for is a steady wake, longer than its own.
 TEST(DemSphere, StirsLittleInWideCellsOrUnderAWideKernel) {
   for (const auto& [cells, n, width, most] :
        {std::tuple{10.0, 9, 0.0, 2e-3}, {20.0, 9, 0.0, 3e-4}, {40.0, 9, 0.0, 1.5e-4}, {2.5, 16, 6.0, 1e-2}}) {
