@@ -148,4 +148,4 @@ if __name__ == "__main__":
             print(f"| {name} | {' | '.join(f'{v:.2f}' for v in found)} |")
     if check:
         print(f"{wrong} velocities differ")
-    sys.exit(wrong > 0)
+    sys.exit(int(wrong > 0))

@@ -83,6 +83,7 @@ TEST(Momentum, OfTheModelIsThatOfTheScene) {
   core::Timers timers;
   core::Scene scene = glass(0.8e-3);
   scene.effects["solids_stress"] = "frictional";  // it falls together in 0.015 s
+  scene.tfm.max_packing = 0.62;
   scene.fluid.density = 1.2;
   scene.fluid.viscosity = 1.8e-5;
   const auto velocities = [&](core::Momentum form) {
