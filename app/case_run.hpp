@@ -49,7 +49,7 @@ class CaseRun {
   [[nodiscard]] virtual core::Checkpoint checkpoint() = 0;
   /// Makes the rows of history.csv survive a power cut. Collective.
   virtual void flush_rows() = 0;
-  /// What the checkpoint says of the run beside its state: what a run that goes on cannot measure again. Collective.
+  /// What the checkpoint contains next to the state: what a resumed run cannot measure again. Collective.
   [[nodiscard]] virtual core::Json past() = 0;
   /// Takes that up, once the observers of a run that goes on are there. Throws FileError for what no run has left.
   void recall(const std::function<void(const core::Json&)>& take) const;

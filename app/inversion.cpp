@@ -292,7 +292,7 @@ void run_without_a_run(const InversionOptions& options) {
   core::print("{}", lines_of(beside));
 }
 
-/// Of --temperature beside a density and a viscosity that do not follow from it.
+/// Refuses --temperature for a fluid whose density and viscosity do not follow from it.
 void refuse_idle_temperature(const core::Scene& scene) {
   if (!scene.fluid.density || !scene.fluid.viscosity) return;
   throw core::CaseError(std::vector{scene.places.problem(

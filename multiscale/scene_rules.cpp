@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "closures/max_packing.hpp"
 #include "closures/sphere.hpp"
@@ -24,11 +23,18 @@
 
 namespace polybed::multiscale {
 
+double packing_of_sizes(const core::Scene& scene, double of_one_size) {
+  std::vector<double> diameter, packing;
+  for (const core::Species& species : scene.species) {
+    diameter.push_back(species.diameter);
+    packing.push_back(std::max(of_one_size, species.max_packing));
+  }
+  return closures::packing_yu_standish(scene.bed.volume_share, diameter, packing);
+}
+
 namespace {
 
 using core::Broken;
-
-const double densest_of_one_size = std::numbers::pi / std::sqrt(18.0);  ///< spheres in a crystal
 
 Broken fluid_unknown(const core::Scene& scene) {
   if (!scene.fluid.present()) return {};
@@ -56,14 +62,7 @@ bool shares_are_known(const core::Scene& scene) {
 }
 
 /// Solids fraction beyond which spheres of these sizes cannot be packed, each size alone in a crystal.
-double densest_packing(const core::Scene& scene) {
-  std::vector<double> diameter, packing;
-  for (const core::Species& species : scene.species) {
-    diameter.push_back(species.diameter);
-    packing.push_back(std::max(densest_of_one_size, species.max_packing));
-  }
-  return closures::packing_yu_standish(scene.bed.volume_share, diameter, packing);
-}
+double densest_packing(const core::Scene& scene) { return packing_of_sizes(scene, closures::crystal_packing); }
 
 /// Share of the whole column that the solids fill.
 double share_of_column(const core::Scene& scene) {

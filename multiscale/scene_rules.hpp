@@ -15,6 +15,10 @@ namespace polybed::multiscale {
 /// exclude, the properties of the fluid, a bed no denser than spheres pack.
 [[nodiscard]] const std::vector<core::Rule>& scene_rules();
 
+/// Solids fraction of the bed's mixture after Yu and Standish where spheres of one size pack to `of_one_size`, or to
+/// their max_packing if that is more. The shares must be known.
+[[nodiscard]] double packing_of_sizes(const core::Scene& scene, double of_one_size);
+
 /// What each model requires beyond that.
 [[nodiscard]] const core::ModelRules& rules_of_tfm();
 [[nodiscard]] const core::ModelRules& rules_of_dem();

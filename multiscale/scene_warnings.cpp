@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "closures/max_packing.hpp"
 #include "core/case/resolve.hpp"
+#include "multiscale/scene_rules.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -97,13 +97,7 @@ void warn_of_fast_gas(const core::Scene& scene, double density, Lines& warnings)
 void warn_of_dense_packing(const core::Scene& scene, Lines& warnings) {
   constexpr double random_packing = 0.64, margin = 0.01;
   if (!has_shares(scene) || scene.species.empty()) return;
-  std::vector<double> diameter, packing;
-  for (const core::Species& species : scene.species) {
-    diameter.push_back(species.diameter);
-    packing.push_back(std::max(random_packing, species.max_packing));
-  }
-  const double densest = closures::packing_yu_standish(scene.bed.volume_share, diameter, packing),
-               given = scene.bed.solids_fraction;
+  const double densest = packing_of_sizes(scene, random_packing), given = scene.bed.solids_fraction;
   if (given > densest + margin)
     warnings.push_back(fmt::format(
         "bed.solids_fraction = {:g}: spheres of these sizes pack at random to {:.2g} at most, only a crystal "

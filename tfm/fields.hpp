@@ -32,12 +32,13 @@ struct Constants {
 
 /// Solids stress on cells; empty where no stress acts.
 struct SolidsStress {
-  core::Field pressure;   ///< p_s with its bulk-viscous part, Pa
-  core::Field slope;      ///< dp_s/dphi, Pa
-  core::Field damping;    ///< lambda = alpha rho_s c_s h of the bulk-viscous part, Pa s
-  core::Field contact;    ///< p_f: the part of friction alone, Pa; empty if nothing asks for it
-  core::FaceField lift;   ///< jump of pressure across a face against what its flux lifts, Pa; axes without: empty
-  core::Field viscosity;  ///< mu_s/phi, Pa s; empty where the solids have no shear viscosity
+  core::Field pressure;  ///< p_s with its bulk-viscous part, Pa
+  core::Field slope;     ///< dp_s/dphi, Pa
+  core::Field damping;   ///< lambda = alpha rho_s c_s h of the bulk-viscous part, Pa s
+  core::Field contact;   ///< p_f: the part of friction alone, Pa; empty if nothing asks for it
+  core::FaceField
+      upwind_work;  ///< jump of pressure across a face that takes the work of its flux, Pa; empty along axes without
+  core::Field viscosity;            ///< mu_s/phi, Pa s; empty where the solids have no shear viscosity
   std::vector<core::Field> strain;  ///< 2 D':D' of each species, 1/s2; with the viscosity
   core::Field wall;                 ///< friction of walls by collisions over phi, Pa s/m; empty if absent
   [[nodiscard]] bool present() const { return !pressure.empty(); }

@@ -121,7 +121,7 @@ void RightHandSide::hold_solids_above(int row) {
        {&stress.pressure, &stress.slope, &stress.damping, &stress.contact, &stress.viscosity, &stress.wall})
     clear(*field);
   clear_all(stress.strain);
-  clear_all(stress.lift);
+  clear_all(stress.upwind_work);
   clear_all(fields_.granular.conductivity);
   clear_all(fields_.granular.decay);
   std::for_each(fields_.inertia.share.begin(), fields_.inertia.share.end(), clear_all);

@@ -77,11 +77,11 @@ void subtract_stress_loops(const Constants& constants, const fluid::Boundaries& 
 #pragma GCC ivdep
     for (Index c = begin; c < end; ++c)
       a[c] -= scale * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);
-    const Field& jump = fields.stress.lift[std::size_t(axis)];
-    if (jump.empty()) return;
-    const double* lift = jump.data();
+    const Field& work = fields.stress.upwind_work[std::size_t(axis)];
+    if (work.empty()) return;
+    const double* jump = work.data();
 #pragma GCC ivdep
-    for (Index c = begin; c < end; ++c) a[c] -= scale * lift[c] / std::max(face_mean(phi, c, s), stress_fraction_floor);
+    for (Index c = begin; c < end; ++c) a[c] -= scale * jump[c] / std::max(face_mean(phi, c, s), stress_fraction_floor);
   });
 }
 

@@ -27,7 +27,7 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
   for (std::size_t a = 0; a < 3 && heavy != 0; ++a)
     lies_towards_[a] = std::copysign(constants.down[a], heavy * constants.down[a]);
   for (std::size_t a = 0; a < 3; ++a)
-    if (lies_towards_[a] != 0) fields.stress.lift[a] = core::make_field(constants.grid);
+    if (lies_towards_[a] != 0) fields.stress.upwind_work[a] = core::make_field(constants.grid);
   const double load = std::abs(heavy) * settled_height(scene);
   wave_speed_ = std::sqrt(law_(law_.solids_fraction_at(load)).slope / mean_density(constants));
   fields.stress.pressure = core::make_field(constants.grid);
@@ -78,10 +78,9 @@ double FrictionalStress::solids_fraction_at(double pressure) const { return law_
 void FrictionalStress::evaluate(Fields& fields) {
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
-  core::Box cells = boundaries_.solids_cells();
+  core::Box cells = boundaries_.solids_cells();  // and, for charge_upwind_work(), ghosts before neighbours send theirs
   for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
-    if (lies_towards_[std::size_t(axis)] == 0)
-      continue;  // there the neighbours' pressure is needed before they send it
+    if (lies_towards_[std::size_t(axis)] == 0) continue;
     cells.lo[std::size_t(axis)] -= constants_.grid.ghosts(axis);
     cells.hi[std::size_t(axis)] += constants_.grid.ghosts(axis);
   }
@@ -91,7 +90,7 @@ void FrictionalStress::evaluate(Fields& fields) {
     slope[c] = value.slope;
   });
   for (int axis = 0; axis < constants_.grid.dimensions; ++axis)
-    if (lies_towards_[std::size_t(axis)] != 0) charge_lift(axis, fields);
+    if (lies_towards_[std::size_t(axis)] != 0) charge_upwind_work(axis, fields);
   hold_surface(fields);
   if (!fields.stress.contact.empty()) {
     std::copy(fields.stress.pressure.begin(), fields.stress.pressure.end(), fields.stress.contact.begin());
@@ -101,7 +100,7 @@ void FrictionalStress::evaluate(Fields& fields) {
   boundaries_.fill_cells(fields.stress.pressure);
 }
 
-void FrictionalStress::charge_lift(int axis, Fields& fields) const {
+void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
   const auto a = std::size_t(axis);
   const core::Grid& grid = constants_.grid;
   const Index s = grid.stride(axis);
@@ -112,10 +111,10 @@ void FrictionalStress::charge_lift(int axis, Fields& fields) const {
   const double weight =
       std::abs((density - constants_.fluid.density) * constants_.gravity * lies_towards_[a]) * grid.spacing[a];
   const double slow = weight / (density * wave_speed_), carried_whole = 0.5 * law_.onset * weight;
-  double* lift = fields.stress.lift[a].data();
+  double* jump = fields.stress.upwind_work[a].data();
   core::for_each_row(grid, boundaries_.moving_faces(axis, false), [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f) {
-      lift[f] = 0;
+      jump[f] = 0;
       const double looser = 1 - phi[f + above] / law_.onset;
       if (!(looser > 0 && phi[f + above] < phi[f + under])) continue;
       const double carried = std::max(pressure[f + under], phi[f + under] < phi[f + below] ? pressure[f + below] : 0.0);
@@ -127,7 +126,7 @@ void FrictionalStress::charge_lift(int axis, Fields& fields) const {
         fraction += part;
       }
       const double excess = 0.5 * (phi[f + under] - std::max(phi[f + above], 0.0));
-      lift[f] = std::min(carried / carried_whole, 1.0) * std::min(20 * looser, 1.0) * weight * excess * flux /
+      jump[f] = std::min(carried / carried_whole, 1.0) * std::min(20 * looser, 1.0) * weight * excess * flux /
                 (std::abs(flux) + fraction * slow);
     }
   });

@@ -38,7 +38,7 @@ class FrictionalStress : public StressEffect {
   [[nodiscard]] double solids_fraction_at(double pressure) const override;
 
  private:
-  void charge_lift(int axis, Fields& fields) const;
+  void charge_upwind_work(int axis, Fields& fields) const;
   void hold_surface(Fields& fields) const;
   void add_bulk_viscosity(Fields& fields) const;
   template <class Body>
