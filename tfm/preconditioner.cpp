@@ -98,7 +98,8 @@ void Preconditioner::solve_faces() {
           for (Index face = begin; face < end; ++face) value[std::size_t(face)] /= c_;
       });
     core::for_each_row(grid, boundaries_.moving_faces(axis, true), [&](Index begin, Index end) {
-      const bool held_above = axis == 1 && grid.ends(1, 1) && begin >= grid.index(0, grid.cells[1], 0);
+      const Index height = begin / grid.stride(1) % grid.extent(1) - grid.ghosts(1);
+      const bool held_above = axis == 1 && grid.ends(1, 1) && height == grid.cells[1];
       std::array<double, Preconditioner::most_rows> value{};
       for (Index face = begin; face < end; ++face) {
         const auto at = std::size_t(face);
