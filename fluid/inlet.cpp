@@ -77,10 +77,8 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
 }
 
 double Inlet::mean_over_bottom(const std::vector<double>& share) const {
-  double sum = 0;
-  if (grid_.ends(1, 0))
-    for (double s : share) sum += s;
-  return core::sum_of_ranks(grid_, sum) / (double(grid_.column_cells(0)) * grid_.column_cells(2));
+  const std::span<const double> here = grid_.ends(1, 0) ? std::span(share) : std::span<const double>();
+  return core::sum_of_ranks(grid_, here) / (double(grid_.column_cells(0)) * grid_.column_cells(2));
 }
 
 template <class Value>

@@ -26,11 +26,11 @@ using core::Index;
 void start_from_the_top(const core::Grid& grid, core::Field& pressure) {
   core::Box top = core::owned_cells(grid);
   top.lo[1] = grid.ends(1, 1) ? top.hi[1] - 1 : top.hi[1];
-  double sum = 0;
+  std::vector<double> layer;
   core::for_each_row(grid, top, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) sum += pressure[std::size_t(c)];
+    layer.insert(layer.end(), pressure.begin() + begin, pressure.begin() + end);
   });
-  const double mean = core::sum_of_ranks(grid, sum) / (double(grid.column_cells(0)) * grid.column_cells(2));
+  const double mean = core::sum_of_ranks(grid, layer) / (double(grid.column_cells(0)) * grid.column_cells(2));
   for (double& p : pressure) p -= mean;
 }
 

@@ -132,7 +132,8 @@ class ImplicitSteps : public Stepping {
   [[nodiscard]] double first_step(std::span<const double> y, std::span<const double> dydt) const override {
     const core::Grid& grid = equations_.constants().grid;
     using Kind = StateLayout::Entry::Kind;
-    double sum = 0, of_pressure = 0, of_flux = 0;
+    double of_pressure = 0, of_flux = 0;
+    std::vector<double> squares;
     for (const StateLayout::Entry& entry : layout_.entries()) {
       if (entry.kind == Kind::pressure || entry.kind == Kind::passed) {
         if (entry.kind == Kind::pressure) of_pressure = atol_[entry.begin];
@@ -141,11 +142,11 @@ class ImplicitSteps : public Stepping {
       if (entry.kind == Kind::flux) of_flux = atol_[entry.begin];
       for (std::size_t n = entry.begin; n < entry.begin + entry.size; ++n) {
         const double weighted = dydt[n] / (rtol_ * std::abs(y[n]) + atol_[n]);
-        sum += weighted * weighted;
+        squares.push_back(weighted * weighted);
       }
     }
     const double size = core::sum_of_ranks(grid, double(layout_.size()));
-    const double own = 0.5 / std::sqrt(core::sum_of_ranks(grid, sum) / size);
+    const double own = 0.5 / std::sqrt(core::sum_of_ranks(grid, squares) / size);
     constexpr double margin = 100;  // a safe distance from where round-off alone fills the tolerance
     const std::vector<double>& density = equations_.constants().density;
     const double heaviest =

@@ -52,11 +52,14 @@ std::array<int, 3> choose_blocks(const Grid& column, int count) {
 }
 
 Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks) {
-  if (!ranks) return column;
+  return ranks ? block_of(column, ranks, ranks->rank()) : column;
+}
+
+Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks, int rank) {
   Grid block = column;
   block.ranks = ranks;
   block.blocks = choose_blocks(column, ranks->count());
-  int rest = ranks->rank();
+  int rest = rank;
   for (std::size_t a = 0; a < 3; ++a) {
     block.block[a] = rest % block.blocks[a];
     rest /= block.blocks[a];

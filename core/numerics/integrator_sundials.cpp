@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "core/numerics/exact_sum.hpp"
 
 namespace polybed::core {
 
@@ -18,18 +19,20 @@ void keep_silent(int, const char*, const char*, char*, void*) {}
 
 void report_error(std::span<const double> error, std::span<const double> weight, const Ranks* ranks,
                   StepReport& report) {
-  double sum = 0;
   for (std::size_t n = 0; n < error.size(); ++n) {
     const double weighted = std::abs(error[n] * weight[n]);
-    sum += weighted * weighted;
     if (weighted > report.worst_error) {
       report.worst_error = weighted;
       report.worst_entry = n;
     }
   }
-  std::array<double, 2> sums{sum, double(error.size())};
-  add_over_ranks(ranks, sums);
-  report.error_norm = std::sqrt(sums[0] / sums[1]);
+  std::array<std::int64_t, 1> size{std::int64_t(error.size())};
+  add_over_ranks(ranks, size);
+  const auto squares = [&](std::size_t begin, std::size_t n, double* to) {
+    for (std::size_t i = 0; i < n; ++i) to[i] = std::pow(error[begin + i] * weight[begin + i], 2);
+  };
+  report.error_norm =
+      std::sqrt(exact_sum(communicator(ranks), std::size_t(size[0]), error.size(), squares) / double(size[0]));
 }
 
 std::string flag_name(char* (*name)(long int), int flag) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/numerics/exact_sum.hpp"
 #include "core/numerics/mpi.hpp"
 #include "core/vectors.hpp"
 
@@ -38,30 +39,13 @@ void magnitude_of(const double* x, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = std::abs(x[i]);
 }
 
-/// Sum of term(i) in eight interleaved partial sums: the order of additions is fixed, whatever the width. It is made
-/// part of each function that calls it, and so has all widths.
-template <class Term>
-[[gnu::always_inline]] inline double sum_of(std::size_t n, Term&& term) {
-  constexpr std::size_t lanes = 8;
-  std::array<double, lanes> part{};
-  std::size_t i = 0;
-  for (; i + lanes <= n; i += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) part[k] += term(i + k);
-  for (std::size_t k = 0; i < n; ++i, ++k) part[k] += term(i);
-  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
-double dot_of(const double* x, const double* y, std::size_t n) {
-  return sum_of(n, [=](std::size_t i) { return x[i] * y[i]; });
-}
-
-double weighted_square_sum_of(const double* x, const double* w, std::size_t n) {
-  return sum_of(n, [=](std::size_t i) { return (x[i] * w[i]) * (x[i] * w[i]); });
+void weighted_square_of(const double* x, const double* w, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = (x[i] * w[i]) * (x[i] * w[i]);
 }
 
 /// The same of the entries with a mask of 1, where the others have 0: a factor, as a choice would be a branch.
-double masked_square_sum_of(const double* x, const double* w, const double* mask, std::size_t n) {
-  return sum_of(n, [=](std::size_t i) { return mask[i] * ((x[i] * w[i]) * (x[i] * w[i])); });
+void masked_square_of(const double* x, const double* w, const double* mask, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = mask[i] * ((x[i] * w[i]) * (x[i] * w[i]));
 }
 
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
@@ -109,27 +93,33 @@ void magnitude(N_Vector x, N_Vector z) {
   in_vectors<magnitude_of>(entries(x).data(), entries(z).data(), entries(z).size());
 }
 
-/// A sum over the entries of this rank as one over all ranks, where the vector is cut into parts.
-double over_ranks(N_Vector x, double part) {
-  if (N_VGetVectorID(x) != SUNDIALS_NVEC_PARALLEL) return part;
-  double sum = 0;
-  check_mpi(MPI_Allreduce(&part, &sum, 1, MPI_DOUBLE, MPI_SUM, NV_COMM_P(x)), "MPI_Allreduce");
-  return sum;
+/// Sum over the entries of the whole vector, where make writes terms of those on this rank.
+template <class Make>
+double sum_over(N_Vector x, Make&& make) {
+  const MPI_Comm all = N_VGetVectorID(x) == SUNDIALS_NVEC_PARALLEL ? NV_COMM_P(x) : MPI_COMM_SELF;
+  return exact_sum(all, std::size_t(N_VGetLength(x)), entries(x).size(), make);
 }
 
 double dot_product(N_Vector x, N_Vector y) {
-  return over_ranks(x, in_vectors<dot_of>(entries(x).data(), entries(y).data(), entries(x).size()));
+  const double *a = entries(x).data(), *b = entries(y).data();
+  return sum_over(
+      x, [=](std::size_t begin, std::size_t n, double* to) { in_vectors<product_of>(a + begin, b + begin, to, n); });
 }
 
 double wrms_norm(N_Vector x, N_Vector w) {
-  const double part = in_vectors<weighted_square_sum_of>(entries(x).data(), entries(w).data(), entries(x).size());
-  return std::sqrt(over_ranks(x, part) / double(N_VGetLength(x)));
+  const double *a = entries(x).data(), *b = entries(w).data();
+  const double sum = sum_over(x, [=](std::size_t begin, std::size_t n, double* to) {
+    in_vectors<weighted_square_of>(a + begin, b + begin, to, n);
+  });
+  return std::sqrt(sum / double(N_VGetLength(x)));
 }
 
 double wrms_norm_mask(N_Vector x, N_Vector w, N_Vector mask) {
-  const double part =
-      in_vectors<masked_square_sum_of>(entries(x).data(), entries(w).data(), entries(mask).data(), entries(x).size());
-  return std::sqrt(over_ranks(x, part) / double(N_VGetLength(x)));
+  const double *a = entries(x).data(), *b = entries(w).data(), *m = entries(mask).data();
+  const double sum = sum_over(x, [=](std::size_t begin, std::size_t n, double* to) {
+    in_vectors<masked_square_of>(a + begin, b + begin, m + begin, to, n);
+  });
+  return std::sqrt(sum / double(N_VGetLength(x)));
 }
 
 N_Vector new_vector(std::size_t size, const Ranks* ranks, SUNContext context) {

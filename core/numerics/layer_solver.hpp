@@ -12,7 +12,7 @@ namespace polybed::core {
 
 class LayerSolver {
  public:
-  /// Whether a grid is one that this serves: on one rank, with at most 64 cells in a layer.
+  /// Whether a whole column is one that this serves: with at most 64 cells in a layer.
   [[nodiscard]] static bool serves(const Grid& grid);
   explicit LayerSolver(const Grid& grid);
 

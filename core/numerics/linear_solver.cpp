@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/numerics/blocks.hpp"
 #include "core/numerics/direct_solver.hpp"
 #include "core/numerics/linear_solver_algebraic.hpp"
 #include "core/numerics/mpi.hpp"
 #include "core/numerics/mpi_start.hpp"
 #include "core/numerics/row_mean_solver.hpp"
+#include "core/numerics/whole_column.hpp"
 
 namespace polybed::core {
 
@@ -195,8 +197,28 @@ struct PoissonSolver::Hypre {
   }
 };
 
+/// The equation of the whole column, on every rank.
+struct PoissonSolver::Whole {
+  WholeColumn column;
+  PoissonSolver solver;
+  FaceField coefficient;
+  Field shift, source, p;
+
+  explicit Whole(const Grid& block)
+      : column(block),
+        solver(column.grid()),
+        coefficient(make_face_field(column.grid())),
+        shift(make_field(column.grid())),
+        source(shift),
+        p(shift) {}
+};
+
 PoissonSolver::PoissonSolver(const Grid& grid) : grid_(grid), halo_(grid) {
-  if (RowMeanSolver::serves(grid)) rows_ = std::make_unique<RowMeanSolver>(grid);
+  if (!RowMeanSolver::serves(whole_column(grid))) return;
+  if (grid.ranks)
+    whole_ = std::make_unique<Whole>(grid);
+  else
+    rows_ = std::make_unique<RowMeanSolver>(grid);
 }
 PoissonSolver::~PoissonSolver() = default;
 PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
@@ -212,17 +234,32 @@ void subtract(const Grid& grid, double constant, Field& field) {
 
 /// Takes the mean over the column out of a field.
 void remove_mean(const Grid& grid, Field& field) {
-  double sum = 0;
-  for_each_row(grid, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) sum += field[std::size_t(c)];
-  });
-  subtract(grid, sum_of_ranks(grid, sum) / double(grid.column_cell_count()), field);
+  std::vector<double> values;
+  values.reserve(grid.cell_count());
+  for_each_row(
+      grid, [&](Index begin, Index end) { values.insert(values.end(), field.begin() + begin, field.begin() + end); });
+  subtract(grid, sum_of_ranks(grid, values) / double(grid.column_cell_count()), field);
 }
 
 }  // namespace
 
+PoissonResult PoissonSolver::solve_whole(const FaceSpans& coefficient, std::span<const double> shift,
+                                         const Field& source, Field& p, double tolerance) {
+  Whole& whole = *whole_;
+  std::vector<WholeColumn::Part> parts{{source, &whole.source}, {p, &whole.p}};
+  if (!shift.empty()) parts.push_back({shift, &whole.shift});
+  add_faces(coefficient, whole.coefficient, parts);
+  whole.column.gather(parts);
+  const std::span<const double> whole_shift = shift.empty() ? shift : std::span<const double>(whole.shift);
+  const PoissonResult result =
+      whole.solver.solve(spans(whole.coefficient), whole_shift, whole.source, whole.p, tolerance);
+  whole.column.copy_cells(whole.p, p);
+  return result;
+}
+
 PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const double> shift,
                                    const Field& given_source, Field& p, double tolerance) {
+  if (whole_) return solve_whole(coefficient, shift, given_source, p, tolerance);
   const bool constant_open = leaves_constant_open(grid_, coefficient, shift);
   if (constant_open) {
     balanced_ = given_source;
@@ -274,6 +311,7 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
 
 void PoissonSolver::forget() {
   if (hypre_) hypre_->forget();
+  if (whole_) whole_->solver.forget();
 }
 
 }  // namespace polybed::core

@@ -14,8 +14,10 @@ namespace polybed::core {
 void open_linear_solvers();
 
 using FaceSpans = std::array<std::span<const double>, 3>;  ///< one padded array per active axis
+[[nodiscard]] inline FaceSpans spans(const FaceField& b) { return {b[0], b[1], b[2]}; }
 
 class RowMeanSolver;
+class WholeColumn;
 
 struct PoissonResult {
   bool converged = false;
@@ -28,6 +30,8 @@ struct PoissonResult {
 /// The coefficient on a boundary face says what holds there: 0, no flux; else p = 0 in the centre of the
 /// ghost cell. Where rows are short and coefficients along them alike a direct solver of the row means preconditions;
 /// elsewhere multigrid, whose hierarchy is kept while it serves. The residual is always the true one, recomputed.
+/// Where rows are short each rank solves for the whole column: p has the same bits on any number of ranks. Elsewhere it
+/// is the same within the tolerance.
 class PoissonSolver {
  public:
   explicit PoissonSolver(const Grid& grid);
@@ -45,8 +49,13 @@ class PoissonSolver {
 
  private:
   struct Hypre;
+  struct Whole;
+  PoissonResult solve_whole(const FaceSpans& coefficient, std::span<const double> shift, const Field& source, Field& p,
+                            double tolerance);
+
   Grid grid_;
   Halo halo_;
+  std::unique_ptr<Whole> whole_;         ///< empty where ranks share the solution
   std::unique_ptr<RowMeanSolver> rows_;  ///< empty where it does not serve
   std::unique_ptr<Hypre> hypre_;         ///< empty until it is asked
   Field balanced_;                       ///< the source without its mean, where a constant is left open
@@ -59,7 +68,8 @@ class PoissonSolver {
 ///   c q/L - div((C22 - C21 C12/C11) grad q) = r2 - (C21/C11) r1,
 /// exact where C21/C11 is even and diagonal_p 0. Both are symmetric, so each is
 /// solved by a method for one unknown.
-/// Boundary faces: p as in PoissonSolver by C11, q likewise by C12 and C22.
+/// Boundary faces: p as in PoissonSolver by C11, q likewise by C12 and C22. Where a direct method serves, each rank
+/// solves for the whole column.
 class BlockSolver {
  public:
   explicit BlockSolver(const Grid& grid);
@@ -76,10 +86,12 @@ class BlockSolver {
 
  private:
   class Scalar;
+  struct Whole;
   void set_beyond_ends(Field& q) const;
 
   Grid grid_;
   Halo halo_;
+  std::unique_ptr<Whole> whole_;  ///< empty where ranks share the solution
   std::unique_ptr<Scalar> of_p_, of_q_;
   FaceField c12_;       ///< over the square of the distance
   FaceField rest_;      ///< C22 - C21 C12/C11

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <array>
 
+#include "core/numerics/blocks.hpp"
 #include "core/numerics/direct_solver.hpp"
 #include "core/numerics/hypre_rows.hpp"
 #include "core/numerics/layer_solver.hpp"
 #include "core/numerics/linear_solver.hpp"
 #include "core/numerics/linear_solver_algebraic.hpp"
 #include "core/numerics/ranks.hpp"
+#include "core/numerics/whole_column.hpp"
 
 namespace polybed::core {
 
@@ -36,11 +38,32 @@ class BlockSolver::Scalar {
   std::unique_ptr<AlgebraicCycles> multigrid_;
 };
 
+/// The equations of the whole column, on every rank.
+struct BlockSolver::Whole {
+  WholeColumn column;
+  BlockSolver solver;
+  std::array<FaceField, 4> coefficient;  ///< C11, C12, C21, C22
+  Field slope, diagonal_p, r1, r2, p, q;
+
+  explicit Whole(const Grid& block)
+      : column(block),
+        solver(column.grid()),
+        slope(make_field(column.grid())),
+        diagonal_p(slope),
+        r1(slope),
+        r2(slope),
+        p(slope),
+        q(slope) {
+    coefficient.fill(make_face_field(column.grid()));
+  }
+};
+
 BlockSolver::BlockSolver(const Grid& grid)
     : grid_(grid),
       halo_(grid),
-      of_p_(std::make_unique<Scalar>(grid)),
-      of_q_(std::make_unique<Scalar>(grid)),
+      whole_(grid.ranks && LayerSolver::serves(whole_column(grid)) ? std::make_unique<Whole>(grid) : nullptr),
+      of_p_(whole_ ? nullptr : std::make_unique<Scalar>(grid)),
+      of_q_(whole_ ? nullptr : std::make_unique<Scalar>(grid)),
       c12_(make_face_field(grid)),
       rest_(make_face_field(grid)),
       share_(make_field(grid)),
@@ -53,6 +76,18 @@ BlockSolver& BlockSolver::operator=(BlockSolver&&) noexcept = default;
 
 bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
                         const Field& slope, const Field& diagonal_p, double c) {
+  if (whole_) {
+    std::vector<WholeColumn::Part> parts{{slope, &whole_->slope}};
+    if (!diagonal_p.empty()) parts.push_back({diagonal_p, &whole_->diagonal_p});
+    auto& [w11, w12, w21, w22] = whole_->coefficient;
+    add_faces(c11, w11, parts);
+    add_faces(c12, w12, parts);
+    add_faces(c21, w21, parts);
+    add_faces(c22, w22, parts);
+    whole_->column.gather(parts);
+    return whole_->solver.setup(spans(w11), spans(w12), spans(w21), spans(w22), whole_->slope,
+                                diagonal_p.empty() ? Field() : whole_->diagonal_p, c);
+  }
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     const double w = 1 / (grid_.spacing[a] * grid_.spacing[a]);
@@ -90,6 +125,12 @@ bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSp
 }
 
 void BlockSolver::apply(const Field& r1, const Field& r2, Field& p, Field& q, int cycles) {
+  if (whole_) {
+    whole_->column.gather({{r1, &whole_->r1}, {r2, &whole_->r2}});
+    whole_->solver.apply(whole_->r1, whole_->r2, whole_->p, whole_->q, cycles);
+    whole_->column.copy_cells(whole_->p, p);
+    return whole_->column.copy_cells(whole_->q, q);
+  }
   for_each_row(grid_, [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) source_[c] = r2[c] - share_[c] * r1[c];
   });

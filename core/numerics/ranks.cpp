@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "core/numerics/exact_sum.hpp"
 #include "core/numerics/mpi.hpp"
 #include "core/numerics/mpi_start.hpp"
 
@@ -31,6 +32,13 @@ double reduced(const Grid& grid, double value, MPI_Op operation) {
 
 }  // namespace
 
+double sum_of_ranks(const Ranks* ranks, std::span<const double> terms) {
+  std::int64_t count = std::int64_t(terms.size());
+  add_over_ranks(ranks, std::span(&count, 1));
+  const auto make = [&](std::size_t begin, std::size_t n, double* to) { std::copy_n(terms.data() + begin, n, to); };
+  return exact_sum(communicator(ranks), std::size_t(count), terms.size(), make);
+}
+double sum_of_ranks(const Grid& grid, std::span<const double> terms) { return sum_of_ranks(grid.ranks.get(), terms); }
 double sum_of_ranks(const Grid& grid, double value) { return reduced(grid, value, MPI_SUM); }
 double greatest_of_ranks(const Grid& grid, double value) { return reduced(grid, value, MPI_MAX); }
 double least_of_ranks(const Grid& grid, double value) { return reduced(grid, value, MPI_MIN); }

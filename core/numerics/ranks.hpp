@@ -32,6 +32,9 @@ class Ranks {
 
 // Collective from here on: every rank of the column calls, and all get the same answer.
 
+/// Sum of terms of all ranks, with the same bits on any number of them.
+[[nodiscard]] double sum_of_ranks(const Ranks* ranks, std::span<const double> terms);
+[[nodiscard]] double sum_of_ranks(const Grid& grid, std::span<const double> terms);
 /// Sum, greatest and least of one number of each rank.
 [[nodiscard]] double sum_of_ranks(const Grid& grid, double value);
 [[nodiscard]] double greatest_of_ranks(const Grid& grid, double value);

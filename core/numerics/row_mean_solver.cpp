@@ -56,9 +56,7 @@ void add_differences(const double* b, const double* p, double w, Index s, Index 
 
 }  // namespace
 
-bool RowMeanSolver::serves(const Grid& grid) {
-  return !grid.ranks && grid.cells[0] <= most_across && grid.cells[2] <= most_across;
-}
+bool RowMeanSolver::serves(const Grid& grid) { return grid.cells[0] <= most_across && grid.cells[2] <= most_across; }
 
 RowMeanSolver::RowMeanSolver(const Grid& grid)
     : grid_(grid),

@@ -15,7 +15,7 @@ namespace polybed::core {
 
 class RowMeanSolver {
  public:
-  /// Whether a grid is one that this serves: on one rank, with at most 64 cells across each way.
+  /// Whether a whole column is one that this serves: with at most 64 cells across each way.
   [[nodiscard]] static bool serves(const Grid& grid);
   explicit RowMeanSolver(const Grid& grid);
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The implicit integrator on 1 to 4 ranks: as many steps, the same results. Closed and open, packed and loose, gas and liquid, one and
-two species, a feed, two and three dimensions."""
+"""The implicit integrator on 1 to 4 ranks: the same steps, the same bits. Closed and open, packed and loose, gas and liquid, one and
+two species, a feed, two and three dimensions; and within the tolerance where layers are wide."""
 import json
 import os
 import pathlib
@@ -17,17 +17,10 @@ import open_mpi  # noqa: E402
 import program  # noqa: E402
 from program import Scratch, main  # noqa: E402
 
-# What ranks do not share is the order of relaxation across a cut, so that Newton's iterations end elsewhere within its tolerance: rounding
-# alone may shift when a step changes, most where the topmost cell of a bed is just full and its pressure has a kink (0.06). Before coupled
-# rows were relaxed alike, a scene took up to 30 times as many steps, or failed.
-STEPS = 0.1
-# One rank solves by layers, several by multigrid. At a tight tolerance what the linear solves leave is a part of the error estimate, and
-# the number of steps scatters: 1659 to 1845 on 1 to 4 ranks.
-TIGHT_STEPS = 0.2
-DEFAULT_RTOL = 1e-4
-TIGHT_RTOL, SAME = 1e-9, 1e-9
-# So short that a tolerance of 1e-7 still moves the fractions by more than SAME: by 1.6e-9 to 3e-8 on one rank.
-TIGHT_UNTIL = "0.2 ms"
+# A layer of more than 64 cells is relaxed by multigrid, in another order across a cut, so that Newton's iterations end elsewhere within
+# its tolerance: rounding alone may shift when a step changes (0.06 where the topmost cell of a bed is just full), and each run may be
+# this far from the solution.
+WIDE_STEPS, DEFAULT_RTOL = 0.1, 1e-4
 
 ONE = '[[species]]\nname = "a"\ndiameter = "{}"\ndensity = {}\n'
 POWDER, SAND, FINE = (ONE.format(*of) for of in (("80 um", 1500), ("0.5 mm", 2500), ("0.3 mm", 2500)))
@@ -63,6 +56,7 @@ SCENES = {
     "open water, packed": scene([6, 24], ["12 mm", "48 mm"], "water", SAND, "20 mm", "0.1 s", inlet="2 mm/s"),
     "water with a feed": scene([4, 20], ["8 mm", "40 mm"], "water", FINE, "6 mm", "0.1 s", inlet="5 mm/s", more=FEED,
                                outlet='outlet = "open"\n'),
+    "closed water, wide": scene([72, 16], ["72 mm", "32 mm"], "water", SAND, "20 mm", "20 ms"),
     "closed gas in 3-D": scene([4, 4, 16], ["8 mm", "8 mm", "32 mm"], "air", POWDER, "10 mm", "0.02 s"),
 }
 
@@ -83,23 +77,17 @@ class ImplicitRanks(Scratch):
             fields = {field: last[field][...] for field in last if field.startswith("phi_")}
         return json.loads((out / "run.json").read_text()), fields
 
-    def compare(self, name, same, steps, *words):
-        """On 2 to 4 ranks as many steps as on one, and the same solids fractions at the end."""
-        alone, fields = self.run_on(1, name, *words)
-        for ranks in (2, 3, 4):
-            record, others = self.run_on(ranks, name, *words)
-            with self.subTest(scene=name, ranks=ranks):
-                self.assertAlmostEqual(record["work"]["steps"] / alone["work"]["steps"], 1, delta=steps)
-                difference = max(np.abs(fields[field] - others[field]).max() for field in fields)
-                self.assertLessEqual(difference, same, "solids fractions at the end")
-
-    def test_ranks_take_the_steps_of_one_rank_and_agree_within_the_tolerance(self):
+    def test_ranks_take_the_steps_of_one_rank(self):
         for name in SCENES:
-            self.compare(name, 2 * DEFAULT_RTOL, STEPS)  # each may be this far from the solution
-
-    def test_with_a_tight_tolerance_ranks_agree_to_1e_9(self):
-        for name in ("closed gas, packed", "closed water, packed", "open water, fluidised"):
-            self.compare(name, SAME, TIGHT_STEPS, "--set", f"tfm.rtol={TIGHT_RTOL}", "--until", TIGHT_UNTIL)
+            alone, fields = self.run_on(1, name)
+            for ranks in (2, 3, 4):
+                record, others = self.run_on(ranks, name)
+                with self.subTest(scene=name, ranks=ranks):
+                    steps = record["work"]["steps"] / alone["work"]["steps"] - 1
+                    difference = max(np.abs(fields[field] - others[field]).max() for field in fields)
+                    wide = name == "closed water, wide"
+                    self.assertLessEqual(abs(steps), WIDE_STEPS if wide else 0)
+                    self.assertLessEqual(difference, 2 * DEFAULT_RTOL if wide else 0, "solids fractions at the end")
 
 
 if __name__ == "__main__":

@@ -14,16 +14,17 @@ TESTS = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
 import open_mpi  # noqa: E402
 import program  # noqa: E402
-from program import CASE, Scratch, datasets, history, main, same_bits  # noqa: E402
+from program import CASE, Scratch, datasets, history, main  # noqa: E402
 
-# What ranks cannot share bit for bit are sums over cells: dot products in the pressure solver and the norm of the error.
-# With the pressure solved to 1e-12 and steps of one length their round-off is all: 1e-16 in the fractions after 50 steps.
-# 1e-10 is this project's goal on any number of ranks.
-SAME = 1e-10
-TIGHT = ["--set", "tfm.pressure_tolerance=1e-12", "--quiet"]
+# Where rows are short every rank solves for the whole column, and sums over cells have no order: all fields have the same bits.
+# Beyond 64 cells across ranks share the pressure, whose residual, 1e-12, is what fields may differ by after 50 steps of one length.
+SHARED = 1e-10
+ROUND_OFF = 1e-13  # of sums for the history and the record, over 1e3 cells
+TIGHT = ["--set", "tfm.pressure_tolerance=1e-12"]
 FIXED = ["--set", "tfm.fixed_step=0.001", "--set", 'tfm.integrator="explicit"', "--set", "run.until=0.05",
          "--set", "output.every=0.01", "--set", "output.history_every=0.01", "--set", "output.checkpoint_every=0.02"]
 FLAT = ["--set", "column.cells=[12,60]"]
+WIDE = ["--set", "column.cells=[72,20]"]
 DEEP = ["--set", 'column.size=["60 mm","24 mm","620 mm"]', "--set", "column.cells=[12,8,40]",
         "--set", 'column.sides="periodic"']
 FORCES = ["--set", 'effects.lift="saffman_mei"', "--set", 'effects.added_mass="zuber"']
@@ -57,25 +58,25 @@ class Ranks(Scratch):
             worst = max(worst, float(np.abs(a[name] - b[name]).max() / scale))
         return worst
 
-    def check_equal(self, *words, same=SAME, case=CASE, on=(2, 3, 4)):
+    def check_equal(self, *words, same=0, case=CASE, on=(2, 3, 4)):
         for ranks in (1, *on):
-            self.on(ranks, case, *words, "-o", self.folder / f"on{ranks}")
+            self.on(ranks, case, *words, "--quiet", "-o", self.folder / f"on{ranks}")
             if ranks > 1:
                 self.assertLessEqual(self.largest_difference(self.folder / "on1", self.folder / f"on{ranks}"), same)
 
     def test_a_flat_bed_is_the_same(self):
-        self.check_equal(*FLAT, *FIXED, *TIGHT)
+        self.check_equal(*FLAT, *FIXED)
         record = json.loads((self.folder / "on3/run.json").read_text())
         self.assertEqual(record["ranks"], 3)
         alone = json.loads((self.folder / "on1/run.json").read_text())["well_posedness"]
         self.assertEqual(record["well_posedness"]["share_below_1"], alone["share_below_1"])
         self.assertEqual(record["well_posedness"]["least"], alone["least"])
-        self.assertAlmostEqual(record["well_posedness"]["critical_slope_Pa"] / alone["critical_slope_Pa"], 1, delta=SAME)
+        self.assertAlmostEqual(record["well_posedness"]["critical_slope_Pa"] / alone["critical_slope_Pa"], 1, delta=ROUND_OFF)
 
     def test_first_order_fluxes_are_the_same(self):
         """A bed that starts 0.005 above its packing, with a stress too weak to throw it apart: cells on both sides of every cut
         are flagged, above 0.001, and none ends the run, as they would above 0.01."""
-        words = [*FIXED, *TIGHT, "--set", 'column.size=["60 mm","90 mm"]', "--set", "column.cells=[24,12]",
+        words = [*FIXED, "--set", 'column.size=["60 mm","90 mm"]', "--set", "column.cells=[24,12]",
                  "--set", "tfm.max_packing=0.615", "--set", "tfm.frictional_onset=0.607",
                  "--set", 'tfm.frictional_pressure="1e-7 Pa"']
         self.check_equal(*words)
@@ -86,66 +87,59 @@ class Ranks(Scratch):
         cut = self.folder / "cut"  # and the flags go to other ranks with the checkpoint
         self.on(4, CASE, *words, "--until", "0.02", "-o", cut)
         self.on(2, CASE, *words, "--resume", "-o", cut)
-        self.assertLessEqual(self.largest_difference(self.folder / "on1", cut), SAME)
+        self.assertEqual(self.largest_difference(self.folder / "on1", cut), 0)
 
     def test_a_deep_bed_with_joined_sides_is_the_same(self):
-        self.check_equal(*DEEP, *FIXED, *TIGHT, case=self.write("deep.toml", case_without("depth")))
+        self.check_equal(*DEEP, *FIXED, case=self.write("deep.toml", case_without("depth")))
 
     def test_every_stress_is_the_same(self):
         effects = {"solids_stress": "kinetic", "granular_temperature": "transported", "solids_viscosity": "schaeffer",
                    "fluid_stress": "newtonian"}
         words = [w for role, law in effects.items() for w in ("--set", f'effects.{role}="{law}"')]
-        self.check_equal(*FLAT, *FIXED, *TIGHT, *words, "--set", 'tfm.solids_wall="johnson_jackson"',
+        self.check_equal(*FLAT, *FIXED, *words, "--set", 'tfm.solids_wall="johnson_jackson"',
                          "--set", 'tfm.momentum="conservative_limited"', on=(4,))
 
     def test_forces_on_particles_are_the_same(self):
         """Vorticity takes velocities from across every cut, corners included; added mass changes what a pressure does."""
-        self.check_equal(*FLAT, *FIXED, *TIGHT, *FORCES)
+        self.check_equal(*FLAT, *FIXED, *FORCES)
 
     def test_forces_on_particles_of_a_deep_bed_are_the_same(self):
-        self.check_equal(*DEEP, *FIXED, *TIGHT, *FORCES, case=self.write("deep.toml", case_without("depth")), on=(4,))
+        self.check_equal(*DEEP, *FIXED, *FORCES, case=self.write("deep.toml", case_without("depth")), on=(4,))
 
     def test_a_compressible_fluid_is_the_same(self):
-        """Its pressure follows from the density, of which the last bit is c^2 1.1e-13 kg/m3 = 2.5e-7 Pa, 7e-10 of the greatest."""
-        self.check_equal(*FLAT, *TIGHT, "--set", 'fluid.equation_of_state="tait"', "--set", 'tfm.integrator="explicit"',
+        self.check_equal(*FLAT, "--set", 'fluid.equation_of_state="tait"', "--set", 'tfm.integrator="explicit"',
                          "--set", "tfm.fixed_step=1e-6", "--set", "run.until=1e-4", "--set", "output.every=1e-4",
-                         "--set", "output.history_every=1e-4", on=(4,), same=1e-9)
+                         "--set", "output.history_every=1e-4", on=(4,))
+
+    def test_a_wide_bed_is_the_same_within_its_pressure(self):
+        self.check_equal(*WIDE, *FIXED, *TIGHT, "--set", "tfm.fixed_step=2e-4", "--set", "run.until=0.01", same=SHARED)
 
     def test_what_is_fed_and_leaves_is_the_same(self):
         words = ["--set", "tfm.fixed_step=1e-4", "--set", 'tfm.integrator="explicit"', "--set", "run.until=5e-3",
                  "--set", "output.every=5e-3", "--set", "output.history_every=1e-3"]
-        self.check_equal(*words, *TIGHT, case=CASE.parents[1] / "classifier/case.toml", on=(4,))
+        self.check_equal(*words, case=CASE.parents[1] / "classifier/case.toml", on=(4,))
         one, other = history(self.folder / "on1"), history(self.folder / "on4")
         for name in one:
             if name.startswith(("in_", "out_")):
-                self.assertLessEqual(abs(one[name][-1] - other[name][-1]), SAME * max(abs(one[name][-1]), 1e-6), name)
+                self.assertLessEqual(abs(one[name][-1] - other[name][-1]), ROUND_OFF * max(abs(one[name][-1]), 1e-6), name)
 
     def test_momentum_of_second_order_is_the_same(self):
         """Fluxes of the solids are taken from neighbours across every cut, corners included."""
-        self.check_equal(*FLAT, *FIXED, *TIGHT, "--set", 'tfm.momentum="conservative_limited"', on=(4,))
+        self.check_equal(*FLAT, *FIXED, "--set", 'tfm.momentum="conservative_limited"', on=(4,))
 
     def test_adaptive_steps_are_the_same(self):
-        """A step follows from the error of the one before, a small difference of rates: what is left of the pressure's
-        residual, 1e-12, moves it by some 1e-13, and the pressure, which starts each stage anew, by a hundred times as
-        much (measured: 1e-10 of p, 1e-11 of the velocities)."""
-        self.check_equal(*FLAT, *TIGHT, "--set", 'tfm.integrator="explicit"', "--set", "run.until=0.05",
-                         "--set", "output.every=0.05", "--set", "output.history_every=0.05", same=1e-9)
-
-    def test_implicit_steps_agree_within_the_tolerance(self):
-        """The algebraic multigrid coarsens each block by itself, so that Newton stops elsewhere within its tolerance,
-        which is below rtol; fields may differ by rtol and no more."""
-        self.check_equal(*FLAT, "--quiet", "--set", 'tfm.integrator="implicit"', "--set", "tfm.rtol=1e-5",
-                         "--set", "run.until=0.02", "--set", "output.every=0.02", "--set", "output.history_every=0.02",
-                         same=1e-4)
+        for integrator in ("explicit", "imex"):
+            self.check_equal(*FLAT, "--force", "--set", f'tfm.integrator="{integrator}"', "--set", "run.until=0.05", "--set", "output.every=0.05",
+                             "--set", "output.history_every=0.05")
 
     def test_restart_on_other_ranks(self):
-        words = [CASE, *FLAT, *FIXED, *TIGHT]
+        words = [CASE, *FLAT, *FIXED, "--quiet"]
         self.on(1, *words, "-o", self.folder / "whole")
         for first, then in ((1, 3), (4, 2)):
             run = self.folder / f"from{first}to{then}"
             self.on(first, *words, "--until", "0.02", "-o", run)
             self.on(then, *words, "--resume", "-o", run)
-            self.assertLessEqual(self.largest_difference(self.folder / "whole", run), SAME)
+            self.assertEqual(self.largest_difference(self.folder / "whole", run), 0)
             self.assertEqual(history(run)["time_s"], history(self.folder / "whole")["time_s"])
 
     def test_files_of_any_number_of_ranks_are_the_same_to_the_bit(self):
@@ -164,13 +158,6 @@ class Ranks(Scratch):
                 self.assertIn("/u_fluid", names)
                 for field in names:
                     self.assertEqual(one["/step/000001" + field].tobytes(), other[step + field].tobytes(), (ranks, field))
-
-    def test_restart_on_as_many_ranks_is_the_same_to_the_bit(self):
-        words = [CASE, *FLAT, *FIXED, "--quiet"]
-        self.on(2, *words, "-o", self.folder / "whole")
-        self.on(2, *words, "--until", "0.02", "-o", self.folder / "cut")
-        self.on(2, *words, "--resume", "-o", self.folder / "cut")
-        self.assertEqual(same_bits(self.folder / "whole/fields.h5", self.folder / "cut/fields.h5"), [])
 
     def test_errors_are_told_once(self):
         done = self.on(3, CASE, "--set", "column.cells=[6,5]", "--quiet", "-o", self.folder / "a", code=2)

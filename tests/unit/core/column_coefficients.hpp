@@ -19,8 +19,6 @@ inline Grid box(int nx, int ny, bool periodic = false) {
   return grid;
 }
 
-inline FaceSpans spans(const FaceField& b) { return {b[0], b[1], b[2]}; }
-
 /// No flux through the walls of an axis on the sides named.
 inline void close(const Grid& grid, int axis, bool low, bool high, FaceField& b) {
   const auto a = std::size_t(axis);

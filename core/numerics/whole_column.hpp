@@ -1,0 +1,42 @@
+// The fields of a column that is cut into blocks, put together on every rank. Where a direct method serves it is
+// quicker on each rank for all cells than any method that shares them, and its bits do not depend on the cuts.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/numerics/halo.hpp"
+
+namespace polybed::core {
+
+class WholeColumn {
+ public:
+  explicit WholeColumn(const Grid& block);
+
+  /// The column as one block.
+  [[nodiscard]] const Grid& grid() const { return grid_; }
+
+  /// A field of this rank's block, and where that of the column goes.
+  struct Part {
+    std::span<const double> block;  ///< owned cells, or owned faces of one axis
+    Field* column;
+    int faces_of = cells;  ///< the axis of the faces
+    static constexpr int cells = -1;
+  };
+  /// In one message. Collective.
+  void gather(const std::vector<Part>& parts);
+  /// Copies this rank's cells of a field of the column.
+  void copy_cells(const Field& column, Field& block) const;
+
+ private:
+  Grid block_, grid_;
+  std::vector<Grid> blocks_;  ///< of all ranks, in their order
+  Halo joined_;
+  std::vector<double> here_, all_;  ///< kept, so that gathering allocates nothing
+};
+
+/// Adds the parts of a field on faces, axis by axis.
+void add_faces(const std::array<std::span<const double>, 3>& block, FaceField& column,
+               std::vector<WholeColumn::Part>& parts);
+
+}  // namespace polybed::core
