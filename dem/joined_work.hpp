@@ -7,8 +7,8 @@
 #include "dem/box.hpp"
 #include "dem/contacts/batch.hpp"
 #include "dem/contacts/contacts.hpp"
+#include "dem/kept_part.hpp"
 #include "dem/kept_sums.hpp"
-#include "dem/step_part.hpp"
 
 namespace polybed::dem {
 
@@ -29,7 +29,7 @@ namespace polybed::dem {
 /// step after the time it is found for, so the parts of two successive forces add up to the work over a drift, and the
 /// half step of a contact that parts is not lost. A particle that leaves through a face and comes back through the
 /// other changes its speed by U: what its energy changes by is the faces' work too.
-class JoinedWork final : public StepPart {
+class JoinedWork final : public KeptPart {
  public:
   /// \param force  unit of the forces of a batch  \param energy  unit of the sum, J  \param dt  s
   JoinedWork(FixedPoint force, FixedPoint energy, double dt)
@@ -43,22 +43,25 @@ class JoinedWork final : public StepPart {
       now_.add(counted[c] * batch.force[0][c] * speed * per_force_);
     }
   }
-  void begin(Particles&) override { pass_on(); }
-  void find_forces(const Particles&, std::uint64_t) override {
+  /// Once the first forces are found.
+  void begin() { pass_on(); }
+  /// Between two drifts: half of the last forces, and half of those just found.
+  void add_forces() {
     sum_.add(before_);
     sum_.add(now_);
     pass_on();
   }
-  void wrapped(double gained) override {
+  /// A particle is back between the joined faces. \param gained  energy, J; 0 if it has not left
+  void wrapped(double gained) {
     if (gained < 0 || gained > 0) sum_.add(gained * per_energy_);  // not what is no number
   }
   /// What another run has counted is not of this one; the forces of its start are due.
-  void begin_from_other(Particles&) override {
+  void begin_from_other() {
     sum_ = EnergySum();
     pass_on();
   }
 
-  void count(CountedEnergy& energy) const override { energy.joined_work.add(sum_); }
+  [[nodiscard]] const EnergySum& sum() const { return sum_; }
   void write(core::Checkpoint& checkpoint, const Particles&, const core::Ranks* ranks) const override {
     write_sum(checkpoint, ranks, "flow_work", sum_);
     write_sum(checkpoint, ranks, "flow_work_due", before_);

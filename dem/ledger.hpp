@@ -5,8 +5,8 @@
 #include "dem/contacts/batch.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/effects.hpp"
+#include "dem/kept_part.hpp"
 #include "dem/kept_sums.hpp"
-#include "dem/step_part.hpp"
 
 namespace polybed::dem {
 
@@ -27,7 +27,7 @@ namespace polybed::dem {
 ///
 /// A contact that parts is counted once more: for the half step that its last force still acts, and for what its
 /// springs held. Where a clipped tail has ended the force early, that is the elastic energy left in the overlap.
-class Ledger final : public StepPart {
+class Ledger final : public KeptPart {
  public:
   /// The dashpot's force of the last step, or the synchronised scheme's work still due; what is lost if the contact
   /// parts; with friction F_t of the last step and its energy; with rolling the moment and its energy; with a film as
@@ -51,10 +51,9 @@ class Ledger final : public StepPart {
   /// In the unit given, of this rank's contacts since the start.
   [[nodiscard]] const EnergySum& lost() const { return lost_; }
 
-  void count(CountedEnergy& energy) const override { energy.dissipated.add(lost_); }
   void require(const core::Checkpoint& checkpoint) const override { require_sum(checkpoint, "dissipated"); }
   /// What was lost before the run began is not of it.
-  void begin_from_other(Particles&) override { lost_ = EnergySum(); }
+  void begin_from_other() { lost_ = EnergySum(); }
   void read(const Restored& from) override { lost_ = sum_on_first(from.ranks, from.checkpoint, "dissipated"); }
 
  private:

@@ -61,54 +61,49 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   make_parts(std::vector<Particle>(std::move(start_)));  // which frees them
   rebuild();
   find_forces(0);
-  for (const auto& part : parts_) part->begin(particles_);
+  if (joined_work_) joined_work_->begin();
+  if (coupling_) coupling_->begin(particles_);
   look_ahead();
 }
 
 Model::~Model() = default;
 
-template <class Made, class... Args>
-Made* Model::add_part(Args&&... args) {
-  auto part = std::make_unique<Made>(std::forward<Args>(args)...);
-  Made* made = part.get();
-  parts_.push_back(std::move(part));
-  return made;
-}
-
 /// A sheared box has no room for a fluid's motion: there it is the flow.
 void Model::make_parts(const std::vector<Particle>& all) {
   const bool sheared = box_.shear_rate != 0;
-  if (box_.opening) outflow_ = add_part<Outflow>(materials_.greatest_diameter(), scene_.species.size());
+  if (box_.opening) outflow_ = std::make_unique<Outflow>(materials_.greatest_diameter(), scene_.species.size());
   if (scene_.dem.ledger) {
-    auto* ledger = add_part<Ledger>(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
-    pair_forces_.keep(*ledger);
-    verlet_.keep(*ledger);
+    ledger_ = std::make_unique<Ledger>(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
+    pair_forces_.keep(*ledger_);
+    verlet_.keep(*ledger_);
   }
   if (scene_.dem.ledger && (sheared || falls_through_joined_faces(box_, gravity_))) {
-    auto* work = add_part<JoinedWork>(force_unit_, energy_unit_, limits_.dt);
-    if (sheared) pair_forces_.keep(*work);
+    joined_work_ = std::make_unique<JoinedWork>(force_unit_, energy_unit_, limits_.dt);
+    if (sheared) pair_forces_.keep(*joined_work_);
   }
   const SolidsVolume solids = volume_of(all, scene_.species.size());
-  if (has_affine_drag(scene_)) add_part<AffineDrag>(scene_, materials_, solids, box_.size, force_unit_, energy_unit_);
+  if (has_affine_drag(scene_))
+    sheared_ = std::make_unique<AffineDrag>(scene_, materials_, solids, box_.size, force_unit_, energy_unit_);
   if (scene_.fluid.present() && !sheared) {
-    coupling_ = add_part<Coupling>(scene_, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_},
+    coupling_ =
+        std::make_unique<Coupling>(scene_, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_},
                                    limits_.dt, limits_.greatest_speed, solids.all, count_);
     coupling_->motion().load.resize(particles_.owned);
     coupling_->sides().rows().clear(particles_.owned);
   }
-  for (const auto& part : parts_) part->surround(around_);
+  around_ = {coupling_ ? &coupling_->motion() : nullptr, sheared_.get()};
+  for (KeptPart* part : std::initializer_list<KeptPart*>{outflow_.get(), ledger_.get(), joined_work_.get(),
+                                                         sheared_.get(), coupling_.get()})
+    if (part != nullptr) kept_.push_back(part);
 }
 
 CountedEnergy Model::counted_energy() const {
   CountedEnergy energy;
-  for (const auto& part : parts_) part->count(energy);
+  if (ledger_) energy.dissipated = ledger_->lost();
+  if (sheared_) energy.fluid_work = sheared_->work();
+  if (coupling_) energy.fluid_work = coupling_->motion().work();
+  if (joined_work_) energy.joined_work = joined_work_->sum();
   return energy;
-}
-
-std::int32_t Model::work_of_particle() const {
-  std::int32_t most = 1;
-  for (const auto& part : parts_) most = std::max(most, part->work_of_particle());
-  return most;
 }
 
 /// Units of the sums over all particles.
@@ -141,6 +136,7 @@ void Model::place(const std::vector<Particle>& all, const std::vector<std::int32
   for (std::size_t i = 0; i < own.size(); ++i) particles_.set(i, *own[i]);
 }
 
+/// One step of the scheme T(2.11)-(2.13), and of the fluid when it is due.
 void Model::step(double stop) {
   if (ahead_ == Ahead::trouble) stop_in_trouble();
   if (ahead_ == Ahead::stale || ahead_ == Ahead::fast) {
@@ -152,26 +148,28 @@ void Model::step(double stop) {
   constexpr std::int64_t all_timed = 64, sampled = 16;  // so many first steps, and then one of so many
   timed_ = steps_ < all_timed ? 1 : (steps_ % sampled == 0 ? std::uint64_t(sampled) : 0);
   ++steps_;
-  if (held_)
-    for (const auto& part : parts_) part->hold(particles_);
-  else
+  if (!held_)
     move(limits_.dt);
-  for (const auto& part : parts_) part->end_step(particles_, steps_, clock());
+  else if (coupling_)
+    coupling_->hold(particles_);
+  if (coupling_ && coupling_->due(steps_)) coupling_->advance(particles_, clock());
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
   look_ahead();
   if (ahead_ == Ahead::trouble) stop_in_trouble();
 }
 
+/// Half kick and drift, forces, half kick.
 void Model::move(double dt) {
   {
     const auto scope = timers_.scope("motion", timed_);
     verlet_.begin(particles_, around_);
   }
   find_forces(dt);
-  for (const auto& part : parts_) part->find_forces(particles_, timed_);
+  if (joined_work_) joined_work_->add_forces();
+  if (coupling_) coupling_->find_forces(particles_, timed_);
   const auto scope = timers_.scope("motion", timed_);
   verlet_.end(particles_, around_);
-  for (const auto& part : parts_) part->turn(particles_);
+  if (coupling_) coupling_->turn(particles_);
 }
 
 /// Collective: tells the deepest overlap of all ranks, or which particle is too fast.
@@ -214,7 +212,7 @@ bool Model::list_goes_stale(double drift, double since) const {
 /// Not where the length of a step is that of the case, or is counted in, as is the strain of a sheared box.
 bool Model::may_shorten() const {
   if (scene_.dem.fixed_step || box_.shear_rate != 0 || held_) return false;
-  return std::all_of(parts_.begin(), parts_.end(), [&](const auto& part) { return part->may_shorten(steps_); });
+  return !coupling_ || coupling_->may_shorten(steps_);
 }
 
 /// From here on steps are as short as the fastest particle asks for, and a quarter faster ones. Collective.
@@ -222,7 +220,7 @@ void Model::shorten_step() {
   constexpr double reserve = 1.25;
   const double met = core::greatest_of_ranks(ranks_.get(), met_);
   set_step_for(clock(), steps_, reserve * met);
-  for (const auto& part : parts_) part->restart();
+  if (coupling_) coupling_->restart();
   ++work_.shortenings;
 }
 
@@ -232,7 +230,7 @@ void Model::set_step_for(double began, std::int64_t began_at, double speed) {
   began_at_ = began_at;
   limits_ = step_limits(scene_, materials_, laws_, speed);
   verlet_.set_dt(limits_.dt);
-  for (const auto& part : parts_) part->set_dt(limits_.dt);
+  if (coupling_) coupling_->set_dt(limits_.dt);
 }
 
 void Model::wrap() {
@@ -249,7 +247,7 @@ void Model::wrap() {
     x = box_.wrapped(x);
     double gained = 0.5 * (m.v[0] - speed) * (m.v[0] + speed);
     for (std::size_t k = 0; k < 3; ++k) gained -= gravity_[k] * (x[k] - from[k]);
-    for (const auto& part : parts_) part->wrapped(gained / m.inverse_mass);
+    if (joined_work_) joined_work_->wrapped(gained / m.inverse_mass);
   }
 }
 
@@ -260,17 +258,17 @@ void Model::refresh_ghosts() {
 
 void Model::restart() {
   rebuild();
-  for (const auto& part : parts_) part->restart();
+  if (coupling_) coupling_->restart();
 }
 
 void Model::rebuild() {
   KeptContacts kept(pairs_.memory_size);
   kept.add(pairs_, particles_, false);
   kept.add(walls_, particles_, true);
-  for (const auto& part : parts_) count_ -= part->count_leaving(*this);
+  if (outflow_) count_ -= outflow_->count_leaving(*this);
   wrap();
   exchange_.balance(particles_, work_of(particles_, pairs_, walls_, work_of_particle()));
-  for (const auto& part : parts_) part->take_out(particles_);
+  if (outflow_) outflow_->take_out(particles_);
   list_pairs(std::move(kept));
 }
 
@@ -278,10 +276,10 @@ void Model::rebuild() {
 void Model::list_pairs(KeptContacts kept) {
   std::vector<double>().swap(pairs_.memory);  // room for what is made meanwhile
   particles_.resize(particles_.owned);
-  for (const auto& part : parts_) part->send_ahead(exchange_, particles_);
+  if (coupling_) coupling_->send_ahead(exchange_, particles_);
   exchange_.migrate(particles_, kept);
   particles_.arrange(search_.order(particles_));
-  for (const auto& part : parts_) part->settle_in(particles_);
+  if (coupling_) coupling_->settle_in(particles_);
   exchange_.choose_ghosts(particles_);
   search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(),
                      exchange_.decomposition().whole(materials_.greatest_diameter() + skin_ + laws_.reach()), pairs_);
@@ -315,7 +313,7 @@ Work Model::work() const {
   Work work = work_;
   work.steps = std::uint64_t(steps_);
   work.particle_steps = work.steps * std::uint64_t(count_);
-  for (const auto& part : parts_) work.particle_steps += std::uint64_t(part->steps_of_gone());
+  if (outflow_) work.particle_steps += std::uint64_t(outflow_->steps);
   std::array<double, 3> sums{double(pair_forces_.pair_checks()), double(pair_forces_.contact_steps()),
                              double(work.candidates)};
   core::add_over_ranks(ranks_.get(), sums);
@@ -348,7 +346,7 @@ core::Checkpoint Model::checkpoint_but_rows() const {
                core::greatest_of_ranks(ranks_.get(), met_)},
               checkpoint);
   write_sum(checkpoint, ranks_.get(), "dissipated", counted_energy().dissipated);
-  for (const auto& part : parts_) part->write(checkpoint, particles_, ranks_.get());
+  for (const KeptPart* part : kept_) part->write(checkpoint, particles_, ranks_.get());
   return checkpoint;
 }
 
@@ -361,7 +359,9 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
   // Walls and materials need not be those of the checkpoint: what touches, and how hard, is found anew.
   std::fill(particles_.load.begin(), particles_.load.end(), Load{});
   find_forces(0);
-  for (const auto& part : parts_) part->begin_from_other(particles_);
+  if (ledger_) ledger_->begin_from_other();
+  if (joined_work_) joined_work_->begin_from_other();
+  if (coupling_) coupling_->begin_from_other(particles_);
 }
 
 /// On the first rank: what else than particles and contacts has to fit this model.
@@ -373,7 +373,7 @@ Clock Model::checked_clock(const core::Checkpoint& checkpoint, bool same_run) co
     throw core::FileError("the checkpoint is of another law of contact or another time step");
   if (!same_run) return clock;
   require_clock(clock);
-  for (const auto& part : parts_) part->require(checkpoint);
+  for (const KeptPart* part : kept_) part->require(checkpoint);
   return clock;
 }
 
@@ -389,7 +389,7 @@ void Model::restore(const core::Checkpoint& checkpoint, bool same_run) {
     met_ = clock.greatest_met;
   }
   place(state.particles, work_of(state, work_of_particle()));
-  for (const auto& part : parts_) part->read({checkpoint, ranks_.get(), particles_, state.particles, same_run});
+  for (KeptPart* part : kept_) part->read({checkpoint, ranks_.get(), particles_, state.particles, same_run});
   list_pairs({state.contacts, pairs_.memory_size});
 }
 

@@ -17,14 +17,17 @@
 #include "dem/coupling/affine_drag.hpp"
 #include "dem/coupling/coupling.hpp"
 #include "dem/effects.hpp"
+#include "dem/energy_sum.hpp"
+#include "dem/joined_work.hpp"
+#include "dem/kept_part.hpp"
 #include "dem/kept_state.hpp"
+#include "dem/ledger.hpp"
 #include "dem/outflow.hpp"
 #include "dem/overlap_forecast.hpp"
 #include "dem/parallel/exchange.hpp"
 #include "dem/particles.hpp"
 #include "dem/scene.hpp"
 #include "dem/step_limits.hpp"
-#include "dem/step_part.hpp"
 #include "dem/verlet.hpp"
 
 namespace polybed::dem {
@@ -37,6 +40,13 @@ struct Work {
   std::uint64_t shortenings = 0;  ///< of the step, by particles faster than expected
   double greatest_speed = 0;      ///< met since the start, against a sheared box's own flow, m/s
   double imbalance = 1;           ///< greatest over mean work of the ranks when the list was last made
+};
+
+/// Energies counted since the start, of one rank, in the unit of energy.
+struct CountedEnergy {
+  EnergySum dissipated;   ///< in contacts
+  EnergySum fluid_work;   ///< of a fluid on the particles
+  EnergySum joined_work;  ///< of joined faces, of a sheared box or along gravity
 };
 
 class Model : public core::Simulation {
@@ -90,15 +100,15 @@ class Model : public core::Simulation {
   [[nodiscard]] const core::Ranks* ranks() const { return ranks_.get(); }
   [[nodiscard]] const std::shared_ptr<const core::Ranks>& share() const { return ranks_; }
   /// Of a sheared box with drag; null where there is none.
-  [[nodiscard]] const AffineDrag* affine_drag() const { return around_.flow; }
+  [[nodiscard]] const AffineDrag* affine_drag() const { return sheared_.get(); }
   /// With the fluid; null where there is none.
-  [[nodiscard]] const Coupling* coupling() const { return coupling_; }
+  [[nodiscard]] const Coupling* coupling() const { return coupling_.get(); }
   [[nodiscard]] Vector gravity() const { return gravity_; }
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
   /// In the box now.
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
   /// Null where nothing can leave.
-  [[nodiscard]] const Outflow* outflow() const { return outflow_; }
+  [[nodiscard]] const Outflow* outflow() const { return outflow_.get(); }
   /// Where the images of the particles are now.
   [[nodiscard]] Images images() const { return {box_, clock(), double(steps_ - marked_at_) * limits_.dt}; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
@@ -116,10 +126,8 @@ class Model : public core::Simulation {
  private:
   void measure(const std::vector<Particle>& all);
   void make_parts(const std::vector<Particle>& all);
-  template <class Made, class... Args>
-  Made* add_part(Args&&... args);
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
-  [[nodiscard]] std::int32_t work_of_particle() const;
+  [[nodiscard]] std::int32_t work_of_particle() const { return coupling_ ? Coupling::work_of_particle : 1; }
   void restore(const core::Checkpoint& checkpoint, bool same_run);
   [[nodiscard]] Clock checked_clock(const core::Checkpoint& checkpoint, bool same_run) const;
   void look_ahead();
@@ -148,10 +156,14 @@ class Model : public core::Simulation {
   OverlapForecast overlap_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
-  std::vector<std::unique_ptr<StepPart>> parts_;  ///< those that the scene has, in the order in which they act
+  // What only some scenes have; null: absent.
+  std::unique_ptr<Outflow> outflow_;
+  std::unique_ptr<Ledger> ledger_;
+  std::unique_ptr<JoinedWork> joined_work_;
+  std::unique_ptr<AffineDrag> sheared_;  ///< drag of a sheared box
+  std::unique_ptr<Coupling> coupling_;   ///< with the fluid
+  std::vector<KeptPart*> kept_;          ///< those of them that there are
   Around around_;
-  Coupling* coupling_ = nullptr;  ///< one of the parts, if it is there, as is the next
-  Outflow* outflow_ = nullptr;
   bool held_;  ///< the particles do not move
   double skin_;
   Verlet verlet_;

@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "dem/energy_sum.hpp"
+#include "dem/kept_part.hpp"
 #include "dem/particles.hpp"
-#include "dem/step_part.hpp"
 
 namespace polybed::dem {
 
+class Model;
+
 /// Particles are taken out when the list of pairs is made anew, once they lie `fall` below the bottom. The same on
 /// every rank, and on any number of ranks to the bit.
-class Outflow final : public StepPart {
+class Outflow final : public KeptPart {
  public:
   /// \param fall  m, of centres
   Outflow(double fall, std::size_t species) : number(species, 0), fall_(fall) {}
@@ -27,9 +29,9 @@ class Outflow final : public StepPart {
   /// Particles of all species.
   [[nodiscard]] std::int64_t all() const;
 
-  std::int64_t count_leaving(const Model& model) override;
-  void take_out(Particles& particles) override;
-  [[nodiscard]] std::int64_t steps_of_gone() const override { return steps; }
+  /// While contacts are still known: how many particles are about to leave, of all ranks. Collective.
+  std::int64_t count_leaving(const Model& model);
+  void take_out(Particles& particles);
   void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;
   void read(const Restored& from) override;
 

@@ -9,9 +9,14 @@
 #include "dem/coupling/fluid_motion.hpp"
 #include "dem/ledger.hpp"
 #include "dem/particles.hpp"
-#include "dem/step_part.hpp"
 
 namespace polybed::dem {
+
+/// What the particles move through: a fluid, the flow of a sheared box, or neither.
+struct Around {
+  FluidMotion* fluid = nullptr;
+  AffineDrag* flow = nullptr;
+};
 
 /// U' = U + F dt/(2 m); x += U' dt; F = F(x, U'); U = U' + F dt/(2 m), and the same for spins.
 ///

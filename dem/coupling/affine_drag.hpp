@@ -7,18 +7,18 @@
 #include "dem/box.hpp"
 #include "dem/contacts/materials.hpp"
 #include "dem/coupling/fluid_motion.hpp"
+#include "dem/kept_part.hpp"
 #include "dem/kept_sums.hpp"
 #include "dem/particles.hpp"
 #include "dem/scene.hpp"
 #include "dem/several.hpp"
-#include "dem/step_part.hpp"
 
 namespace polybed::dem {
 
 /// Drag k_j (gamma y e_x - U) on each particle, k_j = 3 pi mu D_j eps f_j with f_j of the whole box's composition and
 /// voidage at no slip: the part of the wet stress boxes that stands for the fluid they have not. With k constant the
 /// motion under it is known: it is integrated exactly, so that no step is too long for it. A box without it holds none.
-class AffineDrag final : public StepPart {
+class AffineDrag final : public KeptPart {
  public:
   /// \param solids  in the box  \param force, energy  units of the forces and of the work
   AffineDrag(const core::Scene& scene, const Materials& materials, const SolidsVolume& solids, const Vector& box,
@@ -50,8 +50,7 @@ class AffineDrag final : public StepPart {
     work_.add(work / m.inverse_mass * energy_.per_unit);
   }
 
-  void surround(Around& around) override { around.flow = this; }
-  void count(CountedEnergy& energy) const override { energy.fluid_work.add(work_); }
+  [[nodiscard]] const EnergySum& work() const { return work_; }
   void write(core::Checkpoint& checkpoint, const Particles&, const core::Ranks* ranks) const override {
     write_sum(checkpoint, ranks, "fluid_work", work_);
   }

@@ -154,10 +154,6 @@ void Coupling::hold(const Particles& particles) {
   sides_.hold(motion_.load);
 }
 
-void Coupling::end_step(Particles& particles, std::int64_t steps, double time) {
-  if (due(steps)) advance(particles, time);
-}
-
 void Coupling::advance(Particles& particles, double t) {
   const double dt = interval();
   {

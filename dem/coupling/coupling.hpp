@@ -19,13 +19,15 @@
 #include "dem/coupling/particle_forces.hpp"
 #include "dem/coupling/scatter.hpp"
 #include "dem/effects/side_forces.hpp"
-#include "dem/step_part.hpp"
+#include "dem/kept_part.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/smoothing.hpp"
 
 namespace polybed::dem {
 
-class Coupling final : public StepPart {
+class Exchange;
+
+class Coupling final : public KeptPart {
  public:
   struct Units {
     FixedPoint force, energy;  ///< N, J
@@ -36,30 +38,33 @@ class Coupling final : public StepPart {
            core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count);
   ~Coupling() override;
 
-  void surround(Around& around) override { around.fluid = &motion_; }
   /// The fluid between the particles at the start of a run.
-  void begin(Particles& particles) override;
-  void begin_from_other(Particles& particles) override {
+  void begin(Particles& particles);
+  void begin_from_other(Particles& particles) {
     motion_.set_work({});
     begin(particles);
   }
   /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
-  void hold(const Particles& particles) override;
+  void hold(const Particles& particles);
   /// Loads of the particles where they are now.
-  void find_forces(const Particles& particles, std::uint64_t timed) override;
+  void find_forces(const Particles& particles, std::uint64_t timed);
   /// What the fluid does to their spins in a step.
-  void turn(Particles& particles) override { sides_.turn(particles, motion_); }
-  /// The fluid's step, if it is due; each particle then receives the impulse of the change of the fluid.
-  void end_step(Particles& particles, std::int64_t steps, double time) override;
-  void send_ahead(Exchange& exchange, const Particles& particles) override;
-  void settle_in(const Particles& particles) override;
-  /// 5.5 was measured (docs/theory/parallel.md).
-  [[nodiscard]] std::int32_t work_of_particle() const override { return 5; }
-  /// Only between steps of the fluid, and without side forces, which know the length of theirs.
-  [[nodiscard]] bool may_shorten(std::int64_t steps) const override { return due(steps) && !sides_.present(); }
-  void set_dt(double dt) override { dt_ = dt; }
-  void restart() override { flow_.forget(); }
-  void count(CountedEnergy& energy) const override { energy.fluid_work.add(motion_.work()); }
+  void turn(Particles& particles) { sides_.turn(particles, motion_); }
+  /// Whether the fluid takes its step after so many of the particles.
+  [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
+  /// The fluid's step to a time; each particle then receives the impulse of the change of the fluid.
+  void advance(Particles& particles, double time);
+  /// Before particles change ranks and places, and after.
+  void send_ahead(Exchange& exchange, const Particles& particles);
+  void settle_in(const Particles& particles);
+  /// What a particle costs over what it costs to be in a contact: 5.5 was measured (docs/theory/parallel.md).
+  static constexpr std::int32_t work_of_particle = 5;
+  /// Whether the particles' steps may become shorter after so many: only between steps of the fluid, and without side
+  /// forces, which know the length of theirs.
+  [[nodiscard]] bool may_shorten(std::int64_t steps) const { return due(steps) && !sides_.present(); }
+  void set_dt(double dt) { dt_ = dt; }
+  /// What comes next does not depend on what earlier steps have left behind.
+  void restart() { flow_.forget(); }
   void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;
   void require(const core::Checkpoint& checkpoint) const override;
   /// The fluid of a checkpoint, and what it does to the particles; or, where that had none, as at a start.
@@ -93,8 +98,6 @@ class Coupling final : public StepPart {
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
  private:
-  [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
-  void advance(Particles& particles, double t);
   void write_fields(core::Checkpoint& checkpoint) const;
   void read_loads(const Restored& from);
   void read_fields(const core::Checkpoint& checkpoint);
