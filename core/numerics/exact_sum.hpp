@@ -8,8 +8,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "core/numerics/mpi.hpp"
 #include "core/vectors.hpp"
@@ -18,65 +20,113 @@ namespace polybed::core {
 
 namespace exact {
 
-constexpr std::size_t block = 1024;  ///< terms that are made at a time; they stay in the nearest cache
 constexpr std::size_t lanes = 8;
+using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 
-/// The greatest magnitude; of no number it takes no notice.
-inline double greatest_of(const double* term, std::size_t n) {
-  std::array<double, lanes> most{};
-  for (std::size_t i = 0; i < n; ++i) most[i % lanes] = std::max(most[i % lanes], std::abs(term[i]));
-  return *std::max_element(most.begin(), most.end());
+[[gnu::always_inline]] inline Lanes eight(const double* from) {
+  Lanes values;
+  std::memcpy(&values, from, sizeof values);
+  return values;
 }
 
-/// Adds what each term leaves on the grid of the first number, and what the rest leaves on that of the second, which
-/// are 1.5 times a power of 2.
-inline void add_parts_of(const double* term, std::size_t n, double first, double second, double* sums) {
-  std::array<double, lanes> of_first{}, of_second{};
-  const auto add = [&](std::size_t i, std::size_t k) {
-    const double part = (first + term[i]) - first, rest = term[i] - part;
-    of_first[k] += part;
-    of_second[k] += (second + rest) - second;
-  };
+[[gnu::always_inline]] inline Lanes magnitude(const Lanes& values) {
+  using Bits = std::int64_t __attribute__((vector_size(lanes * sizeof(std::int64_t))));
+  return std::bit_cast<Lanes>(std::bit_cast<Bits>(values) & std::numeric_limits<std::int64_t>::max());
+}
+
+// What is summed: terms from the entries of one, two or three arrays. Where digits of the first part are enough, as for
+// norms and the directions of an iteration, the second is left out.
+struct Itself {
+  static constexpr bool both_parts = true;
+  [[gnu::always_inline]] static Lanes of(const Lanes& x) { return x; }
+};
+struct Product {
+  static constexpr bool both_parts = false;
+  [[gnu::always_inline]] static Lanes of(const Lanes& x, const Lanes& y) { return x * y; }
+};
+struct WeightedSquare {
+  static constexpr bool both_parts = false;
+  [[gnu::always_inline]] static Lanes of(const Lanes& x, const Lanes& w) { return (x * w) * (x * w); }
+};
+/// Of the entries with a mask of 1, where the others have 0.
+struct MaskedSquare {
+  static constexpr bool both_parts = false;
+  [[gnu::always_inline]] static Lanes of(const Lanes& x, const Lanes& w, const Lanes& mask) {
+    return mask * ((x * w) * (x * w));
+  }
+};
+
+/// Calls act with eight terms at a time, the last ones filled up with zeros.
+template <class Term, class Act, class... Array>
+[[gnu::always_inline]] inline void for_each_eight(std::size_t n, Act&& act, const Array*... array) {
   std::size_t i = 0;
-  for (; i + lanes <= n; i += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) add(i + k, k);
-  for (; i < n; ++i) add(i, 0);
+  for (; i + lanes <= n; i += lanes) act(Term::of(eight(array + i)...));
+  if (i == n) return;
+  const auto rest = [&](const double* from) {
+    std::array<double, lanes> padded{};
+    std::copy_n(from + i, n - i, padded.begin());
+    return eight(padded.data());
+  };
+  act(Term::of(rest(array)...));
+}
+
+/// The greatest magnitude; of what is no number it takes no notice.
+template <class Term, class... Array>
+double greatest_of(std::size_t n, const Array*... array) {
+  Lanes most{};
+  for_each_eight<Term>(
+      n,
+      [&](const Lanes& term) {
+        const Lanes size = magnitude(term);
+        most = size > most ? size : most;
+      },
+      array...);
+  double greatest = 0;
+  for (std::size_t k = 0; k < lanes; ++k) greatest = std::max(greatest, most[k]);
+  return greatest;
+}
+
+/// What each term leaves on the grid of the first number, and what the rest leaves on that of the second, which are 1.5
+/// times a power of 2.
+template <class Term, class... Array>
+std::array<double, 2> parts_of(std::size_t n, double first, double second, const Array*... array) {
+  Lanes of_first{}, of_second{};
+  for_each_eight<Term>(
+      n,
+      [&](const Lanes& term) {
+        const Lanes part = (first + term) - first;
+        of_first += part;
+        if constexpr (Term::both_parts) of_second += (second + (term - part)) - second;
+      },
+      array...);
+  std::array<double, 2> sums{};
   for (std::size_t k = 0; k < lanes; ++k) {
     sums[0] += of_first[k];
     sums[1] += of_second[k];
   }
+  return sums;
 }
 
 }  // namespace exact
 
-/// Sum of terms over the processes of a communicator; wrong by less than 2^-45 of the greatest for a million terms. Not
-/// a number if a term is none or infinite. Collective.
-/// \param of_all  an upper bound of the number of terms on all processes, at most 2^24, the same on all
-/// \param count   terms here  \param make  writes the terms [begin, begin + n) to an array: make(begin, n, array); twice
-template <class Make>
-[[nodiscard]] double exact_sum(MPI_Comm all, std::size_t of_all, std::size_t count, Make&& make) {
-  std::array<double, exact::block> terms;
-  const auto in_blocks = [&](auto&& body) {
-    for (std::size_t begin = 0; begin < count; begin += exact::block) {
-      const std::size_t n = std::min(exact::block, count - begin);
-      make(begin, n, terms.data());
-      body(n);
-    }
-  };
+/// Sum over the processes of a communicator of the terms that a struct of exact makes of arrays. Of a million terms the
+/// first parts keep 31 binary digits below the greatest, both together 63. Not a number if a term is none or infinite.
+/// Collective.
+/// \param of_all  an upper bound of the number of terms on all processes, at most 2^24, the same on all  \param n  here
+template <class Term, class... Array>
+[[nodiscard]] double exact_sum(MPI_Comm all, std::size_t of_all, std::size_t n, const Array*... array) {
   const auto reduce = [all](std::span<double> values, MPI_Op operation) {
     if (all != MPI_COMM_SELF)
       check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, operation, all),
                 "MPI_Allreduce");
   };
-  double greatest = 0;
-  in_blocks([&](std::size_t n) { greatest = std::max(greatest, in_vectors<exact::greatest_of>(terms.data(), n)); });
+  double greatest = in_vectors<&exact::greatest_of<Term, Array...>>(n, array...);
   reduce(std::span(&greatest, 1), MPI_MAX);
   if (std::isinf(greatest)) return std::numeric_limits<double>::quiet_NaN();
   constexpr int digits = std::numeric_limits<double>::digits;
   const int carries = int(std::bit_width(of_all)) + 1, above = greatest > 0 ? std::ilogb(greatest) + 1 : -digits;
   const double first = std::ldexp(1.5, above + carries), second = std::ldexp(1.5, above + 2 * carries - digits);
-  std::array<double, 2> sums{};
-  in_blocks([&](std::size_t n) { in_vectors<exact::add_parts_of>(terms.data(), n, first, second, sums.data()); });
+  std::array<double, 2> sums = in_vectors<&exact::parts_of<Term, Array...>>(n, first, second, array...);
   reduce(sums, MPI_SUM);
   return sums[0] + sums[1];
 }

@@ -28,11 +28,9 @@ void report_error(std::span<const double> error, std::span<const double> weight,
   }
   std::array<std::int64_t, 1> size{std::int64_t(error.size())};
   add_over_ranks(ranks, size);
-  const auto squares = [&](std::size_t begin, std::size_t n, double* to) {
-    for (std::size_t i = 0; i < n; ++i) to[i] = std::pow(error[begin + i] * weight[begin + i], 2);
-  };
-  report.error_norm =
-      std::sqrt(exact_sum(communicator(ranks), std::size_t(size[0]), error.size(), squares) / double(size[0]));
+  const double sum = exact_sum<exact::WeightedSquare>(communicator(ranks), std::size_t(size[0]), error.size(),
+                                                      error.data(), weight.data());
+  report.error_norm = std::sqrt(sum / double(size[0]));
 }
 
 std::string flag_name(char* (*name)(long int), int flag) {

@@ -39,15 +39,6 @@ void magnitude_of(const double* x, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = std::abs(x[i]);
 }
 
-void weighted_square_of(const double* x, const double* w, double* z, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) z[i] = (x[i] * w[i]) * (x[i] * w[i]);
-}
-
-/// The same of the entries with a mask of 1, where the others have 0: a factor, as a choice would be a branch.
-void masked_square_of(const double* x, const double* w, const double* mask, double* z, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) z[i] = mask[i] * ((x[i] * w[i]) * (x[i] * w[i]));
-}
-
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
   const std::span<double> to = entries(z);
   in_vectors<linear_sum_of>(a, entries(x).data(), b, entries(y).data(), to.data(), to.size());
@@ -93,33 +84,23 @@ void magnitude(N_Vector x, N_Vector z) {
   in_vectors<magnitude_of>(entries(x).data(), entries(z).data(), entries(z).size());
 }
 
-/// Sum over the entries of the whole vector, where make writes terms of those on this rank.
-template <class Make>
-double sum_over(N_Vector x, Make&& make) {
+const double* constant(N_Vector x) { return entries(x).data(); }
+
+/// Over the entries of the whole vector.
+template <class Term, class... More>
+double sum_over(N_Vector x, More... more) {
   const MPI_Comm all = N_VGetVectorID(x) == SUNDIALS_NVEC_PARALLEL ? NV_COMM_P(x) : MPI_COMM_SELF;
-  return exact_sum(all, std::size_t(N_VGetLength(x)), entries(x).size(), make);
+  return exact_sum<Term>(all, std::size_t(N_VGetLength(x)), entries(x).size(), constant(x), constant(more)...);
 }
 
-double dot_product(N_Vector x, N_Vector y) {
-  const double *a = entries(x).data(), *b = entries(y).data();
-  return sum_over(
-      x, [=](std::size_t begin, std::size_t n, double* to) { in_vectors<product_of>(a + begin, b + begin, to, n); });
-}
+double dot_product(N_Vector x, N_Vector y) { return sum_over<exact::Product>(x, y); }
 
 double wrms_norm(N_Vector x, N_Vector w) {
-  const double *a = entries(x).data(), *b = entries(w).data();
-  const double sum = sum_over(x, [=](std::size_t begin, std::size_t n, double* to) {
-    in_vectors<weighted_square_of>(a + begin, b + begin, to, n);
-  });
-  return std::sqrt(sum / double(N_VGetLength(x)));
+  return std::sqrt(sum_over<exact::WeightedSquare>(x, w) / double(N_VGetLength(x)));
 }
 
 double wrms_norm_mask(N_Vector x, N_Vector w, N_Vector mask) {
-  const double *a = entries(x).data(), *b = entries(w).data(), *m = entries(mask).data();
-  const double sum = sum_over(x, [=](std::size_t begin, std::size_t n, double* to) {
-    in_vectors<masked_square_of>(a + begin, b + begin, m + begin, to, n);
-  });
-  return std::sqrt(sum / double(N_VGetLength(x)));
+  return std::sqrt(sum_over<exact::MaskedSquare>(x, w, mask) / double(N_VGetLength(x)));
 }
 
 N_Vector new_vector(std::size_t size, const Ranks* ranks, SUNContext context) {

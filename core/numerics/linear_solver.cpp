@@ -232,13 +232,12 @@ void subtract(const Grid& grid, double constant, Field& field) {
   });
 }
 
-/// Takes the mean over the column out of a field.
-void remove_mean(const Grid& grid, Field& field) {
-  std::vector<double> values;
-  values.reserve(grid.cell_count());
-  for_each_row(
-      grid, [&](Index begin, Index end) { values.insert(values.end(), field.begin() + begin, field.begin() + end); });
-  subtract(grid, sum_of_ranks(grid, values) / double(grid.column_cell_count()), field);
+/// Takes the mean over the column out of a field. \param owned  work space, of the cells
+void remove_mean(const Grid& grid, Field& field, std::vector<double>& owned) {
+  owned.clear();
+  for_each_row(grid,
+               [&](Index begin, Index end) { owned.insert(owned.end(), field.begin() + begin, field.begin() + end); });
+  subtract(grid, sum_of_ranks(grid, owned) / double(grid.column_cell_count()), field);
 }
 
 }  // namespace
@@ -263,7 +262,7 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
   const bool constant_open = leaves_constant_open(grid_, coefficient, shift);
   if (constant_open) {
     balanced_ = given_source;
-    remove_mean(grid_, balanced_);
+    remove_mean(grid_, balanced_, owned_);
     pinned_.assign(grid_.padded_size(), 0.0);
     double& first = pinned_[std::size_t(grid_.index(0, 0))];
     first = pin_of_first_cell(grid_, coefficient, shift);
@@ -305,7 +304,7 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
   }
   if (!result.converged && !grid_.ranks && grid_.cell_count() <= most_cells_of_factorisation)
     judge("direct", solve_directly(grid_, coefficient, shift, source, p));
-  if (constant_open) remove_mean(grid_, p);
+  if (constant_open) remove_mean(grid_, p, owned_);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/numerics/halo.hpp"
 
@@ -60,6 +61,7 @@ class PoissonSolver {
   std::unique_ptr<Hypre> hypre_;         ///< empty until it is asked
   Field balanced_;                       ///< the source without its mean, where a constant is left open
   Field pinned_;                         ///< and the diagonal that holds it
+  std::vector<double> owned_;            ///< kept, so that its mean allocates nothing
 };
 
 /// An approximate inverse for two coupled unknowns per cell, with q = L s,

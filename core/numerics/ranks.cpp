@@ -35,8 +35,7 @@ double reduced(const Grid& grid, double value, MPI_Op operation) {
 double sum_of_ranks(const Ranks* ranks, std::span<const double> terms) {
   std::int64_t count = std::int64_t(terms.size());
   add_over_ranks(ranks, std::span(&count, 1));
-  const auto make = [&](std::size_t begin, std::size_t n, double* to) { std::copy_n(terms.data() + begin, n, to); };
-  return exact_sum(communicator(ranks), std::size_t(count), terms.size(), make);
+  return exact_sum<exact::Itself>(communicator(ranks), std::size_t(count), terms.size(), terms.data());
 }
 double sum_of_ranks(const Grid& grid, std::span<const double> terms) { return sum_of_ranks(grid.ranks.get(), terms); }
 double sum_of_ranks(const Grid& grid, double value) { return reduced(grid, value, MPI_SUM); }
