@@ -1,7 +1,10 @@
 """What Open MPI needs in a container and as root, for the scripts that start mpirun. multiscale/program.cpp sets the same
 for `polybed -n`, and tests/CMakeLists.txt for test programs that it starts itself."""
+import os
 import pathlib
 
+# Two ranks are enough for the short form of a nightly test.
+SHORT = os.environ.get("POLYBED_NIGHTLY") == "0"
 SETTINGS = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
             "OMPI_MCA_btl_vader_single_copy_mechanism": "none",

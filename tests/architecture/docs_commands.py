@@ -7,7 +7,7 @@ a sweep of `polybed cost` has runs of 2 ms; a scan for the inversion velocity is
 draws its rows anew once.
 Each page has a folder of its own, so that it must stand alone; what only answers on a shipped case is run once for all pages, and so is a
 run of a shipped case, of which the next page that asks for it in the same words gets a copy, with the pictures drawn of it.
-Usage: docs_commands.py PROGRAM
+Usage: docs_commands.py PROGRAM PAGE ...    no page: README.md and what is to be said of all pages together
 """
 import os
 import re
@@ -165,30 +165,28 @@ def self_test():
 
 if __name__ == "__main__":
     self_test()
-    problems, ran, left, before = [], 0, 0, set()
+    problems, ran, before = [], 0, set()
+    program, pages = sys.argv[1], [ROOT / page for page in sys.argv[2:] or ["README.md"]]
     kept = tempfile.TemporaryDirectory()
     runs = Runs(kept.name)
-    for path in tracked(".md"):
+    for path in pages:
         runs.begin_page()
         with tempfile.TemporaryDirectory() as scratch:
             for name in ("cases", "docs", "python"):
                 os.symlink(ROOT / name, os.path.join(scratch, name))
             os.makedirs(os.path.join(scratch, "tests"))
             os.symlink(ROOT / "tests/data", os.path.join(scratch, "tests/data"))
-            for mark, commands in blocks(path.read_text()):
-                if mark:
-                    left += len(commands)
+            for command in [c for mark, commands in blocks(path.read_text()) if not mark for c in commands]:
+                ran += 1
+                words = shortened(command, program)
+                if answered(words, before) or runs.before(words, scratch):
                     continue
-                ran += len(commands)
-                for command in commands:
-                    words = shortened(command, sys.argv[1])
-                    if answered(words, before) or runs.before(words, scratch):
-                        continue
-                    wrong = run(command, sys.argv[1], scratch)
-                    problems += [f"{path.relative_to(ROOT)}: {p}" for p in wrong]
-                    if not wrong:
-                        runs.keep(words, scratch)
+                wrong = run(command, program, scratch)
+                problems += [f"{path.relative_to(ROOT)}: {p}" for p in wrong]
+                if not wrong:
+                    runs.keep(words, scratch)
+    left = sum(len(commands) for path in tracked(".md") for mark, commands in blocks(path.read_text()) if mark)
     if left > MOST_NOT_RUN:
         problems.append(f"{left} commands are marked no-run, at most {MOST_NOT_RUN}")
-    print(f"{ran} commands run, {left} marked no-run")
+    print(f"{ran} commands run, {left} marked no-run in all pages")
     sys.exit(report(problems, "documented commands"))
