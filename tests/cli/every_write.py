@@ -43,7 +43,9 @@ class EveryWrite(Scratch):
         """Returns how a run ended whose call of this number failed."""
         directory = self.folder / f"{model}-{number}{'-on' if on else ''}"
         done, calls = self.under(directory, number, *self.words(model, directory), on=on)
-        what = f"{model}, call {number}: {calls[number - 1][1:]}, code {done.returncode}: {done.stderr}"
+        # A run that a slow machine makes note its progress more often has a call more than others.
+        failed = calls[number - 1][1:] if number <= len(calls) else "not reached"
+        what = f"{model}, call {number}: {failed}, code {done.returncode}: {done.stderr}"
         record = directory / RECORDED
         state = strict_json(record.read_text())["state"] if record.exists() else "none"
         if done.returncode == DONE:
