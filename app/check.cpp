@@ -273,6 +273,7 @@ void note_choice(const core::Scene& scene, const std::vector<std::string>& model
 void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons,
                           const RunOptions& options) {
   const ParticleRequirements need = particle_requirements_of(scene);
+  require_places(scene);
   std::vector<std::string> notes = need.warnings();
   notes.insert(notes.end(), reasons.begin(), reasons.end());
   for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
@@ -306,7 +307,11 @@ std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::
   if (!scene.effects.contains("contact")) return {};
   std::vector<std::string> reasons = core::texts_of(rules_of_dem().problems(scene));
   try {
-    if (reasons.empty()) return particle_requirements_of(scene);
+    if (reasons.empty()) {
+      ParticleRequirements need = particle_requirements_of(scene);
+      require_places(scene);
+      return need;
+    }
   } catch (const core::CaseError& error) {
     reasons.push_back(fmt::format("polybed dem cannot run it: {}", error.what()));
   }

@@ -143,8 +143,9 @@ class TfmRun final : public CaseRun {
       steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
     return fmt::format(
         "the last steps: time, s; length, s; what limited it; steps.csv has all of them\n{}{}", steps,
-        monitor_ && monitor_->has_stopped()
-            ? advice_of(*monitor_)
+        monitor_ && monitor_->has_stopped() ? advice_of(*monitor_)
+        : scene_.tfm.fixed_step
+            ? "tfm.fixed_step leaves no step to shrink: state a shorter one, or none"
             : "try a smaller tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)");
   }
 

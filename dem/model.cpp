@@ -176,7 +176,8 @@ void Model::move(double dt) {
 void Model::stop_in_trouble() const {
   const bool pair = pair_forces_.trouble().pair >= 0;
   const double urgency = pair ? 1 + pair_forces_.trouble().excess : (hasty_ >= 0 ? 0.5 : 0);
-  const std::string text = pair ? trouble_of_pair(*this, scene_) : (hasty_ >= 0 ? trouble_of_haste(*this, hasty_) : "");
+  const std::string text =
+      pair ? trouble_of_pair(*this, scene_) : (hasty_ >= 0 ? trouble_of_haste(*this, scene_, hasty_) : "");
   throw core::NumericsError(core::said_by(ranks_.get(), core::rank_of_greatest(ranks_.get(), urgency), text));
 }
 

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
 #include "dem/coupling/kernel.hpp"
+#include "dem/joined_work.hpp"
 #include "dem/packing.hpp"
 #include "dem/rules.hpp"
 #include "dem/scene.hpp"
@@ -110,6 +111,13 @@ std::vector<core::Rule> start_rules() {
            "bed.start = \"settled\": without column.gravity nothing settles; use \"random\" or \"mixed\"",
            [](const Scene& scene) {
              return core::broken_if(scene.bed.start.kind == core::StartKind::settled && !(scene.column.gravity > 0));
+           }},
+          {{"bed.start", "column.ends", "column.sides", "column.gravity_direction"},
+           "bed.start = \"settled\": along joined faces particles fall for ever; use \"random\" or \"mixed\", or walls "
+           "across the direction of column.gravity",
+           [](const Scene& scene) {
+             return core::broken_if(scene.bed.start.kind == core::StartKind::settled && scene.column.gravity > 0 &&
+                                    falls_through_joined_faces(box_of(scene), gravity_of(scene)));
            }},
           {start_keys({"dem.fluid_ranks", "dem.kernel"}),
            "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "

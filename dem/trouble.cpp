@@ -55,15 +55,16 @@ std::string trouble_of_pair(const Model& model, const core::Scene& scene) {
       remedy_of_pair(model, scene, pair, t));
 }
 
-std::string trouble_of_haste(const Model& model, std::int64_t id) {
+std::string trouble_of_haste(const Model& model, const core::Scene& scene, std::int64_t id) {
   const Particles& particles = model.particles();
   const auto found = std::find(particles.id.begin(), particles.id.end(), id);
   const auto i = std::size_t(found - particles.id.begin());
   const Vector &x = particles.place[i].x, &v = particles.motion[i].v;
   return fmt::format(
       "t = {:.6g} s: particle {} moves by more than a tenth of its diameter in one step of {:.3g} s, at {:.4g} m/s, "
-      "near ({:.6g}, {:.6g}, {:.6g}) m; state a higher dem.greatest_speed, or look at the start",
-      model.time(), id, model.limits().dt, std::hypot(v[0], v[1], v[2]), x[0], x[1], x[2]);
+      "near ({:.6g}, {:.6g}, {:.6g}) m; state a {}, or look at the start",
+      model.time(), id, model.limits().dt, std::hypot(v[0], v[1], v[2]), x[0], x[1], x[2],
+      scene.dem.fixed_step ? "shorter dem.fixed_step" : "higher dem.greatest_speed");
 }
 
 }  // namespace polybed::dem

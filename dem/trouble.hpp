@@ -13,6 +13,6 @@ namespace polybed::dem {
 [[nodiscard]] std::string trouble_of_pair(const Model& model, const core::Scene& scene);
 
 /// A particle of this rank that a step would move too far.
-[[nodiscard]] std::string trouble_of_haste(const Model& model, std::int64_t id);
+[[nodiscard]] std::string trouble_of_haste(const Model& model, const core::Scene& scene, std::int64_t id);
 
 }  // namespace polybed::dem

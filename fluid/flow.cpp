@@ -94,10 +94,14 @@ FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
   correct(dt);
   if (compressible_) finish_compression(dt, step);
   step.courant = courant(dt);
-  if (!(step.courant <= 1))
+  if (!(step.courant <= 1)) {
+    const bool viscous = step.courant <= viscous_courant(dt);
     throw core::NumericsError(
-        fmt::format("t = {:.6g} s: the fluid moves by {:.3g} cells in its step of {:.3g} s; lower dem.fluid_every",
-                    t + dt, step.courant, dt));
+        fmt::format("t = {:.6g} s: the fluid{} {:.3g} cells in its step of {:.3g} s; {}", t + dt,
+                    viscous ? "'s viscosity carries its motion over" : " moves by", step.courant, dt,
+                    viscous ? "use larger cells, a smaller dem.fixed_step, or effects.fluid_stress = \"none\""
+                            : "lower dem.fluid_every"));
+  }
   return step;
 }
 
@@ -268,11 +272,10 @@ void Flow::gradient_of(const Field& p, core::FaceField& out) {
 }
 
 double Flow::courant(double dt) const {
-  double most = 0, per_square = 0;
+  double most = 0;
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     const double h = grid_.spacing[a];
-    per_square += 1 / (h * h);
     core::for_each_row(grid_, core::owned_faces(grid_, axis), [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
         const double crossed = std::abs(fluid_.velocity[a][c]) * dt / h;
@@ -280,8 +283,14 @@ double Flow::courant(double dt) const {
       }
     });
   }
-  most = core::greatest_of_ranks(grid_, most);
-  return viscous_ ? std::max(most, 2 * constants_.viscosity / constants_.density * dt * per_square) : most;
+  return std::max(core::greatest_of_ranks(grid_, most), viscous_courant(dt));
+}
+
+double Flow::viscous_courant(double dt) const {
+  double per_square = 0;
+  for (int axis = 0; axis < grid_.dimensions; ++axis)
+    per_square += 1 / (grid_.spacing[std::size_t(axis)] * grid_.spacing[std::size_t(axis)]);
+  return viscous_ ? 2 * constants_.viscosity / constants_.density * dt * per_square : 0;
 }
 
 }  // namespace polybed::fluid

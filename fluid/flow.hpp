@@ -80,6 +80,7 @@ class Flow {
   void close_pressure(double t, double dt, FlowStep& step);
   void correct(double dt);
   [[nodiscard]] double courant(double dt) const;
+  [[nodiscard]] double viscous_courant(double dt) const;
   void gradient_of(const core::Field& p, core::FaceField& out);
 
   core::Grid grid_;

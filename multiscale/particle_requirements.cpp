@@ -181,6 +181,13 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   return need;
 }
 
+void require_places(const core::Scene& scene) {
+  constexpr std::int64_t quickly = 5000;  // a fraction of a second
+  const dem::Materials materials(scene);
+  const dem::Box box = dem::box_of(scene);
+  if (sum_of(start_of(scene, materials, box).numbers) <= quickly) (void)dem::start_particles(scene, materials, box);
+}
+
 double steps_by(const core::Scene& scene, const std::string& role) {
   if (role == relevance::effects::contact.role) return 1;
   core::Scene without = scene;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
@@ -77,6 +78,9 @@ core::Checkpoint Model::checkpoint() const {
   c.arrays["state"] = y_;
   c.arrays["pressure"].resize(constants().grid.cell_count());
   layout_.pack(layout_.entries().front(), fields().fluid.pressure, c.arrays["pressure"]);
+  // A guess for the next solve, left by one that may have failed.
+  for (double& p : c.arrays["pressure"])
+    if (!std::isfinite(p)) p = 0;
   for (const auto& part : parts_) part->write(c, time_);
   for (auto& [name, parts] : checkpoint_parts())
     if (c.arrays.contains(name)) c.parts[name] = std::move(parts);

@@ -63,7 +63,7 @@ Table tfm_table() {
               equation("K_jk = ... + C_s p_s phi_j phi_k/phi^2")),
           key(&Tfm::fixed_step, "fixed_step", dimension::time, above(0, 1e3),
               help("steps of one length without error control, for verification; explicit and imex only")),
-          key(&Tfm::pressure_tolerance, "pressure_tolerance", range(1e-15, 0.1),
+          key(&Tfm::pressure_tolerance, "pressure_tolerance", range(1e-13, 0.1),
               help("relative residual of the pressure's equation; default: the smaller of 1e-4 and rtol/10")),
       });
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -46,14 +47,21 @@ class ExplicitIntegrator : public Integrator {
       double t = time_;
       const int flag = ARKStepEvolve(memory_, t_stop, y_, &t, ARK_ONE_STEP);
       if (kept_) std::rethrow_exception(std::exchange(kept_, nullptr));
-      if (flag >= 0) return report(t);
+      if (flag >= 0) {
+        // The library goes on with steps that never come to the end.
+        if (t - time_ <= std::numeric_limits<double>::epsilon() * (t_stop - time_))
+          throw NumericsError(
+              fmt::format("t = {:.9g} s: the {} integrator stands still, its steps have shrunk to {:.3g} s", time_,
+                          name(), t - time_));
+        return report(t);
+      }
       // ARKODE does not retry a refused explicit stage; a fresh start with a shorter step does.
       const bool refused =
           flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_FIRST_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR;
       constexpr double least_shrink = 1e-9;
       if (!refused || shrink < least_shrink)
-        throw NumericsError(fmt::format("t = {:.9g} s: the explicit integrator cannot go on ({}), last step {:.3g} s",
-                                        time_, flag_name(ARKStepGetReturnFlagName, flag), last_step_));
+        throw NumericsError(fmt::format("t = {:.9g} s: the {} integrator cannot go on ({}), last step {:.3g} s", time_,
+                                        name(), flag_name(ARKStepGetReturnFlagName, flag), last_step_));
     }
   }
 
@@ -76,6 +84,7 @@ class ExplicitIntegrator : public Integrator {
   }
 
  private:
+  [[nodiscard]] const char* name() const { return split_ == nullptr ? "explicit" : "imex"; }
   static int callback(double t, N_Vector y, N_Vector dydt, void* self) {
     auto& me = *static_cast<ExplicitIntegrator*>(self);
     return guarded(me.kept_, [&] {

@@ -138,7 +138,12 @@ void find_discharge(const core::Scene& scene, const Window& window, BedOfRun& be
       number += one->back() / (species.density * closures::sphere_volume(species.diameter / 2));
     }
   const Inventory all = inventory_of(scene, window);
-  bed.blocked = window.first > 0 && out[std::size_t(window.first)] == out.back() && all.last > most_left * all.first;
+  // A slot lets some grains through in each time in which they fall by its width.
+  const auto last = std::size_t(std::lower_bound(out.begin(), out.end(), out.back()) - out.begin());
+  const double falls = 5 * std::sqrt(*scene.dem.opening / std::max(scene.column.gravity, 1e-3));
+  const bool long_enough = window.time.back() - window.time[last] > falls;
+  bed.blocked = long_enough && window.first > 0 && out[std::size_t(window.first)] == out.back() &&
+                all.last > most_left * all.first;
   if (bed.blocked || number < least_particles) return;
   const auto reached = [&](double share) {
     return std::size_t(std::lower_bound(out.begin(), out.end(), share * out.back()) - out.begin());

@@ -155,7 +155,8 @@ class Run:
             for number, row in enumerate(rows, start=2):
                 if len(row) != len(names):
                     raise ValueError(f"line {number} has {len(row)} entries for {len(names)} columns")
-        table = np.array(rows, dtype=float).reshape(len(rows), len(names))
+            table = np.array(rows, dtype=float).reshape(len(rows), len(names))
+            rising(table[:, names.index("time_s")], "time_s")
         return {name: table[:, n] for n, name in enumerate(names)}
 
     @property

@@ -108,6 +108,8 @@ class Card(Scratch):
         self.assertLess(card["recovery"]["glass"], 0.3)
         self.assertIsNone(card["discharge_kg_s"])
         self.assertRegex(done.stderr, r"(?m)^discharge +none: nothing leaves any more")
+        done = self.ends(DONE, "dem", TEMPLATES / "hopper/case.toml", "-o", run, "--until", "1 ms", "--no-picture", "--force", *words)
+        self.assertNotIn("nothing leaves any more", done.stderr)  # nothing has left yet
 
     def test_a_single_sphere_is_no_bed(self):
         run = self.folder / "sphere"

@@ -35,6 +35,16 @@ class Needs(Scratch):
         # 3.1313 mm is the smaller side of a cell: h/(U/eps) = 3.1313e-3 * 0.38/0.03 by hand; nothing falls faster
         self.assertAlmostEqual(rest["convection_s"], 3.1313e-3 * 0.38 / 0.03, delta=1e-5)
 
+    def test_a_start_that_a_run_would_refuse_is_refused(self):
+        """Sixteen beads of 2.2 mm as random as they are given do not fit into 15 mm; and between joined ends one falls for ever."""
+        beads = ('[column]\nsize = [0.01492, 0.01498]\ncells = [1, 1]\n{}[fluid]\nname = "none"\n[[species]]\nname = "a"\n'
+                 'diameter = 0.00225\ndensity = 2692\n[bed]\nparticles = [{}]\nsolids_fraction = 0.547\n{}[run]\nuntil = 0.001\n')
+        for ends, number, start, told in (("", 16, "", "the particles do not fit"),
+                                          ('ends = "periodic"\n', 1, 'start = "settled"\n', "along joined faces particles fall for ever")):
+            case = self.write("beads.toml", beads.format(ends, number, start))
+            for command in ("check", "dem"):
+                self.assertIn(told, self.ends(program.WRONG_CASE, command, case).stderr, command)
+
     def test_what_carries_a_species_away_is_named(self):
         """The fine fall at 47, the coarse at 67 mm/s: 1 m/s is above both, 1 mm/s
         above none."""

@@ -57,6 +57,21 @@ TEST(Explicit, IsOfOrderThree) {
   }
 }
 
+// y' = y^2 from 1 has no value beyond t = 1: steps shrink towards it for ever, and the run says so.
+TEST(Explicit, SaysThatItStandsStill) {
+  Ode problem([](double, std::span<const double> y, std::span<double> f) {
+    f[0] = y[0] * y[0];
+    return Rate::ok;
+  });
+  const auto integrator = make_explicit(problem, {.rtol = 1e-4, .atol = {1e-6}});
+  integrator->restart(0, std::vector<double>{1.0}, {}, 0);
+  const auto go_on = [&] {
+    for (double t = 0; t < 2;) t = integrator->step(2).time;
+  };
+  EXPECT_THROW(go_on(), NumericsError);
+  EXPECT_GT(integrator->state()[0], 1e3);
+}
+
 // Error control per step: the error at the end follows the tolerance. A hundred times less tolerance must
 // give at least ten times less error.
 TEST(Explicit, TheErrorFollowsTheTolerance) {

@@ -82,7 +82,7 @@ class Read(WrittenRun):
         self.assertEqual(len(run.history["time_s"]), 5)
         kept = (self.directory / "history.csv").read_text().rpartition("\n")[0] + "\n"
         cells = kept.split("\n")[-2].split(",")
-        for damaged in ("inf", "nan", "1e999", "0.1x"):
+        for damaged in ("inf", "nan", "1e999", "0.1x", "0"):  # the last: an earlier time
             (self.directory / "history.csv").write_text(kept + ",".join([damaged, *cells[1:]]) + "\n")
             with self.assertRaisesRegex(polybed.FormatError, "history.csv is damaged"):
                 print(run.history)
