@@ -272,8 +272,7 @@ void note_choice(const core::Scene& scene, const std::vector<std::string>& model
 /// A case that only the particle model runs: what it will need there, and what keeps it from the continuum.
 void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons,
                           const RunOptions& options) {
-  const ParticleRequirements need = particle_requirements_of(scene);
-  require_places(scene);
+  const ParticleRequirements need = placed_requirements_of(scene);
   std::vector<std::string> notes = need.warnings();
   notes.insert(notes.end(), reasons.begin(), reasons.end());
   for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
@@ -307,11 +306,7 @@ std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::
   if (!scene.effects.contains("contact")) return {};
   std::vector<std::string> reasons = core::texts_of(rules_of_dem().problems(scene));
   try {
-    if (reasons.empty()) {
-      ParticleRequirements need = particle_requirements_of(scene);
-      require_places(scene);
-      return need;
-    }
+    if (reasons.empty()) return placed_requirements_of(scene);
   } catch (const core::CaseError& error) {
     reasons.push_back(fmt::format("polybed dem cannot run it: {}", error.what()));
   }

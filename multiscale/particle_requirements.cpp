@@ -181,11 +181,11 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   return need;
 }
 
-void require_places(const core::Scene& scene) {
+ParticleRequirements placed_requirements_of(const core::Scene& scene) {
   constexpr std::int64_t quickly = 5000;  // a fraction of a second
-  const dem::Materials materials(scene);
-  const dem::Box box = dem::box_of(scene);
-  if (sum_of(start_of(scene, materials, box).numbers) <= quickly) (void)dem::start_particles(scene, materials, box);
+  ParticleRequirements need = particle_requirements_of(scene);
+  if (need.count() <= quickly) (void)dem::start_particles(scene, dem::Materials(scene), dem::box_of(scene));
+  return need;
 }
 
 double steps_by(const core::Scene& scene, const std::string& role) {

@@ -45,9 +45,9 @@ struct ParticleRequirements {
 /// core::CaseError for what the particle model could not build.
 [[nodiscard]] ParticleRequirements particle_requirements_of(const core::Scene& scene, const ParticleSpeed& speed = {});
 
-/// Places the particles of a scene, if they are not too many for an answer at once; throws core::StartError where they
-/// do not fit.
-void require_places(const core::Scene& scene);
+/// The same, after the particles have been placed as a run does, if they are not too many for an answer at once; throws
+/// core::StartError where they do not fit.
+[[nodiscard]] ParticleRequirements placed_requirements_of(const core::Scene& scene);
 
 /// Of steps_by: from here on people are told.
 inline constexpr double many_more_steps = 1.25;
