@@ -12,10 +12,14 @@ function(polybed_not_hot)
 endfunction()
 
 # polybed_folder(name libraries...): one library per folder, made of the sources that lie in it. The list of
-# libraries is the list of what the folder may use. Subfolders named in not_hot_<name> are compiled as polybed_not_hot.
+# libraries is the list of what the folder may use. Subfolders named in not_hot_<name> are compiled as polybed_not_hot, those
+# in apart_<name> left to libraries of their own.
 function(polybed_folder name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  foreach(part ${apart_${name}})
+    list(FILTER sources EXCLUDE REGEX "/${name}/${part}/")
+  endforeach()
   foreach(part ${not_hot_${name}})
     set(of_part ${sources})
     list(FILTER of_part INCLUDE REGEX "/${name}/${part}/")

@@ -10,7 +10,7 @@
 
 #include "closures/mixture.hpp"
 #include "core/error.hpp"
-#include "lbm/steady.hpp"
+#include "multiscale/resolve/lattice/steady.hpp"
 
 namespace polybed::multiscale {
 
@@ -148,25 +148,25 @@ BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
   return plan;
 }
 
-std::vector<lbm::Sphere> spheres_of(const core::Scene& scene, const SpherePacking& packing, double scale) {
-  std::vector<lbm::Sphere> spheres;
+std::vector<lattice::Sphere> spheres_of(const core::Scene& scene, const SpherePacking& packing, double scale) {
+  std::vector<lattice::Sphere> spheres;
   for (std::size_t n = 0; n < packing.centre.size(); ++n) {
-    lbm::Point centre = packing.centre[n];
+    lattice::Point centre = packing.centre[n];
     for (double& x : centre) x *= scale;
     spheres.push_back({centre, 0.5 * scene.species[packing.species[n]].diameter * scale});
   }
   return spheres;
 }
 
-lbm::FlowSetup setup_of(const BoxPlan& box, double reynolds) {
-  return {{box.edge, box.edge, box.edge}, box.units.viscosity, reynolds > 0, lbm::Wall::interpolated};
+lattice::FlowSetup setup_of(const BoxPlan& box, double reynolds) {
+  return {{box.edge, box.edge, box.edge}, box.units.viscosity, reynolds > 0, lattice::Wall::interpolated};
 }
 
 template <class Real>
 double rate_of(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing) {
   const BoxPlan box = plan_of(scene, point);
-  const lbm::FlowSetup setup = setup_of(box, point.reynolds);
-  lbm::Flow<Real> flow(setup, lbm::Spheres(spheres_of(scene, packing, box.scale), setup.box));
+  const lattice::FlowSetup setup = setup_of(box, point.reynolds);
+  lattice::Flow<Real> flow(setup, lattice::Spheres(spheres_of(scene, packing, box.scale), setup.box));
   const auto begin = std::chrono::steady_clock::now();
   double steps = 0, seconds = 0;
   for (; seconds < 1; steps += 2) {
@@ -181,14 +181,14 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
                  const StillWanted& wanted, const KeptBox* kept) {
   const BoxPlan box = plan_of(scene, point);
   const Units& units = box.units;
-  const std::vector<lbm::Sphere> spheres = spheres_of(scene, packing, box.scale);
-  lbm::SteadyPlan plan;
+  const std::vector<lattice::Sphere> spheres = spheres_of(scene, packing, box.scale);
+  lattice::SteadyPlan plan;
   plan.velocity = {units.speed, 0, 0};
   plan.window = box.window;
   plan.tolerance = steady_change<Real>;
   plan.most_steps = std::llround(most_windows * plan.window);
-  const lbm::FlowSetup setup = setup_of(box, point.reynolds);
-  lbm::Flow<Real> flow(setup, lbm::Spheres(spheres, setup.box));
+  const lattice::FlowSetup setup = setup_of(box, point.reynolds);
+  lattice::Flow<Real> flow(setup, lattice::Spheres(spheres, setup.box));
   bool stopped = false;
   KeptBox::Stand stand;
   if (kept != nullptr && kept->restore(flow, stand)) (void)wanted(double(stand.progress.steps), stand.progress.change);
@@ -197,7 +197,7 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
     return stand.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   double last_kept = stand.seconds;
-  const auto after_window = [&](const lbm::SteadyProgress& progress) {
+  const auto after_window = [&](const lattice::SteadyProgress& progress) {
     stopped = !wanted(double(progress.steps), progress.change);
     if (kept != nullptr && (stopped || seconds() - last_kept > kept->every)) {
       last_kept = seconds();
@@ -205,7 +205,7 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
     }
     return !stopped;
   };
-  const lbm::SteadyFlow steady = run_until_steady(flow, plan, after_window, stand.progress);
+  const lattice::SteadyFlow steady = run_until_steady(flow, plan, after_window, stand.progress);
   if (stopped) throw core::Stopped("stopped by the user");
   if (kept != nullptr) kept->remove();
   BoxDrag drag;
@@ -262,7 +262,7 @@ BoxNeed box_need(const core::Scene& scene, const ResolvePoint& point) {
   need.sites = std::pow(box.edge, 3);
   need.steps = std::ceil((point.reynolds > 0 ? usual_inertia : usual_stokes) * box.window);
   const double links = links_of_area * 6 * (1 - point.voidage) / box.sauter * need.sites;
-  need.bytes = std::pow(box.edge + 2, 3) * (lbm::directions * real + site_bytes) + links * link_bytes;
+  need.bytes = std::pow(box.edge + 2, 3) * (lattice::directions * real + site_bytes) + links * link_bytes;
   return need;
 }
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "lbm/steady.hpp"
+#include "multiscale/resolve/lattice/steady.hpp"
 
 namespace polybed::multiscale {
 
@@ -15,17 +15,17 @@ struct KeptBox {
 
   /// How far the flow in the file has come.
   struct Stand {
-    lbm::SteadyProgress progress;
+    lattice::SteadyProgress progress;
     double seconds = 0;  ///< that it took
   };
 
   /// Writes the flow, to the bit. Throws core::FileError.
   template <class Real>
-  void write(const lbm::Flow<Real>& flow, const Stand& stand) const;
+  void write(const lattice::Flow<Real>& flow, const Stand& stand) const;
 
   /// Restores what was written; false if there is no file of this box. Throws core::FileError for a damaged one.
   template <class Real>
-  bool restore(lbm::Flow<Real>& flow, Stand& stand) const;
+  bool restore(lattice::Flow<Real>& flow, Stand& stand) const;
 
   /// Removes the file and the one before it.
   void remove() const;

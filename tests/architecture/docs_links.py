@@ -36,7 +36,7 @@ def broken(path, text):
             yield f"the link {link} names no heading"
 
 
-NAMED = re.compile(r"(?<![\w./{}-])((?:app|cases|closures|core|dem|docs|fluid|lbm|measures|multiscale|python|relevance|tests|tfm)/[\w./-]*\.(?:md|hpp|cpp|py))\b")
+NAMED = re.compile(r"(?<![\w./{}-])((?:app|cases|closures|core|dem|docs|fluid|measures|multiscale|python|relevance|tests|tfm)/[\w./-]*\.(?:md|hpp|cpp|py))\b")
 
 
 def gone(text):

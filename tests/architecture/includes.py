@@ -17,9 +17,8 @@ MAY_USE = {
     "measures": {"measures", "fluid", "relevance", "core", "closures"},
     "tfm": {"tfm", "measures", "fluid", "relevance", "core", "closures"},
     "dem": {"dem", "measures", "fluid", "relevance", "core", "closures"},
-    "lbm": {"lbm", "core"},
-    "multiscale": {"multiscale", "tfm", "dem", "lbm", "measures", "fluid", "relevance", "core", "closures"},
-    "app": {"app", "multiscale", "tfm", "dem", "lbm", "measures", "fluid", "relevance", "core", "closures"},
+    "multiscale": {"multiscale", "tfm", "dem", "measures", "fluid", "relevance", "core", "closures"},
+    "app": {"app", "multiscale", "tfm", "dem", "measures", "fluid", "relevance", "core", "closures"},
 }
 BELOW_ALL = "core/vectors.hpp"  # itself without an include of ours
 # header -> the only files that may include it

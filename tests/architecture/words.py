@@ -6,7 +6,7 @@ import sys
 from sources import ROOT, report, tracked
 
 COMPARED = re.compile(r'[!=]=\s*"(?:[^"\\]|\\.)*"(?!\s*_)|"(?:[^"\\]|\\.)*"\s*[!=]=(?!=)')
-FOLDERS = ("closures", "core", "relevance", "fluid", "measures", "tfm", "dem", "lbm", "multiscale", "app")
+FOLDERS = ("closures", "core", "relevance", "fluid", "measures", "tfm", "dem", "multiscale", "app")
 # files that read or write a case, read another file, or the words of a command
 READERS = {f"{name}.cpp" for name in (
     *(f"core/case/{n}" for n in ("contact_properties", "file", "resolved", "scene", "units", "values")),

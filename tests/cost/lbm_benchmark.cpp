@@ -10,12 +10,12 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "lbm/flow.hpp"
+#include "multiscale/resolve/lattice/flow.hpp"
 #include "tests/cost/lbm_boxes.hpp"
 
 namespace {
 
-using namespace polybed::lbm;
+using namespace polybed::multiscale::lattice;
 
 constexpr int rounds = 15;
 

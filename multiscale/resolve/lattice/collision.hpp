@@ -5,9 +5,9 @@
 #include <cstddef>
 
 #include "core/vectors.hpp"
-#include "lbm/lattice.hpp"
+#include "multiscale/resolve/lattice/lattice.hpp"
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 /// Rates and force, density 1.
 template <class Real>
@@ -78,4 +78,4 @@ inline void collide_row(Real* const* place, std::size_t length, const Relaxation
   }
 }
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

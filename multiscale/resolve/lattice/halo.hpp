@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "lbm/obstacles.hpp"
+#include "multiscale/resolve/lattice/obstacles.hpp"
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 template <class Real>
 class Halo {
@@ -32,4 +32,4 @@ class Halo {
 extern template class Halo<float>;
 extern template class Halo<double>;
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

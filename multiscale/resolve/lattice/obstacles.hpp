@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 using Point = std::array<double, 3>;  ///< in cells
 
@@ -56,4 +56,4 @@ class Spheres : public Obstacles {
   std::array<int, 3> box_;
 };
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

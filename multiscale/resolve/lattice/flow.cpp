@@ -1,4 +1,4 @@
-#include "lbm/flow.hpp"
+#include "multiscale/resolve/lattice/flow.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 namespace {
 
@@ -156,9 +156,9 @@ void Flow<Real>::collide(bool second, const Span& runs) {
     std::array<Real*, directions> at;
     for (std::size_t i = 0; i < directions; ++i) at[i] = origin[i] + run.begin;
     if (setup_.inertia)
-      core::in_vectors<&lbm::collide<Real, true>>(at, run.length, relaxation);
+      core::in_vectors<&lattice::collide<Real, true>>(at, run.length, relaxation);
     else
-      core::in_vectors<&lbm::collide<Real, false>>(at, run.length, relaxation);
+      core::in_vectors<&lattice::collide<Real, false>>(at, run.length, relaxation);
   }
 }
 
@@ -291,4 +291,4 @@ std::size_t Flow<Real>::memory_bytes() const {
 template class Flow<float>;
 template class Flow<double>;
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

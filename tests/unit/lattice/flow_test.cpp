@@ -1,13 +1,13 @@
-#include "lbm/flow.hpp"
+#include "multiscale/resolve/lattice/flow.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "unit/lbm/cubic_arrays.hpp"
+#include "unit/lattice/cubic_arrays.hpp"
 
-using namespace polybed::lbm;
+using namespace polybed::multiscale::lattice;
 
 namespace {
 

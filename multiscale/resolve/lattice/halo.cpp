@@ -1,11 +1,11 @@
-#include "lbm/halo.hpp"
+#include "multiscale/resolve/lattice/halo.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "lbm/lattice.hpp"
+#include "multiscale/resolve/lattice/lattice.hpp"
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 namespace {
 
@@ -80,4 +80,4 @@ void Halo<Real>::fold(Real* populations) const {
 template class Halo<float>;
 template class Halo<double>;
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

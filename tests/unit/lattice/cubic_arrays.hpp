@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "lbm/steady.hpp"
+#include "multiscale/resolve/lattice/steady.hpp"
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 enum class Cubic { simple, body_centred, face_centred };
 
@@ -52,4 +52,4 @@ CubicFlow flow_through(const std::vector<Sphere>& spheres, FlowSetup setup, cons
   return {steady, net_force(spheres, setup, steady)};
 }
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 inline constexpr std::size_t directions = 19;
 
@@ -32,4 +32,4 @@ inline constexpr std::array<std::array<int, 3>, directions> ways{{{0, 0, 0},
 
 [[nodiscard]] constexpr double weight(std::size_t i) { return i == 0 ? 1.0 / 3 : (i < 7 ? 1.0 / 18 : 1.0 / 36); }
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

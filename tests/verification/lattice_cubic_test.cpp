@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "unit/lbm/cubic_arrays.hpp"
+#include "unit/lattice/cubic_arrays.hpp"
 
-using namespace polybed::lbm;
+using namespace polybed::multiscale::lattice;
 
 namespace {
 

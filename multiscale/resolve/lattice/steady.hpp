@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "lbm/flow.hpp"
+#include "multiscale/resolve/lattice/flow.hpp"
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 struct SteadyPlan {
   Point velocity{};         ///< superficial, cells per step
@@ -42,4 +42,4 @@ template <class Real>
 [[nodiscard]] SteadyFlow run_until_steady(Flow<Real>& flow, const SteadyPlan& plan,
                                           const AfterWindow& after_window = {}, SteadyProgress progress = {});
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

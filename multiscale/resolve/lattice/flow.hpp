@@ -9,11 +9,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "lbm/collision.hpp"
-#include "lbm/halo.hpp"
-#include "lbm/obstacles.hpp"
+#include "multiscale/resolve/lattice/collision.hpp"
+#include "multiscale/resolve/lattice/halo.hpp"
+#include "multiscale/resolve/lattice/obstacles.hpp"
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 enum class Wall {
   half_way,     ///< bounce-back: momentum and mass exact
@@ -114,4 +114,4 @@ class Flow {
 extern template class Flow<float>;
 extern template class Flow<double>;
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

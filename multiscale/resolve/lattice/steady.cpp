@@ -1,4 +1,4 @@
-#include "lbm/steady.hpp"
+#include "multiscale/resolve/lattice/steady.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 namespace {
 
@@ -65,4 +65,4 @@ SteadyFlow run_until_steady(Flow<Real>& flow, const SteadyPlan& plan, const Afte
 template SteadyFlow run_until_steady<float>(Flow<float>&, const SteadyPlan&, const AfterWindow&, SteadyProgress);
 template SteadyFlow run_until_steady<double>(Flow<double>&, const SteadyPlan&, const AfterWindow&, SteadyProgress);
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice

@@ -1,9 +1,9 @@
-#include "lbm/obstacles.hpp"
+#include "multiscale/resolve/lattice/obstacles.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace polybed::lbm {
+namespace polybed::multiscale::lattice {
 
 std::vector<std::int32_t> Spheres::owners(const Sites& sites) const {
   std::vector<std::int32_t> owner(sites.count(), none);
@@ -47,4 +47,4 @@ double Spheres::fraction(std::int32_t owner, const Point& fluid, const std::arra
   return std::clamp((-along - std::sqrt(std::max(root, 0.0))) / length, 0.0, 1.0);
 }
 
-}  // namespace polybed::lbm
+}  // namespace polybed::multiscale::lattice
