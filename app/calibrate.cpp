@@ -28,12 +28,12 @@
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "core/version.hpp"
-#include "fluid/solids_table.hpp"
 #include "multiscale/calibrate/box_result.hpp"
 #include "multiscale/calibrate/table_shape.hpp"
 #include "multiscale/python_module.hpp"
 #include "multiscale/scene_rules.hpp"
 #include "relevance/fluid_properties.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::app {
 
@@ -78,7 +78,7 @@ class Service {
     const Plan plan = plan_of(scene_);
     const MeanSphere mean = mean_sphere(scene_.species, scene_.bed.volume_share);
     core::Json numbers = core::Json::array();
-    for (const fluid::RegimeNumbers& n : plan.regime.numbers)
+    for (const tfm::RegimeNumbers& n : plan.regime.numbers)
       numbers.push_back({{"species", n.species},
                          {"shear_times_relaxation", n.shear_times_relaxation},
                          {"stokes_least", n.stokes_least},
@@ -88,7 +88,7 @@ class Service {
                          {"shear_rate", n.shear_rate}});
     core::Json json = {{"regime", core::name_of(plan.regime.kind)},
                        {"reason", plan.regime.reason},
-                       {"reference", plan.regime.kind == core::BoxRegime::wet ? "viscous" : fluid::effective_reference},
+                       {"reference", plan.regime.kind == core::BoxRegime::wet ? "viscous" : tfm::effective_reference},
                        {"numbers", numbers},
                        {"axes",
                         {{"phi", plan.axes.phi},
@@ -160,7 +160,7 @@ class Service {
   core::Json read(const Texts& words) {
     core::Json json;
     core::on_first(ranks_.get(), [&] {
-      const fluid::SolidsTable table = fluid::read_solids_table(words.at(0));
+      const tfm::SolidsTable table = tfm::read_solids_table(words.at(0));
       json = {{"falls", falls_of(table)},
               {"falls_in_shear_up_to", falls_in_shear_up_to(table)},
               {"a", structure_coefficients(table)}};
@@ -170,9 +170,9 @@ class Service {
 
   core::Json read_bed(const Texts& words) {
     core::on_first(ranks_.get(), [&] {
-      if (fluid::regime_of_table(words.at(0)) != core::BoxRegime::bed)
+      if (tfm::regime_of_table(words.at(0)) != core::BoxRegime::bed)
         throw core::CaseError(words[0] + ": no table of fluidised boxes, as --bed takes one");
-      (void)fluid::read_bed_table(words[0]);
+      (void)tfm::read_bed_table(words[0]);
     });
     return nullptr;
   }
@@ -180,11 +180,11 @@ class Service {
   core::Json ratios(const Texts& words) {
     core::Json rows = core::Json::array();
     core::on_first(ranks_.get(), [&] {
-      const fluid::SolidsTable table = fluid::read_solids_table(words.at(0));
+      const tfm::SolidsTable table = tfm::read_solids_table(words.at(0));
       for (std::size_t n = 1; n < words.size(); ++n) {
         const BoxPoint p = point_of(words[n]);
         const auto at = [&](double sigma) {
-          return fluid::ratios_at(table, {p.restitution, p.friction, p.share, sigma})(p.phi, p.stokes);
+          return tfm::ratios_at(table, {p.restitution, p.friction, p.share, sigma})(p.phi, p.stokes);
         };
         const closures::RatioValues mean = at(0), up = at(1);
         rows.push_back({mean.pressure.pressure, up.pressure.pressure, mean.viscosity.pressure, up.viscosity.pressure});

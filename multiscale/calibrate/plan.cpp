@@ -8,7 +8,7 @@
 #include "closures/stress_reference.hpp"
 #include "core/case/file.hpp"
 #include "core/error.hpp"
-#include "fluid/solids_table.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::multiscale {
 
@@ -60,7 +60,7 @@ std::vector<core::Rule> share_rules() {
 TableAxes axes_of(const core::Scene& scene, core::BoxRegime regime) {
   const core::Calibrate& c = scene.calibrate;
   const bool sheared = regime != core::BoxRegime::bed;
-  const fluid::TablePlace of_case = fluid::place_of(scene);
+  const tfm::TablePlace of_case = tfm::place_of(scene);
   TableAxes a;
   a.phi = axis(c.solids_fraction,
                sheared ? std::vector{0.1, 0.2, 0.3, 0.4, 0.45, 0.5} : std::vector{0.2, 0.3, 0.4, 0.45, 0.5});
@@ -84,9 +84,9 @@ TableAxes axes_of(const core::Scene& scene, core::BoxRegime regime) {
 }
 
 /// As calibrate.regime says, or by the numbers of the scene.
-fluid::Regime regime_of(const core::Scene& scene) {
+tfm::Regime regime_of(const core::Scene& scene) {
   const core::BoxRegime given = scene.calibrate.regime;
-  fluid::Regime regime = fluid::shear_regime(scene);
+  tfm::Regime regime = tfm::shear_regime(scene);
   if (given == core::BoxRegime::bed) {
     regime.kind = given;
     regime.reason = "as the case says";

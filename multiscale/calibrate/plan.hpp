@@ -7,7 +7,7 @@
 
 #include "core/case/rule.hpp"
 #include "core/case/scene.hpp"
-#include "fluid/shear_regime.hpp"
+#include "tfm/shear_regime.hpp"
 
 namespace polybed::multiscale {
 
@@ -26,7 +26,7 @@ struct TableAxes {
 };
 
 struct Plan {
-  fluid::Regime regime;  ///< dry | wet | bed
+  tfm::Regime regime;  ///< dry | wet | bed
   TableAxes axes;
   bool binary = false;  ///< boxes of two species
 };

@@ -13,7 +13,7 @@ namespace polybed::multiscale {
 namespace {
 
 /// Visits every line of a table along phi.
-void each_line(const fluid::SolidsTable& t,
+void each_line(const tfm::SolidsTable& t,
                const std::function<void(std::size_t, std::size_t, std::size_t, std::size_t)>& see) {
   for (std::size_t s = 0; s < t.stokes.size(); ++s)
     for (std::size_t e = 0; e < t.restitution.size(); ++e)
@@ -21,7 +21,7 @@ void each_line(const fluid::SolidsTable& t,
         for (std::size_t x = 0; x < t.share.size(); ++x) see(s, e, m, x);
 }
 
-std::vector<double> line_of(const fluid::SolidsTable& t, const std::vector<double>& all, std::size_t s, std::size_t e,
+std::vector<double> line_of(const tfm::SolidsTable& t, const std::vector<double>& all, std::size_t s, std::size_t e,
                             std::size_t m, std::size_t x) {
   std::vector<double> values;
   for (std::size_t p = 0; p < t.phi.size(); ++p) values.push_back(all[t.index(p, s, e, m, x)]);
@@ -29,7 +29,7 @@ std::vector<double> line_of(const fluid::SolidsTable& t, const std::vector<doubl
 }
 
 /// Shape of the pressure along phi: at fixed temperature, or at fixed shear rate.
-double pressure_shape(const fluid::SolidsTable& t, const closures::MonotoneCurve& ratio, double e, double mu,
+double pressure_shape(const tfm::SolidsTable& t, const closures::MonotoneCurve& ratio, double e, double mu,
                       double phi) {
   if (t.regime == core::BoxRegime::wet)
     return closures::viscous_stress_form(phi, closures::jamming_fraction(mu)).value * ratio(phi).pressure;
@@ -51,7 +51,7 @@ std::vector<double> fine_grid(const std::vector<double>& knots, double jammed) {
 
 }  // namespace
 
-std::vector<std::string> falls_of(const fluid::SolidsTable& t) {
+std::vector<std::string> falls_of(const tfm::SolidsTable& t) {
   std::vector<std::string> falls;
   each_line(t, [&](std::size_t s, std::size_t e, std::size_t m, std::size_t x) {
     const closures::MonotoneCurve ratio(t.phi, line_of(t, t.pressure.value, s, e, m, x));
@@ -69,7 +69,7 @@ std::vector<std::string> falls_of(const fluid::SolidsTable& t) {
   return falls;
 }
 
-double falls_in_shear_up_to(const fluid::SolidsTable& t) {
+double falls_in_shear_up_to(const tfm::SolidsTable& t) {
   if (t.regime != core::BoxRegime::dry) return 0;
   double up_to = 0;
   constexpr auto gd = closures::KineticModel::garzo_dufty;
@@ -90,7 +90,7 @@ double falls_in_shear_up_to(const fluid::SolidsTable& t) {
   return up_to;
 }
 
-std::vector<double> structure_coefficients(const fluid::SolidsTable& t) {
+std::vector<double> structure_coefficients(const tfm::SolidsTable& t) {
   std::vector<double> a;
   if (t.regime != core::BoxRegime::dry) return a;
   for (std::size_t p = 0; p < t.phi.size(); ++p)

@@ -5,15 +5,15 @@
 
 #include "../unit/core/scratch.hpp"
 #include "core/error.hpp"
-#include "fluid/solids_table.hpp"
 #include "scenes/record.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::scenes {
 namespace {
 
 /// Ratios of 1 but for the exchange, which is `ratio` at every phi of 0.1 to 0.5.
-fluid::SolidsTable table_of(core::BoxRegime regime, double ratio) {
-  fluid::SolidsTable t;
+tfm::SolidsTable table_of(core::BoxRegime regime, double ratio) {
+  tfm::SolidsTable t;
   t.regime = regime;
   t.reference = "GD-CS";
   t.phi = {0.1, 0.5};
@@ -23,7 +23,7 @@ fluid::SolidsTable table_of(core::BoxRegime regime, double ratio) {
   t.share = {0.5};
   t.size_ratio = 2;
   t.shear_number = {1, 1};
-  for (fluid::TableQuantity* q : {&t.pressure, &t.viscosity, &t.dissipation, &t.temperature})
+  for (tfm::TableQuantity* q : {&t.pressure, &t.viscosity, &t.dissipation, &t.temperature})
     q->value = q->error = q->seeds = {1, 1};
   t.exchange = {{ratio, ratio}, {0, 0}, {1, 1}};
   t.exchange_drift = 0.5;
@@ -74,7 +74,7 @@ double exchange(tfm::Model& model, double theta_1, double theta_2, double drift)
 TEST(ExchangeTable, ValueOfOneCell) {
   const test::Scratch scratch;
   const std::string file = (scratch.path() / "dry.h5").string();
-  fluid::write_solids_table(file, table_of(core::BoxRegime::dry, 0.8));
+  tfm::write_solids_table(file, table_of(core::BoxRegime::dry, 0.8));
   core::Timers timers;
   tfm::Model model(gas("table:" + file, 0.3), timers);
   EXPECT_NEAR(exchange(model, 1e-3, 5e-4, 0.02), 0.8 * 746719.8, 0.1);
@@ -89,14 +89,14 @@ TEST(ExchangeTable, ValueOfOneCell) {
 TEST(ExchangeTable, CountsWhatLiesOutsideAndHoldsTheEdge) {
   const test::Scratch scratch;
   const std::string file = (scratch.path() / "dry.h5").string();
-  fluid::write_solids_table(file, table_of(core::BoxRegime::dry, 0.8));
+  tfm::write_solids_table(file, table_of(core::BoxRegime::dry, 0.8));
   core::Timers timers;
   tfm::Model inside(gas("table:" + file, 0.3), timers), beyond(gas("table:" + file, 0.56), timers);
   const double limit = 0.5 * std::sqrt(7.5e-4);
   EXPECT_EQ(stir(inside, 1e-3, 5e-4, 0.99 * limit), 0u);
   EXPECT_EQ(stir(inside, 1e-3, 5e-4, 1.01 * limit), 64u);
   EXPECT_EQ(stir(beyond, 1e-3, 5e-4, 0.99 * limit), 64u);
-  fluid::write_solids_table(file, table_of(core::BoxRegime::dry, 1.6));
+  tfm::write_solids_table(file, table_of(core::BoxRegime::dry, 1.6));
   tfm::Model twice(gas("table:" + file, 0.56), timers);
   EXPECT_NEAR(exchange(twice, 1e-3, 5e-4, 0), 2 * exchange(beyond, 1e-3, 5e-4, 0), 1e-6) << "the ratio of the edge";
 }
@@ -105,7 +105,7 @@ TEST(ExchangeTable, CountsWhatLiesOutsideAndHoldsTheEdge) {
 TEST(ExchangeTable, ContactOfAPackedBedIsAddedIfAskedFor) {
   const test::Scratch scratch;
   const std::string file = (scratch.path() / "dry.h5").string();
-  fluid::write_solids_table(file, table_of(core::BoxRegime::dry, 0.8));
+  tfm::write_solids_table(file, table_of(core::BoxRegime::dry, 0.8));
   core::Timers timers;
   core::Scene scene = gas("table:" + file, 0.3);
   scene.tfm.frictional_onset = 0.2;
@@ -130,14 +130,14 @@ void refused(const core::Scene& scene, const std::string& told) {
 
 TEST(ExchangeTable, WhatCannotBeIsRefused) {
   const test::Scratch scratch;
-  const auto file = [&](const std::string& name, const fluid::SolidsTable& table) {
+  const auto file = [&](const std::string& name, const tfm::SolidsTable& table) {
     const std::string path = (scratch.path() / name).string();
-    fluid::write_solids_table(path, table);
+    tfm::write_solids_table(path, table);
     return "table:" + path;
   };
   const std::string dry = file("dry.h5", table_of(core::BoxRegime::dry, 0.8)),
                     wet = file("wet.h5", table_of(core::BoxRegime::wet, 0.8));
-  fluid::SolidsTable none = table_of(core::BoxRegime::dry, 1);
+  tfm::SolidsTable none = table_of(core::BoxRegime::dry, 1);
   none.exchange = {};
   refused(gas(wet, 0.3), "dry boxes alone");
   refused(gas(file("none.h5", none), 0.3), "holds no beta_12");
@@ -162,7 +162,7 @@ TEST(ExchangeTable, WhatCannotBeIsRefused) {
 TEST(ExchangeTable, AnotherCompositionIsTold) {
   const test::Scratch scratch;
   const std::string file = (scratch.path() / "dry.h5").string();
-  fluid::write_solids_table(file, table_of(core::BoxRegime::dry, 0.8));
+  tfm::write_solids_table(file, table_of(core::BoxRegime::dry, 0.8));
   core::Timers timers;
   core::Scene scene = gas("table:" + file, 0.3);
   EXPECT_TRUE(tfm::Model(scene, timers).effects().warnings.empty());

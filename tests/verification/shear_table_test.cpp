@@ -3,8 +3,8 @@
 
 #include "../unit/core/scratch.hpp"
 #include "core/error.hpp"
-#include "fluid/solids_table.hpp"
 #include "scenes/record.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::scenes {
 namespace {
@@ -12,8 +12,8 @@ namespace {
 constexpr double viscosity = 1e-3, diameter = 1e-3;
 
 /// A table whose ratios are the same everywhere.
-fluid::SolidsTable table_of(core::BoxRegime regime, double p, double mu, double gamma) {
-  fluid::SolidsTable t;
+tfm::SolidsTable table_of(core::BoxRegime regime, double p, double mu, double gamma) {
+  tfm::SolidsTable t;
   t.regime = regime;
   t.reference = regime == core::BoxRegime::wet ? "viscous" : "GD-CS";
   t.phi = {0.1, 0.5};
@@ -29,7 +29,7 @@ fluid::SolidsTable table_of(core::BoxRegime regime, double p, double mu, double 
     t.temperature.value.push_back(1);
     t.shear_number.push_back(1);
   }
-  for (fluid::TableQuantity* q : {&t.pressure, &t.viscosity, &t.dissipation, &t.temperature})
+  for (tfm::TableQuantity* q : {&t.pressure, &t.viscosity, &t.dissipation, &t.temperature})
     q->error = q->seeds = std::vector<double>(t.size(), 1);
   return t;
 }
@@ -72,7 +72,7 @@ Seen seen(const core::Scene& scene, double rate) {
 TEST(ShearTable, WetStressOfOneCell) {
   const test::Scratch scratch;
   const std::string file = (scratch.path() / "wet.h5").string();
-  fluid::write_solids_table(file, table_of(core::BoxRegime::wet, 2, 3, 1));
+  tfm::write_solids_table(file, table_of(core::BoxRegime::wet, 2, 3, 1));
   const Seen s = seen(sheared("table:" + file), 20);
   EXPECT_NEAR(s.pressure, 0.166597, 6e-4 * 0.166597);
   EXPECT_NEAR(s.viscosity, 0.0312370, 1e-6);
@@ -86,7 +86,7 @@ TEST(ShearTable, DryStressOverKineticTheory) {
   const test::Scratch scratch;
   const auto written = [&](const std::string& name, double p, double mu, double gamma) {
     const std::string file = (scratch.path() / name).string();
-    fluid::write_solids_table(file, table_of(core::BoxRegime::dry, p, mu, gamma));
+    tfm::write_solids_table(file, table_of(core::BoxRegime::dry, p, mu, gamma));
     core::Scene scene = sheared("table:" + file);
     scene.calibrate.regime = core::BoxRegime::dry;
     scene.effects.erase("drag");
@@ -108,8 +108,8 @@ TEST(ShearTable, DryStressOverKineticTheory) {
 TEST(ShearTable, TheWrongRegimeIsRefusedWithTheNumbers) {
   const test::Scratch scratch;
   const std::string dry = (scratch.path() / "dry.h5").string(), wet = (scratch.path() / "wet.h5").string();
-  fluid::write_solids_table(dry, table_of(core::BoxRegime::dry, 1, 1, 1));
-  fluid::write_solids_table(wet, table_of(core::BoxRegime::wet, 1, 1, 1));
+  tfm::write_solids_table(dry, table_of(core::BoxRegime::dry, 1, 1, 1));
+  tfm::write_solids_table(wet, table_of(core::BoxRegime::wet, 1, 1, 1));
   core::Scene liquid = sheared("table:" + dry);
   liquid.column.closed = false;
   liquid.inlet.superficial_velocity = {{0, 0.02}};
@@ -135,9 +135,9 @@ TEST(ShearTable, TheWrongRegimeIsRefusedWithTheNumbers) {
 TEST(ShearTable, CountsWhatLiesOutside) {
   const test::Scratch scratch;
   const std::string file = (scratch.path() / "wet.h5").string();
-  fluid::SolidsTable t = table_of(core::BoxRegime::wet, 1, 1, 1);
+  tfm::SolidsTable t = table_of(core::BoxRegime::wet, 1, 1, 1);
   t.phi = {0.1, 0.3};
-  fluid::write_solids_table(file, t);
+  tfm::write_solids_table(file, t);
   core::Timers timers;
   tfm::Model model(sheared("table:" + file), timers);
   model.show(0);

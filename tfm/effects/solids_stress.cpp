@@ -11,7 +11,6 @@
 #include "closures/stress_reference.hpp"
 #include "core/case/scene.hpp"
 #include "core/numerics/operators.hpp"
-#include "fluid/solids_table.hpp"
 #include "relevance/effects/granular_temperature.hpp"
 #include "tfm/effects.hpp"
 #include "tfm/effects/maker.hpp"
@@ -19,6 +18,7 @@
 #include "tfm/effects/solids_stress_kinetic.hpp"
 #include "tfm/effects/solids_stress_table.hpp"
 #include "tfm/effects/table_file.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::tfm {
 
@@ -94,23 +94,23 @@ namespace {
 /// The stress of a table: friction, a fluidised bed's pressure if the file has it, and that of sheared particles.
 void make_table_stress(const Making& m, const std::string& file) {
   const auto& [scene, constants, boundaries, law, fields, effects] = m;
-  const core::BoxRegime regime = fluid::regime_of_table(file);
-  if (const std::string line = fluid::missing_checksum(file); !line.empty()) effects.warnings.push_back(line);
+  const core::BoxRegime regime = regime_of_table(file);
+  if (const std::string line = missing_checksum(file); !line.empty()) effects.warnings.push_back(line);
   if (regime == core::BoxRegime::bed) {
     effects.solids_stress =
         std::make_unique<TableStress>(scene, constants, boundaries, read_bed_pressure(file), file, fields);
     return;
   }
-  const fluid::SolidsTable table = fluid::read_solids_table(file);
+  const SolidsTable table = read_solids_table(file);
   if (table.bed.phi.empty())
     effects.solids_stress = std::make_unique<FrictionalStress>(scene, constants, boundaries, fields);
   else
     effects.solids_stress =
         std::make_unique<TableStress>(scene, constants, boundaries, bed_curve(table.bed, file), file, fields);
-  const fluid::TablePlace place = fluid::place_of(scene);
-  for (const std::string& line : fluid::beyond(table, place))
+  const TablePlace place = place_of(scene);
+  for (const std::string& line : beyond(table, place))
     effects.warnings.push_back("solids stress " + file + ": " + line);
-  closures::StressRatios ratios = fluid::ratios_at(table, place);
+  closures::StressRatios ratios = ratios_at(table, place);
   if (regime == core::BoxRegime::wet) {
     effects.collisions =
         std::make_unique<WetStress>(constants, boundaries, std::move(ratios),

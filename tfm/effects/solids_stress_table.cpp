@@ -5,20 +5,20 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "fluid/solids_table.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::tfm {
 
 using core::Index;
 
 closures::MonotoneCurve read_bed_pressure(const std::string& file) {
-  if (const core::BoxRegime regime = fluid::regime_of_table(file); regime != core::BoxRegime::bed)
+  if (const core::BoxRegime regime = regime_of_table(file); regime != core::BoxRegime::bed)
     throw core::StartError(file + ": a table of regime \"" + std::string(core::name_of(regime)) +
                            "\", not of a fluidised bed");
-  return bed_curve(fluid::read_bed_table(file), file);
+  return bed_curve(read_bed_table(file), file);
 }
 
-closures::MonotoneCurve bed_curve(const fluid::BedPressure& bed, const std::string& file) {
+closures::MonotoneCurve bed_curve(const BedPressure& bed, const std::string& file) {
   std::vector<double> phi = bed.phi, pressure = bed.pressure;
   if (!phi.empty() && phi.front() > 0) {
     phi.insert(phi.begin(), 0.0);

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "closures/stress_table.hpp"
-#include "fluid/solids_table.hpp"
 #include "tfm/effects/solids_stress_frictional.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::tfm {
 
@@ -38,7 +38,7 @@ class TableStress : public StressEffect {
 
 /// p_bed(phi) as a curve: an empty bed has no pressure, so one that begins above phi = 0 gets that knot. Throws
 /// core::CaseError if it does not rise. \param name  of its file
-[[nodiscard]] closures::MonotoneCurve bed_curve(const fluid::BedPressure& bed, const std::string& file);
+[[nodiscard]] closures::MonotoneCurve bed_curve(const BedPressure& bed, const std::string& file);
 
 /// Reads p_bed(phi) from a file of type "polybed solids table", version 1, attribute regime = "bed", datasets `phi` and
 /// `p_bed` (in units of (rho_p - rho_f) g D). An empty bed has no pressure: a table that begins above phi = 0 gets that

@@ -11,11 +11,11 @@
 #include "closures/stress_table.hpp"
 #include "core/error.hpp"
 #include "core/vectors.hpp"
-#include "fluid/solids_table.hpp"
 #include "tfm/effects.hpp"
 #include "tfm/effects/maker.hpp"
 #include "tfm/effects/table_file.hpp"
 #include "tfm/solids.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::tfm {
 
@@ -33,14 +33,14 @@ class TableExchange : public SolidsExchange {
  public:
   /// Needs a granular temperature, which the stress of the solids has to have made. \param file  of the table
   TableExchange(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
-                const fluid::SolidsTable& table, const std::string& file, Fields& fields)
+                const SolidsTable& table, const std::string& file, Fields& fields)
       : constants_(constants),
         boundaries_(boundaries),
         fastest_(table.exchange_drift),
         contact_(scene.tfm.exchange_pressure),
         use_{"species exchange " + file} {
-    const fluid::TablePlace place = fluid::place_of(scene);
-    ratio_ = fluid::exchange_at(table, place);
+    const TablePlace place = place_of(scene);
+    ratio_ = exchange_at(table, place);
     restitution_ = table.reference_restitution(place.restitution, place.friction);
     fields.species_exchange.push_back(core::make_field(constants.grid));
     if (contact_ > 0 && fields.stress.contact.empty()) fields.stress.contact = core::make_field(constants.grid);
@@ -184,10 +184,9 @@ namespace makers {
 namespace {
 
 /// A table of what two species exchange.
-fluid::SolidsTable exchange_table(const core::Scene& scene, const std::string& file,
-                                  std::vector<std::string>& warnings) {
-  fluid::SolidsTable table = fluid::read_solids_table(file);
-  for (const std::string& line : fluid::beyond(table, fluid::place_of(scene)))
+SolidsTable exchange_table(const core::Scene& scene, const std::string& file, std::vector<std::string>& warnings) {
+  SolidsTable table = read_solids_table(file);
+  for (const std::string& line : beyond(table, place_of(scene)))
     warnings.push_back("species exchange " + file + ": " + line);
   return table;
 }
@@ -195,7 +194,7 @@ fluid::SolidsTable exchange_table(const core::Scene& scene, const std::string& f
 void make_species_exchange(const Making& m) {
   const auto& [scene, constants, boundaries, law, fields, effects] = m;
   if (const auto file = table_file(law)) {
-    const fluid::SolidsTable table = exchange_table(scene, *file, effects.warnings);
+    const SolidsTable table = exchange_table(scene, *file, effects.warnings);
     effects.species_exchange = std::make_unique<TableExchange>(scene, constants, boundaries, table, *file, fields);
   } else if (constants.species() > 1) {
     effects.species_exchange = std::make_unique<SyamlalExchange>(scene, constants, boundaries, fields);

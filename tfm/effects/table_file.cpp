@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "fluid/shear_regime.hpp"
-#include "fluid/solids_table.hpp"
 #include "relevance/effects/solids_stress.hpp"
 #include "tfm/effects/solids_stress_table.hpp"
+#include "tfm/shear_regime.hpp"
+#include "tfm/solids_table.hpp"
 
 namespace polybed::tfm {
 
@@ -18,13 +18,13 @@ bool is_left_open(const core::Scene& scene) {
 
 /// A table of sheared particles must be of the scene's regime: the other misses the stress by factors.
 std::string wrong_regime(const core::Scene& scene, const std::string& file, core::BoxRegime regime) {
-  const fluid::Regime here = fluid::shear_regime(scene);
+  const Regime here = shear_regime(scene);
   if (here.kind == core::BoxRegime::automatic || here.kind == regime) return "";
   return fmt::format("table:{} is a {} table, and the solids here are {}: {} (calibrate.regime says otherwise)", file,
                      core::name_of(regime), core::name_of(here.kind), here.reason);
 }
 
-std::string wrong_restitution(const core::Scene& scene, const std::string& file, const fluid::SolidsTable& table) {
+std::string wrong_restitution(const core::Scene& scene, const std::string& file, const SolidsTable& table) {
   for (const core::Species& s : scene.species)
     if (!(table.reference_restitution(s.restitution, s.friction) > 0))
       return fmt::format(
@@ -34,7 +34,7 @@ std::string wrong_restitution(const core::Scene& scene, const std::string& file,
 }
 
 std::string wrong_for_stress(const core::Scene& scene, const std::string& file) {
-  const core::BoxRegime regime = fluid::regime_of_table(file);
+  const core::BoxRegime regime = regime_of_table(file);
   const bool of_bed = regime == core::BoxRegime::bed;
   if (regime != core::BoxRegime::dry && core::acts(scene, "granular_temperature"))
     return fmt::format("{} is no dry table, with which effects.granular_temperature = \"{}\" could act", file,
@@ -43,7 +43,7 @@ std::string wrong_for_stress(const core::Scene& scene, const std::string& file) 
     return file + " has no viscosity of the solids, through which tfm.solids_wall = \"johnson_jackson\" acts";
   if (of_bed) return (void)read_bed_pressure(file), "";
   if (std::string wrong = wrong_regime(scene, file, regime); !wrong.empty()) return wrong;
-  const fluid::SolidsTable table = fluid::read_solids_table(file);
+  const SolidsTable table = read_solids_table(file);
   if (!table.bed.phi.empty()) (void)bed_curve(table.bed, file);
   return regime == core::BoxRegime::dry ? wrong_restitution(scene, file, table) : "";
 }
@@ -51,18 +51,18 @@ std::string wrong_for_stress(const core::Scene& scene, const std::string& file) 
 /// Whether the stress has a granular temperature.
 bool has_temperature(const core::Scene& scene) {
   const std::string law = core::law_of(scene, "solids_stress");
-  if (const auto file = table_file(law)) return fluid::regime_of_table(*file) == core::BoxRegime::dry;
+  if (const auto file = table_file(law)) return regime_of_table(*file) == core::BoxRegime::dry;
   return relevance::effects::solids_stress.law_has(law, relevance::effects::kinetic_theory);
 }
 
 std::string wrong_for_exchange(const core::Scene& scene, const std::string& file) {
   if (scene.species.size() != 2)
     return fmt::format("table:{} is of two species, the case has {}", file, scene.species.size());
-  if (const core::BoxRegime regime = fluid::regime_of_table(file); regime != core::BoxRegime::dry)
+  if (const core::BoxRegime regime = regime_of_table(file); regime != core::BoxRegime::dry)
     return fmt::format("table:{} is a {} table: what species exchange is measured in dry boxes alone", file,
                        core::name_of(regime));
   if (std::string wrong = wrong_regime(scene, file, core::BoxRegime::dry); !wrong.empty()) return wrong;
-  if (fluid::read_solids_table(file).exchange.value.empty())
+  if (read_solids_table(file).exchange.value.empty())
     return fmt::format("table:{} holds no beta_12: polybed calibrate measures it in dry boxes, with calibrate.share",
                        file);
   if (core::law_of(scene, "solids_stress") != core::automatic && !has_temperature(scene))

@@ -101,10 +101,10 @@ TEST(CalibrateReference, PressureByHandAndCutInTwo) {
 }
 
 /// A table of smooth spheres whose pressure is that of chi_eff = chi_CS (1 + a S), S = 0.5 everywhere.
-fluid::SolidsTable dry_table(double a, double friction = 0) {
-  fluid::SolidsTable t;
+tfm::SolidsTable dry_table(double a, double friction = 0) {
+  tfm::SolidsTable t;
   t.regime = core::BoxRegime::dry;
-  t.reference = fluid::effective_reference;
+  t.reference = tfm::effective_reference;
   t.phi = {0.1, 0.2, 0.3, 0.4, 0.45};
   t.stokes = t.share = {0};
   t.friction = {friction};
@@ -121,14 +121,14 @@ fluid::SolidsTable dry_table(double a, double friction = 0) {
 }
 
 TEST(TableShape, StructureIsRecovered) {
-  const fluid::SolidsTable t = dry_table(0.18);
+  const tfm::SolidsTable t = dry_table(0.18);
   ASSERT_EQ(structure_coefficients(t).size(), t.size());
   for (const double a : structure_coefficients(t)) EXPECT_NEAR(a, 0.18, 1e-12);
   EXPECT_TRUE(falls_of(t).empty());
 }
 
 TEST(TableShape, APressureThatFallsIsNamedWithItsPlace) {
-  fluid::SolidsTable t = dry_table(0.18);
+  tfm::SolidsTable t = dry_table(0.18);
   t.pressure.value[t.index(2, 0, 0, 0, 0)] *= 0.3;
   const std::vector<std::string> falls = falls_of(t);
   ASSERT_EQ(falls.size(), 1u);
@@ -146,7 +146,7 @@ TEST(TableShape, TheFallInShearOfADiluteGas) {
 // With friction the reference is at e_eff = e - 1.5 mu exp(-3 mu): 0.717 of 0.9 and 0.3. A table whose boxes press as
 // smooth spheres of that restitution do then has a ratio of 1 and no structure.
 TEST(TableShape, RoughSpheresAreComparedWithSmoothOnesThatLoseAsMuch) {
-  fluid::SolidsTable t = dry_table(0, 0.3);
+  tfm::SolidsTable t = dry_table(0, 0.3);
   EXPECT_NEAR(t.reference_restitution(0.9, 0.3), 0.717044, 1e-6);
   for (const double a : structure_coefficients(t)) EXPECT_NEAR(a, 0, 1e-12);
   t.reference = "GD-CS";  // of files that are older

@@ -1,5 +1,5 @@
 // The file of a table of sheared particles: written, read, taken at a place.
-#include "fluid/solids_table.hpp"
+#include "tfm/solids_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/output/file.hpp"
 
-namespace polybed::fluid {
+namespace polybed::tfm {
 namespace {
 
 /// 3 x 2 x 2 x 1 x 1, p_ratio linear in e and growing with phi and stokes.
@@ -132,4 +132,4 @@ TEST(SolidsTable, OtherFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace polybed::fluid
+}  // namespace polybed::tfm

@@ -6,7 +6,7 @@
 
 #include "core/case/scene.hpp"
 
-namespace polybed::fluid {
+namespace polybed::tfm {
 
 /// What decides, of one species at the voidage where it hangs in the stream.
 struct RegimeNumbers {
@@ -33,4 +33,4 @@ struct Regime {
 /// the greatest velocity of the inlet, and wet below. Throws core::CaseError without a drag law.
 [[nodiscard]] Regime shear_regime(const core::Scene& scene);
 
-}  // namespace polybed::fluid
+}  // namespace polybed::tfm

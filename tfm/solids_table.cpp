@@ -1,4 +1,4 @@
-#include "fluid/solids_table.hpp"
+#include "tfm/solids_table.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 
 #include "core/error.hpp"
 #include "core/output/file.hpp"
-#include "fluid/solids_table_file.hpp"
+#include "tfm/solids_table_file.hpp"
 
-namespace polybed::fluid {
+namespace polybed::tfm {
 
 namespace {
 
@@ -203,4 +203,4 @@ BedPressure read_bed_table(const std::filesystem::path& path) {
   return bed;
 }
 
-}  // namespace polybed::fluid
+}  // namespace polybed::tfm

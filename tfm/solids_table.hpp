@@ -9,7 +9,7 @@
 #include "closures/stress_reference.hpp"
 #include "core/case/scene.hpp"
 
-namespace polybed::fluid {
+namespace polybed::tfm {
 
 /// A ratio at every point of the table, its standard error, and how many seeds it is the mean of.
 struct TableQuantity {
@@ -90,4 +90,4 @@ void write_solids_table(const std::filesystem::path& path, const SolidsTable& ta
 /// Of a table of regime "bed". Throws core::FileError likewise.
 [[nodiscard]] BedPressure read_bed_table(const std::filesystem::path& path);
 
-}  // namespace polybed::fluid
+}  // namespace polybed::tfm

@@ -1,4 +1,4 @@
-#include "fluid/solids_table_file.hpp"
+#include "tfm/solids_table_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 
-namespace polybed::fluid {
+namespace polybed::tfm {
 
 namespace {
 
@@ -108,4 +108,4 @@ void require_values(const std::filesystem::path& path, const BedPressure& bed) {
   require_range(path, "p_bed_se", bed.error, 0, greatest_number);
 }
 
-}  // namespace polybed::fluid
+}  // namespace polybed::tfm

@@ -1,4 +1,4 @@
-#include "fluid/shear_regime.hpp"
+#include "tfm/shear_regime.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
-namespace polybed::fluid {
+namespace polybed::tfm {
 
 namespace {
 
@@ -62,7 +62,7 @@ Regime shear_regime(const core::Scene& scene) {
   const core::BoxRegime given = scene.calibrate.regime;
   const bool sheared = given == core::BoxRegime::dry || given == core::BoxRegime::wet;
   Regime regime{sheared ? given : core::BoxRegime::automatic, "as the case says", {}};
-  const double velocity = Ramp(scene.inlet.superficial_velocity).greatest();
+  const double velocity = fluid::Ramp(scene.inlet.superficial_velocity).greatest();
   for (std::size_t j = 0; velocity > 0 && j < scene.species.size(); ++j)
     regime.numbers.push_back(regime_numbers(scene, j, velocity, 0));
   if (sheared || regime.numbers.empty()) return regime;
@@ -78,4 +78,4 @@ Regime shear_regime(const core::Scene& scene) {
   return regime;
 }
 
-}  // namespace polybed::fluid
+}  // namespace polybed::tfm

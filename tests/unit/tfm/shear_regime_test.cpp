@@ -1,11 +1,11 @@
 // Dry or wet: the shear rate times the relaxation time of known scenes.
-#include "fluid/shear_regime.hpp"
+#include "tfm/shear_regime.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 
-namespace polybed::fluid {
+namespace polybed::tfm {
 namespace {
 
 /// A scene of the specification's golden table: diameter and density of one species, the liquid, velocity, width.
@@ -69,4 +69,4 @@ TEST(ShearRegime, GasIsDryLiquidIsWetAndTheCaseMaySayOtherwise) {
 }
 
 }  // namespace
-}  // namespace polybed::fluid
+}  // namespace polybed::tfm

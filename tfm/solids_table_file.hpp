@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/output/file.hpp"
-#include "fluid/solids_table.hpp"
+#include "tfm/solids_table.hpp"
 
-namespace polybed::fluid {
+namespace polybed::tfm {
 
 /// Opens a table. Throws core::FileError for another kind of file, and for one whose checksum does not hold.
 [[nodiscard]] core::OutputFile open_table(const std::filesystem::path& path);
@@ -38,4 +38,4 @@ void require_values(const std::filesystem::path& path, const SolidsTable& table)
 /// Throws core::FileError for values that no p_bed can have; whether it rises is the law's to check.
 void require_values(const std::filesystem::path& path, const BedPressure& bed);
 
-}  // namespace polybed::fluid
+}  // namespace polybed::tfm
