@@ -23,7 +23,6 @@ using core::Index;
 namespace {
 
 Constants make_constants(const core::Scene& scene, const std::shared_ptr<const core::Ranks>& ranks) {
-  refuse_particle_scene(scene);
   Constants constants;
   constants.grid = core::grid_of(scene.column, ranks);
   constants.gravity = scene.column.gravity;
@@ -56,7 +55,7 @@ Discretisation make_discretisation(const core::Tfm& options, core::Momentum mome
 Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks)
     : timers_(timers),
       options_(scene.tfm),
-      momentum_((refuse_particle_scene(scene), momentum_of(scene))),
+      momentum_(momentum_of(continuum_scene(scene))),
       equations_(scene, make_constants(scene, ranks),
                  fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed,
                                    scene.column.outlet == core::Outlet::open),

@@ -140,6 +140,9 @@ std::vector<std::string> only_for_particles(const Scene& scene) {
   return core::texts_of(core::problems_of(model_rules(), scene));
 }
 
-void refuse_particle_scene(const Scene& scene) { core::refuse(model_rules(), scene); }
+const Scene& continuum_scene(const Scene& scene) {
+  core::refuse(model_rules(), scene);
+  return scene;
+}
 
 }  // namespace polybed::tfm

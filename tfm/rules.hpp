@@ -28,7 +28,7 @@ namespace polybed::tfm {
 /// What in a scene is for the DEM only, one message each that names the key; empty: the two-fluid model can run it.
 [[nodiscard]] std::vector<std::string> only_for_particles(const core::Scene& scene);
 
-/// Throws core::CaseError with all of these messages.
-void refuse_particle_scene(const core::Scene& scene);
+/// The scene; throws core::CaseError with all of these messages.
+[[nodiscard]] const core::Scene& continuum_scene(const core::Scene& scene);
 
 }  // namespace polybed::tfm
