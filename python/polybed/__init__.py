@@ -17,11 +17,11 @@ importlib.import_module("polybed.fit")
 with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it still looks for
     from polybed.files import FormatError, ReplacedError
     from polybed.particles import Particles
-    from polybed.program import ProgramError, calibrate, case, compare, inversion, run, sweep
+    from polybed.program import ProgramError, calibrate, case, check, compare, inversion, run, sweep
     from polybed.quantities import Quantity
     from polybed.read import Run, read
     from polybed.solids_table import SolidsTable, read_table
-    from polybed.studies import cost, fit, measure, scan
+    from polybed.studies import cost, fit, measure, scan, table
 
 __all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "__version__", "calibrate",
-           "case", "compare", "cost", "fit", "inversion", "measure", "read", "read_table", "run", "scan", "sweep"]
+           "case", "check", "compare", "cost", "fit", "inversion", "measure", "read", "read_table", "run", "scan", "sweep", "table"]

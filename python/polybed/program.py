@@ -21,7 +21,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
@@ -164,6 +164,14 @@ def folder_of(case: Place, what: str, digest: str) -> Path:
     return Path("runs") / f"{name_of(case)}-{what}-{digest}"
 
 
+@names_itself
+def check(case: Place, overrides: Overrides | None = None, until: Value | None = None) -> dict[str, Any]:
+    """What `polybed check --json` says of a case, without a run: expected height and state, velocities of fluidisation and of fall, steps,
+    memory and time that a run takes, notes, and why a model refuses it."""
+    answer: dict[str, Any] = json.loads(call("check", case, *settings(overrides, until), "--json"))
+    return answer
+
+
 def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int, label: str | None,
          place: Callable[[str], Path]) -> Run:
     """Opens the run that is in a folder, or makes it. place: the folder by the hash of the resolved case."""
@@ -191,21 +199,23 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
 
 
 @names_itself
-def sweep(case: Place, key: str, values: Iterable[Value], model: str = "tfm", overrides: Overrides | None = None,
-          output: Place | None = None, until: Value | None = None, at_once: int = 1, quiet: bool = False) -> list[Run]:
+def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterable[Value] = (), model: str = "tfm",
+          overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None, at_once: int = 1,
+          quiet: bool = False) -> list[Run]:
     """Runs a case for several values of a key and returns the runs in their order, each in a folder of its own, called by the value
-    and the hash of its case.
+    and the hash of its case. With {key: values} for several keys it runs all combinations, the last key first; see polybed.table.
 
     values: numbers in SI, texts with a unit, or an array along its first axis; until: simulated time, "20 s" or seconds
     at_once: how many run side by side; unless quiet, a line on standard error says how many are done
     """
-    each, done = list(values), itertools.count(1)
+    axes = {key: values} if isinstance(key, str) else key
+    each, done = [dict(zip(axes, point)) for point in itertools.product(*map(list, axes.values()))], itertools.count(1)
     folder = Path(output) if output else Path("runs") / f"{name_of(case)}-{model}-sweep"
 
-    def one(value: Value) -> Run:
-        shown = f"{key}-{toml(plain(value, key))}".replace('"', "")[:60]
+    def one(point: dict[str, Value]) -> Run:
+        shown = ", ".join(f"{key}-{toml(plain(value, key))}" for key, value in point.items()).replace('"', "")[:60]
         name = "".join(c if c.isalnum() or c in ".-" else "_" for c in shown)
-        found = made(case, model, dict(overrides or {}) | {key: value}, until, 1, label_of(quiet, shown),
+        found = made(case, model, dict(overrides or {}) | point, until, 1, label_of(quiet, shown),
                      lambda digest: folder / f"{name}-{digest}")
         show(label_of(quiet), f"{next(done)} of {len(each)} runs done: {shown}\n")
         return found

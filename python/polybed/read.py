@@ -73,6 +73,13 @@ class Run:
         done = f" by {record['model']}, {record['time_s']:g} s, {record['state']}" if {"model", "time_s", "state"} <= record.keys() else ""
         return plain(f"Run in {self.directory}{done}")
 
+    def _repr_html_(self) -> str:
+        """The card as a table, for notebooks."""
+        from polybed import labelled
+        card = labelled.table([self]).T.dropna()
+        card.columns = [repr(self)]
+        return str(card.to_html())
+
     def _open_step(self, step):
         return open_hdf5(self._folder.file("fields", f"{step + 1:06d}.h5"), "polybed fields step")
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 from polybed.files import read_json
 from polybed.overrides import Overrides, Value, plain
 from polybed.program import DIGITS, Place, call, folder_of, inversion, label_of, names_itself, resolved, settings
-from polybed.read import Run
+from polybed.read import Run, read
 
 
 @names_itself
@@ -25,6 +25,15 @@ def measure(run: Run | Place) -> dict[str, Any]:
     """
     found: dict[str, Any] = json.loads(call("measure", run.directory if isinstance(run, Run) else run, "--json"))
     return found
+
+
+def table(runs: Iterable[Run | Place]) -> Any:
+    """Runs as a pandas.DataFrame with a row each: the keys in which their cases differ, the state of the run, and its card.
+
+    runs: runs, or their directories, as `polybed.sweep` returns them
+    """
+    from polybed import labelled
+    return labelled.table(run if isinstance(run, Run) else read(run) for run in runs)
 
 
 @names_itself

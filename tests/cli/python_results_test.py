@@ -36,6 +36,24 @@ class Results(Scratch):
             np.testing.assert_array_equal(frame[name], run.history[name])
         self.assertEqual([frame.attrs["units"][name] for name in ("bed_height_m", "pressure_drop_Pa", "mixing")], ["m", "Pa", "1"])
 
+    def test_a_grid_of_runs_is_a_table_of_keys_and_cards(self):
+        grid = {"inlet.superficial_velocity": ["20 mm/s", "30 mm/s"], "species.fine.diameter": ["0.8 mm", "0.9 mm"]}
+        runs = polybed.sweep(CASE, grid, overrides=SHORT, output=self.folder / "grid", until=UNTIL, quiet=True)
+        table = polybed.table([runs[0], *(run.directory for run in runs[1:])])
+        self.assertEqual(list(table.index), [str(run.directory) for run in runs])
+        self.assertEqual(list(table.columns[:2]), ["species.fine.diameter", "inlet.superficial_velocity"])
+        np.testing.assert_allclose(table[list(grid)], [[u, d] for u in (0.02, 0.03) for d in (8e-4, 9e-4)], rtol=1e-12)
+        for run, row in zip(runs, table.itertuples()):
+            self.assertEqual((row.run_state, row.state), ("done", run.card["state"]))
+            self.assertEqual(row.bed_height_m, run.card["bed_height_m"]["value"])
+        self.assertIn(f"<td>{runs[0].card['state']}</td>", runs[0]._repr_html_())
+
+    def test_a_check_is_what_the_program_says(self):
+        found = polybed.check(CASE, {"inlet.superficial_velocity": "20 mm/s"})
+        self.assertEqual(found, strict_json(self.ends(program.DONE, "check", CASE, "--set", "inlet.superficial_velocity=20 mm/s", "--json").stdout) |
+                         {key: found[key] for key in ("memory_MB", "memory", "time", "dem")})  # of this machine at this moment
+        self.assertEqual(found["refused"], {"tfm": [], "dem": []})
+
     def test_fields_and_profiles_are_datasets_with_units(self):
         run = self.run_short()
         fields, profiles = run.dataset(), run.dataset("profiles")
