@@ -30,8 +30,6 @@ until = "10 ms"
 """
 FLUID = '[fluid]\nname = "water"\ntemperature = "15 degC"\n'
 INLET = '[inlet]\nsuperficial_velocity = "10 mm/s"\n'
-
-
 LAWS = {"drag": "cello", "fluid_stress": "newtonian", "gas_slip": "cunningham", "added_mass": "zuber", "lift": "saffman_mei",
         "magnus": "rubinow_keller", "history": "basset", "brownian": "langevin", "lubrication": "film"}
 DRY = "fluid.name=none"
@@ -264,6 +262,8 @@ BROKEN = {
     "dem.greatest_speed: without gravity, shear or particles that move nothing tells how fast they will be; give the greatest speed "
     "expected, which sets the time step": ["column.gravity=0"],
     'bed.start = "settled": without column.gravity nothing settles; use "random" or "mixed"': ["bed.start=settled", "column.gravity=0"],
+    'bed.start = "settled": along joined faces particles fall for ever; use "random" or "mixed", or walls across the direction of '
+    "column.gravity": [*NO_FLUID, JOINED, "bed.start=settled"],
     'dem.fluid_ranks = "shared" does not go with a kernel of diffusion, which needs the whole column: use "each", or cells of at least 1.5 '
     'diameters with dem.kernel = "bilinear"': ["dem.fluid_ranks=shared", "dem.kernel=diffusion"],
     "chooser.temperature_range: {}": ['chooser.temperature_range=["15 degC", "900 degC"]'],
