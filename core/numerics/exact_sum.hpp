@@ -35,7 +35,7 @@ using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 }
 
 // What is summed: terms from the entries of one, two or three arrays. Where digits of the first part are enough, as for
-// norms and the directions of an iteration, the second is left out.
+// the directions of an iteration, the second is left out.
 struct Itself {
   static constexpr bool both_parts = true;
   [[gnu::always_inline]] static Lanes of(const Lanes& x) { return x; }
@@ -45,12 +45,12 @@ struct Product {
   [[gnu::always_inline]] static Lanes of(const Lanes& x, const Lanes& y) { return x * y; }
 };
 struct WeightedSquare {
-  static constexpr bool both_parts = false;
+  static constexpr bool both_parts = true;
   [[gnu::always_inline]] static Lanes of(const Lanes& x, const Lanes& w) { return (x * w) * (x * w); }
 };
 /// Of the entries with a mask of 1, where the others have 0.
 struct MaskedSquare {
-  static constexpr bool both_parts = false;
+  static constexpr bool both_parts = true;
   [[gnu::always_inline]] static Lanes of(const Lanes& x, const Lanes& w, const Lanes& mask) {
     return mask * ((x * w) * (x * w));
   }

@@ -41,7 +41,7 @@ double f_of(const std::string& law, double eps, double re) {
 Error of_one_size(const std::string& law, const std::vector<std::string>& tables = {"A_i", "A_ii", "A_iii"}) {
   Error error;
   for (const std::string& name : tables) {
-    const Table table("multiscale/resolve/lattice/tab_" + name + ".csv");
+    const Table table("lbm/tab_" + name + ".csv");
     for (std::size_t n = 0; n < table.rows(); ++n)
       error.see(f_of(law, table.number(n, "eps"), table.number(n, "Re")),
                 table.number(n, name == "A_iii" ? "f_TL" : "f_LBM"));
@@ -58,7 +58,7 @@ MixtureError of_two_sizes(const std::string& name_of_law) {
   MixtureError error;
   const DragLaw law = drag_law(name_of_law, Guard::on);
   for (const std::string name : {"A_iv", "A_v"}) {
-    const Table table("multiscale/resolve/lattice/tab_" + name + ".csv");
+    const Table table("lbm/tab_" + name + ".csv");
     for (std::size_t n = 0; n < table.rows(); ++n) {
       const double eps = table.number(n, "eps"), re = table.number(n, "Rebar"), x1 = table.number(n, "x1");
       const std::vector<double> share{x1, 1 - x1}, diameter{table.number(n, "D1_over_D2_used"), 1.0};
@@ -81,7 +81,7 @@ MixtureError of_two_sizes(const std::string& name_of_law) {
 Error of_system(const std::string& system) {
   Error error;
   for (const std::string name : {"B_i", "B_ii"}) {
-    const Table table("multiscale/resolve/lattice/tab_" + name + ".csv");
+    const Table table("lbm/tab_" + name + ".csv");
     for (std::size_t n = 0; n < table.rows(); ++n) {
       if (table.text(n, "system") != system) continue;
       const double eps = table.number(n, "eps"), y = table.number(n, "y_j");
@@ -103,7 +103,7 @@ struct Sample {
 
 /// Rows of two sizes, those left out that repeat another.
 std::vector<Sample> samples_of_two_sizes(const std::string& name) {
-  const Table table("multiscale/resolve/lattice/tab_" + name + ".csv");
+  const Table table("lbm/tab_" + name + ".csv");
   std::vector<Sample> samples;
   std::set<std::string> seen;
   for (std::size_t n = 0; n < table.rows(); ++n) {
@@ -129,7 +129,7 @@ std::vector<Sample> samples_of_two_sizes(const std::string& name) {
 /// Sizes over their Sauter diameter and shares: of four sizes as in the table, of the systems I to IV as inferred.
 std::pair<std::vector<double>, std::vector<double>> sizes_of(const std::string& system) {
   if (system == "four") return {{1, 2, 3, 4}, {0.25, 0.25, 0.25, 0.25}};
-  const Table table("multiscale/resolve/lattice/inferred_xj_sarkar.csv");
+  const Table table("lbm/inferred_xj_sarkar.csv");
   std::vector<double> y, share;
   double sum = 0;
   for (std::size_t n = 0; n < table.rows(); ++n) {
@@ -149,7 +149,7 @@ std::vector<Sample> samples_of_many_sizes(const std::string& system) {
   std::vector<Sample> samples;
   for (const std::string name : {"B_i", "B_ii", "B_iii"}) {
     if ((name == "B_iii") != (system == "four")) continue;
-    const Table table("multiscale/resolve/lattice/tab_" + name + ".csv");
+    const Table table("lbm/tab_" + name + ".csv");
     for (std::size_t n = 0; n < table.rows(); ++n) {
       if (system != "four" && table.text(n, "system") != system) continue;
       const double y = table.number(n, "y_j"), net = table.number(n, "n_j_LBM");

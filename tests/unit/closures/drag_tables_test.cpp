@@ -29,7 +29,7 @@ void expect_relative(double value, double expected, double tolerance, const std:
 
 TEST(DragTables, BareLawsAtReferencePoints) {
   // Twelve digits, computed apart from this code; 1e-10 leaves two for their rounding and ours.
-  const Table table("multiscale/resolve/lattice/ref_mono_points.csv");
+  const Table table("lbm/ref_mono_points.csv");
   const std::map<std::string, std::string> column{
       {"cello", "f_NM"},    {"vbk", "f_VBK"},           {"hkl", "f_HKL"},         {"turton_levenspiel", "f_TL"},
       {"ergun", "f_Ergun"}, {"carman_kozeny", "f_CK5"}, {"wen_yu", "f_WenYu_SN"}, {"di_felice", "f_DiFelice_Dalla"}};
@@ -50,7 +50,7 @@ TEST(DragTables, PrintedAndRecomputedColumnsOfOneSize) {
   const std::map<std::string, std::string> laws{
       {"cello", "NM"}, {"vbk", "VBK"}, {"hkl", "HKL"}, {"turton_levenspiel", "TL"}};
   for (const std::string name : {"A_i", "A_ii", "A_iii"}) {
-    const Table table("multiscale/resolve/lattice/tab_" + name + ".csv");
+    const Table table("lbm/tab_" + name + ".csv");
     for (std::size_t n = 0; n < table.rows(); ++n)
       for (const auto& [law, short_name] : laws) {
         const double f = f_bare(law, table.number(n, "eps"), table.number(n, "Re"));
@@ -85,7 +85,7 @@ std::vector<Mixture> mixtures(const Table& table) {
 }
 
 TEST(DragTables, MixturesAtReferencePoints) {
-  const Table table("multiscale/resolve/lattice/ref_poly_points.csv");
+  const Table table("lbm/ref_poly_points.csv");
   const auto bare = [](const std::string& name, const Mixture& m, std::vector<double>& f) {
     const DragLaw law = drag_law(name, Guard::off);
     const double mean = sauter_diameter(m.share, m.diameter);
@@ -128,7 +128,7 @@ TEST(DragTables, MixturesAtReferencePoints) {
 
 TEST(DragTables, PrintedMixturesOfTwoSizes) {
   for (const std::string name : {"A_iv", "A_v"}) {
-    const Table table("multiscale/resolve/lattice/tab_" + name + ".csv");
+    const Table table("lbm/tab_" + name + ".csv");
     for (std::size_t n = 0; n < table.rows(); ++n) {
       const double eps = table.number(n, "eps"), re = table.number(n, "Rebar"), x1 = table.number(n, "x1");
       const std::vector<double> share{x1, 1 - x1}, diameter{table.number(n, "D1_over_D2_used"), 1.0};
@@ -158,7 +158,7 @@ TEST(DragTables, PrintedMixturesOfTwoSizes) {
 
 TEST(DragTables, TenAndFourSizes) {
   for (const std::string name : {"B_i", "B_ii", "B_iii"}) {
-    const Table table("multiscale/resolve/lattice/tab_" + name + ".csv");
+    const Table table("lbm/tab_" + name + ".csv");
     for (std::size_t n = 0; n < table.rows(); ++n) {
       const double eps = table.number(n, "eps"), re = table.number(n, "Rebar"), y = table.number(n, "y_j");
       const double omega = y * (1 + cello_h(eps) * (y - 1) / table.number(n, "ym_used"));

@@ -34,7 +34,7 @@ InversionPoint point(const BinaryBed& bed, const std::string& law, const std::st
 
 TEST(Inversion, RecomputedTable) {
   // The recomputed columns have five digits: u within 0.1 %, eps within 1e-4.
-  const Table table("multiscale/resolve/lattice/tab_5_ii.csv");
+  const Table table("lbm/tab_5_ii.csv");
   const std::pair<const char*, const char*> laws[] = {{"cello", "NM"}, {"vbk_theory", "NC"}, {"di_felice", "DF"}};
   for (std::size_t n = 0; n < table.rows(); ++n)
     for (const auto& [law, name] : laws) {
@@ -49,7 +49,7 @@ TEST(Inversion, RecomputedTable) {
 
 TEST(Inversion, PrintedTable) {
   // One decimal of mm/s and two of the voidage, as the thesis prints them.
-  const Table table("multiscale/resolve/lattice/tab_5_ii.csv");
+  const Table table("lbm/tab_5_ii.csv");
   const std::pair<const char*, const char*> laws[] = {{"cello", "NM"}, {"vbk_theory", "NC"}};
   for (std::size_t n = 0; n < table.rows(); ++n)
     for (const auto& [law, name] : laws) {
@@ -64,7 +64,7 @@ TEST(Inversion, PrintedTable) {
 TEST(Inversion, FromTheTemperature) {
   // Other correlations of water at 20 degC than the table's two constants: u within 0.2 %.
   const relevance::FluidConstants water{closures::water_density(293.15), closures::water_viscosity(293.15)};
-  const Table table("multiscale/resolve/lattice/tab_5_ii.csv");
+  const Table table("lbm/tab_5_ii.csv");
   for (std::size_t n = 0; n < table.rows(); ++n) {
     const double u = table.number(n, "u_NM_calc");
     if (std::isnan(u)) continue;
@@ -76,7 +76,7 @@ TEST(Inversion, FromTheTemperature) {
 }
 
 TEST(Inversion, SystemsOfTheThesis) {
-  const Table table("multiscale/resolve/lattice/systems_ABC_macro.csv");
+  const Table table("lbm/systems_ABC_macro.csv");
   const std::pair<const char*, const char*> laws[] = {{"cello", "NM"}, {"vbk_theory", "NC"}, {"di_felice", "DF"}};
   for (std::size_t n = 0; n < table.rows(); ++n)
     for (const auto& [law, name] : laws) {
@@ -102,7 +102,7 @@ TEST(Inversion, OtherModels) {
                             {9.94982578, 0.81936580}};
   const double expansion[][2] = {{13.7, .751}, {6.65, .751}, {23.0, .723}, {31.7, .828}, {13.5, .766}};
   const double densest[][2] = {{13.2, .81}, {6.4, .81}, {18.9, .78}, {29.0, .88}, {12.7, .82}};
-  const Table table("multiscale/resolve/lattice/tab_5_ii.csv");
+  const Table table("lbm/tab_5_ii.csv");
   std::string last;
   std::size_t source = 0;
   for (std::size_t n = 0; n < table.rows() && source < 5; ++n) {
