@@ -22,7 +22,7 @@ struct Restored {
   bool same_run;                  ///< the run goes on; else another one begins with these particles
 };
 
-/// Collective, but for require().
+/// A part with state in the checkpoint. All functions but require() are collective.
 class KeptPart {
  public:
   virtual ~KeptPart() = default;

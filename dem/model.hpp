@@ -162,7 +162,7 @@ class Model : public core::Simulation {
   std::unique_ptr<JoinedWork> joined_work_;
   std::unique_ptr<AffineDrag> sheared_;  ///< drag of a sheared box
   std::unique_ptr<Coupling> coupling_;   ///< with the fluid
-  std::vector<KeptPart*> kept_;          ///< those of them that there are
+  std::vector<KeptPart*> kept_;          ///< the parts above that exist
   Around around_;
   bool held_;  ///< the particles do not move
   double skin_;

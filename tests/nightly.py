@@ -2,7 +2,7 @@
 """Runs a test of the label nightly where what it guards has changed since it last passed, which tests/nightly.txt notes, or where
 POLYBED_NIGHTLY is 1. Else it is skipped, or run in its short form if it has one.
 
-Usage: nightly.py NAME BUILD [--short] PATH ... -- COMMAND ...    the command learns by POLYBED_NIGHTLY, 1 or 0, which form is asked for
+Usage: nightly.py NAME BUILD [--short] PATH ... -- COMMAND ...    sets POLYBED_NIGHTLY for the command: 1, the whole test; 0, the short form
        nightly.py --record BUILD                                  notes what has passed in a build since it was made
 """
 import hashlib

@@ -15,7 +15,7 @@ constexpr int least_block_cells = 4;
 /// Blocks along each axis with the least surface between them. Throws CaseError if the column is too small for so many.
 [[nodiscard]] std::array<int, 3> choose_blocks(const Grid& column, int count);
 
-/// This rank's block of a column, the column itself for null; and that of any rank.
+/// This rank's block of a column, or the column itself for null. The second form returns the block of any rank.
 [[nodiscard]] Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks);
 [[nodiscard]] Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks, int rank);
 

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <limits>
 #include <span>
-#include <utility>
 
 #include "core/numerics/mpi.hpp"
 #include "core/vectors.hpp"
@@ -70,7 +69,7 @@ template <class Term, class Act, class... Array>
   act(Term::of(rest(array)...));
 }
 
-/// The greatest magnitude; of what is no number it takes no notice.
+/// The greatest magnitude; NaN is ignored.
 template <class Term, class... Array>
 double greatest_of(std::size_t n, const Array*... array) {
   Lanes most{};
@@ -86,8 +85,8 @@ double greatest_of(std::size_t n, const Array*... array) {
   return greatest;
 }
 
-/// What each term leaves on the grid of the first number, and what the rest leaves on that of the second, which are 1.5
-/// times a power of 2.
+/// Sums of the two parts of the terms: each term rounded to the last place of `first`, and the rest rounded to the last
+/// place of `second`. Both numbers are 1.5 times a power of 2.
 template <class Term, class... Array>
 std::array<double, 2> parts_of(std::size_t n, double first, double second, const Array*... array) {
   Lanes of_first{}, of_second{};
@@ -109,9 +108,9 @@ std::array<double, 2> parts_of(std::size_t n, double first, double second, const
 
 }  // namespace exact
 
-/// Sum over the processes of a communicator of the terms that a struct of exact makes of arrays. Of a million terms the
-/// first parts keep 31 binary digits below the greatest, both together 63. Not a number if a term is none or infinite.
-/// Collective.
+/// Sum of terms over the processes of a communicator. Term is one of the structs above and computes a term from the
+/// entries of the arrays. For a million terms the first part has 31 binary digits below the greatest term, both parts
+/// together 63. Returns NaN if a term is NaN or infinite. Collective.
 /// \param of_all  an upper bound of the number of terms on all processes, at most 2^24, the same on all  \param n  here
 template <class Term, class... Array>
 [[nodiscard]] double exact_sum(MPI_Comm all, std::size_t of_all, std::size_t n, const Array*... array) {

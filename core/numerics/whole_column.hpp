@@ -1,5 +1,5 @@
-// The fields of a column that is cut into blocks, put together on every rank. Where a direct method serves it is
-// quicker on each rank for all cells than any method that shares them, and its bits do not depend on the cuts.
+// Gathers the fields of a column that is cut into blocks on every rank, so that a direct solver of one rank serves
+// there as well and its result does not depend on the cuts.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ class WholeColumn {
   /// The column as one block.
   [[nodiscard]] const Grid& grid() const { return grid_; }
 
-  /// A field of this rank's block, and where that of the column goes.
+  /// A field of this rank's block, and the field of the whole column that it becomes part of.
   struct Part {
     std::span<const double> block;  ///< owned cells, or owned faces of one axis
     Field* column;

@@ -36,12 +36,13 @@ def frame(run: Run) -> Any:
 
 
 def keys_of(run: Run) -> dict[str, Any]:
-    """The keys of a run's resolved case by their dotted names, a species' own by its name; what stays as it is at time 0 without it."""
+    """The keys of a run's resolved case by dotted names, those of a species by its name. A velocity that is constant is one number."""
     case = tomllib.loads(run.record.get("case", ""))
     for name, entries in case.items():
         if isinstance(entries, list):
             case[name] = {str(entry.get("name", n)): entry for n, entry in enumerate(entries, start=1)}
-    return {key: value[0][1] if key.endswith("superficial_velocity") and len(value) == 1 else value for key, value in flat(case)}
+    constant = {key: value[0][1] for key, value in flat(case) if key.endswith("superficial_velocity") and isinstance(value, list) and len(value) == 1}
+    return dict(flat(case)) | constant
 
 
 def table(runs: Iterable[Run]) -> pd.DataFrame:
