@@ -33,8 +33,8 @@ void add_counted(const Row& lost, const Row& counted, int count, double per_unit
 
 }  // namespace
 
-Ledger::Ledger(const PairLaws& laws, int place, bool synchronised, FixedPoint unit)
-    : laws_(laws), place_(place), synchronised_(synchronised), unit_(unit) {
+Ledger::Ledger(const PairLaws& laws, int place, bool synchronised, FixedPoint unit, FixedPoint force)
+    : laws_(laws), place_(place), synchronised_(synchronised), unit_(unit), force_(force) {
   // Force is a power of overlap, the same for all pairs: one overlap tells the share.
   constexpr double overlap = 1e-6;
   elastic_share_ = laws.normal->energy(0, overlap) / (laws.normal->force_at(0, overlap) * overlap);
@@ -66,8 +66,8 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
   for (int c = 0; c < batch.padded(); ++c) {
     // Within the reach of cohesion a contact that has opened is still listed; it has parted all the same.
     const bool open = batch.overlap[c] <= 0;
-    lost[c] = open ? if_parted[c] : (synchronised_ ? due[c] : half * before[c]) + half * now[c] - gained[c];
-    due[c] = synchronised_ ? half * now[c] : batch.normal[c] - batch.elastic[c];
+    lost[c] = open ? if_parted[c] : half * (synchronised_ ? due[c] : before[c]) + half * now[c] - gained[c];
+    due[c] = synchronised_ ? now[c] : batch.normal[c] - batch.elastic[c];
     const bool ended = batch.normal[c] == 0;
     if_parted[c] = (ended ? elastic_share_ * batch.elastic[c] * batch.overlap[c] : half * now[c]) + held[c];
   }
@@ -75,15 +75,37 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
   add_counted(lost, counted, batch.count, unit_.per_unit, lost_);
 }
 
-void Ledger::act_film(ContactBatch& batch, const Row& force, const Row& counted, double dt) {
+void Ledger::begin_step(std::size_t particles) {
+  if (laws_.film && synchronised_) of_films_.assign(particles, {});
+}
+
+double Ledger::work_of_films(std::size_t particle, const Vector& missed) const {
+  if (of_films_.empty()) return 0;
+  double power = 0;
+  for (std::size_t k = 0; k < 3; ++k) power += double(of_films_[particle][k]) * missed[k];
+  return power * force_.unit;
+}
+
+/// As the films' forces go into the loads: in whole units, the same in any order of pairs.
+void Ledger::add_films(const ContactBatch& batch, const Row& force, bool wall) {
+  for (int c = 0; c < batch.count; ++c)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto units = std::int64_t(force[c] * batch.distance[k][c] * force_.per_unit);
+      of_films_[std::size_t(batch.first[c])][k] += units;
+      if (!wall) of_films_[std::size_t(batch.second[c])][k] -= units;
+    }
+}
+
+void Ledger::act_film(ContactBatch& batch, const Row& force, const Row& counted, double dt, bool wall) {
+  if (!of_films_.empty()) add_films(batch, force, wall);
   Row &due = batch.memory[place_ + before_film(laws_)], &if_parted = batch.memory[place_ + before_film(laws_) + 1];
   alignas(64) Row lost = {};
   const double half = -0.5 * dt;
   for (int c = 0; c < batch.padded(); ++c) {
-    const double now = half * force[c] * batch.speed[c];
-    lost[c] = (synchronised_ ? due[c] : half * due[c] * batch.speed[c]) + now;
+    const double now = force[c] * batch.speed[c];
+    lost[c] = half * (synchronised_ ? due[c] : due[c] * batch.speed[c]) + half * now;
     due[c] = synchronised_ ? now : force[c];
-    if_parted[c] = now;
+    if_parted[c] = half * now;
   }
   add_counted(lost, counted, batch.count, unit_.per_unit, lost_);
 }

@@ -73,7 +73,7 @@ void Model::make_parts(const std::vector<Particle>& all) {
   const bool sheared = box_.shear_rate != 0;
   if (box_.opening) outflow_ = std::make_unique<Outflow>(materials_.greatest_diameter(), scene_.species.size());
   if (scene_.dem.ledger) {
-    ledger_ = std::make_unique<Ledger>(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_);
+    ledger_ = std::make_unique<Ledger>(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_, force_unit_);
     pair_forces_.keep(*ledger_);
     verlet_.keep(*ledger_);
   }

@@ -81,27 +81,32 @@ void Verlet::begin_with(Verlet& verlet, Particles& particles, Push& push) {
     }
   }
   std::fill(particles.load.begin(), particles.load.end(), Load{});
+  if (verlet.ledger_ != nullptr) verlet.ledger_->begin_step(particles.load.size());
 }
 
-/// What the torque of a step does beyond its work at the spin foreseen, J.
-double Verlet::work_on(const Particles& particles, std::size_t i, const Vector& foreseen) const {
+/// What the torque and the films of a step do beyond their work at the velocities foreseen, J.
+double Verlet::work_missed(const Particles& particles, std::size_t i, const Velocities& foreseen) const {
+  const Motion& now = particles.motion[i];
   double power = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    power += double(particles.load[i].torque[k]) * (particles.motion[i].w[k] - foreseen[k]);
-  return power * torque_.unit * dt_;
+  Vector missed;
+  for (std::size_t k = 0; k < 3; ++k) {
+    power += double(particles.load[i].torque[k]) * (now.w[k] - foreseen.w[k]) * torque_.unit;
+    missed[k] = now.v[k] - foreseen.v[k];
+  }
+  return (power + ledger_->work_of_films(i, missed)) * dt_;
 }
 
 template <class Push>
 void Verlet::end_with(Verlet& verlet, Particles& particles, Push& push) {
   const bool synchronised = verlet.synchronised_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    const Vector foreseen = particles.motion[i].w;
+    const Velocities foreseen{particles.motion[i].v, particles.motion[i].w};
     if (synchronised) {
       particles.motion[i].v = verlet.half_[i].v;
       particles.motion[i].w = verlet.half_[i].w;
     }
     verlet.kick(particles, i, push, WorkShare::after_drift(synchronised));
-    if (synchronised && verlet.ledger_ != nullptr) verlet.ledger_->correct(verlet.work_on(particles, i, foreseen));
+    if (synchronised && verlet.ledger_ != nullptr) verlet.ledger_->correct(verlet.work_missed(particles, i, foreseen));
   }
 }
 

@@ -33,7 +33,7 @@ class Verlet {
   /// Second half: the velocities of the full step.
   void end(Particles& particles, Around around);
 
-  /// Where what torques did to spins that the contacts had not foreseen is counted; it must outlive this object.
+  /// Where the work at velocities that the contacts had not foreseen is counted; it must outlive this object.
   void keep(Ledger& ledger) { ledger_ = &ledger; }
 
   [[nodiscard]] bool synchronised() const { return synchronised_; }
@@ -66,17 +66,17 @@ class Verlet {
   template <class Push>
   void kick(Particles& particles, std::size_t i, Push& push, WorkShare share) const;
 
-  [[nodiscard]] double work_on(const Particles& particles, std::size_t i, const Vector& foreseen) const;
+  struct Velocities {
+    Vector v, w;
+  };
+  [[nodiscard]] double work_missed(const Particles& particles, std::size_t i, const Velocities& foreseen) const;
 
   bool synchronised_;
   double dt_;
   Vector gravity_;
   FixedPoint force_, torque_;
   double shear_rate_;
-  Ledger* ledger_ = nullptr;  ///< null: nothing is counted
-  struct Velocities {
-    Vector v, w;
-  };
+  Ledger* ledger_ = nullptr;      ///< null: nothing is counted
   std::vector<Velocities> half_;  ///< of the half step, where synchronised
   std::vector<Vector> marked_;
 };

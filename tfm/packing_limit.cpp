@@ -80,7 +80,7 @@ void require_packing(const Constants& constants, const StateLayout& layout, std:
                   : constants.species() > 1
                       ? "; species that part push each other into what they leave: effects.species_exchange = "
                         "\"syamlal\" with tfm.exchange_pressure of 1 to 100 s/m2 holds those that touch"
-                      : ""));
+                      : "; the solids pressure that holds them apart goes with tfm.frictional_pressure: raise it"));
 }
 
 }  // namespace polybed::tfm

@@ -31,14 +31,16 @@ Broken too_many_cells(const Scene& scene) {
   return all > most ? Broken({fmt::format("{:.3g}", all), fmt::format("{:.0f}", most)}) : Broken();
 }
 
-/// A column that the largest particle does not fit into has no solids fraction that means anything.
+/// A column that a particle does not fit into has no solids fraction that means anything.
 Broken no_room(const Scene& scene) {
   constexpr std::array<const char*, 3> sides{"width", "height", "depth"};
   Broken broken;
-  const double largest = largest_diameter(scene);
-  for (std::size_t axis = 0; axis < sides.size(); ++axis)
-    if (largest > scene.column.size[axis])
-      broken.add({fmt::format("{:.4g}", largest), sides[axis], fmt::format("{:.4g}", scene.column.size[axis])});
+  for (std::size_t n = 0; n < scene.species.size(); ++n)
+    for (std::size_t axis = 0; axis < sides.size(); ++axis)
+      if (scene.species[n].diameter > scene.column.size[axis])
+        broken.add({fmt::format("{:.4g}", scene.species[n].diameter), sides[axis],
+                    fmt::format("{:.4g}", scene.column.size[axis])},
+                   entry_of(scene, n));
   return broken;
 }
 

@@ -70,12 +70,19 @@ const DataSet& Profiles::of(const std::string& name) const {
 }
 
 Profiles read_profiles(const fs::path& run_directory) {
-  const OutputFile file(run_directory / "profiles.h5", kind);
-  Profiles profiles{file.read("time_s").values, file.read("y_m").values, {}, {}};
+  const fs::path path = run_directory / "profiles.h5";
+  const OutputFile file(path, kind);
+  const auto read = [&](const std::string& name) {
+    DataSet data = file.read(name);
+    for (const double value : data.values)
+      if (!std::isfinite(value)) throw FileError(fmt::format("{} is damaged: {} is not finite", path.string(), name));
+    return data;
+  };
+  Profiles profiles{read("time_s").values, read("y_m").values, {}, {}};
   for (const std::string& name : file.names("/"))
     if (!is_axis(name)) {
       profiles.names.push_back(name);
-      profiles.values.push_back(file.read(name));
+      profiles.values.push_back(read(name));
     }
   return profiles;
 }

@@ -107,23 +107,23 @@ PairForces::PairForces(const Box& box, const Materials& materials, const PairLaw
   std::fill_n(batch_.radius_j, ContactBatch::width, 0.25);
 }
 
-void PairForces::act(double dt) {
+void PairForces::act(double dt, bool wall) {
   laws_.normal->act(batch_);
   if (laws_.tangential) laws_.tangential->act(batch_, dt);
   if (laws_.rolling) laws_.rolling->act(batch_, dt);
   if (laws_.reach() > 0) core::in_vectors<forget_open>(batch_, laws_.contact_memory());
   if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
   laws_.each_attraction([&](const CohesionLaw& law) { law.act(batch_); });
-  if (laws_.film) add_film(dt);
+  if (laws_.film) add_film(dt, wall);
   core::in_vectors<count_units>(batch_, force_.per_unit, torque_.per_unit);
   if (laws_.rolling) core::in_vectors<add_moment>(batch_, torque_.per_unit);
   contact_steps_ += std::uint64_t(batch_.count);
 }
 
-void PairForces::add_film(double dt) {
+void PairForces::add_film(double dt, bool wall) {
   alignas(64) ContactBatch::Row force;
   laws_.film->act(batch_, force);
-  if (ledger_ != nullptr) ledger_->act_film(batch_, force, counted_, dt);
+  if (ledger_ != nullptr) ledger_->act_film(batch_, force, counted_, dt, wall);
   for (int c = 0; c < batch_.padded(); ++c) batch_.normal[c] += force[c];
 }
 
@@ -151,7 +151,7 @@ void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall
     return;
   }
   if (ledger_ != nullptr) mark_counted(particles.owned);
-  act(dt);
+  act(dt, wall);
   core::in_vectors<store_memory>(contacts.memory.data(), contacts.memory_size, batch_);
   contacts.touching.insert(contacts.touching.end(), batch_.pair, batch_.pair + batch_.count);
 }

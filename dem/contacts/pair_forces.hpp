@@ -50,8 +50,8 @@ class PairForces {
  private:
   void add_pairs(Particles& particles, Contacts& contacts, const Images& images, std::size_t begin, std::size_t end,
                  double dt);
-  void act(double dt);
-  void add_film(double dt);
+  void act(double dt, bool wall);
+  void add_film(double dt, bool wall);
   void treat(const Particles& particles, Contacts& contacts, bool wall, double dt);
   void mark_counted(std::size_t owned);
   void watch_overlap(bool wall);

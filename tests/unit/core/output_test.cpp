@@ -215,6 +215,13 @@ TEST(Profiles, ComeBackAndResume) {
   EXPECT_THROW(ProfileWriter(scratch.path(), {0.5}, names, 1.0), FileError);
 }
 
+TEST(Profiles, ThatAreNoNumbersAreADamagedFile) {
+  const test::Scratch scratch;
+  const std::vector<std::vector<double>> rows{{0.1, 0.2}};
+  ProfileWriter(scratch.path(), {0.5, nan}, {"phi_fine"}).write_row(0, rows);
+  EXPECT_THROW(read_profiles(scratch.path()), FileError);
+}
+
 TEST(History, ReadsBackToTheBitAndResumes) {
   const test::Scratch scratch;
   const std::vector<std::string> columns{"time_s", "interface_m"};

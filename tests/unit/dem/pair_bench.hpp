@@ -31,7 +31,7 @@ class PairBench {
         verlet_(synchronised, time_step, {}, force, torque, 0),
         forces_(box_, materials, laws, force, torque, scene.dem.max_overlap),
         energy_(FixedPoint::for_sums_of(materials.species()[0].mass, 1)),  // of 1.4 m/s
-        ledger_(laws, laws.memory_size(), synchronised, energy_) {
+        ledger_(laws, laws.memory_size(), synchronised, energy_, force) {
     if (laws.film) laws.film->set_step(dt);
     const Species& s = materials.species()[0];
     for (std::size_t n = 0; n < movers.size(); ++n) {
@@ -44,6 +44,7 @@ class PairBench {
     pairs.memory_size = laws.memory_size() + Ledger::memory_size(laws);
     pairs.memory.resize(pairs.pairs.size() * std::size_t(pairs.memory_size));
     forces_.keep(ledger_);
+    verlet_.keep(ledger_);
     find(0);
   }
   /// Two that meet head on. \param gap  between the surfaces, m  \param speed  of approach, m/s, half each
