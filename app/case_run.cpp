@@ -213,6 +213,7 @@ void CaseRun::fail(const core::NumericsError& error) {
     write_checkpoint();
   } catch (const core::FileError& file_error) {
     kept = file_error.what();
+  } catch (const core::NumericsError&) {  // of its record, which is written once more below
   }
   record_if_possible(fmt::format("failed: {}", error.what()));
   const bool law = dynamic_cast<const core::ConservationError*>(&error) != nullptr;

@@ -369,6 +369,7 @@ void run_check(const RunOptions& options) {
     if (particles) write_particle_requirements(json["dem"], scene, *particles);
     write_size_classes(json, scene);
     json["refused"] = refusals_of(scene);
+    if (json["refused"]["dem"].empty()) json["refused"]["dem"] = hindrances;  // what only placing the particles tells
     json["notes"] = derived.notes;
     return core::print("{}\n", core::json_text(json));
   }

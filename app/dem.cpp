@@ -191,7 +191,7 @@ class DemRun final : public CaseRun {
     if (const std::string line = called_for_line(left_out_); !line.empty()) warnings.push_back(line);
     if (monitor_)
       for (const std::string& line : monitor_->warnings()) warnings.push_back(line);
-    return core::json_text(json);
+    return state.starts_with("failed") ? core::json_text_with_nulls(json) : core::json_text(json);
   }
 
   /// Collective.

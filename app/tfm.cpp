@@ -138,6 +138,7 @@ class TfmRun final : public CaseRun {
   }
 
   std::string advice() override {
+    constexpr double least_met = 1e-8;  // tolerances below it drown in the rounding of a stiff bed
     std::string steps;
     for (const tfm::StepLine& step : observers_->last_steps())
       steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
@@ -146,7 +147,8 @@ class TfmRun final : public CaseRun {
         monitor_ && monitor_->has_stopped() ? advice_of(*monitor_)
         : scene_.tfm.fixed_step
             ? "tfm.fixed_step leaves no step to shrink: state a shorter one, or none"
-            : "try a smaller tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)");
+            : fmt::format("try a {} tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)",
+                          scene_.tfm.rtol < least_met ? "larger" : "smaller"));
   }
 
   std::string record_text(const std::string& state) override {

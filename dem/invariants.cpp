@@ -69,8 +69,8 @@ Invariants::Invariants(const Model& model, RunStart start, bool ledger)
 /// Of the ledger's differences from the energy at the start against the greatest energy met: V5.
 double Invariants::energy_miss(const Totals& now) {
   // In a viscous fluid, or at a start with overlaps, little is ever kinetic: it is work of the fluid, or in springs.
-  greatest_energy_ =
-      std::max({greatest_energy_, now.kinetic + now.rotational, now.dissipated, now.elastic, std::abs(now.work)});
+  greatest_energy_ = std::max(
+      {greatest_energy_, now.kinetic + now.rotational, now.dissipated, std::abs(now.elastic), std::abs(now.work)});
   return greatest_energy_ > 0 ? ledger_miss(now, start_.energy, greatest_energy_) : 0;
 }
 

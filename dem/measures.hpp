@@ -23,7 +23,7 @@ struct Totals {
   double max_force = 0;       ///< N, elastic
   Vector momentum{};          ///< kg m/s
   double greatest_speed = 0;  ///< m/s
-  double rounding = 0;        ///< of rounding_of_places(), J
+  double rounding = 0;        ///< of rounding_of_places(), and of what sums cut off, J
 
   [[nodiscard]] double sum() const {
     return kinetic + rotational + elastic + potential + dissipated + carried_out - work;

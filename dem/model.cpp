@@ -175,9 +175,11 @@ void Model::move(double dt) {
 /// Collective: tells the deepest overlap of all ranks, or which particle is too fast.
 void Model::stop_in_trouble() const {
   const bool pair = pair_forces_.trouble().pair >= 0;
-  const double urgency = pair ? 1 + pair_forces_.trouble().excess : (hasty_ >= 0 ? 0.5 : 0);
-  const std::string text =
-      pair ? trouble_of_pair(*this, scene_) : (hasty_ >= 0 ? trouble_of_haste(*this, scene_, hasty_) : "");
+  const double urgency = pair ? 1 + pair_forces_.trouble().excess : hasty_ >= 0 ? 0.5 : beyond_units_ ? 0.25 : 0;
+  const std::string text = pair            ? trouble_of_pair(*this, scene_)
+                           : hasty_ >= 0   ? trouble_of_haste(*this, scene_, hasty_)
+                           : beyond_units_ ? trouble_of_speed(*this, met_, expected_.greatest)
+                                           : "";
   throw core::NumericsError(core::said_by(ranks_.get(), core::rank_of_greatest(ranks_.get(), urgency), text));
 }
 
@@ -196,7 +198,11 @@ void Model::look_ahead() {
   met_ = std::max(met_, drift.speed);
   // The time of a contact goes with the fifth root of the speed: a quarter more is no matter.
   constexpr double tolerated = 1.25;
-  const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0;
+  // Energies may grow to 1024 times those that their unit is made for: 32 times the speed, and something for what is
+  // dissipated.
+  constexpr double most_over_expected = 25;
+  beyond_units_ = drift.speed > most_over_expected * expected_.greatest;
+  const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0 || beyond_units_;
   const bool fast = drift.speed > tolerated * limits_.greatest_speed && may_shorten();
   const bool stale = list_goes_stale(drift.distance, since);
   const Ahead here = troubled ? Ahead::trouble : fast ? Ahead::fast : stale ? Ahead::stale : Ahead::clear;

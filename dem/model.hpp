@@ -180,8 +180,9 @@ class Model : public core::Simulation {
   /// What all ranks have found for the next step: its drift is too far for the list, a particle is too fast for its
   /// length, or something is wrong.
   enum class Ahead { clear, stale, fast, trouble } ahead_ = Ahead::clear;
-  std::int64_t hasty_ = -1;  ///< id of an owned particle that would move too far in it, or none
-  std::uint64_t timed_ = 1;  ///< steps that the clock's answer in this one stands for: it costs a system call
+  std::int64_t hasty_ = -1;    ///< id of an owned particle that would move too far in it, or none
+  bool beyond_units_ = false;  ///< one is faster than energies are counted for
+  std::uint64_t timed_ = 1;    ///< steps that the clock's answer in this one stands for: it costs a system call
   Work work_;
 };
 

@@ -32,6 +32,9 @@ std::string remedy_of_pair(const Model& model, const core::Scene& scene, const C
   double factor = stiffening(normal, pair.kind, overlap, allowed) * (1 + 0.5 * mass * square / stored);
   const OverlapForecast& expected = model.overlap_expected();
   if (!expected.warning.empty()) factor = std::max(factor, expected.stiffening);  // others would be next
+  constexpr double least_allowed = 1e-4;  // of a diameter: less asks for particles stiffer than any
+  if (scene.dem.max_overlap < least_allowed)
+    return fmt::format("dem.max_overlap = {:g} of the diameter is too little: leave it out", scene.dem.max_overlap);
   return fmt::format(
       "{} would have kept them within it; or look at the start",
       stiffer(scene, species[std::size_t(a)].name, trouble.wall ? "wall" : species[std::size_t(b)].name, factor));
@@ -65,6 +68,14 @@ std::string trouble_of_haste(const Model& model, const core::Scene& scene, std::
       "near ({:.6g}, {:.6g}, {:.6g}) m; state a {}, or look at the start",
       model.time(), id, model.limits().dt, std::hypot(v[0], v[1], v[2]), x[0], x[1], x[2],
       scene.dem.fixed_step ? "shorter dem.fixed_step" : "higher dem.greatest_speed");
+}
+
+std::string trouble_of_speed(const Model& model, double met, double expected) {
+  return fmt::format(
+      "t = {:.6g} s: a particle moves at {:.3g} m/s, where {:.3g} m/s at most were expected: too fast for the units "
+      "that "
+      "energies are counted in; state a higher dem.greatest_speed, or look at the start",
+      model.time(), met, expected);
 }
 
 }  // namespace polybed::dem

@@ -15,4 +15,7 @@ namespace polybed::dem {
 /// A particle of this rank that a step would move too far.
 [[nodiscard]] std::string trouble_of_haste(const Model& model, const core::Scene& scene, std::int64_t id);
 
+/// \param met, expected  greatest speeds, m/s
+[[nodiscard]] std::string trouble_of_speed(const Model& model, double met, double expected);
+
 }  // namespace polybed::dem

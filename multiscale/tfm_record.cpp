@@ -152,7 +152,7 @@ std::string run_record_text(const RunRecord& record) {
   for (const auto& lines : {drift_lines(record.observers.drifts()), model.effects().warnings,
                             scene_warnings(record.scene), grid_warnings(record.scene), record.warnings})
     for (const std::string& line : lines) warnings.push_back(line);
-  return core::json_text(json);
+  return record.state.starts_with("failed") ? core::json_text_with_nulls(json) : core::json_text(json);
 }
 
 }  // namespace polybed::multiscale

@@ -12,7 +12,8 @@ namespace polybed::tfm {
 
 [[noreturn]] inline void refuse_compressible_start() {
   throw core::NumericsError(
-      "the state at the start has no rates: check the bed's solids fraction and fluid.outlet_pressure");
+      "the state at the start has no rates: check the bed's solids fraction, densities, fluid.outlet_pressure and the "
+      "velocities of inlet and jets");
 }
 
 class CompressibleProblem : public core::OdeProblem {

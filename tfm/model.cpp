@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
@@ -68,8 +69,10 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
       pressure_scale_(scene.fluid.outlet_pressure * (100.0 / 101325)) {
   column_size_ = layout_of_column().size();
   constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
-  velocity_scale_ = std::max({0.1 * greatest_terminal_velocity(constants()), inlet().greatest(),
-                              constants().openings.greatest(), least_scale});
+  // No solids fall faster than freely through all of the column: a terminal velocity beyond that is not met.
+  const double terminal =
+      std::min(greatest_terminal_velocity(constants()), std::sqrt(2 * constants().gravity * scene.column.size[1]));
+  velocity_scale_ = std::max({0.1 * terminal, inlet().greatest(), constants().openings.greatest(), least_scale});
   fill_state(scene);
   make_parts();
   for (const auto& part : parts_) part->start(time_, y_);

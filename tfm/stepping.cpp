@@ -165,7 +165,7 @@ class ImplicitSteps : public Stepping {
       return ExplicitProblem(equations_, layout_, tolerance, timers_).rates(t, y, dydt) == core::Rate::ok;
     };
     if (!found(1e-12) && !found(1e-8))
-      throw core::NumericsError("the state at the start has no rates: check the bed's solids fraction");
+      throw core::NumericsError("the state at the start has no rates: check the bed's solids fraction and densities");
     for (const StateLayout::Entry& entry : layout_.entries())
       if (entry.kind == StateLayout::Entry::Kind::pressure) layout_.pack(entry, equations_.fields().fluid.pressure, y);
   }

@@ -117,6 +117,13 @@ class ImplicitIntegrator : public Integrator {
     });
   }
 
+  /// Where the residual cannot be taken at y + sigma v the library takes the solution so far, often 0, for a good one,
+  /// and the guess of the step for its end: a failure that shortens the step, as others do.
+  static int solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_Vector b, sunrealtype tolerance) {
+    const int flag = SUNLinSolSolve_SPGMR(solver, none, x, b, tolerance);
+    return flag == SUNLS_ATIMES_FAIL_REC ? SUNLS_CONV_FAIL : flag;
+  }
+
   void open(double t, double h0) {
     close();
     y_.assign(start_);
@@ -138,6 +145,7 @@ class ImplicitIntegrator : public Integrator {
     require_success(IDASetSuppressAlg(memory_, SUNTRUE), "IDASetSuppressAlg");
     if (h0 > 0) require_success(IDASetInitStep(memory_, h0), "IDASetInitStep");
     solver_ = SUNLinSol_SPGMR(y_, SUN_PREC_LEFT, options_.krylov_vectors, context_);
+    solver_->ops->solve = solve;
     require_success(IDASetLinearSolver(memory_, solver_, nullptr), "IDASetLinearSolver");
     require_success(IDASetPreconditioner(memory_, setup, precondition), "IDASetPreconditioner");
     require_success(IDASetEpsLin(memory_, options_.linear_tolerance), "IDASetEpsLin");

@@ -34,6 +34,10 @@ std::string reason_of(const Json::exception& error) {
 
 std::string json_text(const Json& value) {
   refuse_not_finite(value, "");
+  return json_text_with_nulls(value);
+}
+
+std::string json_text_with_nulls(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 /// The value on one line; each number reads back to the bit. Throws NumericsError if a number is not finite. Bytes that
 /// are no UTF-8, as the name of a file may have them, become U+FFFD.
 [[nodiscard]] std::string json_text(const Json& value);
+/// The same with null for each number that is not finite: the record of a run that failed over it.
+[[nodiscard]] std::string json_text_with_nulls(const Json& value);
 
 /// The number, or null without one.
 [[nodiscard]] Json or_null(const std::optional<double>& number);

@@ -180,6 +180,37 @@ TEST(Explicit, ToleranceThatFollowsTheStateLetsItComeToRest) {
   EXPECT_LT(left(), 1e-9);
 }
 
+// y' = -y, whose residual fails wherever the linear solver asks for it.
+class NoDerivative : public DaeProblem {
+ public:
+  Rate residual(double t, std::span<const double> y, std::span<const double> dydt, std::span<double> r) override {
+    const bool in_linear_solve = t == preconditioned_at_;
+    r[0] = dydt[0] + y[0];
+    return in_linear_solve ? Rate::recoverable : Rate::ok;
+  }
+  Rate setup(double, std::span<const double>, std::span<const double>, std::span<const double>, double) override {
+    return Rate::ok;
+  }
+  Rate precondition(double t, std::span<const double> r, std::span<double> z, double, double) override {
+    preconditioned_at_ = t;
+    z[0] = r[0];
+    return Rate::ok;
+  }
+
+ private:
+  double preconditioned_at_ = -1;
+};
+
+// Its steps shrink until they need no linear solve; a guess is not taken for a solution.
+TEST(Implicit, ShrinksItsStepsWhereNoDerivativeCanBeTaken) {
+  NoDerivative problem;
+  const auto integrator = make_implicit(problem, {.rtol = 1e-5, .atol = {1e-7}, .id = {1}});
+  const std::vector<double> y{1}, dydt{-1};
+  integrator->restart(0, y, dydt, 0.1);
+  // A guess left as it is must lie within a small share of the tolerance of 1e-5: h^2/2 of a first step.
+  EXPECT_LT(integrator->step(1).step, 1e-3);
+}
+
 /// x' = -k (x - cos t), 0 = z - x^2: stiff, with one algebraic entry; x -> cos t for large k.
 class StiffDae : public DaeProblem {
  public:
