@@ -29,6 +29,7 @@ void write_fluid(core::Json& json, const FluidReport& r) {
                    {"iterations", r.totals.iterations},
                    {"worst_residual", r.totals.worst_residual},
                    {"greatest_courant", r.totals.greatest_courant},
+                   {"change_of_forces", r.totals.relative_change()},
                    {"ranks", r.shared ? "shared" : "each"},
                    {"kernel", r.kernel},
                    {"kernel_width_m", r.kernel_width},
@@ -48,14 +49,14 @@ std::vector<std::string> fluid_lines(const FluidReport& r) {
   const std::string kernel = r.kernel_width > 0
                                  ? fmt::format("kernel {}, {:.3g} mm wide", r.kernel, 1e3 * r.kernel_width)
                                  : "kernel " + r.kernel;
-  return {
-      fmt::format("fluid: {} steps of {:.3g} s, every {} of the particles', {:.3g} iterations each, residual up to "
-                  "{:.1e}, Courant number up to {:.2g}; {}",
-                  t.steps, r.step, r.every, per(t.iterations, t.steps), t.worst_residual, t.greatest_courant, kernel),
-      fmt::format("drag {}: {:.3g} evaluations, {:.3g} % guarded, {:.3g} % at the bounds of voidage{}", r.law,
-                  double(t.law.evaluations), 100 * per(t.law.guarded, t.law.evaluations),
-                  100 * per(t.law.clamped_voidage, t.law.evaluations),
-                  r.work ? fmt::format("; work of the fluid {:.3g} J", *r.work) : "")};
+  return {fmt::format("fluid: {} steps of {:.3g} s, every {} of the particles', {:.3g} iterations each, residual up to "
+                      "{:.1e}, Courant number up to {:.2g}; {}; its forces change by {:.2g} % in a step",
+                      t.steps, r.step, r.every, per(t.iterations, t.steps), t.worst_residual, t.greatest_courant,
+                      kernel, 100 * t.relative_change()),
+          fmt::format("drag {}: {:.3g} evaluations, {:.3g} % guarded, {:.3g} % at the bounds of voidage{}", r.law,
+                      double(t.law.evaluations), 100 * per(t.law.guarded, t.law.evaluations),
+                      100 * per(t.law.clamped_voidage, t.law.evaluations),
+                      r.work ? fmt::format("; work of the fluid {:.3g} J", *r.work) : "")};
 }
 
 }  // namespace polybed::multiscale

@@ -1,9 +1,12 @@
 // Particles and fluid together: what each hears of the other, and when.
 //
-// Between two steps of the fluid its fields are frozen, and every particle moves through them, with its drag integrated
-// exactly; the impulse that it takes is kept. Then the particles' volumes and impulses go to the fluid, the fluid takes
-// its step, and each particle gets by one kick what the change of the fluid would have done to it meanwhile: that is in
-// the fluid's equations, so that the momentum of both together is kept whatever the length of the steps.
+// Between two steps of the fluid its fields are frozen, and so is what each particle has found of them, its drag over
+// the slip among it: the particle moves with its drag integrated exactly, the impulse that it takes is kept, and what
+// the fields would have done meanwhile where it went follows at the end, by the mean of both ends. Side forces depend
+// on spins and on what was before; with them loads are found in each step. Then the particles' volumes and impulses go
+// to the fluid, the fluid takes its step, and each particle gets by one kick what the change of the fluid would have
+// done to it meanwhile: that is in the fluid's equations, so that the momentum of both together is kept whatever the
+// length of the steps.
 #pragma once
 
 #include <memory>
@@ -46,7 +49,7 @@ class Coupling final : public KeptPart {
   }
   /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
   void hold(const Particles& particles);
-  /// Loads of the particles where they are now.
+  /// Loads of the particles where they are now; nothing where they stand from step to step of the fluid.
   void find_forces(const Particles& particles, std::uint64_t timed);
   /// What the fluid does to their spins in a step.
   void turn(Particles& particles) { sides_.turn(particles, motion_); }
@@ -79,6 +82,12 @@ class Coupling final : public KeptPart {
   [[nodiscard]] SideForces& sides() { return sides_; }
   [[nodiscard]] const SideForces& sides() const { return sides_; }
   [[nodiscard]] int every() const { return every_; }
+  /// Sums of squares over the particles of this rank and the steps of the fluid in this process, N2: what the loads
+  /// that stood differed by from those at the end of the step, and these.
+  struct Changes {
+    double change = 0, force = 0;
+  };
+  [[nodiscard]] const Changes& changes() const { return changes_; }
   /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
   [[nodiscard]] double kernel_width() const { return width_; }
   /// Mean net pressure on the distributor, less that at the outlet, Pa. Collective.
@@ -106,6 +115,7 @@ class Coupling final : public KeptPart {
   void require_voidage() const;
   void smooth(core::FaceField& field) const;
   void smooth_sums();
+  void correct(Particles& particles);
   void couple_two_way(Particles& particles);
   void take_fields();
   void here(std::initializer_list<core::FaceField*> fields) const;
@@ -116,6 +126,8 @@ class Coupling final : public KeptPart {
   void find_vorticity(core::FaceField velocity);
   [[nodiscard]] const OwnShare* own() const { return own_ ? &*own_ : nullptr; }
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
+  /// Whether loads stand from step to step of the fluid. In a fixed bed they do not change.
+  [[nodiscard]] bool stand() const { return !sides_.present() && !held_; }
   /// Step of the fluid, s.
   [[nodiscard]] double interval() const { return every_ * dt_; }
 
@@ -145,6 +157,8 @@ class Coupling final : public KeptPart {
   double dt_;  ///< of the particles, s
   fluid::FlowStep last_;
   std::uint64_t steps_ = 0;
+  std::vector<FluidLoad> before_;  ///< of a step of the fluid, while it ends
+  Changes changes_;
 };
 
 }  // namespace polybed::dem

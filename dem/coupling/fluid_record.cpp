@@ -46,6 +46,10 @@ FluidTotals FluidRecord::totals() const {
   all.law.evaluations += std::uint64_t(sums[0]);
   all.law.guarded += std::uint64_t(sums[1]);
   all.law.clamped_voidage += std::uint64_t(sums[2]);
+  std::array<double, 2> squares{coupling_.changes().change, coupling_.changes().force};
+  core::add_over_ranks(ranks_, squares);
+  all.changes.change += squares[0];
+  all.changes.force += squares[1];
   return all;
 }
 
@@ -57,6 +61,8 @@ void write(const FluidTotals& t, core::Checkpoint& checkpoint) {
   checkpoint.integers["fluid_record_clamped"] = std::int64_t(t.law.clamped_voidage);
   checkpoint.numbers["fluid_record_residual"] = t.worst_residual;
   checkpoint.numbers["fluid_record_courant"] = t.greatest_courant;
+  checkpoint.numbers["fluid_record_change"] = t.changes.change;
+  checkpoint.numbers["fluid_record_force"] = t.changes.force;
   checkpoint.numbers["fluid_record_pressure_drop"] = t.pressure_drop;
   checkpoint.numbers["fluid_record_mass"] = t.mass;
   checkpoint.numbers["fluid_record_start"] = t.account.start;
@@ -79,6 +85,7 @@ FluidTotals read_fluid_totals(const core::Checkpoint& checkpoint) {
   t.law = {count("fluid_record_evaluations"), count("fluid_record_guarded"), count("fluid_record_clamped")};
   t.worst_residual = number("fluid_record_residual");
   t.greatest_courant = number("fluid_record_courant");
+  t.changes = {number("fluid_record_change"), number("fluid_record_force")};
   t.pressure_drop = number("fluid_record_pressure_drop");
   t.mass = number("fluid_record_mass");
   t.account = {number("fluid_record_start", t.mass), number("fluid_record_in"), number("fluid_record_out")};

@@ -2,6 +2,7 @@
 // checkpoints, so that a run taken up again tells the whole.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/numerics/ranks.hpp"
@@ -16,9 +17,15 @@ struct FluidTotals {
   double worst_residual = 0;                ///< of the pressure's equation, relative
   double greatest_courant = 0;
   LawUse law;                  ///< of drag, on all ranks
+  Coupling::Changes changes;   ///< of the loads within steps of the fluid, on all ranks
   double pressure_drop = 0;    ///< Pa, after the fluid's last step
   double mass = 0;             ///< of a compressible fluid in the column then, kg
   fluid::MassAccount account;  ///< of that fluid
+
+  /// Root mean square of what loads change by within a step of the fluid, over that of the loads.
+  [[nodiscard]] double relative_change() const {
+    return changes.force > 0 ? std::sqrt(changes.change / changes.force) : 0;
+  }
 };
 
 class FluidRecord {
