@@ -40,6 +40,14 @@ void fill_gravity(Column& column) {
   for (std::size_t d = 0; d < 3; ++d) column.down[d] = along[d] / length;
 }
 
+void fill_inlet(Scene& scene) {
+  Inlet& inlet = scene.inlet;
+  if (inlet.flow_rate.empty() || !inlet.superficial_velocity.empty()) return;
+  const double area = scene.column.size[0] * scene.column.size[2];
+  for (const auto& [time, flow] : inlet.flow_rate) inlet.superficial_velocity.emplace_back(time, flow / area);
+  inlet.flow_rate.clear();
+}
+
 /// Shares and height of particles that are counted.
 void fill_amount(Scene& scene) {
   Bed& bed = scene.bed;
@@ -89,6 +97,7 @@ void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
     fill_size(scene);
     if (wrong.sound("column.cells")) fill_cells(scene.column);
     if (wrong.sound("column.gravity_direction")) fill_gravity(scene.column);
+    if (wrong.sound({"inlet.flow_rate", "column.depth"})) fill_inlet(scene);
   }
   Bed& bed = scene.bed;
   if (!wrong.sound("bed.start")) return;

@@ -1,6 +1,8 @@
 // Keys that cannot act beside others.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/case/case_rules.hpp"
 
 namespace polybed::core {
@@ -15,7 +17,9 @@ struct Idle {
   Test set;
 };
 
-bool has_inlet(const Scene& scene) { return !scene.inlet.superficial_velocity.empty(); }
+bool has_inlet(const Scene& scene) {
+  return !scene.inlet.superficial_velocity.empty() || !scene.inlet.flow_rate.empty();
+}
 bool has_jets(const Scene& scene) { return !scene.jets.empty(); }
 bool is_compressible(const Scene& scene) { return scene.fluid.compressible(); }
 
@@ -97,9 +101,32 @@ Rule is_a_bracket(const std::string& key, std::vector<double> Inversion::*bracke
           }};
 }
 
+std::vector<Rule> of_a_flow_rate() {
+  return {
+      {{"inlet.flow_rate", "inlet.superficial_velocity"},
+       "inlet.flow_rate and inlet.superficial_velocity both say how much flows in: give one of them",
+       [](const Scene& scene) {
+         return broken_if(!scene.inlet.flow_rate.empty() && !scene.inlet.superficial_velocity.empty());
+       },
+       true},
+      {{"inlet.flow_rate", "column.depth", "column.size"},
+       "inlet.flow_rate in two dimensions needs column.depth: without it there is no area that it flows through",
+       [](const Scene& scene) {
+         return broken_if(!scene.inlet.flow_rate.empty() && scene.column.given_size.size() == 2 && !scene.column.depth);
+       },
+       true},
+      {{"inlet.flow_rate", "column.size", "column.depth"},
+       "inlet.flow_rate makes {} m/s over the column's cross-section; at most 1000 m/s",
+       [](const Scene& scene) {
+         for (const auto& [time, velocity] : scene.inlet.superficial_velocity)
+           if (std::abs(velocity) > 1e3) return Broken({fmt::format("{:.4g}", velocity)});
+         return Broken();
+       }}};
+}
+
 std::vector<Rule> of_the_fluid() {
   return {{{"inlet.superficial_velocity", "fluid.name", "column.closed", "dem.shear_rate"},
-           "inlet.superficial_velocity is missing (or set column.closed = true)",
+           "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)",
            [](const Scene& scene) {
              const bool flows = scene.fluid.present() && scene.column.shear_rate == 0;
              return broken_if(flows && !scene.column.closed && !has_inlet(scene));
@@ -129,8 +156,8 @@ std::vector<Rule> of_the_fluid() {
 
 std::vector<Rule> idle_rules() {
   std::vector<Rule> rules;
-  for (const auto& part :
-       {without_a_fluid(), in_a_closed_column(), in_a_sheared_box(), beside_the_start(), of_the_fluid()})
+  for (const auto& part : {without_a_fluid(), in_a_closed_column(), in_a_sheared_box(), beside_the_start(),
+                           of_a_flow_rate(), of_the_fluid()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

@@ -108,6 +108,8 @@ struct Bed {
 struct Inlet {
   /// (time s, superficial velocity m/s): constant before the first and after the last, linear between.
   std::vector<std::pair<double, double>> superficial_velocity;
+  /// (time s, flow m3/s), as a case may give it: it becomes the velocity, and then there is none.
+  std::vector<std::pair<double, double>> flow_rate;
 };
 
 /// A part of the bottom with a velocity of its own.

@@ -135,6 +135,10 @@ Table inlet_table() {
           key(&Inlet::superficial_velocity, "superficial_velocity", dimension::velocity, range(-1e3, 1e3),
               help("a velocity, or a table [[time, velocity], ...]: linear between, constant beyond; two equal "
                    "times make a jump")),
+          key(&Inlet::flow_rate, "flow_rate", dimension::volume_rate, range(-1e4, 1e4),
+              help(
+                  "in place of the velocity: volume over time through the whole bottom, a flow or a table as there; in "
+                  "two dimensions with column.depth")),
       });
 }
 

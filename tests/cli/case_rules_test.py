@@ -139,7 +139,12 @@ KEYS = {
         ("dem.held = true", "dem.held=true"), ("fluid.equation_of_state", "fluid.equation_of_state=tait"))},
     **{f'bed.{key} cannot act: bed.start = "{{}}"': ["bed.start=list:none.csv", f"bed.{key}={value}"] for key, value in (
         ("start_solids_fraction", 0.2), ("volume_share", [1.0]), ("static_height", 0.06), ("particles", [10]))},
-    "inlet.superficial_velocity is missing (or set column.closed = true)": ["inlet.superficial_velocity=!"],
+    "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)": ["inlet.superficial_velocity=!"],
+    "inlet.flow_rate and inlet.superficial_velocity both say how much flows in: give one of them": ["inlet.flow_rate=1e-5"],
+    "inlet.flow_rate in two dimensions needs column.depth: without it there is no area that it flows through": [
+        "inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"],
+    "inlet.flow_rate makes {} m/s over the column's cross-section; at most 1000 m/s": [
+        "inlet.superficial_velocity=!", "column.depth=0.01", "inlet.flow_rate=10"],
     'fluid.equation_of_state = "ideal_gas": water is a liquid; "tait" is the law of a compressible liquid': [
         "fluid.equation_of_state=ideal_gas"],
     'fluid.equation_of_state = "tait": air is a gas; "ideal_gas" is its law': ["fluid.name=air", "fluid.equation_of_state=tait"],

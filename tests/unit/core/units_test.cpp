@@ -34,7 +34,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Reading{"9.81 m s-2", 9.81, dimension::acceleration}, Reading{"2 min", 120, dimension::time},
                     Reading{"1.5 bar", 150000, dimension::pressure}, Reading{"0.05 Pa", 0.05, dimension::pressure},
                     Reading{"62 %", 0.62, dimension::none}, Reading{"1e3", 1000, dimension::none},
-                    Reading{"-3 mm", -0.003, dimension::length}));
+                    Reading{"-3 mm", -0.003, dimension::length}, Reading{"500 micron", 5e-4, dimension::length},
+                    Reading{"2 ft", 0.6096, dimension::length}, Reading{"10 in", 0.254, dimension::length},
+                    Reading{"2 lb", 0.90718474, {0, 1, 0, 0}}, Reading{"90 ml/s", 9e-5, dimension::volume_rate},
+                    Reading{"60 gal/min", 3.785411784e-3, dimension::volume_rate},
+                    Reading{"5 gpm/ft2", 5 * (3.785411784e-3 / 60) / (0.3048 * 0.3048), dimension::velocity}));
 
 TEST(Units, WhatIsNoQuantityIsRefused) {
   for (const char* text : {"", "mm", "3 parsec", "3 mm mmm", "abc", "1 m/", "1,5 mm", "3 m^", "--3 m", "3 m99"})
