@@ -114,8 +114,10 @@ void CaseRun::run_to_end() {
   try {
     go();
   } catch (const core::Stopped&) {
-    finish("stopped by the user");
-    throw;
+    if (!steady_) {
+      finish("stopped by the user");
+      throw;
+    }
   } catch (const core::NumericsError& error) {
     fail(error);
   }
@@ -123,8 +125,12 @@ void CaseRun::run_to_end() {
 }
 
 void CaseRun::go() {
-  core::Progress progress(options_.quiet, simulation().time(), scene_.run.until);
-  core::Stops stops{scene_.run.until, *scene_.output.checkpoint_every, breakpoints()};
+  constexpr double longest = 20;  // times what the case states: a bed that is not steady by then is left drifting
+  const double until = options_.until_steady() ? longest * scene_.run.until : scene_.run.until;
+  core::Progress progress(options_.quiet, simulation().time(), until);
+  core::Stops stops{until, *scene_.output.checkpoint_every, breakpoints()};
+  next_look_ = std::max(0.5 * scene_.run.until, apart * simulation().time());
+  for (const double change : stops.breakpoints) next_look_ = std::max(next_look_, apart * change);
   const double begin = core::cpu_seconds();
   int steps = 0;
   core::run(
@@ -138,8 +144,23 @@ void CaseRun::go() {
           prediction_ = predicted_by((core::cpu_seconds() - begin - timers_.seconds("output")) / steps);
         }
         if (progress.due(simulation().time())) progress.show(line());
-        return after_step();
+        return after_step() && !has_become_steady();
       });
+}
+
+/// By the card, at times a quarter apart, twice in a row: of many looks at a bed that drifts one may miss it by chance.
+bool CaseRun::has_become_steady() {
+  if (!options_.until_steady() || simulation().time() < next_look_) return false;
+  next_look_ = apart * simulation().time();
+  flush_rows();
+  bool now = false;
+  if (first_) try {
+      now = bed_of_run(scene_, core::read_history(directory_)).steady.value_or(false);
+    } catch (const core::FileError&) {  // no row yet
+    }
+  steady_ = core::on_any_rank(ranks_.get(), now && was_steady_);
+  was_steady_ = now;
+  return steady_;
 }
 
 double CaseRun::wall_seconds() const {

@@ -125,6 +125,7 @@ class CaseRun {
   std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
   [[nodiscard]] TimeBand prediction_of(double end) const;
   void go();
+  [[nodiscard]] bool has_become_steady();
   void write_checkpoint();
   void run_to_end();
   /// Writes run.json and returns its text. Collective.
@@ -142,6 +143,9 @@ class CaseRun {
   TimeBand prediction_;                    ///< of the whole run
   bool refined_ = false;                   ///< it rests on steps of this run
   bool ended_ = false;                     ///< the run will not go on
+  static constexpr double apart = 1.25;    ///< ratio of the times at which it is asked whether it has become steady
+  double next_look_ = 0;                   ///< s
+  bool was_steady_ = false, steady_ = false;
   std::optional<std::string> broken_law_;  ///< what to say of it
 };
 

@@ -22,6 +22,7 @@ struct CaseOptions {
 struct RunOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-<model>
   std::string until;             ///< empty: as the case says
+  [[nodiscard]] bool until_steady() const { return until == "steady"; }
   bool resume = false, force = false, quiet = false;
   bool permissive = false;           ///< goes on where a conservation law is broken
   bool picture = true;               ///< drawn at the end

@@ -54,12 +54,12 @@ core::Scene without_added(core::Scene scene, const std::string& before, const st
 
 core::Scene read_scene(const RunOptions& options, const Models& models) {
   std::vector<std::string> overrides = options.overrides;
-  if (!options.until.empty()) {
+  if (!options.until.empty() && !options.until_steady()) {
     const bool text = options.until.find_first_not_of("0123456789.eE+-") != std::string::npos;
     overrides.push_back("run.until=" + (text ? "\"" + options.until + "\"" : options.until));
   }
   core::Scene scene = read_chosen_case(options.case_path, overrides, models);
-  if (options.until.empty()) return scene;
+  if (options.until.empty() || options.until_steady()) return scene;
   try {  // checkpoints are part of the result: they do not move with --until
     scene.output.checkpoint_every =
         read_chosen_case(options.case_path, options.overrides, models).output.checkpoint_every;

@@ -52,6 +52,17 @@ class Card(Scratch):
         again = self.ends(DONE, *shlex.split(command), "--quiet", "--no-picture")
         self.assertEqual(strict_json((run / "run.json").read_text())["time_s"], 0.2, again.stderr)
 
+    def test_a_run_ends_when_its_bed_has_become_steady(self):
+        run = self.folder / "run"
+        self.ends(DONE, "tfm", CASE, *SMALL, "--set", "run.until=1", "--set", "output.history_every=5e-3", "--set", "output.every=1",
+                  "--until", "steady", "-o", run, "--quiet", "--no-picture")
+        record = strict_json((run / "run.json").read_text())
+        self.assertEqual(record["state"], "done")
+        self.assertIs(record["card"]["steady"], True)
+        self.assertGreater(record["time_s"], 0.5)
+        self.assertLess(record["time_s"], 19)
+        self.assertEqual(history(run)["time_s"][-1], record["time_s"])
+
     def test_means_are_those_of_the_history(self):
         """Means of ten equal parts of the last quarter, with Student's interval; summed in another order, so to rounding."""
         run = self.folder / "run"
