@@ -135,7 +135,9 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy, scene.dem.ledger),
       every_(every_of(scene)),
       held_(scene.bed.held),
-      dt_(dt) {
+      dt_(dt),
+      // The greatest force makes 2^62 units: its square 2^32 of these, of which a sum has room for a thousand million.
+      per_square_(std::ldexp(units.force.per_unit * units.force.per_unit, -92)) {
   if (const auto wake =
           own_wake_of(scene, core::whole_column(flow_.grid()), width_, materials.greatest_diameter(), count))
     forces_.see_past_own_wake(*wake);
@@ -191,8 +193,8 @@ void Coupling::correct(Particles& particles) {
       motion_.load[i].impulse[k] += change.impulse[k];
       m.v[k] += change.dv[k];
     }
-    changes_.change += change.square;
-    changes_.force += change.force_square;
+    changes_.change.add(change.square * per_square_);
+    changes_.force.add(change.force_square * per_square_);
   }
 }
 

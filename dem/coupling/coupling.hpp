@@ -82,10 +82,10 @@ class Coupling final : public KeptPart {
   [[nodiscard]] SideForces& sides() { return sides_; }
   [[nodiscard]] const SideForces& sides() const { return sides_; }
   [[nodiscard]] int every() const { return every_; }
-  /// Sums of squares over the particles of this rank and the steps of the fluid in this process, N2: what the loads
-  /// that stood differed by from those at the end of the step, and these.
+  /// Sums of squares over the particles of this rank and the steps of the fluid in this process, both in one unit: what
+  /// the loads that stood differed by from those at the end of the step, and these.
   struct Changes {
-    double change = 0, force = 0;
+    EnergySum change, force;
   };
   [[nodiscard]] const Changes& changes() const { return changes_; }
   /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
@@ -159,6 +159,7 @@ class Coupling final : public KeptPart {
   std::uint64_t steps_ = 0;
   std::vector<FluidLoad> before_;  ///< of a step of the fluid, while it ends
   Changes changes_;
+  double per_square_;  ///< units of changes_ in 1 N2
 };
 
 }  // namespace polybed::dem

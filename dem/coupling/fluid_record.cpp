@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 namespace polybed::dem {
 
@@ -46,10 +47,10 @@ FluidTotals FluidRecord::totals() const {
   all.law.evaluations += std::uint64_t(sums[0]);
   all.law.guarded += std::uint64_t(sums[1]);
   all.law.clamped_voidage += std::uint64_t(sums[2]);
-  std::array<double, 2> squares{coupling_.changes().change, coupling_.changes().force};
-  core::add_over_ranks(ranks_, squares);
-  all.changes.change += squares[0];
-  all.changes.force += squares[1];
+  std::array<EnergySum, 2> squares{coupling_.changes().change, coupling_.changes().force};
+  add_over_ranks(ranks_, squares);
+  all.changes.change.add(squares[0]);
+  all.changes.force.add(squares[1]);
   return all;
 }
 
@@ -61,8 +62,12 @@ void write(const FluidTotals& t, core::Checkpoint& checkpoint) {
   checkpoint.integers["fluid_record_clamped"] = std::int64_t(t.law.clamped_voidage);
   checkpoint.numbers["fluid_record_residual"] = t.worst_residual;
   checkpoint.numbers["fluid_record_courant"] = t.greatest_courant;
-  checkpoint.numbers["fluid_record_change"] = t.changes.change;
-  checkpoint.numbers["fluid_record_force"] = t.changes.force;
+  const auto put = [&](const std::string& key, const EnergySum& sum) {
+    checkpoint.integers[key] = sum.whole();
+    checkpoint.integers[key + "_part"] = sum.part();
+  };
+  put("fluid_record_change", t.changes.change);
+  put("fluid_record_force", t.changes.force);
   checkpoint.numbers["fluid_record_pressure_drop"] = t.pressure_drop;
   checkpoint.numbers["fluid_record_mass"] = t.mass;
   checkpoint.numbers["fluid_record_start"] = t.account.start;
@@ -85,7 +90,10 @@ FluidTotals read_fluid_totals(const core::Checkpoint& checkpoint) {
   t.law = {count("fluid_record_evaluations"), count("fluid_record_guarded"), count("fluid_record_clamped")};
   t.worst_residual = number("fluid_record_residual");
   t.greatest_courant = number("fluid_record_courant");
-  t.changes = {number("fluid_record_change"), number("fluid_record_force")};
+  const auto sum = [&](const std::string& key) {
+    return EnergySum(std::int64_t(count(key.c_str())), std::int64_t(count((key + "_part").c_str())));
+  };
+  t.changes = {sum("fluid_record_change"), sum("fluid_record_force")};
   t.pressure_drop = number("fluid_record_pressure_drop");
   t.mass = number("fluid_record_mass");
   t.account = {number("fluid_record_start", t.mass), number("fluid_record_in"), number("fluid_record_out")};

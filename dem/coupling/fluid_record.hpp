@@ -24,7 +24,7 @@ struct FluidTotals {
 
   /// Root mean square of what loads change by within a step of the fluid, over that of the loads.
   [[nodiscard]] double relative_change() const {
-    return changes.force > 0 ? std::sqrt(changes.change / changes.force) : 0;
+    return changes.force.units() > 0 ? std::sqrt(changes.change.units() / changes.force.units()) : 0;
   }
 };
 

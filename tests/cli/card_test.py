@@ -53,15 +53,15 @@ class Card(Scratch):
         self.assertEqual(strict_json((run / "run.json").read_text())["time_s"], 0.2, again.stderr)
 
     def test_a_run_ends_when_its_bed_has_become_steady(self):
+        """A row of cells that parts into layers: at 30 s it still drifts, at 95 s no longer."""
         run = self.folder / "run"
-        self.ends(DONE, "tfm", CASE, *SMALL, "--set", "run.until=1", "--set", "output.history_every=5e-3", "--set", "output.every=1",
-                  "--until", "steady", "-o", run, "--quiet", "--no-picture")
+        keys = ("column.cells=[1,30]", "inlet.superficial_velocity=5 mm/s", "run.until=5", "output.history_every=0.02", "output.every=5")
+        self.ends(DONE, "tfm", CASE, *(word for key in keys for word in ("--set", key)), "--until", "steady", "-o", run, "--quiet", "--no-picture")
         record = strict_json((run / "run.json").read_text())
         self.assertEqual(record["state"], "done")
         self.assertIs(record["card"]["steady"], True)
-        self.assertGreater(record["time_s"], 0.5)
-        self.assertLess(record["time_s"], 19)
-        self.assertEqual(history(run)["time_s"][-1], record["time_s"])
+        self.assertGreater(record["time_s"], 20)
+        self.assertLess(record["time_s"], 100, "the end of its patience")
 
     def test_means_are_those_of_the_history(self):
         """Means of ten equal parts of the last quarter, with Student's interval; summed in another order, so to rounding."""

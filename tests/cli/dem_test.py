@@ -264,9 +264,15 @@ class Stops(Dem):
         self.assertRegex(told, "particle 1 and particle 2 overlap")
 
     def test_particles_that_meet_too_fast(self):
-        told = self.stops("beads,0.008,0.01,0.01,5\nbeads,0.010,0.01,0.01,0\n")
+        told = self.stops("beads,0.008,0.01,0.01,2\nbeads,0.010,0.01,0.01,0\n")
         self.assertRegex(told, "particle 0 and particle 1 overlap")
         self.assertIn("dem.youngs_modulus", told)
+
+    def test_a_particle_much_faster_than_the_case_says(self):
+        """5 m/s, where 0.1 m/s was expected: energies are counted in whole units for 25 times that."""
+        told = self.stops("beads,0.008,0.01,0.01,5\nbeads,0.010,0.01,0.01,0\n")
+        self.assertIn("a particle moves at 5 m/s, where 0.1 m/s at most were expected", told)
+        self.assertIn("dem.greatest_speed", told)
 
     def test_a_particle_that_would_jump_over_a_wall(self):
         """100 m/s at a wall, where 1 m/s was expected."""
