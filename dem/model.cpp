@@ -111,12 +111,13 @@ void Model::measure(const std::vector<Particle>& all) {
   double mass = 0;
   for (const Particle& p : all) mass += 1 / p.motion.inverse_mass;
   const double length = std::max({box_.size[0], box_.size[1], box_.size[2]});
-  const double weight = std::hypot(gravity_[0], gravity_[1], gravity_[2]) * length;
+  const double weight = std::hypot(gravity_[0], gravity_[1], gravity_[2]) * length;  // m2/s2
   const double speed = limits_.greatest_speed;
   // What the sums may grow to: the energy of all at the greatest speed, and a reserve for what is dissipated meanwhile;
   // a large one where gravity supplies energy without end.
   energy_unit_ = FixedPoint::for_sums_of(mass * (speed * speed + weight),
                                          falls_through_joined_faces(box_, gravity_) ? 0x1p30 : 1024);
+  counted_speed_ = std::hypot(speed, std::sqrt(weight));
   momentum_unit_ = FixedPoint::for_sums_of(mass * speed, 1024);
 }
 
@@ -200,8 +201,8 @@ void Model::look_ahead() {
   constexpr double tolerated = 1.25;
   // Energies may grow to 1024 times those that their unit is made for: 32 times the speed, and something for what is
   // dissipated.
-  constexpr double most_over_expected = 25;
-  beyond_units_ = drift.speed > most_over_expected * expected_.greatest;
+  constexpr double most_over_counted = 25;
+  beyond_units_ = drift.speed > most_over_counted * counted_speed_;
   const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0 || beyond_units_;
   const bool fast = drift.speed > tolerated * limits_.greatest_speed && may_shorten();
   const bool stale = list_goes_stale(drift.distance, since);

@@ -182,6 +182,7 @@ class Model : public core::Simulation {
   enum class Ahead { clear, stale, fast, trouble } ahead_ = Ahead::clear;
   std::int64_t hasty_ = -1;    ///< id of an owned particle that would move too far in it, or none
   bool beyond_units_ = false;  ///< one is faster than energies are counted for
+  double counted_speed_ = 0;   ///< of all mass at it, the energy that their unit is made for, m/s
   std::uint64_t timed_ = 1;    ///< steps that the clock's answer in this one stands for: it costs a system call
   Work work_;
 };

@@ -21,10 +21,10 @@ struct Tolerances {
 
 /// Of implicit steps: their tolerances over those of a case, of fluxes once more, and where their linear solves may
 /// end, relative to Newton's own tolerance. What a solve leaves undone acts on the fluxes first, which carry little
-/// mass. Against solves ten times as exact at the whole tolerance a developed gas bed has half the error of all
-/// unknowns in two thirds of the time (docs/record/cost.md).
+/// mass; looser ones keep Newton from converging in packed liquid beds. Against solves four times as exact at the
+/// whole tolerance gas beds have a fifth of the error in a fifth to four fifths of the time (docs/record/cost.md).
 struct ImplicitTolerances {
-  static constexpr double all = 0.3, fluxes = 1.0 / 3, linear = 0.5;
+  static constexpr double all = 0.3, fluxes = 1.0 / 3, linear = 0.2;
 };
 
 /// \param flux_share  of the fluxes' tolerance over that of velocities

@@ -93,28 +93,6 @@ void push_by(FluidChange change, double dt, const Gather& gather, FluidMotion& m
   }
 }
 
-/// What a load that has changed over a step of the fluid gives a particle at its end.
-struct LoadChange {
-  Vector dv{}, impulse{};               ///< m/s; of it drag's, kg m/s
-  double square = 0, force_square = 0;  ///< of the change, and of the force at the end, N2
-};
-
-/// Half a step of the change of the force, its drag relaxing over the step as that of a kick does. A fluid that stands
-/// and loads that are taken once a step of it are first order in that step; with this they are second order.
-LoadChange change_of(const FluidLoad& before, const FluidLoad& after, const Motion& m, double dt) {
-  LoadChange change;
-  const double inertia = 1 / m.inverse_mass + after.added, s = mean_decay(after.drag * dt / inertia);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double drag = after.drag * (after.velocity[k] - m.v[k]), other = after.force[k] - before.force[k];
-    const double all = drag - before.drag * (before.velocity[k] - m.v[k]) + other;
-    change.dv[k] = 0.5 * s * dt * all / inertia;
-    change.impulse[k] = change.dv[k] / m.inverse_mass - 0.5 * dt * other;
-    change.square += all * all;
-    change.force_square += (drag + after.force[k]) * (drag + after.force[k]);
-  }
-  return change;
-}
-
 }  // namespace
 
 Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
@@ -165,9 +143,8 @@ void Coupling::begin(Particles& particles) {
 }
 
 void Coupling::find_forces(const Particles& particles, std::uint64_t timed) {
-  if (stand()) return;
+  if (!sides_.present()) return;
   const auto scope = timers_.scope("fluid forces", timed);
-  forces_.find(particles, gather_, motion_.load, own());
   sides_.find(particles, gather_, motion_.load);
 }
 
@@ -182,6 +159,7 @@ void Coupling::hold(const Particles& particles) {
 /// Half of what the loads have become over the step of the fluid less what they were, so that the step has their mean.
 void Coupling::correct(Particles& particles) {
   before_ = motion_.load;
+  sides_.take_off(before_);
   forces_.find(particles, gather_, motion_.load, own());
   const double dt = interval();
   for (std::size_t i = 0; i < particles.owned; ++i) {
@@ -189,6 +167,7 @@ void Coupling::correct(Particles& particles) {
     const LoadChange change = change_of(before_[i], motion_.load[i], m, dt);
     motion_.account_coupling(m, change.dv);
     motion_.load[i].impulse = before_[i].impulse;
+    if (sides_.has_inertia()) motion_.load[i].added = before_[i].added;
     for (std::size_t k = 0; k < 3; ++k) {
       motion_.load[i].impulse[k] += change.impulse[k];
       m.v[k] += change.dv[k];
@@ -202,7 +181,7 @@ void Coupling::advance(Particles& particles, double t) {
   const double dt = interval();
   {
     const auto scope = timers_.scope("fluid forces");
-    if (stand()) correct(particles);
+    if (!held_) correct(particles);
   }
   {
     const auto scope = timers_.scope("fluid: particles' sums");

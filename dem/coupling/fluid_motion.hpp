@@ -45,6 +45,28 @@ struct WorkShare {
   return -std::expm1(-x) / x;
 }
 
+/// What a load that has changed over a step of the fluid gives a particle at its end.
+struct LoadChange {
+  Vector dv{}, impulse{};               ///< m/s; of it drag's, kg m/s
+  double square = 0, force_square = 0;  ///< of the change, and of the force at the end, N2
+};
+
+/// Half a step of the change of the force, its drag relaxing over the step as that of a kick does. A fluid that stands
+/// and loads that are taken once a step of it are first order in that step; with this they are second order.
+[[nodiscard]] inline LoadChange change_of(const FluidLoad& before, const FluidLoad& after, const Motion& m, double dt) {
+  LoadChange change;
+  const double inertia = 1 / m.inverse_mass + before.added, s = mean_decay(after.drag * dt / inertia);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double drag = after.drag * (after.velocity[k] - m.v[k]), other = after.force[k] - before.force[k];
+    const double all = drag - before.drag * (before.velocity[k] - m.v[k]) + other;
+    change.dv[k] = 0.5 * s * dt * all / inertia;
+    change.impulse[k] = change.dv[k] / m.inverse_mass - 0.5 * dt * other;
+    change.square += all * all;
+    change.force_square += (drag + after.force[k]) * (drag + after.force[k]);
+  }
+  return change;
+}
+
 class FluidMotion {
  public:
   /// \param fluid_density  kg/m3  \param gravity  m/s2  \param force, energy  units of loads and of the work

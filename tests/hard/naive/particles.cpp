@@ -72,6 +72,7 @@ void ParticleRun::step() {
     for (std::size_t i = 0; i < particles_.owned; ++i)
       for (std::size_t k = 0; k < 3; ++k)
         motion_.load[i].impulse[k] = every_ * (motion_.load[i].impulse[k] - last_[i][k]);
+  correct();
   collect();
   flow_.advance(time_, every_ * dt_, phase_);
   time_ += every_ * dt_;
@@ -115,8 +116,22 @@ void ParticleRun::move() {
       if (grid.periodic[k]) x -= std::floor(x / length) * length;
     }
   }
-  forces_.find(particles_, gather_, motion_.load);
   for (std::size_t i = 0; i < particles_.owned; ++i) kick(i);
+}
+
+/// As dem::Coupling::correct.
+void ParticleRun::correct() {
+  const std::vector<dem::FluidLoad> before = motion_.load;
+  forces_.find(particles_, gather_, motion_.load);
+  for (std::size_t i = 0; i < particles_.owned; ++i) {
+    dem::Motion& m = particles_.motion[i];
+    const dem::LoadChange change = dem::change_of(before[i], motion_.load[i], m, every_ * dt_);
+    motion_.load[i].impulse = before[i].impulse;
+    for (std::size_t k = 0; k < 3; ++k) {
+      motion_.load[i].impulse[k] += change.impulse[k];
+      m.v[k] += change.dv[k];
+    }
+  }
 }
 
 void ParticleRun::collect() {

@@ -43,6 +43,7 @@ class ParticleRun final : public hard::TextbookSuspension {
   static Treatment treatment_of(const std::string& name);
   void kick(std::size_t i);
   void move();
+  void correct();
   void crowd_centres();
   void couple_two_way();
   void take_fields();
