@@ -76,13 +76,9 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
   fill_state(scene);
   make_parts();
   for (const auto& part : parts_) part->start(time_, y_);
-  core::Tfm held = options_;
-  const bool implicit = integrator_.kind == core::TfmIntegrator::implicit_steps;
-  if (implicit) held.rtol *= ImplicitTolerances::all;
-  stepping_ = make_stepping(integrator_.kind, equations_, layout_, held,
-                            tolerances_of(equations_, layout_, held.rtol, implicit ? ImplicitTolerances::fluxes : 1,
-                                          velocity_scale_, pressure_scale_),
-                            timers);
+  stepping_ =
+      make_stepping(integrator_.kind, equations_, layout_, options_,
+                    tolerances_of(equations_, layout_, options_.rtol, velocity_scale_, pressure_scale_), timers);
   begin_integration();
 }
 

@@ -126,9 +126,7 @@ double accurate_step(const Constants& constants, double velocity, double rtol, d
   return rate > 0 ? share / rate * std::cbrt(rtol / measured_at) : infinite;
 }
 
-constexpr double implicit_share = 0.33, split_share = 0.75;
-// Where integrators are compared an implicit step counts for half as much again: its linear solve is short.
-constexpr double implicit_worth = 0.5;
+constexpr double implicit_share = 0.5, split_share = 0.75;
 
 }  // namespace
 
@@ -147,7 +145,7 @@ double split_steps_per_implicit(const core::Scene& scene, const Constants& const
   const double phi = !effects.drag ? rest : expanded_fraction(constants, drag->second, velocity, rest);
   const std::vector<TimeScale> scales = time_scales_of_bed(scene, constants, effects, {phi, velocity}, true);
   const double inside = velocity / (1 - phi), rtol = scene.tfm.rtol;  // solids that fall together overturn the fluid
-  return accurate_step(constants, inside, rtol, implicit_worth, true) /
+  return accurate_step(constants, inside, rtol, implicit_share, true) /
          std::min(explicit_step(scales), accurate_step(constants, inside, rtol, split_share, true));
 }
 

@@ -110,7 +110,6 @@ class ImplicitSteps : public Stepping {
         problem_(equations, layout, timers) {
     core::ImplicitOptions made;
     made.rtol = options.rtol;
-    made.linear_tolerance = ImplicitTolerances::linear;
     made.atol = std::move(tolerances.absolute);
     made.ranks = equations.constants().grid.ranks;
     made.atol_at = std::move(tolerances.at);
@@ -153,8 +152,7 @@ class ImplicitSteps : public Stepping {
     const double heaviest =
         std::max(equations_.constants().fluid.density, *std::max_element(density.begin(), density.end()));
     const double height = grid.column_cells(1) * grid.spacing[1];
-    const double round_off =
-        std::numeric_limits<double>::epsilon() * heaviest * height * of_flux / (rtol_ * ImplicitTolerances::fluxes);
+    const double round_off = std::numeric_limits<double>::epsilon() * heaviest * height * of_flux / rtol_;
     const double least = margin * round_off / of_pressure;
     return own < least ? least : 0;
   }

@@ -11,8 +11,8 @@ namespace polybed::tfm {
 using core::Index;
 using Kind = StateLayout::Entry::Kind;
 
-Tolerances tolerances_of(const RightHandSide& equations, const StateLayout& layout, double rtol, double flux_share,
-                         double velocity_scale, double pressure_scale) {
+Tolerances tolerances_of(const RightHandSide& equations, const StateLayout& layout, double rtol, double velocity_scale,
+                         double pressure_scale) {
   Tolerances tolerances;
   std::vector<double>& atol = tolerances.absolute;
   atol.resize(layout.size());
@@ -22,7 +22,6 @@ Tolerances tolerances_of(const RightHandSide& equations, const StateLayout& layo
                          : entry.kind == Kind::passed      ? not_tested
                          : entry.kind == Kind::pressure    ? pressure_scale * rtol
                          : entry.kind == Kind::temperature ? rtol * velocity_scale * velocity_scale
-                         : entry.kind == Kind::flux        ? flux_share * rtol * velocity_scale
                                                            : rtol * velocity_scale;
     std::fill_n(atol.begin() + std::ptrdiff_t(entry.begin), entry.size, value);
   }

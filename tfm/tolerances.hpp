@@ -19,19 +19,10 @@ struct Tolerances {
 /// Absolute tolerance of the fractions.
 [[nodiscard]] inline double fraction_tolerance(double rtol) { return 0.1 * rtol; }
 
-/// Of implicit steps: their tolerances over those of a case, of fluxes once more, and where their linear solves may
-/// end, relative to Newton's own tolerance. What a solve leaves undone acts on the fluxes first, which carry little
-/// mass; looser ones keep Newton from converging in packed liquid beds. Against solves four times as exact at the
-/// whole tolerance gas beds have a fifth of the error in a fifth to four fifths of the time (docs/record/cost.md).
-struct ImplicitTolerances {
-  static constexpr double all = 0.3, fluxes = 1.0 / 3, linear = 0.2;
-};
-
-/// \param flux_share  of the fluxes' tolerance over that of velocities
 /// \param velocity_scale  m/s  \param pressure_scale  Pa: rtol times these is the tolerance of velocities and pressure
 /// \param equations  outlive what is returned
 [[nodiscard]] Tolerances tolerances_of(const RightHandSide& equations, const StateLayout& layout, double rtol,
-                                       double flux_share, double velocity_scale, double pressure_scale);
+                                       double velocity_scale, double pressure_scale);
 
 /// Of a bed that may come to rest, as core::TolerancesAt asks: those of its velocities follow how fast it moves. With
 /// ones that stay, a settled bed creeps within them for ever.

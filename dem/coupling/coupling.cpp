@@ -143,8 +143,9 @@ void Coupling::begin(Particles& particles) {
 }
 
 void Coupling::find_forces(const Particles& particles, std::uint64_t timed) {
-  if (!sides_.present()) return;
+  if (stand()) return;
   const auto scope = timers_.scope("fluid forces", timed);
+  forces_.find(particles, gather_, motion_.load, own());
   sides_.find(particles, gather_, motion_.load);
 }
 
@@ -159,7 +160,6 @@ void Coupling::hold(const Particles& particles) {
 /// Half of what the loads have become over the step of the fluid less what they were, so that the step has their mean.
 void Coupling::correct(Particles& particles) {
   before_ = motion_.load;
-  sides_.take_off(before_);
   forces_.find(particles, gather_, motion_.load, own());
   const double dt = interval();
   for (std::size_t i = 0; i < particles.owned; ++i) {
@@ -167,7 +167,6 @@ void Coupling::correct(Particles& particles) {
     const LoadChange change = change_of(before_[i], motion_.load[i], m, dt);
     motion_.account_coupling(m, change.dv);
     motion_.load[i].impulse = before_[i].impulse;
-    if (sides_.has_inertia()) motion_.load[i].added = before_[i].added;
     for (std::size_t k = 0; k < 3; ++k) {
       motion_.load[i].impulse[k] += change.impulse[k];
       m.v[k] += change.dv[k];
@@ -181,7 +180,7 @@ void Coupling::advance(Particles& particles, double t) {
   const double dt = interval();
   {
     const auto scope = timers_.scope("fluid forces");
-    if (!held_) correct(particles);
+    if (stand()) correct(particles);
   }
   {
     const auto scope = timers_.scope("fluid: particles' sums");

@@ -2,9 +2,9 @@
 //
 // Between two steps of the fluid its fields are frozen, and so is what each particle has found of them, its drag over
 // the slip among it: the particle moves with its drag integrated exactly, the impulse that it takes is kept, and what
-// the fields would have done meanwhile where it went follows at the end, by the mean of both ends. Side forces, which
-// depend on spins and on what was before, are found in each step. Then the particles' volumes and impulses go to the
-// fluid, the fluid takes its step, and each particle gets by one kick what the change of the fluid would have
+// the fields would have done meanwhile where it went follows at the end, by the mean of both ends. Side forces depend
+// on spins and on what was before; with them loads are found in each step. Then the particles' volumes and impulses go
+// to the fluid, the fluid takes its step, and each particle gets by one kick what the change of the fluid would have
 // done to it meanwhile: that is in the fluid's equations, so that the momentum of both together is kept whatever the
 // length of the steps.
 #pragma once
@@ -49,7 +49,7 @@ class Coupling final : public KeptPart {
   }
   /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
   void hold(const Particles& particles);
-  /// Side forces where the particles are now; all others stand from step to step of the fluid.
+  /// Loads of the particles where they are now; nothing where they stand from step to step of the fluid.
   void find_forces(const Particles& particles, std::uint64_t timed);
   /// What the fluid does to their spins in a step.
   void turn(Particles& particles) { sides_.turn(particles, motion_); }
@@ -126,6 +126,8 @@ class Coupling final : public KeptPart {
   void find_vorticity(core::FaceField velocity);
   [[nodiscard]] const OwnShare* own() const { return own_ ? &*own_ : nullptr; }
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
+  /// Whether loads stand from step to step of the fluid. In a fixed bed they do not change.
+  [[nodiscard]] bool stand() const { return !sides_.present() && !held_; }
   /// Step of the fluid, s.
   [[nodiscard]] double interval() const { return every_ * dt_; }
 

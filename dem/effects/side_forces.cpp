@@ -47,12 +47,6 @@ void SideForces::replace(const SideView& view) {
     for (std::size_t k = 0; k < 3; ++k) view.loads[i].force[k] += rows_.of(i)[k];
 }
 
-void SideForces::take_off(std::vector<FluidLoad>& loads) const {
-  if (!present()) return;
-  for (std::size_t i = 0; i < loads.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) loads[i].force[k] -= rows_.of(i)[k];
-}
-
 void SideForces::add_impulse(std::span<FluidLoad> loads, double time) const {
   for (std::size_t i = 0; i < loads.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) loads[i].impulse[k] += time * rows_.of(i)[k];
@@ -69,7 +63,6 @@ void SideForces::begin(const Particles& particles, const Gather& gather, std::ve
 void SideForces::find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {
   if (!present()) return;
   add_impulse(loads, 0.5 * dt_);  // of the half kick that has been
-  take_off(loads);
   replace(look(particles, gather, loads));
   add_impulse(loads, 0.5 * dt_);  // of the one that comes
 }

@@ -60,8 +60,6 @@ class SideForces {
   void begin(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads);
   /// Within a step of the particles, after their first half kick.
   void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads);
-  /// Loads that contain the forces become those without them.
-  void take_off(std::vector<FluidLoad>& loads) const;
   /// After the fluid's step: the force is replaced, no time has passed.
   void refresh(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads);
   /// A fixed bed takes the force for a whole step.
