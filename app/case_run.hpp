@@ -138,13 +138,13 @@ class CaseRun {
   [[nodiscard]] std::string command_to_resume(const std::vector<std::string>& more) const;
   [[noreturn]] void fail(const core::NumericsError& error);
 
-  BedOfCase expected_;                     ///< on the first rank
-  Card card_;                              ///< of the last record
-  TimeBand prediction_;                    ///< of the whole run
-  bool refined_ = false;                   ///< it rests on steps of this run
-  bool ended_ = false;                     ///< the run will not go on
-  static constexpr double apart = 1.25;    ///< ratio of the times at which it is asked whether it has become steady
-  double next_look_ = 0;                   ///< s
+  BedOfCase expected_;                   ///< on the first rank
+  Card card_;                            ///< of the last record
+  TimeBand prediction_;                  ///< of the whole run
+  bool refined_ = false;                 ///< it rests on steps of this run
+  bool ended_ = false;                   ///< the run will not go on
+  static constexpr double apart = 1.25;  ///< ratio of the times at which it is asked whether it has become steady
+  double next_look_ = 0;                 ///< s
   bool was_steady_ = false, steady_ = false;
   std::optional<std::string> broken_law_;  ///< what to say of it
 };

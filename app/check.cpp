@@ -343,8 +343,7 @@ void run_check(const RunOptions& options) {
   if (const auto reasons = rules_of_tfm().problems(scene); !reasons.empty())
     return check_particle_scene(scene, core::texts_of(reasons), options);
   std::vector<std::string> hindrances;
-  const std::optional<ParticleRequirements> particles =
-      as_particles(scene, hindrances);  // while memory is the program's
+  const auto particles = as_particles(scene, hindrances);  // while memory is the program's
   core::Timers timers;
   std::unique_ptr<tfm::Model> part;
   const Requirements need = requirements_of(scene, timers, part);

@@ -15,7 +15,8 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
   CLI::App& command = *app.add_subcommand(model, help);
   take_case(command, options);
   command.add_option("-o,--output", options.output, "run directory; default runs/<case name>-" + model);
-  command.add_option("--until", options.until, "simulated time, e.g. \"20 s\"; steady: until the card says so, at most 20 times run.until");
+  command.add_option("--until", options.until,
+                     "simulated time, e.g. \"20 s\"; steady: until the card says so, at most 20 times run.until");
   command.add_flag("--resume", options.resume, "go on from the checkpoint in the run directory");
   command.add_flag("--force", options.force, "replace the run in the run directory");
   command.add_flag("--permissive", options.permissive,

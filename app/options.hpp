@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/studies.hpp"
@@ -20,9 +21,10 @@ struct CaseOptions {
 
 /// Options of a run.
 struct RunOptions : CaseOptions {
-  std::filesystem::path output;  ///< empty: runs/<case name>-<model>
-  std::string until;             ///< empty: as the case says
-  [[nodiscard]] bool until_steady() const { return until == "steady"; }
+  std::filesystem::path output;                         ///< empty: runs/<case name>-<model>
+  std::string until;                                    ///< empty: as the case says
+  static constexpr std::string_view steady = "steady";  ///< in place of a time
+  [[nodiscard]] bool until_steady() const { return until == steady; }
   bool resume = false, force = false, quiet = false;
   bool permissive = false;           ///< goes on where a conservation law is broken
   bool picture = true;               ///< drawn at the end

@@ -197,12 +197,8 @@ void Model::look_ahead() {
   const Verlet::Drift drift = held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, around_);
   hasty_ = drift.hasty;
   met_ = std::max(met_, drift.speed);
-  // The time of a contact goes with the fifth root of the speed: a quarter more is no matter.
-  constexpr double tolerated = 1.25;
-  // Energies may grow to 1024 times those that their unit is made for: 32 times the speed, and something for what is
-  // dissipated.
-  constexpr double most_over_counted = 25;
-  beyond_units_ = drift.speed > most_over_counted * counted_speed_;
+  constexpr double tolerated = 1.25;  // the time of a contact goes with the fifth root of the speed: it is no matter
+  beyond_units_ = drift.speed > 25 * counted_speed_;  // energies may grow to 1024 times what their unit is made for
   const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0 || beyond_units_;
   const bool fast = drift.speed > tolerated * limits_.greatest_speed && may_shorten();
   const bool stale = list_goes_stale(drift.distance, since);

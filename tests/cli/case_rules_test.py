@@ -28,8 +28,7 @@ solids_stress = "frictional"
 [run]
 until = "10 ms"
 """
-FLUID = '[fluid]\nname = "water"\ntemperature = "15 degC"\n'
-INLET = '[inlet]\nsuperficial_velocity = "10 mm/s"\n'
+FLUID, INLET = '[fluid]\nname = "water"\ntemperature = "15 degC"\n', '[inlet]\nsuperficial_velocity = "10 mm/s"\n'
 LAWS = {"drag": "cello", "fluid_stress": "newtonian", "gas_slip": "cunningham", "added_mass": "zuber", "lift": "saffman_mei",
         "magnus": "rubinow_keller", "history": "basset", "brownian": "langevin", "lubrication": "film"}
 DRY = "fluid.name=none"
@@ -39,11 +38,9 @@ def on(role, law=None):
     return f"effects.{role}={law or LAWS[role]}"
 
 
-AIR = ["fluid.name=air", "fluid.equation_of_state=ideal_gas"]
-TILTED = "column.gravity_direction=[1,-1]"
-JOINED = "column.ends=periodic"
-SHEARED = "dem.shear_rate=1"
-COUNTED = ["bed.volume_share=!", "bed.static_height=!"]
+AIR, TILTED = ["fluid.name=air", "fluid.equation_of_state=ideal_gas"], "column.gravity_direction=[1,-1]"
+JOINED, SHEARED = "column.ends=periodic", "dem.shear_rate=1"
+COUNTED, FLOW = ["bed.volume_share=!", "bed.static_height=!"], ["inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"]
 SIZES = 'species=[{name="fine", density=1395, distribution="lognormal", median=1e-8, deviation=1}]'
 
 
@@ -141,10 +138,8 @@ KEYS = {
         ("start_solids_fraction", 0.2), ("volume_share", [1.0]), ("static_height", 0.06), ("particles", [10]))},
     "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)": ["inlet.superficial_velocity=!"],
     "inlet.flow_rate and inlet.superficial_velocity both say how much flows in: give one of them": ["inlet.flow_rate=1e-5"],
-    "inlet.flow_rate in two dimensions needs column.depth: without it there is no area that it flows through": [
-        "inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"],
-    "inlet.flow_rate makes {} m/s over the column's cross-section; at most 1000 m/s": [
-        "inlet.superficial_velocity=!", "column.depth=0.01", "inlet.flow_rate=10"],
+    "inlet.flow_rate in two dimensions needs column.depth: without it there is no area that it flows through": FLOW,
+    "inlet.flow_rate makes {} m/s over the column's cross-section; at most 1000 m/s": [*FLOW, "column.depth=0.01", "inlet.flow_rate=10"],
     'fluid.equation_of_state = "ideal_gas": water is a liquid; "tait" is the law of a compressible liquid': [
         "fluid.equation_of_state=ideal_gas"],
     'fluid.equation_of_state = "tait": air is a gas; "ideal_gas" is its law': ["fluid.name=air", "fluid.equation_of_state=tait"],

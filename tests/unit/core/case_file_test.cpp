@@ -81,17 +81,6 @@ TEST(CaseFile, ReadsTheExample) {
   EXPECT_EQ(scene.effects.at("drag"), "cello");
 }
 
-// 108 l/h are 3e-5 m3/s, through 60 mm times 10 mm.
-TEST(CaseFile, AFlowRateBecomesAVelocity) {
-  std::string text = with("superficial_velocity = \"30 mm/s\"", "flow_rate = [[0, \"108 l/h\"], [1, \"5.4e-5 m3/s\"]]");
-  text.replace(text.find("cells = "), 0, "depth = \"10 mm\"\n");
-  const Scene scene = parse_case(text, "case.toml", {}, roles);
-  ASSERT_EQ(scene.inlet.superficial_velocity.size(), 2U);
-  EXPECT_NEAR(scene.inlet.superficial_velocity[0].second, 0.05, 1e-15);
-  EXPECT_NEAR(scene.inlet.superficial_velocity[1].second, 0.09, 1e-15);
-  EXPECT_TRUE(scene.inlet.flow_rate.empty());
-}
-
 struct Wrong {
   std::string line, changed, message;
   friend void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.message.substr(0, 40); }
