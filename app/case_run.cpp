@@ -69,7 +69,7 @@ void CaseRun::recall(const std::function<void(const core::Json&)>& take) const {
 
 /// Of what this process has simulated, or, while it runs, will.
 TimeBand CaseRun::prediction_of(double end) const {
-  const double share = scene_.run.until > 0 ? std::clamp((end - begin_) / scene_.run.until, 0.0, 1.0) : 1;
+  const double share = scene_.run.until > 0 ? std::max((end - begin_) / scene_.run.until, 0.0) : 1;
   return prediction_.part(share, !options_.resume);
 }
 
@@ -125,7 +125,7 @@ void CaseRun::run_to_end() {
 }
 
 void CaseRun::go() {
-  constexpr double longest = 20;  // times what the case states: a bed that is not steady by then is left drifting
+  constexpr double longest = 20;  // times run.until
   const double until = options_.until_steady() ? longest * scene_.run.until : scene_.run.until;
   core::Progress progress(options_.quiet, simulation().time(), until);
   core::Stops stops{until, *scene_.output.checkpoint_every, breakpoints()};
@@ -148,7 +148,7 @@ void CaseRun::go() {
       });
 }
 
-/// By the card, at times a quarter apart, twice in a row: of many looks at a bed that drifts one may miss it by chance.
+/// Two checks in a row must find the bed steady: one of many checks of a drifting bed may do so by chance. Collective.
 bool CaseRun::has_become_steady() {
   if (!options_.until_steady() || simulation().time() < next_look_) return false;
   next_look_ = apart * simulation().time();

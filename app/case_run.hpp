@@ -143,7 +143,7 @@ class CaseRun {
   TimeBand prediction_;                  ///< of the whole run
   bool refined_ = false;                 ///< it rests on steps of this run
   bool ended_ = false;                   ///< the run will not go on
-  static constexpr double apart = 1.25;  ///< ratio of the times at which it is asked whether it has become steady
+  static constexpr double apart = 1.25;  ///< ratio of the times of two checks of steadiness
   double next_look_ = 0;                 ///< s
   bool was_steady_ = false, steady_ = false;
   std::optional<std::string> broken_law_;  ///< what to say of it

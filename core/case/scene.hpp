@@ -108,7 +108,7 @@ struct Bed {
 struct Inlet {
   /// (time s, superficial velocity m/s): constant before the first and after the last, linear between.
   std::vector<std::pair<double, double>> superficial_velocity;
-  /// (time s, flow m3/s), as a case may give it: it becomes the velocity, and then there is none.
+  /// (time s, volume flow m3/s). resolve() converts it to the superficial velocity and clears it.
   std::vector<std::pair<double, double>> flow_rate;
 };
 

@@ -47,7 +47,7 @@ constexpr std::array known_units{
     Unit{"l", -3, 1, {3, 0, 0, 0}},
     Unit{"ml", -6, 1, {3, 0, 0, 0}},
     Unit{"%", -2, 1, {0, 0, 0, 0}},
-    // Those of the United States, by their definitions (NIST Special Publication 811, appendix B).
+    // Conversion factors from NIST Special Publication 811, appendix B.
     Unit{"micron", -6, 1, {1, 0, 0, 0}},
     Unit{"in", 0, 0.0254, {1, 0, 0, 0}},
     Unit{"ft", 0, 0.3048, {1, 0, 0, 0}},

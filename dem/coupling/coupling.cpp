@@ -157,7 +157,7 @@ void Coupling::hold(const Particles& particles) {
   sides_.hold(motion_.load);
 }
 
-/// Half of what the loads have become over the step of the fluid less what they were, so that the step has their mean.
+/// Finds the loads again at the end of a fluid step and applies the correction for their change.
 void Coupling::correct(Particles& particles) {
   before_ = motion_.load;
   forces_.find(particles, gather_, motion_.load, own());

@@ -1,12 +1,12 @@
 // Particles and fluid together: what each hears of the other, and when.
 //
-// Between two steps of the fluid its fields are frozen, and so is what each particle has found of them, its drag over
-// the slip among it: the particle moves with its drag integrated exactly, the impulse that it takes is kept, and what
-// the fields would have done meanwhile where it went follows at the end, by the mean of both ends. Side forces depend
-// on spins and on what was before; with them loads are found in each step. Then the particles' volumes and impulses go
-// to the fluid, the fluid takes its step, and each particle gets by one kick what the change of the fluid would have
-// done to it meanwhile: that is in the fluid's equations, so that the momentum of both together is kept whatever the
-// length of the steps.
+// During a fluid step the fluid's fields are constant, and so are the loads that each particle found at its start. The
+// particle moves with its drag integrated exactly, and the impulse that it takes is kept. At the end of the step the
+// loads are found again at the new places, and each particle gets half of their change (trapezoidal rule). Side forces
+// depend on spins and on earlier steps; with them all loads are found in every particle step. Then the particles'
+// volumes and impulses go to the fluid, the fluid takes its step, and each particle gets by one kick what the change of
+// the fluid would have done to it meanwhile. The fluid's equations contain this kick, so that the momentum of both
+// together is conserved whatever the length of the steps.
 #pragma once
 
 #include <memory>
@@ -49,7 +49,7 @@ class Coupling final : public KeptPart {
   }
   /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
   void hold(const Particles& particles);
-  /// Loads of the particles where they are now; nothing where they stand from step to step of the fluid.
+  /// Finds the loads at the particles' places, unless loads are constant during a fluid step.
   void find_forces(const Particles& particles, std::uint64_t timed);
   /// What the fluid does to their spins in a step.
   void turn(Particles& particles) { sides_.turn(particles, motion_); }
@@ -82,8 +82,8 @@ class Coupling final : public KeptPart {
   [[nodiscard]] SideForces& sides() { return sides_; }
   [[nodiscard]] const SideForces& sides() const { return sides_; }
   [[nodiscard]] int every() const { return every_; }
-  /// Sums of squares over the particles of this rank and the steps of the fluid in this process, both in one unit: what
-  /// the loads that stood differed by from those at the end of the step, and these.
+  /// Sums of squares over this rank's particles and this process's fluid steps, in one unit: of the change of the force
+  /// during a step, and of the force at its end.
   struct Changes {
     EnergySum change, force;
   };
@@ -126,7 +126,7 @@ class Coupling final : public KeptPart {
   void find_vorticity(core::FaceField velocity);
   [[nodiscard]] const OwnShare* own() const { return own_ ? &*own_ : nullptr; }
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
-  /// Whether loads stand from step to step of the fluid. In a fixed bed they do not change.
+  /// Whether loads are constant during a fluid step and corrected at its end. In a fixed bed no correction is needed.
   [[nodiscard]] bool stand() const { return !sides_.present() && !held_; }
   /// Step of the fluid, s.
   [[nodiscard]] double interval() const { return every_ * dt_; }

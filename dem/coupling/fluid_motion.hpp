@@ -45,14 +45,15 @@ struct WorkShare {
   return -std::expm1(-x) / x;
 }
 
-/// What a load that has changed over a step of the fluid gives a particle at its end.
+/// Correction of a particle at the end of a fluid step, for a load that was constant during the step.
 struct LoadChange {
-  Vector dv{}, impulse{};               ///< m/s; of it drag's, kg m/s
-  double square = 0, force_square = 0;  ///< of the change, and of the force at the end, N2
+  Vector dv{}, impulse{};               ///< change of velocity, m/s; impulse that drag gives, kg m/s
+  double square = 0, force_square = 0;  ///< squares of the change of the force and of the force at the end, N2
 };
 
-/// Half a step of the change of the force, its drag relaxing over the step as that of a kick does. A fluid that stands
-/// and loads that are taken once a step of it are first order in that step; with this they are second order.
+/// Half the change of the force, applied for the fluid step with the same relaxation by drag as in a kick. It makes the
+/// error of constant loads second order in the fluid step; without it the error is first order.
+/// \param before, after  loads found at the start and at the end of the step  \param dt  fluid step, s
 [[nodiscard]] inline LoadChange change_of(const FluidLoad& before, const FluidLoad& after, const Motion& m, double dt) {
   LoadChange change;
   const double inertia = 1 / m.inverse_mass + before.added, s = mean_decay(after.drag * dt / inertia);

@@ -61,7 +61,7 @@ class Card(Scratch):
         self.assertEqual(record["state"], "done")
         self.assertIs(record["card"]["steady"], True)
         self.assertGreater(record["time_s"], 20)
-        self.assertLess(record["time_s"], 100, "the end of its patience")
+        self.assertLess(record["time_s"], 100, "20 times run.until")
 
     def test_means_are_those_of_the_history(self):
         """Means of ten equal parts of the last quarter, with Student's interval; summed in another order, so to rounding."""

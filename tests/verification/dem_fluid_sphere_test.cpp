@@ -45,7 +45,7 @@ TEST(DemSphere, SettlesAgainstRisingGas) {
   }
 }
 
-// The drag's coefficient is found once in a step of the fluid: halving that takes three quarters of the error.
+// The drag coefficient is computed once per fluid step: half the step leaves a quarter of the error.
 TEST(DemSphere, FeelsLoadsThatStandToSecondOrderInTheStepOfTheFluid) {
   const auto error = [](int every) {
     Beads beads(rising_gas(every), {{"a", {0.51, 0.52, 0.49}}});
