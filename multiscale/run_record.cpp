@@ -42,13 +42,6 @@ std::string processor() {
   return "unknown";
 }
 
-core::Json read_run_record(const std::filesystem::path& directory) {
-  const std::filesystem::path path = directory / "run.json";
-  if (!std::filesystem::exists(path))
-    throw core::FileError(fmt::format("{}: no run (it has no run.json)", directory.string()));
-  return core::read_json(path, "polybed run");
-}
-
 void write_size_classes(Json& json, const core::Scene& scene) {
   for (const core::SizeClasses& record : scene.size_classes) json["size_classes"].push_back(size_classes_of(record));
 }

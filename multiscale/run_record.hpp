@@ -1,7 +1,6 @@
 // run.json: what the records of both models share.
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,9 +11,6 @@
 #include "measures/invariants.hpp"
 
 namespace polybed::multiscale {
-
-/// The record of a run, run.json. Throws FileError if there is none, or of another version.
-[[nodiscard]] core::Json read_run_record(const std::filesystem::path& directory);
 
 /// The processor's name as the system gives it; "unknown" elsewhere.
 [[nodiscard]] std::string processor();

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
-#include "core/error.hpp"
 #include "relevance/effect.hpp"
-#include "relevance/fluid_properties.hpp"
 #include "relevance/supremum.hpp"
 
 namespace polybed::relevance {
@@ -124,52 +121,6 @@ EffectRow clusters(const core::Scene& scene, const Survey& survey) {
   return row;
 }
 
-EffectRow temperature(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = effect_row("temperature", "none", "viscosity per kelvin", Kind::unmodelled);
-  if (!(survey.temperature > 0) || (scene.fluid.density && scene.fluid.viscosity)) {
-    row.state = State::unknown;
-    row.reason = "unknown: the fluid is given by numbers; of water about -2 % per K";
-    return row;
-  }
-  core::Fluid warmer = scene.fluid;
-  warmer.temperature = survey.temperature + 1;
-  try {
-    row.value = std::abs(fluid_constants(warmer).viscosity / survey.viscosity - 1);
-    row.reason = "not modelled: by a kelvin more or less the viscosity changes by " + percent(*row.value);
-  } catch (const core::CaseError&) {
-    row.state = State::unknown;
-    row.reason = "unknown: the fluid's properties end at this temperature";
-  }
-  return row;
-}
-
-/// Two charges that touch, over the weight: q^2/(4 pi eps0 d^2)/F_ref.
-EffectRow charge(const core::Scene& scene, const Survey& survey) {
-  EffectRow row = effect_row("charge", "none", "Coulomb force of neighbours over weight", Kind::unmodelled);
-  row.threshold = scene.chooser.tolerance;
-  if (!scene.chooser.charge) {
-    row.state = State::unknown;
-    row.reason = "unknown: needs charge (chooser.charge)";
-    return row;
-  }
-  constexpr double permittivity = 8.8541878128e-12;  // F/m
-  const double q = *scene.chooser.charge;
-  Supremum greatest;
-  for (const Situation& s : survey.touching())
-    greatest.add(s, q * q / (4 * std::numbers::pi * permittivity * s.diameter * s.diameter) / s.reference());
-  greatest.fill(row);
-  row.is_force = true;
-  row.reason = "not modelled";
-  return row;
-}
-
-EffectRow sintering() {
-  EffectRow row = effect_row("sintering", "none", no_number, Kind::unmodelled);
-  row.state = State::unknown;
-  row.reason = "unknown: depends on how the material softens; not modelled";
-  return row;
-}
-
 }  // namespace
 
 std::vector<EffectRow> weigh_conditions(const core::Scene& scene, const Survey& survey) {
@@ -184,10 +135,7 @@ std::vector<EffectRow> weigh_conditions(const core::Scene& scene, const Survey& 
     rows.push_back(level(survey));
     rows.push_back(turbulence(survey));
     rows.push_back(clusters(scene, survey));
-    rows.push_back(temperature(scene, survey));
   }
-  rows.push_back(charge(scene, survey));
-  rows.push_back(sintering());
   return rows;
 }
 

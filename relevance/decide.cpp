@@ -146,9 +146,9 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule) {
       const std::string said = row.kind == Kind::unmodelled ? row.reason : "";
       row.of_acceleration && !rule.transient ? decide_steady(row) : decide_by_number(row);
       if (!said.empty()) row.reason = said;
-      if (row.kind == Kind::unmodelled && !row.is_force) row.neglected.reset();
+      if (row.kind == Kind::unmodelled) row.neglected.reset();
     }
-    if (row.kind == Kind::role || row.is_force) row.bound = bound_of(row, always, rule.transient);
+    if (row.kind == Kind::role) row.bound = bound_of(row, always, rule.transient);
     if (row.kind != Kind::role) continue;
     if (!row.remark.empty()) row.reason += "; " + row.remark;
     if (rule.on.contains(row.effect)) take_from_case(row, true, rule.transient);

@@ -70,8 +70,8 @@ struct Effect {
   std::function<std::optional<EffectRow>(const Weighing&, EffectRow)> weigh = {};
   /// Why it cannot act beside what all effects have been weighed to be; empty: it can.
   std::function<std::string(const Weighing&)> idle = {};
-  /// Share of the weight, of what a run has met; nothing beyond the range of the law. Without it an audit evaluates
-  /// nothing of this effect.
+  /// Share of the weight, of what a run has met; nothing beyond the range of the law. Without it the monitor
+  /// evaluates nothing of this effect.
   std::function<std::optional<double>(const Encountered&)> share = {};
   /// Sets the keys that a law needs where the chooser has chosen it.
   std::function<void(core::Scene&, const Surfaces&)> set_keys = {};

@@ -26,8 +26,8 @@ inline constexpr const char* without_a_fluid = "no fluid: particles touch instea
 [[nodiscard]] std::string percent(double share);
 
 struct EffectRow {
-  /// Undecided: the number is too uncertain to tell. Unknown: an input is missing, or nothing can be computed.
-  enum class State { on, off, undecided, unknown };
+  /// Undecided: the number is too uncertain to tell.
+  enum class State { on, off, undecided };
   enum class Kind {
     role,       ///< of [effects]
     condition,  ///< decided by other keys, or always on
@@ -52,7 +52,6 @@ struct EffectRow {
   bool on_particles = false;        ///< acts on particles: a model that has no law of it leaves it out
   bool of_acceleration = false;     ///< vanishes in the mean of what is steady
   bool choice = false;              ///< better with it, but nothing is missing without
-  bool is_force = false;            ///< of what is not modelled: its value is a share of the weight
   std::optional<double> neglected;  ///< bound on what leaving it out neglects, in the table as decided
   std::optional<double> bound;      ///< the same whatever is decided; empty where it is not known
   std::string reason;

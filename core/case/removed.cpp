@@ -10,6 +10,7 @@ struct Removed {
 
 constexpr Removed removed[] = {
     {"calibrate.film_gap", "", "it is 0.005 now; dem.roughness makes films thicker"},
+    {"chooser.charge", "", "forces between charges are not modelled"},
     {"chooser.free_liquid", "", "take dem.surface_tension"},
     {"chooser.hamaker", "", "take dem.hamaker_constant"},
     {"chooser.roughness", "", "take dem.roughness"},

@@ -138,7 +138,6 @@ struct Chooser {
   double tolerance = 0.02;  ///< what is left out sums to at most this share
   Purpose purpose = Purpose::steady;
   bool static_heap = false;               ///< a heap at rest is what the scene is about
-  std::optional<double> charge;           ///< of a particle, C
   std::optional<double> voidage;          ///< of the bulk; else by the balance of forces
   std::vector<double> velocity_range;     ///< superficial, m/s: widens what the case itself says
   std::vector<double> temperature_range;  ///< K

@@ -13,8 +13,6 @@ Table chooser_table() {
               help("what is left out sums to at most this share of the buoyant weight")),
           key(&Chooser::purpose, "purpose", help("steady leaves out forces of acceleration, whose means vanish")),
           key(&Chooser::static_heap, "static_heap", help("a heap at rest matters: rolling needs a spring")),
-          key(&Chooser::charge, "charge", range(-1, 1),
-              help("electric charge of a particle, C; without it nothing can be said of its force")),
           key(&Chooser::voidage, "voidage", above(0.2, 1),
               help("of the bulk, where it is known; default: by the balance of drag and weight at each velocity")),
           key(&Chooser::velocity_range, "velocity_range", dimension::velocity, range(-1e3, 1e3),

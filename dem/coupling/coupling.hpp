@@ -103,6 +103,12 @@ class Coupling final : public KeptPart {
     core::Field total_pressure, density;  ///< of a compressible fluid, Pa, kg/m3; else empty
   };
   [[nodiscard]] Column column() const;
+  /// curl U_f in the cells of the whole column, 1/s, as particles meet it. Collective.
+  struct Vorticity {
+    core::Grid grid;
+    std::array<core::Field, 3> components;
+  };
+  [[nodiscard]] Vorticity vorticity() const;
   /// Steps of the fluid since the start.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
@@ -123,7 +129,7 @@ class Coupling final : public KeptPart {
   void weigh();
   [[nodiscard]] core::Field of_column(const core::Field& own) const;
   void take_own(const core::Field& column, core::Field& own) const;
-  void find_vorticity(core::FaceField velocity);
+  void find_vorticity(core::FaceField velocity, std::array<core::Field, 3>& vorticity) const;
   [[nodiscard]] const OwnShare* own() const { return own_ ? &*own_ : nullptr; }
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
   /// Whether loads are constant during a fluid step and corrected at its end. In a fixed bed no correction is needed.

@@ -1,6 +1,7 @@
 // What particles give to the fluid and see of it as fields: averaged by the kernel, and sent where they are needed.
 #include <algorithm>
 
+#include "core/numerics/blocks.hpp"
 #include "dem/coupling/coupling.hpp"
 #include "dem/parallel/exchange.hpp"
 #include "fluid/vorticity.hpp"
@@ -29,22 +30,30 @@ void Coupling::smooth_sums() {
 /// The fields as particles see them.
 void Coupling::take_fields() {
   if (exchange_) {  // never with a kernel of diffusion
-    if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity);
+    if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity, vorticity_);
     return fetch();
   }
   core::FaceField velocity = flow_.state().velocity, gradient = flow_.gradient();
   smooth(velocity);
   smooth(gradient);
-  if (sides_.needs_vorticity()) find_vorticity(velocity);
+  if (sides_.needs_vorticity()) find_vorticity(velocity, vorticity_);
   gather_.take(fraction_, velocity, gradient);
   if (own_) own_->take(fraction_);
   if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
 }
 
 /// Of the velocity as particles see it, which holds at the walls.
-void Coupling::find_vorticity(core::FaceField velocity) {
+void Coupling::find_vorticity(core::FaceField velocity, std::array<Field, 3>& vorticity) const {
   flow_.boundaries().fill_velocity(velocity, fluid::WallSlip::no_slip);
-  fluid::find_vorticity(flow_.grid(), velocity, vorticity_);
+  fluid::find_vorticity(flow_.grid(), velocity, vorticity);
+}
+
+Coupling::Vorticity Coupling::vorticity() const {
+  core::FaceField velocity = flow_.state().velocity;
+  smooth(velocity);
+  std::array<Field, 3> own;
+  find_vorticity(std::move(velocity), own);
+  return {core::whole_column(flow_.grid()), {of_column(own[0]), of_column(own[1]), of_column(own[2])}};
 }
 
 void Coupling::send_ahead(Exchange& exchange, const Particles& particles) {

@@ -27,7 +27,6 @@ std::string value_text(const relevance::EffectRow& row) {
 }
 
 std::string state_text(const relevance::EffectRow& row) {
-  if (row.state == State::unknown) return "unknown";
   if (row.state == State::undecided) return "undecided";
   if (row.state == State::off) return row.kind == Kind::unmodelled ? "no" : "off";
   return row.kind == Kind::unmodelled || !row.not_built.empty() ? "MISSING" : "on";
@@ -97,8 +96,7 @@ enum class Advice { none, add, replace, may_leave_out, try_it };
 
 Advice advice_of(const core::Scene& scene, const relevance::EffectRow& row) {
   const std::string has = case_text(scene, row);
-  if (row.kind != Kind::role || has.empty() || has == core::automatic || row.state == State::unknown ||
-      !acts_in(row, models_of(scene)))
+  if (row.kind != Kind::role || has.empty() || has == core::automatic || !acts_in(row, models_of(scene)))
     return Advice::none;
   if (row.state == State::undecided) return has == off ? Advice::try_it : Advice::none;
   if (row.state == State::on && has == off) return row.choice ? Advice::replace : Advice::add;
@@ -157,7 +155,7 @@ std::string sums_text(const core::Scene& scene, const relevance::Choice& choice)
   for (const auto& [line, of] : told) text += indented(of + ": " + line, 2);
   if (choice.sum_up_to > choice.tolerance)
     text += indented(fmt::format("in a run up to {}, where the fluid is sheared within a cell or impacts spin "
-                                 "particles; polybed effects audit RUN measures it",
+                                 "particles; chooser.monitor = \"warn\" measures it",
                                  relevance::percent(choice.sum_up_to)),
                      2);
   return text;
@@ -219,7 +217,7 @@ std::string names_line(const std::string& front, const std::vector<std::string>&
 std::string short_table(const core::Scene& scene, const relevance::Choice& choice) {
   std::string lines;
   const Models models = models_of(scene);
-  std::vector<std::string> unneeded, missing, unknown;
+  std::vector<std::string> unneeded, missing;
   for (const relevance::EffectRow& row : choice.rows) {
     const bool acts = row.state == State::on || core::is_law(core::law_of(scene, row.effect));
     if (row.kind == Kind::role && !acts_in(row, models)) continue;
@@ -229,11 +227,8 @@ std::string short_table(const core::Scene& scene, const relevance::Choice& choic
       unneeded.push_back(row.effect);
     else if (row.kind == Kind::unmodelled && row.state == State::on)
       missing.push_back(fmt::format("{} ({} {})", row.effect, value_text(row), limit_text(row)));
-    else if (row.kind == Kind::unmodelled && row.state == State::unknown)
-      unknown.push_back(row.effect);
   }
-  return lines + names_line("off, and not needed", unneeded) +
-         names_line("not modelled, but it matters here", missing) + names_line("not modelled, and not known", unknown);
+  return lines + names_line("off, and not needed", unneeded) + names_line("not modelled, but it matters here", missing);
 }
 
 std::string whole_table(const core::Scene& scene, const relevance::Choice& choice) {
@@ -269,7 +264,7 @@ core::Json finite_or_null(const std::optional<double>& value) {
 }
 
 const char* verdict_of(State state) {
-  const char* verdicts[] = {"on", "off", "undecided", "unknown"};
+  const char* verdicts[] = {"on", "off", "undecided"};
   return verdicts[std::size_t(state)];
 }
 

@@ -24,7 +24,7 @@ std::string why_left_out(const relevance::EffectRow& row, const std::string& mod
   if (row.kind == Kind::condition) return row.state == State::off && row.bound ? "off in the case" : "";
   if (row.kind == Kind::unmodelled) {
     const bool below = row.threshold && row.state == State::off && row.value;
-    return row.bound == 0.0 || (below && !row.is_force) ? "" : "not modelled";
+    return row.bound == 0.0 || below ? "" : "not modelled";
   }
   if (!relevance::is_left_out(row, model)) return "";
   if (row.models.find(model) == std::string::npos) return "no law of it in this model";

@@ -10,7 +10,6 @@
 #include "core/output/fields.hpp"
 #include "dem/model.hpp"
 #include "fluid/vorticity.hpp"
-#include "multiscale/effects/fluid_map.hpp"
 #include "multiscale/roles.hpp"
 #include "tfm/model.hpp"
 
@@ -22,20 +21,12 @@ using closures::Vec3;
 
 constexpr int samples_before_warning = 3;
 
-FluidMap map_of(const dem::Coupling::Column& column, bool walls) {
-  const core::Grid& grid = column.grid;
-  FluidMap map;
-  map.dimensions = grid.dimensions;
-  map.cells = grid.cells;
-  map.spacing = grid.spacing;
-  map.walls = walls;
-  const core::FaceField mean = core::cell_means(grid, column.velocity);
-  map.velocity.reserve(grid.cell_count());
-  core::for_each_row(grid, [&](core::Index begin, core::Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-      map.velocity.push_back({mean[0][c], mean[1][c], grid.dimensions > 2 ? mean[2][c] : 0});
-  });
-  return map;
+/// The cell of a grid that owns its whole column in which a place, m, lies; the nearest of one outside.
+std::size_t cell_at(const core::Grid& column, const std::array<double, 3>& place) {
+  std::array<int, 3> cell{0, 0, 0};
+  for (std::size_t a = 0; a < std::size_t(column.dimensions); ++a)
+    cell[a] = std::clamp(int(std::floor(place[a] / column.spacing[a])), 0, column.cells[a] - 1);
+  return std::size_t(column.index(cell[0], cell[1], cell[2]));
 }
 
 }  // namespace
@@ -66,14 +57,15 @@ std::vector<std::string> Monitor::look(const dem::Model& model) {
   latest_ = empty_;
   const dem::Particles& particles = model.particles();
   const auto& load = model.coupling()->motion().load;
-  const FluidMap map = map_of(model.coupling()->column(), scene_.column.sides == core::Boundary::wall);
+  const auto [column, vorticity] = model.coupling()->vorticity();
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!in_sample(particles.id[i], scene_.chooser.monitor_sample)) continue;
     const auto& u = load[i].velocity;
     const dem::Motion& m = particles.motion[i];
+    const std::size_t cell = cell_at(column, particles.place[i].x);
     const Encounter met{std::size_t(particles.species[i]),
                         Vec3{u[0] - m.v[0], u[1] - m.v[1], u[2] - m.v[2]},
-                        map.vorticity(map.cell_at(particles.place[i].x)),
+                        Vec3{vorticity[0][cell], vorticity[1][cell], vorticity[2][cell]},
                         Vec3{m.w[0], m.w[1], m.w[2]},
                         particles.place[i].x,
                         model.time()};

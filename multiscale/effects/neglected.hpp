@@ -1,5 +1,4 @@
-// The forces that a run leaves out, evaluated where its particles are: for the audit of stored states and for the
-// monitor of a running one, by the closures that the choice was made with.
+// The forces that a run leaves out, evaluated where its particles are by the closures that the choice was made with.
 #pragma once
 
 #include <array>

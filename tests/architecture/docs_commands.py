@@ -67,7 +67,7 @@ def shortened(command, program):
 
 def answered(words, before):
     """Whether the same command has answered before; it has read only what is shipped, and written nothing."""
-    if len(words) < 2 or words[1] not in ANSWERS or {"-o", "--scan", "audit"} & set(words) or \
+    if len(words) < 2 or words[1] not in ANSWERS or {"-o", "--scan"} & set(words) or \
             any("/" in word and not word.startswith("cases/") for word in words[2:]):
         return False
     known = tuple(words) in before

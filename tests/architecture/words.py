@@ -10,7 +10,7 @@ FOLDERS = ("closures", "core", "relevance", "fluid", "measures", "tfm", "dem", "
 # files that read or write a case, read another file, or the words of a command
 READERS = {f"{name}.cpp" for name in (
     *(f"core/case/{n}" for n in ("contact_properties", "file", "resolved", "scene", "units", "values")),
-    "core/output/directory", "core/output/profiles", "multiscale/effects/audit",
+    "core/output/directory", "core/output/profiles",
     "app/calibrate", "app/drag", "app/estimate", "app/inversion", "app/inversion_scan", "app/keys", "app/measure", "app/measure_text", "app/plot",
     "app/run_directory")}
 

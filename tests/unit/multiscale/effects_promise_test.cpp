@@ -5,7 +5,6 @@
 
 #include "closures/relevance.hpp"
 #include "core/case/file.hpp"
-#include "multiscale/effects/fluid_map.hpp"
 #include "multiscale/effects/monitor.hpp"
 #include "multiscale/effects/neglected.hpp"
 #include "multiscale/roles.hpp"
@@ -13,25 +12,6 @@
 
 namespace polybed::multiscale {
 namespace {
-
-// U = (3 + 2 x - 4 y, 1 + 5 x + y, 0): curl 5 + 4; walls are left out of what is asked, they mirror.
-TEST(FluidMap, IsExactOfALinearField) {
-  FluidMap map;
-  map.cells = {6, 5, 1};
-  map.spacing = {0.1, 0.2, 1};
-  for (int j = 0; j < 5; ++j)
-    for (int i = 0; i < 6; ++i) {
-      const double x = (i + 0.5) * 0.1, y = (j + 0.5) * 0.2;
-      map.velocity.push_back({3 + 2 * x - 4 * y, 1 + 5 * x + y, 0});
-    }
-  const std::array<double, 3> place{0.33, 0.47, 0};
-  EXPECT_NEAR(map.velocity_at(place).x, 3 + 0.66 - 1.88, 1e-13);  // rounding
-  EXPECT_NEAR(map.velocity_at(place).y, 1 + 1.65 + 0.47, 1e-13);
-  EXPECT_NEAR(map.vorticity({3, 2, 0}).z, 9, 1e-12);
-  // At the left wall the image moves the other way: dv/dx = (v_1 + v_0)/(2 h).
-  const double v0 = 1 + 0.25 + 0.5, v1 = v0 + 0.5;
-  EXPECT_NEAR(map.vorticity({0, 2, 0}).z, (v1 + v0) / 0.2 + 4, 1e-12);
-}
 
 TEST(Sample, IsTheShareAskedForAndAlwaysTheSame) {
   int count = 0;
