@@ -77,7 +77,8 @@ class FluidMotion {
       : gravity_(gravity), force_(force), energy_(energy), counts_work_(counts_work) {
     for (const Species& species : materials.species()) {
       mass_.push_back(species.mass);
-      net_gravity_.push_back(Four{gravity[0], gravity[1], gravity[2], 0} * (1 - fluid_density / species.density));
+      const double share = 1 - fluid_density / species.density;
+      net_gravity_.push_back({share * gravity[0], share * gravity[1], share * gravity[2], 0});
     }
   }
 
@@ -94,7 +95,8 @@ class FluidMotion {
     const FluidLoad& f = load[i];
     const double share = 1 / (1 + f.added * m.inverse_mass), per_inertia = m.inverse_mass * share;
     const double x = f.drag * per_inertia * h, mean = mean_decay(x);
-    const Four weight = net_gravity_[std::size_t(particles.species[i])];
+    Four weight;
+    get_four(net_gravity_[std::size_t(particles.species[i])].data(), weight);
     Kick kick;
     kick.free =
         h * ((to_four(particles.load[i].force) * force_.unit + four_at(f.force)) * per_inertia + weight * share);
@@ -135,14 +137,17 @@ class FluidMotion {
   [[nodiscard]] EnergySum work() const { return counts_work_ ? work_ : EnergySum(); }
   [[nodiscard]] bool counts_work() const { return counts_work_; }
   void set_work(const EnergySum& work) { work_ = work; }
-  [[nodiscard]] const Four& net_gravity(std::int32_t species) const { return net_gravity_[std::size_t(species)]; }
+  /// Gravity less buoyancy per mass of a species, m/s2; three numbers count.
+  [[nodiscard]] const std::array<double, 4>& net_gravity(std::int32_t species) const {
+    return net_gravity_[std::size_t(species)];
+  }
 
   std::vector<FluidLoad> load;  ///< of the owned particles
 
  private:
   Vector gravity_;
-  std::vector<double> mass_;       ///< of each species, kg
-  std::vector<Four> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
+  std::vector<double> mass_;                        ///< of each species, kg
+  std::vector<std::array<double, 4>> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
   FixedPoint force_, energy_;
   bool counts_work_;
   EnergySum work_;

@@ -95,7 +95,8 @@ void Scatter::add(const Place& place, const std::array<double, 6>& same, const V
   std::int64_t* const sums = sums_.data();
   const std::size_t width = width_;
   const int dimensions = grid_.dimensions;
-  std::array<Four, fours(count)> units{};  // of those on a face; the last may be for none
+  constexpr std::size_t many = fours(count);
+  Four units[many] = {};  // of those on a face; the last may be for none
   const auto set = [&](std::size_t q, double amount) { units[q / 4][q % 4] = amount * unit_[q].per_unit; };
   set(Sum::volume, v);
   for (std::size_t q = drag; q < count; ++q) set(q, same[q - drag]);
@@ -104,11 +105,11 @@ void Scatter::add(const Place& place, const std::array<double, 6>& same, const V
     set(flux, v * velocity[a]);
     set(Sum::impulse, impulse[a]);
     for_each_face(dimensions, lines, axis, [&](std::size_t at, double w) {
-      std::int64_t* sum = sums + at * width + a * 4 * units.size();
-      for (std::size_t n = 0; n < units.size(); ++n) add_whole(w * units[n], sum + 4 * n);
+      std::int64_t* sum = sums + at * width + a * 4 * many;
+      for (std::size_t n = 0; n < many; ++n) add_whole(w * units[n], sum + 4 * n);
     });
   }
-  const std::size_t cell = std::size_t(dimensions) * 4 * units.size() + species;
+  const std::size_t cell = std::size_t(dimensions) * 4 * many + species;
   for_each_cell(dimensions, lines,
                 [&](std::size_t at, double w) { sums[at * width + cell] += std::int64_t(w * units[0][0]); });  // volume
 }
