@@ -76,9 +76,10 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
   fill_state(scene);
   make_parts();
   for (const auto& part : parts_) part->start(time_, y_);
-  stepping_ =
-      make_stepping(integrator_.kind, equations_, layout_, options_,
-                    tolerances_of(equations_, layout_, options_.rtol, velocity_scale_, pressure_scale_), timers);
+  stepping_ = make_stepping(integrator_.kind, equations_, layout_, options_,
+                            tolerances_of(equations_, layout_, kept_tolerance(integrator_.kind, options_.rtol),
+                                          velocity_scale_, pressure_scale_),
+                            timers);
   begin_integration();
 }
 

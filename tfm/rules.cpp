@@ -11,6 +11,7 @@
 #include "core/numerics/blocks.hpp"
 #include "fluid/inlet.hpp"
 #include "relevance/effects/solids_stress.hpp"
+#include "tfm/tolerances.hpp"
 
 namespace polybed::tfm {
 
@@ -108,7 +109,7 @@ std::vector<core::Rule> key_rules() {
 }
 
 std::string wrong_with_implicit_tolerance(double rtol) {
-  constexpr double least = 1e-10, most = 2e-3;
+  constexpr double least = least_implicit_tolerance, most = 2e-3;
   return rtol > most    ? fmt::format("at most {}, beyond which its predictor jumps past packing", most)
          : rtol < least ? fmt::format("at least {}, below which round-off stops its Newton iteration", least)
                         : "";

@@ -37,7 +37,7 @@ namespace {
 
 core::ExplicitOptions explicit_options(const RightHandSide& equations, const core::Tfm& options,
                                        Tolerances tolerances) {
-  return {options.rtol, std::move(tolerances.absolute), options.fixed_step.value_or(0),
+  return {tolerances.relative, std::move(tolerances.absolute), options.fixed_step.value_or(0),
           equations.constants().grid.ranks, std::move(tolerances.at)};
 }
 
@@ -101,15 +101,14 @@ class SoundSteps : public Stepping {
 /// Needs consistent rates and pressure, which one projected right-hand side gives.
 class ImplicitSteps : public Stepping {
  public:
-  ImplicitSteps(RightHandSide& equations, const StateLayout& layout, const core::Tfm& options, Tolerances tolerances,
-                core::Timers& timers)
+  ImplicitSteps(RightHandSide& equations, const StateLayout& layout, Tolerances tolerances, core::Timers& timers)
       : Stepping(equations, layout),
         timers_(timers),
-        rtol_(options.rtol),
+        rtol_(tolerances.relative),
         atol_(tolerances.absolute),
         problem_(equations, layout, timers) {
     core::ImplicitOptions made;
-    made.rtol = options.rtol;
+    made.rtol = rtol_;
     made.atol = std::move(tolerances.absolute);
     made.ranks = equations.constants().grid.ranks;
     made.atol_at = std::move(tolerances.at);
@@ -196,9 +195,8 @@ std::unique_ptr<Stepping> make_stepping(core::TfmIntegrator kind, RightHandSide&
                                         const core::Tfm& options, Tolerances tolerances, core::Timers& timers) {
   const bool implicit = kind == core::TfmIntegrator::implicit_steps,
              sound = equations.effects().compressible != nullptr;
-  if (implicit && sound)
-    return std::make_unique<ImplicitSoundSteps>(equations, layout, options, std::move(tolerances), timers);
-  if (implicit) return std::make_unique<ImplicitSteps>(equations, layout, options, std::move(tolerances), timers);
+  if (implicit && sound) return std::make_unique<ImplicitSoundSteps>(equations, layout, std::move(tolerances), timers);
+  if (implicit) return std::make_unique<ImplicitSteps>(equations, layout, std::move(tolerances), timers);
   if (sound) return std::make_unique<SoundSteps>(equations, layout, options, std::move(tolerances));
   return std::make_unique<ExplicitSteps>(equations, layout, options, std::move(tolerances), timers,
                                          kind == core::TfmIntegrator::split_steps);

@@ -14,6 +14,7 @@ using Kind = StateLayout::Entry::Kind;
 Tolerances tolerances_of(const RightHandSide& equations, const StateLayout& layout, double rtol, double velocity_scale,
                          double pressure_scale) {
   Tolerances tolerances;
+  tolerances.relative = rtol;
   std::vector<double>& atol = tolerances.absolute;
   atol.resize(layout.size());
   constexpr double not_tested = 1e9;  // m: sums of fluxes follow from the rest and need no error test of their own

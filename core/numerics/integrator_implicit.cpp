@@ -105,16 +105,38 @@ class ImplicitIntegrator : public Integrator {
       return Rate::ok;
     });
   }
-  static int setup(double t, N_Vector y, N_Vector dydt, N_Vector r, double cj, void* self) {
-    return guarded(me(self).kept_, [&] {
-      return me(self).problem_.setup(me(self).origin_ + t, entries(y), entries(dydt), entries(r), cj);
+  static int setup(double t, N_Vector y, N_Vector dydt, N_Vector residual, double cj, void* self) {
+    return guarded(me(self).kept_, [&] { return me(self).make_preconditioner(t, y, dydt, residual, cj); });
+  }
+  static int precondition(double t, N_Vector y, N_Vector dydt, N_Vector residual, N_Vector r, N_Vector z, double cj,
+                          double delta, void* self) {
+    ImplicitIntegrator& own = me(self);
+    return guarded(own.kept_, [&] {
+      if (own.has_aged()) {
+        ++own.closed_.preconditioner_setups;
+        if (const Rate made = own.make_preconditioner(t, y, dydt, residual, cj); made != Rate::ok) return made;
+      }
+      return own.problem_.precondition(own.origin_ + t, entries(r), entries(z), cj, delta);
     });
   }
-  static int precondition(double t, N_Vector, N_Vector, N_Vector, N_Vector r, N_Vector z, double cj, double delta,
-                          void* self) {
-    return guarded(me(self).kept_, [&] {
-      return me(self).problem_.precondition(me(self).origin_ + t, entries(r), entries(z), cj, delta);
-    });
+
+  Rate make_preconditioner(double t, N_Vector y, N_Vector dydt, N_Vector residual, double cj) {
+    IDAGetNumLinIters(memory_, &iterations_);
+    fewest_ = excess_ = 0;
+    return problem_.setup(origin_ + t, entries(y), entries(dydt), entries(residual), cj);
+  }
+
+  /// Whether a new preconditioner pays. The library asks for one only where the length of steps changes, and lets it
+  /// age while they stay equal. At the first application of a solve, since it must not change within one.
+  bool has_aged() {
+    long iterations = 0;
+    IDAGetNumLinIters(memory_, &iterations);
+    const long last = iterations - std::exchange(iterations_, iterations);
+    if (last == 0) return false;  // within a solve
+    fewest_ = fewest_ == 0 ? last : std::min(fewest_, last);
+    excess_ += last - fewest_;
+    constexpr long price = 3;  // of a new one, in iterations
+    return excess_ > price;
   }
 
   /// Where the residual cannot be taken at y + sigma v the library takes the solution so far, often 0, for a good one,
@@ -188,6 +210,7 @@ class ImplicitIntegrator : public Integrator {
   SUNLinearSolver solver_ = nullptr;
   // The library counts from the last restart: a first step must not be lost in the round-off of a late time.
   double origin_ = 0, since_origin_ = 0, time_ = 0, last_step_ = 0, first_step_ = 0;
+  long iterations_ = 0, fewest_ = 0, excess_ = 0;  ///< of the linear solves since the preconditioner was made
   IntegratorStatistics closed_;
   std::exception_ptr kept_;
 };

@@ -248,6 +248,43 @@ TEST(Implicit, StepsOverWhatIsStiff) {
   EXPECT_LT(integrator->statistics().steps, 1000U);
 }
 
+/// x_i' = -k_i (x_i - cos t), stiff; the k_i drift apart while steps, which follow the cosine, stay equal.
+class DriftingDae : public DaeProblem {
+ public:
+  static constexpr std::size_t size = 20;
+  Rate residual(double t, std::span<const double> y, std::span<const double> dydt, std::span<double> r) override {
+    for (std::size_t i = 0; i < size; ++i) r[i] = dydt[i] + stiffness(i, t) * (y[i] - std::cos(t));
+    return Rate::ok;
+  }
+  Rate setup(double t, std::span<const double>, std::span<const double>, std::span<const double>, double) override {
+    made_at_ = t;
+    return Rate::ok;
+  }
+  Rate precondition(double, std::span<const double> r, std::span<double> z, double cj, double) override {
+    for (std::size_t i = 0; i < size; ++i) z[i] = r[i] / (cj + stiffness(i, made_at_));
+    return Rate::ok;
+  }
+
+ private:
+  static double stiffness(std::size_t i, double t) { return 1e4 * std::exp(3 * std::sin(10 * t + double(i))); }
+  double made_at_ = 0;
+};
+
+// A new preconditioner is exact here, so that a solve takes one iteration; one that is kept while its k_i drift by e^6
+// takes up to one for each unknown.
+TEST(Implicit, MakesANewPreconditionerBeforeSolvesGetLong) {
+  DriftingDae problem;
+  const std::size_t n = DriftingDae::size;
+  const auto integrator =
+      make_implicit(problem, {.rtol = 1e-5, .atol = std::vector<double>(n, 1e-7), .id = std::vector<double>(n, 1.0)});
+  const std::vector<double> y(n, 1.0), dydt(n, 0.0);
+  integrator->restart(0, y, dydt, 1e-6);
+  for (double t = 0; t < 1;) t = integrator->step(1).time;
+  const IntegratorStatistics work = integrator->statistics();
+  EXPECT_LT(work.linear_iterations, 4 * work.newton_iterations);  // three in excess of one, then a new one
+  EXPECT_LT(work.preconditioner_setups, work.newton_iterations);
+}
+
 // The weights are asked for at each step with the rates there: at the start those that are given.
 TEST(Implicit, ToleranceThatFollowsTheStateGetsItsRates) {
   StiffDae problem;
