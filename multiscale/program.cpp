@@ -111,7 +111,7 @@ core::ExitCode run_ranks(int ranks, const std::vector<std::string>& words) {
   all.insert(all.end(), words.begin(), words.end());
   sigset_t watched, before;
   ::sigemptyset(&watched);
-  for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) ::sigaddset(&watched, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGCHLD}) ::sigaddset(&watched, signal);
   ::sigprocmask(SIG_BLOCK, &watched, &before);
   std::signal(SIGCHLD, SIG_DFL);  // who ignores it would not learn how a child has ended
   const pid_t parent = ::getpid(), child = ::fork();
@@ -120,7 +120,7 @@ core::ExitCode run_ranks(int ranks, const std::vector<std::string>& words) {
   int status = 0, asked = 0;
   while (::waitpid(child, &status, WNOHANG) != child) {
     const int signal = ::sigwaitinfo(&watched, nullptr);
-    if (signal == SIGINT || signal == SIGTERM) ::kill(child, asked++ == 0 ? SIGUSR1 : SIGTERM);
+    if (signal == SIGINT || signal == SIGTERM || signal == SIGUSR1) ::kill(child, asked++ == 0 ? SIGUSR1 : SIGTERM);
   }
   ::sigprocmask(SIG_SETMASK, &before, nullptr);
   const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "closures/terminal_velocity.hpp"
 #include "core/case/resolve.hpp"
 #include "multiscale/scene_rules.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -47,9 +48,20 @@ bool floats(const core::Scene& scene, double fluid_density) {
   return excess < 0;
 }
 
+/// m/s, of a lone particle of the species that rises fastest.
+double fastest_rise(const core::Scene& scene, const relevance::FluidConstants& fluid) {
+  double rise = 0;
+  for (const core::Species& s : scene.species)
+    if (s.density < fluid.density)
+      rise = std::max(rise, closures::settling_velocity(s.diameter, fluid.density - s.density, fluid.density,
+                                                        fluid.viscosity, scene.column.gravity));
+  return rise;
+}
+
 /// A fluid that is drawn out at the bottom.
-void warn_of_downflow(const core::Scene& scene, double density, Lines& warnings) {
-  const bool hangs = scene.column.gravity > 0 && floats(scene, density);
+void warn_of_downflow(const core::Scene& scene, const relevance::FluidConstants& fluid, Lines& warnings) {
+  const bool hangs = scene.column.gravity > 0 && floats(scene, fluid.density) &&
+                     -least_of(scene.inlet.superficial_velocity) < fastest_rise(scene, fluid);
   for (const auto& [name, table] : inflows_of(scene)) {
     const double velocity = least_of(table);
     if (!(velocity < 0)) continue;
@@ -62,7 +74,7 @@ void warn_of_downflow(const core::Scene& scene, double density, Lines& warnings)
         "a bed that hangs has no prescribed velocity above it: the fluid enters where the bed is thin, so that "
         "a channel forms and the rest of the bed is up to a third too dense. Compute its mirror image, "
         "whose steady bed is the same: density 2 rho_f - rho ({:.5g} kg/m3 for \"{}\") and the inlet upward",
-        2 * density - scene.species.front().density, scene.species.front().name));
+        2 * fluid.density - scene.species.front().density, scene.species.front().name));
 }
 
 void warn_of_floating_species(const core::Scene& scene, double density, Lines& warnings) {
@@ -135,8 +147,9 @@ void warn_of_fine_grid(const core::Scene& scene, Lines& warnings) {
 std::vector<std::string> scene_warnings(const core::Scene& scene) {
   Lines warnings;
   if (!scene.fluid.present()) return warnings;
-  const double density = relevance::fluid_constants(scene.fluid).density;
-  warn_of_downflow(scene, density, warnings);
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  const double density = fluid.density;
+  warn_of_downflow(scene, fluid, warnings);
   if (scene.column.gravity > 0) warn_of_floating_species(scene, density, warnings);
   warn_of_fast_gas(scene, density, warnings);
   if (scene.bed.start.kind != core::StartKind::list) warn_of_dense_packing(scene, warnings);

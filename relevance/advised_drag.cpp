@@ -19,7 +19,8 @@ constexpr std::array of_one_sphere{"stokes"sv, "turton_levenspiel"sv, "schiller_
 constexpr std::array of_packed_beds{"carman_kozeny"sv, "ergun"sv, "fand"sv};
 constexpr std::array of_held_spheres{"cello"sv,          "vbk"sv, "vbk_theory"sv, "vbk_corrected"sv, "yin_sundaresan"sv,
                                      "brinkman_oseen"sv, "hkl"sv};
-constexpr std::array of_suspensions{"wen_yu"sv, "di_felice"sv, "richardson_zaki"sv, "batchelor"sv};
+constexpr std::array of_suspensions{"wen_yu"sv, "di_felice"sv, "richardson_zaki"sv};
+constexpr std::array of_dilute_suspensions{"batchelor"sv};
 
 template <class List>
 bool is_among(const List& list, const std::string& law) {
@@ -70,6 +71,8 @@ AdvisedDrag advised_drag(const core::Scene& scene, DragScene kind) {
 std::string unsuited(const std::string& law, DragScene kind) {
   if (is_among(of_one_sphere, law) && kind != DragScene::lone)
     return law + " is made for one sphere: it ignores the neighbours";
+  if (is_among(of_dilute_suspensions, law) && kind != DragScene::lone)
+    return law + " is made for dilute suspensions, below a solids fraction of 0.05";
   if (is_among(of_packed_beds, law) && kind != DragScene::fixed)
     return law + " is made for packed beds, not for open ones";
   if (is_among(of_held_spheres, law) && kind == DragScene::liquid_bed)

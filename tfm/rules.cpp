@@ -58,7 +58,7 @@ Broken outlet_fed_shut(const Scene& scene) {
     const bool was_shut = std::find(sum.begin(), sum.end(), 0.0) == sum.end();
     std::transform(sum.begin(), sum.end(), share.begin(), sum.begin(), std::plus());
     if (!was_shut && std::find(sum.begin(), sum.end(), 0.0) == sum.end())
-      broken.add({feed.species}, core::entry_of(scene, n));
+      broken.add({feed.species}, core::entry_of(scene, scene.feeds, n));
   }
   return broken;
 }

@@ -72,7 +72,7 @@ std::string resolved_case(const Scene& scene) {
     if (name == "effects") {
       out += "\n[effects]\n";
       out += fmt::format("{} = \"none\"\n", other_roles);
-      for (const auto& [role, law] : scene.effects) out += fmt::format("{} = \"{}\"\n", role, law);
+      for (const auto& [role, law] : scene.effects) out += fmt::format("{} = {}\n", role, AsToml{}(law));
       continue;
     }
     const Table& table = *find_table(name);

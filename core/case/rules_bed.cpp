@@ -28,14 +28,15 @@ Broken names_taken(const Scene& scene) {
   Broken broken;
   std::set<std::string> names{wall, "fluid"};  // of contact pairs and of the dataset u_fluid
   for (std::size_t j = 0; j < scene.species.size(); ++j)
-    if (!names.insert(scene.species[j].name).second) broken.add({scene.species[j].name}, entry_of(scene, j));
+    if (!names.insert(scene.species[j].name).second)
+      broken.add({scene.species[j].name}, entry_of(scene, scene.species, j));
   return broken;
 }
 
 Broken names_unfit(const Scene& scene) {
   Broken broken;
   for (std::size_t j = 0; j < scene.species.size(); ++j)
-    if (!can_name_files(scene.species[j].name)) broken.add({scene.species[j].name}, entry_of(scene, j));
+    if (!can_name_files(scene.species[j].name)) broken.add({scene.species[j].name}, entry_of(scene, scene.species, j));
   return broken;
 }
 
@@ -72,7 +73,7 @@ Broken partners_unknown(const Scene& scene) {
     for (const std::string& name : scene.contact_pairs[n].between)
       if (name != wall &&
           std::none_of(scene.species.begin(), scene.species.end(), [&](const auto& s) { return s.name == name; }))
-        broken.add({name}, entry_of(scene, n));
+        broken.add({name}, entry_of(scene, scene.contact_pairs, n));
   return broken;
 }
 
@@ -83,7 +84,7 @@ Broken pairs_twice(const Scene& scene) {
     const ContactPair& pair = scene.contact_pairs[n];
     if (pair.between.size() != 2) continue;
     const auto [first, second] = std::minmax(pair.between[0], pair.between[1]);
-    if (!seen.emplace(first, second).second) broken.add({first, second}, entry_of(scene, n));
+    if (!seen.emplace(first, second).second) broken.add({first, second}, entry_of(scene, scene.contact_pairs, n));
   }
   return broken;
 }
@@ -93,7 +94,7 @@ Rule rule_of_pairs(const std::string& message, bool (*wrong)(const std::vector<s
   return {{"contact_pair.between"}, message, [wrong](const Scene& scene) {
             Broken broken;
             for (std::size_t n = 0; n < scene.contact_pairs.size(); ++n)
-              if (wrong(scene.contact_pairs[n].between)) broken.add({}, entry_of(scene, n));
+              if (wrong(scene.contact_pairs[n].between)) broken.add({}, entry_of(scene, scene.contact_pairs, n));
             return broken;
           }};
 }

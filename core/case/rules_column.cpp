@@ -40,7 +40,7 @@ Broken no_room(const Scene& scene) {
       if (scene.species[n].diameter > scene.column.size[axis])
         broken.add({fmt::format("{:.4g}", scene.species[n].diameter), sides[axis],
                     fmt::format("{:.4g}", scene.column.size[axis])},
-                   entry_of(scene, n));
+                   entry_of(scene, scene.species, n));
   return broken;
 }
 

@@ -27,7 +27,7 @@ Broken corners_miscounted(const Scene& scene, const std::vector<Part>& parts) {
   for (std::size_t k = 0; k < parts.size(); ++k)
     if (!is_all(parts[k]) && (parts[k].from.size() != n || parts[k].to.size() != n))
       broken.add({std::to_string(parts[k].from.size()), std::to_string(parts[k].to.size()), std::to_string(n)},
-                 entry_of(scene, k));
+                 entry_of(scene, parts, k));
   return broken;
 }
 
@@ -41,7 +41,7 @@ Broken beside_the_end(const Scene& scene, const std::vector<Part>& parts) {
       if (!(part.from[d] < part.to[d] && part.to[d] <= size[d] * (1 + 1e-12))) {
         broken.add(
             {fmt::format("{:.4g}", part.from[d]), fmt::format("{:.4g}", part.to[d]), fmt::format("{:.4g}", size[d])},
-            entry_of(scene, k));
+            entry_of(scene, parts, k));
         break;
       }
   }
@@ -70,7 +70,9 @@ Broken feeds_overlap(const Scene& scene) {
     for (std::size_t b = 0; b < a; ++b) {
       const Feed &one = scene.feeds[a], &other = scene.feeds[b];
       if (one.species == other.species && one.at == other.at && !apart(one, other))
-        broken.add({one.species, std::to_string(b + 1), std::to_string(a + 1)}, entry_of(scene, a));
+        broken.add({one.species, std::to_string(1 + *entry_of(scene, scene.feeds, b)),
+                    std::to_string(1 + *entry_of(scene, scene.feeds, a))},
+                   entry_of(scene, scene.feeds, a));
     }
   return broken;
 }
@@ -80,7 +82,7 @@ Broken feeds_of_no_species(const Scene& scene) {
   for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
     const std::string& name = scene.feeds[n].species;
     if (std::none_of(scene.species.begin(), scene.species.end(), [&](const auto& s) { return s.name == name; }))
-      broken.add({name}, entry_of(scene, n));
+      broken.add({name}, entry_of(scene, scene.feeds, n));
   }
   return broken;
 }
@@ -94,7 +96,7 @@ Broken feeds_denser_than_the_bed(const Scene& scene) {
       if (flux > settled * feed.velocity)
         broken.add({feed.species, fmt::format("{:.4g}", flux), fmt::format("{:.4g}", feed.velocity),
                     fmt::format("{:.4g}", flux / settled)},
-                   entry_of(scene, n));
+                   entry_of(scene, scene.feeds, n));
   }
   return broken;
 }

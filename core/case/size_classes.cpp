@@ -79,7 +79,31 @@ std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vect
   return result;
 }
 
+/// Entries before the n-th part, where the classes of a distribution stand one after the other for one entry.
+template <class Name>
+std::size_t entries_before(const Scene& scene, std::size_t n, Name&& name_of_part) {
+  std::size_t entry = 0;
+  for (std::size_t first = 0;; ++entry) {
+    std::size_t count = 1;
+    for (const SizeClasses& record : scene.size_classes)
+      if (name_of_part(first) == record.species + ".1") count = record.diameter.size();
+    first += count;
+    if (n < first) return entry;
+  }
+}
+
 }  // namespace
+
+std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Species>& species, std::size_t n) {
+  return entries_before(scene, n, [&](std::size_t k) { return species[k].name; });
+}
+std::optional<std::size_t> entry_of(const Scene&, const std::vector<Jet>&, std::size_t n) { return n; }
+std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Feed>& feeds, std::size_t n) {
+  return entries_before(scene, n, [&](std::size_t k) { return feeds[k].species; });
+}
+std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<ContactPair>&, std::size_t n) {
+  return scene.size_classes.empty() ? std::optional(n) : std::nullopt;
+}
 
 void expand_size_classes(Scene& scene, const ClassRule& rule) {
   if (std::none_of(scene.species.begin(), scene.species.end(), [](const auto& s) { return s.sizes.kind.has_value(); }))

@@ -21,9 +21,13 @@ using ClassRule = std::function<std::vector<std::pair<double, double>>(const Siz
 /// nothing to a scene that has no share for each species.
 void expand_size_classes(Scene& scene, const ClassRule& rule);
 
-/// The entry in the case of a species, a contact pair, a jet or a feed; none where size classes stand for entries.
-[[nodiscard]] inline std::optional<std::size_t> entry_of(const Scene& scene, std::size_t n) {
-  return scene.size_classes.empty() ? std::optional(n) : std::nullopt;
-}
+/// The entry in the case that the n-th species, jet, feed or contact pair of a scene comes from; none of a pair where
+/// size classes stand for species.
+[[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Species>& species,
+                                                  std::size_t n);
+[[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Jet>& jets, std::size_t n);
+[[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Feed>& feeds, std::size_t n);
+[[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<ContactPair>& pairs,
+                                                  std::size_t n);
 
 }  // namespace polybed::core

@@ -77,20 +77,27 @@ double particles_in(const core::Scene& scene, const Window& window) {
   return count;
 }
 
+/// Whether the solids are lighter than the fluid.
+bool is_light(const Window& window) {
+  const Series* weight = column(window.history, "buoyant_weight_Pa");
+  return weight != nullptr && last(*weight) < 0;
+}
+
 Fluidisation state_of(const core::Scene& scene, const Window& window, const BedOfRun& bed) {
   using enum Fluidisation;
   if (!scene.fluid.present() || scene.column.closed || scene.bed.start.kind == core::StartKind::list) return unknown;
   const Inventory all = inventory_of(scene, window);
   if (all.last < 0.01 * all.first) return carried_out;
   if (!bed.hangs && all.centre > 0.75 * scene.column.size[1]) return carried_out;
+  if (is_light(window) && !bed.hangs) return packed;  // a stream presses it onto the bottom
   if (bed.drop) return bed.drop->value >= 0.95 ? fluidised : packed;
   return unknown;
 }
 
-/// Whether the solids are lighter than the fluid.
-bool is_light(const Window& window) {
-  const Series* weight = column(window.history, "buoyant_weight_Pa");
-  return weight != nullptr && last(*weight) < 0;
+/// Solids lighter than the fluid that a stream downwards holds on the bottom: it carries more than their buoyancy.
+bool is_pressed_down(const core::Scene& scene, const Window& window, const BedOfRun& bed) {
+  constexpr double more = 1.05;
+  return bed.drop && bed.drop->value > more && inventory_of(scene, window).centre < 0.5 * scene.column.size[1];
 }
 
 /// Whether a species belongs below another one where each finds its place by weight.
@@ -211,7 +218,7 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   bed.drop = drop_over_weight(window);
   if (scene.species.size() > 1)
     if (const std::optional<Mean> mixing = window.mean("mixing")) bed.mixing = mixing->value;
-  bed.hangs = is_light(window);
+  bed.hangs = is_light(window) && !is_pressed_down(scene, window, bed);
   bed.state = state_of(scene, window, bed);
   bed.layers = layers_of(scene, window, bed);
   if (bed.hangs) bed.height.reset();  // that of its top is the column's

@@ -21,7 +21,7 @@ struct Mean {
 /// Over the last quarter of the time that the history covers.
 struct BedOfRun {
   double window = 0;             ///< s
-  bool hangs = false;            ///< lighter than the fluid: it rests on the top
+  bool hangs = false;            ///< lighter than the fluid, and not pressed onto the bottom
   std::optional<Mean> height;    ///< m; of a bed that hangs nothing
   std::optional<Mean> drop;      ///< pressure drop over the buoyant weight
   std::optional<double> mixing;  ///< 1 mixed, 0 separated

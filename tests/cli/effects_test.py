@@ -139,7 +139,7 @@ class Table(Scratch):
     def test_the_drag_law_is_judged(self):
         """By hand: Stokes' law carries the packed bed at 1e-6/18e-3 1500 9.81 0.4 m/s = 327 mm/s, where a bead falls at 150."""
         case = self.write("hand.toml", BY_HAND)
-        for law, advised in (("stokes", "richardson_zaki"), ("cello", "richardson_zaki"), ("richardson_zaki", "richardson_zaki")):
+        for law, advised in (("stokes", "richardson_zaki"), ("batchelor", "richardson_zaki"), ("cello", "richardson_zaki"), ("richardson_zaki", "richardson_zaki")):
             words = ["--set", f"effects.drag={law}"]
             row = self.table(case, *words)[1]["drag"]
             self.assertEqual((row["model"], row["in_case"]), (advised, law))

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/error.hpp"
 #include "relevance/effects/solids_stress.hpp"
 #include "tfm/effects/solids_stress_table.hpp"
@@ -72,6 +74,9 @@ std::string wrong_for_exchange(const core::Scene& scene, const std::string& file
 
 template <class Judge>
 std::string judged(const core::Scene& scene, const std::string& file, Judge&& judge) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    return fmt::format("table:{}: no such file in the working directory or beside the case file", file);
   if (is_left_open(scene)) return "";
   try {
     return judge(scene, file);

@@ -184,6 +184,15 @@ def handler_of(watched, port):
     return Handler
 
 
+class Server(ThreadingHTTPServer):
+    daemon_threads = True
+
+    def handle_error(self, request, client_address):
+        """A browser that leaves before it has its answer is none."""
+        if not isinstance(sys.exc_info()[1], ConnectionError):
+            super().handle_error(request, client_address)
+
+
 def follow(watched):
     """Looks at the run until it has ended and a browser has seen that, or none comes."""
     while not watched.ended:
@@ -205,8 +214,7 @@ def serve(directory, port):
     if watched.ended:
         print(f"no process writes {watched.directory}; its page is {told(*write(watched.directory))}")
         return
-    server = ThreadingHTTPServer((LOOPBACK, port), handler_of(watched, lambda: server.server_address[1]))
-    server.daemon_threads = True
+    server = Server((LOOPBACK, port), handler_of(watched, lambda: server.server_address[1]))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     print(f"http://{LOOPBACK}:{server.server_address[1]}/ shows {watched.directory} until the run ends; Ctrl-C ends it before", flush=True)
     try:

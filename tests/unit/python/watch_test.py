@@ -3,6 +3,8 @@
 
 import fcntl
 import json
+import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -31,8 +33,8 @@ class Watch(unittest.TestCase):
         self.addCleanup(self.mark.close)
         fcntl.flock(self.mark, fcntl.LOCK_EX)
 
-    def start(self):
-        child = subprocess.Popen([sys.executable, "-u", "-m", "polybed.report.watch", self.directory], stdout=subprocess.PIPE, text=True,
+    def start(self, **streams):
+        child = subprocess.Popen([sys.executable, "-u", "-m", "polybed.report.watch", self.directory], stdout=subprocess.PIPE, text=True, **streams,
                                  env={"PYTHONPATH": PACKAGE})
         self.addCleanup(child.stdout.close)
         self.addCleanup(child.kill)
@@ -42,6 +44,18 @@ class Watch(unittest.TestCase):
         request = urllib.request.Request(place, headers={"Host": host} if host else {})
         with urllib.request.urlopen(request, timeout=30) as answer:
             return answer.read().decode()
+
+    def test_a_browser_that_leaves_is_not_told_of(self):
+        child, place = self.start(stderr=subprocess.PIPE)
+        self.addCleanup(child.stderr.close)
+        host, port = place.split("/")[2].split(":")
+        for _ in range(5):
+            with socket.create_connection((host, int(port))) as browser:
+                browser.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # closes by a reset
+                browser.sendall(f"GET / HTTP/1.1\r\nHost: {host}:{port}\r\n\r\n".encode())
+        self.assertIn("Progress", self.get(place))
+        child.terminate()
+        self.assertEqual(child.communicate(timeout=30)[1], "")
 
     def test_it_follows_a_run_and_ends_with_it(self):
         child, place = self.start()
