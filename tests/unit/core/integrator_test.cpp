@@ -270,17 +270,14 @@ class DriftingDae : public DaeProblem {
   double made_at_ = 0;
 };
 
-// A new preconditioner is exact here, so that a solve takes one iteration; one that is kept while its k_i drift by e^6
-// takes up to one for each unknown.
+// A new preconditioner is exact here: one iteration; kept while the k_i drift, a solve takes up to one for each.
 TEST(Implicit, MakesANewPreconditionerBeforeSolvesGetLong) {
   DriftingDae problem;
-  const std::size_t n = DriftingDae::size;
-  const auto integrator =
-      make_implicit(problem, {.rtol = 1e-5, .atol = std::vector<double>(n, 1e-7), .id = std::vector<double>(n, 1.0)});
-  const std::vector<double> y(n, 1.0), dydt(n, 0.0);
+  const std::vector<double> y(DriftingDae::size, 1.0), dydt(y.size(), 0.0), atol(y.size(), 1e-7);
+  const auto integrator = make_implicit(problem, {.rtol = 1e-5, .atol = atol, .id = y});
   integrator->restart(0, y, dydt, 1e-6);
   for (double t = 0; t < 1;) t = integrator->step(1).time;
-  const IntegratorStatistics work = integrator->statistics();
+  const auto work = integrator->statistics();
   EXPECT_LT(work.linear_iterations, 4 * work.newton_iterations);  // three in excess of one, then a new one
   EXPECT_LT(work.preconditioner_setups, work.newton_iterations);
 }
