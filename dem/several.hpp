@@ -8,9 +8,8 @@
 
 namespace polybed::dem {
 
-/// Four numbers in one register, or two halves of it: element k of four records, or elements k to k + 3 of one. Code
-/// for any processor lays it out at 16 bytes and AVX code reads it at 32; the attribute is lost where it is an argument
-/// of a template.
+/// Four numbers in one register, or two halves of it: element k of four records, or elements k to k + 3 of one. Without
+/// the attribute, code for any processor aligns it to 16 bytes and AVX code expects 32. Template arguments drop it.
 using Four = double __attribute__((vector_size(32), aligned(32)));
 
 /// Four numbers where they lie, at any multiple of 8 bytes. A copy by memcpy goes through memory in two halves, and the

@@ -26,7 +26,7 @@ inline constexpr const char* without_a_fluid = "no fluid: particles touch instea
 [[nodiscard]] std::string percent(double share);
 
 struct EffectRow {
-  /// Undecided: the number is too uncertain to tell.
+  /// Undecided: the number is too uncertain to decide.
   enum class State { on, off, undecided };
   enum class Kind {
     role,       ///< of [effects]

@@ -15,8 +15,8 @@ namespace polybed::tfm {
 /// Below this relative tolerance round-off stops the Newton iteration of implicit steps.
 inline constexpr double least_implicit_tolerance = 1e-10;
 
-/// The relative tolerance that steps are held to. Implicit ones keep a fifth of that of the case: at the whole of it
-/// what their linear solves leave feeds stresses that grow with shear, steps get no longer, and each takes several
+/// Relative tolerance of the integrator. Implicit steps use a fifth of that of the case: at the full tolerance the
+/// residuals of their linear solves disturb stresses that grow with shear, steps get no longer, and each takes several
 /// times as many iterations.
 [[nodiscard]] inline double kept_tolerance(core::TfmIntegrator integrator, double rtol) {
   constexpr double share = 0.2;

@@ -79,14 +79,18 @@ std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vect
   return result;
 }
 
-/// Entries before the n-th part, where the classes of a distribution stand one after the other for one entry.
+/// Entries before the n-th of `size` parts; all classes of a distribution, one after the other, come from one entry.
 template <class Name>
-std::size_t entries_before(const Scene& scene, std::size_t n, Name&& name_of_part) {
+std::size_t entries_before(const Scene& scene, std::size_t size, std::size_t n, Name&& name_of_part) {
   std::size_t entry = 0;
   for (std::size_t first = 0;; ++entry) {
     std::size_t count = 1;
-    for (const SizeClasses& record : scene.size_classes)
-      if (name_of_part(first) == record.species + ".1") count = record.diameter.size();
+    for (const SizeClasses& record : scene.size_classes) {
+      const std::size_t all = record.diameter.size();
+      if (first + all <= size && name_of_part(first) == record.species + ".1" &&
+          name_of_part(first + all - 1) == fmt::format("{}.{}", record.species, all))
+        count = all;
+    }
     first += count;
     if (n < first) return entry;
   }
@@ -95,11 +99,11 @@ std::size_t entries_before(const Scene& scene, std::size_t n, Name&& name_of_par
 }  // namespace
 
 std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Species>& species, std::size_t n) {
-  return entries_before(scene, n, [&](std::size_t k) { return species[k].name; });
+  return entries_before(scene, species.size(), n, [&](std::size_t k) { return species[k].name; });
 }
 std::optional<std::size_t> entry_of(const Scene&, const std::vector<Jet>&, std::size_t n) { return n; }
 std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Feed>& feeds, std::size_t n) {
-  return entries_before(scene, n, [&](std::size_t k) { return feeds[k].species; });
+  return entries_before(scene, feeds.size(), n, [&](std::size_t k) { return feeds[k].species; });
 }
 std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<ContactPair>&, std::size_t n) {
   return scene.size_classes.empty() ? std::optional(n) : std::nullopt;

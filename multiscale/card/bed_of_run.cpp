@@ -94,7 +94,7 @@ Fluidisation state_of(const core::Scene& scene, const Window& window, const BedO
   return unknown;
 }
 
-/// Solids lighter than the fluid that a stream downwards holds on the bottom: it carries more than their buoyancy.
+/// Whether a downward stream presses solids lighter than the fluid onto the bottom: its drag exceeds their buoyancy.
 bool is_pressed_down(const core::Scene& scene, const Window& window, const BedOfRun& bed) {
   constexpr double more = 1.05;
   return bed.drop && bed.drop->value > more && inventory_of(scene, window).centre < 0.5 * scene.column.size[1];

@@ -62,6 +62,7 @@ class Models(CaseTest):
             self.assertTrue(any(re.match(rf"/case.toml:{place}:\d+: {re.escape(told)}", line) for line in lines), lines)
         classes = BED.replace('diameter = "0.8 mm"', 'distribution = "lognormal"\nmedian = "0.8 mm"\ndeviation = 0.1')
         lines = self.refused(classes + feed + feed)
+        self.assertEqual(len(lines), 3, lines)
         self.assertTrue(all(re.match(r"/case.toml:30:\d+: two feeds of fine\.[123] overlap: \[\[feed\]\] number 1 and 2", line) for line in lines), lines)
         particles = BED.replace("[run]", 'contact = "hertz_mindlin"\nrolling = "cdt"\ncohesion = "jkr"\n[run]').replace("[fluid]", 'depth = "1 mm"\n[fluid]')
         dem = ("dem", "-o", self.folder / "run")
@@ -139,7 +140,7 @@ class Warnings(CaseTest):
                 "species.fine.density=700", "inlet.superficial_velocity=-0.01", "column.cells=[1, 20]", f"run.until={until}") for word in
                 ("--set", setting)), "-o", self.folder / "hangs", "--force", "--no-picture")
             return strict_json((self.folder / "hangs/run.json").read_text())["card"], done.stderr
-        # The stream holds what has not yet left the bottom; beads leave its surface one after the other.
+        # At first the stream presses the bed onto the bottom; beads rise from its surface one by one.
         card, told = card_of(1)
         self.assertEqual(card["state"], "packed")
         self.assertNotIn("hanging", told)

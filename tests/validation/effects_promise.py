@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
-# Name, case, model, end, settings beside.
+# Name, case, model, end time, further settings.
 RUNS = [("B, packed", "matsuura-akehata", "tfm", "3 s", ["bed.start_solids_fraction=0.62"]),
         ("B, packed, cells of 6 mm", "matsuura-akehata", "tfm", "3 s",
          ["bed.start_solids_fraction=0.62", "column.cells=[10,99]"]),

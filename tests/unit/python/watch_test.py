@@ -45,7 +45,7 @@ class Watch(unittest.TestCase):
         with urllib.request.urlopen(request, timeout=30) as answer:
             return answer.read().decode()
 
-    def test_a_browser_that_leaves_is_not_told_of(self):
+    def test_a_browser_that_disconnects_causes_no_message(self):
         child, place = self.start(stderr=subprocess.PIPE)
         self.addCleanup(child.stderr.close)
         host, port = place.split("/")[2].split(":")
