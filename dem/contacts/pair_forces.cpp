@@ -79,20 +79,23 @@ void store_memory(double* memory, int size, const ContactBatch& b) {
     for (int c = 0; c < b.count; ++c) memory[std::ptrdiff_t(b.pair[c]) * size + m] = b.memory[m][c];
 }
 
-void add_to_pair(const ContactBatch& b, int c, Load& first, Load& second) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto force = std::int64_t(b.force[k][c]);
-    first.force[k] += force;
-    second.force[k] -= force;
-    first.torque[k] += std::int64_t(b.torque_i[k][c]);
-    second.torque[k] += std::int64_t(b.torque_j[k][c]);
-  }
+/// Sums of forces beyond all bounds wrap: the overlap that such a force comes from ends the step.
+void add_units(double units, std::int64_t& sum) {
+  sum = std::int64_t(std::uint64_t(sum) + std::uint64_t(std::int64_t(units)));
 }
 
 void add_to_first(const ContactBatch& b, int c, Load& first) {
   for (std::size_t k = 0; k < 3; ++k) {
-    first.force[k] += std::int64_t(b.force[k][c]);
-    first.torque[k] += std::int64_t(b.torque_i[k][c]);
+    add_units(b.force[k][c], first.force[k]);
+    add_units(b.torque_i[k][c], first.torque[k]);
+  }
+}
+
+void add_to_pair(const ContactBatch& b, int c, Load& first, Load& second) {
+  add_to_first(b, c, first);
+  for (std::size_t k = 0; k < 3; ++k) {
+    add_units(-b.force[k][c], second.force[k]);
+    add_units(b.torque_j[k][c], second.torque[k]);
   }
 }
 
