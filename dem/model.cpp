@@ -234,7 +234,7 @@ void Model::set_step_for(double began, std::int64_t began_at, double speed) {
   began_at_ = began_at;
   limits_ = step_limits(scene_, materials_, laws_, speed);
   verlet_.set_dt(limits_.dt);
-  if (coupling_) coupling_->set_dt(limits_.dt);
+  if (coupling_) coupling_->set_dt(particles_, limits_.dt);
 }
 
 void Model::wrap() {

@@ -67,20 +67,27 @@ template <class Push>
 void Verlet::begin_with(Verlet& verlet, Particles& particles, Push& push) {
   const double half = 0.5 * verlet.dt_;
   const bool synchronised = verlet.synchronised_;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
+  const auto drift = [&](std::size_t i) {
     verlet.kick(particles, i, push, WorkShare::before_drift(synchronised));
     add_three(four_at(particles.motion[i].v) * verlet.dt_, particles.place[i].x);
-  }
+  };
   if (synchronised) {
     verlet.half_.resize(particles.owned);
     for (std::size_t i = 0; i < particles.owned; ++i) {
+      drift(i);
       Motion& m = particles.motion[i];
       verlet.half_[i] = {m.v, m.w};
       add_three(push.kick(particles, i, half).dv, m.v);  // only looked at: it is not kept
       turn(particles, i, verlet.torque_.unit, half);
+      particles.load[i] = {};
+    }
+  } else {
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      drift(i);
+      particles.load[i] = {};
     }
   }
-  std::fill(particles.load.begin(), particles.load.end(), Load{});
+  std::fill(particles.load.begin() + std::ptrdiff_t(particles.owned), particles.load.end(), Load{});
   if (verlet.ledger_ != nullptr) verlet.ledger_->begin_step(particles.load.size());
 }
 

@@ -140,6 +140,7 @@ void Coupling::begin(Particles& particles) {
   take_fields();
   forces_.find(particles, gather_, motion_.load, own());
   sides_.begin(particles, gather_, motion_.load);
+  relax(particles);
 }
 
 void Coupling::find_forces(const Particles& particles, std::uint64_t timed) {
@@ -147,6 +148,7 @@ void Coupling::find_forces(const Particles& particles, std::uint64_t timed) {
   const auto scope = timers_.scope("fluid forces", timed);
   forces_.find(particles, gather_, motion_.load, own());
   sides_.find(particles, gather_, motion_.load);
+  relax(particles);
 }
 
 void Coupling::hold(const Particles& particles) {
@@ -198,6 +200,7 @@ void Coupling::advance(Particles& particles, double t) {
   take_fields();
   forces_.find(particles, gather_, motion_.load, own());
   sides_.refresh(particles, gather_, motion_.load);
+  relax(particles);
 }
 
 void Coupling::collect(const Particles& particles) {

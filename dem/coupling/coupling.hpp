@@ -65,7 +65,10 @@ class Coupling final : public KeptPart {
   /// Whether the particles' steps may become shorter after so many: only between steps of the fluid, and without side
   /// forces, which know the length of theirs.
   [[nodiscard]] bool may_shorten(std::int64_t steps) const { return due(steps) && !sides_.present(); }
-  void set_dt(double dt) { dt_ = dt; }
+  void set_dt(const Particles& particles, double dt) {
+    dt_ = dt;
+    relax(particles);
+  }
   /// What comes next does not depend on what earlier steps have left behind.
   void restart() { flow_.forget(); }
   void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;
@@ -134,6 +137,8 @@ class Coupling final : public KeptPart {
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
   /// Whether loads are constant during a fluid step and corrected at its end. In a fixed bed no correction is needed.
   [[nodiscard]] bool stand() const { return !sides_.present() && !held_; }
+  /// For the two kicks of a step.
+  void relax(const Particles& particles) { motion_.relax(particles, 0.5 * dt_); }
   /// Step of the fluid, s.
   [[nodiscard]] double interval() const { return every_ * dt_; }
 

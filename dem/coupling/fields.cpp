@@ -65,6 +65,7 @@ void Coupling::send_ahead(Exchange& exchange, const Particles& particles) {
 
 void Coupling::settle_in(const Particles& particles) {
   recall(loads_on_the_way_, particles, motion_.load);
+  relax(particles);
   recall(sides_on_the_way_, particles, sides_.rows());
   loads_on_the_way_ = {};
   sides_on_the_way_ = {};

@@ -89,19 +89,29 @@ class FluidMotion {
     Four free;  ///< what it would be without drag, m/s
   };
   /// U_f is frozen: U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa, kappa = k/M, M the mass with the
-  /// added one, a the acceleration by everything but drag. \param h  s
+  /// added one, a the acceleration by everything but drag. \param h  s, that of relax()
   [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
-    const Motion& m = particles.motion[i];
     const FluidLoad& f = load[i];
-    const double share = 1 / (1 + f.added * m.inverse_mass), per_inertia = m.inverse_mass * share;
-    const double x = f.drag * per_inertia * h, mean = mean_decay(x);
+    const Relaxation& r = relaxation_[i];
     Four weight;
     get_four(net_gravity_[std::size_t(particles.species[i])].data(), weight);
     Kick kick;
     kick.free =
-        h * ((to_four(particles.load[i].force) * force_.unit + four_at(f.force)) * per_inertia + weight * share);
-    kick.dv = mean * (kick.free + x * (four_at(f.velocity) - four_at(m.v)));
+        h * ((to_four(particles.load[i].force) * force_.unit + four_at(f.force)) * r.per_inertia + weight * r.share);
+    kick.dv = r.mean * (kick.free + r.x * (four_at(f.velocity) - four_at(particles.motion[i].v)));
     return kick;
+  }
+  /// Finds what kicks of a time h have in common while drag and added mass stand. To be called when they have changed,
+  /// or the particles have. \param h  s
+  void relax(const Particles& particles, double h) {
+    relaxation_.resize(load.size());
+    for (std::size_t i = 0; i < load.size(); ++i) relax(particles, i, h);
+  }
+  /// The same of one particle, after that of all.
+  void relax(const Particles& particles, std::size_t i, double h) {
+    const double inverse_mass = particles.motion[i].inverse_mass, share = 1 / (1 + load[i].added * inverse_mass);
+    const double per_inertia = inverse_mass * share, x = load[i].drag * per_inertia * h;
+    relaxation_[i] = {per_inertia, share, x, mean_decay(x)};
   }
 
   /// Keeps what a kick takes from the fluid, before the velocity changes: the impulse alone, or its work too.
@@ -145,11 +155,17 @@ class FluidMotion {
   std::vector<FluidLoad> load;  ///< of the owned particles
 
  private:
+  /// Of a kick: 1/M, m/M, kappa h and the mean of exp(-kappa t) over it.
+  struct Relaxation {
+    double per_inertia, share, x, mean;
+  };
+
   Vector gravity_;
   std::vector<double> mass_;                        ///< of each species, kg
   std::vector<std::array<double, 4>> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
   FixedPoint force_, energy_;
   bool counts_work_;
+  std::vector<Relaxation> relaxation_;
   EnergySum work_;
 };
 

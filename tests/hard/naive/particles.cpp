@@ -50,6 +50,7 @@ ParticleRun::ParticleRun(const std::string& name, const core::Scene& scene, dem:
               gravity_of(scene.column), {}, {}),
       last_(particles_.owned) {
   motion_.load.resize(particles_.owned);
+  motion_.relax(particles_, 0.5 * dt_);
   take_fields();
   collect();
   flow_.begin(0, phase_);
@@ -91,6 +92,7 @@ void ParticleRun::kick(std::size_t i) {
     for (std::size_t k = 0; k < 3; ++k) f.force[k] -= added * last_[i][k];
     f.added = 0;
   }
+  motion_.relax(particles_, i, h);
   dem::FluidMotion::Kick kick = motion_.kick(particles_, i, h);
   if (treatment_ == Treatment::drag_explicit)
     for (std::size_t k = 0; k < 3; ++k) kick.dv[k] = kick.free[k] + h * f.drag / mass * (f.velocity[k] - m.v[k]);
