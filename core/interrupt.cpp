@@ -1,6 +1,5 @@
 #include "core/interrupt.hpp"
 
-#include <array>
 #include <csignal>
 #include <string>
 
@@ -11,7 +10,6 @@ namespace polybed::core {
 namespace {
 
 volatile std::sig_atomic_t asked = 0;
-constexpr std::array wishes{SIGINT, SIGTERM, SIGUSR1};
 
 void note(int signal) {
   asked = 1;
@@ -20,14 +18,22 @@ void note(int signal) {
 
 }  // namespace
 
-Interrupt::Interrupt() {
+std::vector<int> stop_signals() {
+  std::vector<int> signals{SIGINT, SIGTERM, SIGUSR1};
+  struct sigaction hangup;
+  ::sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) signals.push_back(SIGHUP);
+  return signals;
+}
+
+Interrupt::Interrupt() : noted_(stop_signals()) {
   asked = 0;
-  for (const int signal : wishes) std::signal(signal, note);
+  for (const int signal : noted_) std::signal(signal, note);
 }
 
 Interrupt::~Interrupt() {
   asked = 0;
-  for (const int signal : wishes) std::signal(signal, SIG_DFL);
+  for (const int signal : noted_) std::signal(signal, SIG_DFL);
 }
 
 bool Interrupt::wanted() const { return asked != 0; }

@@ -1,10 +1,15 @@
-// The user's wish to stop: Ctrl-C or a termination request, noted and asked for between steps.
+// The user's wish to stop: Ctrl-C, a termination request or a closed terminal, noted and asked for between steps.
 #pragma once
+
+#include <vector>
 
 namespace polybed::core {
 
-/// Notes SIGINT, SIGTERM and SIGUSR1, which mpirun passes on without a time limit, while it lives; a second signal ends
-/// the program at once. One at a time: a signal
+/// The signals that ask a run to stop: SIGINT, SIGTERM, SIGUSR1, which mpirun passes on without a time limit, and
+/// SIGHUP unless this process was started to outlive its terminal, as by nohup.
+[[nodiscard]] std::vector<int> stop_signals();
+
+/// Notes the signals that ask to stop while it lives; a second one ends the program at once. One at a time: a signal
 /// handler has no other place for its note than a global.
 class Interrupt {
  public:
@@ -13,6 +18,9 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
   [[nodiscard]] bool wanted() const;
+
+ private:
+  std::vector<int> noted_;
 };
 
 /// Throws Stopped if the user wants to stop: for long work before the first step. Without an Interrupt nobody does.

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "core/numerics/mpi_start.hpp"
 #include "core/print.hpp"
 
@@ -111,7 +112,8 @@ core::ExitCode run_ranks(int ranks, const std::vector<std::string>& words) {
   all.insert(all.end(), words.begin(), words.end());
   sigset_t watched, before;
   ::sigemptyset(&watched);
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGCHLD}) ::sigaddset(&watched, signal);
+  ::sigaddset(&watched, SIGCHLD);
+  for (const int signal : core::stop_signals()) ::sigaddset(&watched, signal);
   ::sigprocmask(SIG_BLOCK, &watched, &before);
   std::signal(SIGCHLD, SIG_DFL);  // who ignores it would not learn how a child has ended
   const pid_t parent = ::getpid(), child = ::fork();
@@ -120,7 +122,7 @@ core::ExitCode run_ranks(int ranks, const std::vector<std::string>& words) {
   int status = 0, asked = 0;
   while (::waitpid(child, &status, WNOHANG) != child) {
     const int signal = ::sigwaitinfo(&watched, nullptr);
-    if (signal == SIGINT || signal == SIGTERM || signal == SIGUSR1) ::kill(child, asked++ == 0 ? SIGUSR1 : SIGTERM);
+    if (signal > 0 && signal != SIGCHLD) ::kill(child, asked++ == 0 ? SIGUSR1 : SIGTERM);
   }
   ::sigprocmask(SIG_SETMASK, &before, nullptr);
   const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);

@@ -40,8 +40,8 @@ namespace polybed::multiscale {
 /// Throws core::MpiError as run_ranks does.
 void keep_ranks_for_runs(int ranks);
 
-/// Runs this program on several ranks by mpirun and returns how it ended. SIGINT, SIGTERM and SIGUSR1 reach the ranks
-/// as SIGUSR1, which mpirun passes on and leaves them all the time that a step and a checkpoint take; a second one ends
+/// Runs this program on several ranks by mpirun and returns how it ended. What asks a run to stop reaches the ranks as
+/// SIGUSR1, which mpirun passes on and leaves them all the time that a step and a checkpoint take; a second one ends
 /// them at once. Throws core::MpiError if mpirun cannot be started, or if this process is one of a launcher's ranks
 /// already.
 /// \param words  of the command line, behind the number of ranks

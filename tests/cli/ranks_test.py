@@ -54,7 +54,7 @@ class Ranks(Scratch):
         self.assertIn("a checkpoint has been written", told)
 
     def test_ranks_that_are_interrupted_end_in_order(self):
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGHUP):
             self.interrupted(number)
             shutil.rmtree(self.folder / "run")
 
