@@ -48,10 +48,12 @@ std::string misplaced_command(const CLI::App& app, int argc, char** argv) {
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
   const std::string word = argv[at];
   if (std::find(names.begin(), names.end(), word) != names.end()) {
-    const auto behind = std::find(argv + at, argv + argc, ranks);
+    const auto behind =
+        std::find_if(argv + at, argv + argc, [&](std::string_view given) { return given.starts_with(ranks); });
     if (behind == argv + argc) return "";
-    return fmt::format("-n stands before the command: polybed -n {} {} ...", behind + 1 < argv + argc ? behind[1] : "2",
-                       word);
+    const std::string joined = std::string(*behind).substr(ranks.size()),
+                      next = behind + 1 < argv + argc ? behind[1] : "2";
+    return fmt::format("-n stands before the command: polybed -n {} {} ...", joined.empty() ? next : joined, word);
   }
   const std::string near = core::nearest_name(word, names);
   return fmt::format("unknown command '{}'{}", word,

@@ -113,7 +113,7 @@ class Explain(Scratch):
         self.assertIn("did you mean 'check'?", self.ends(WRONG_CASE, "-n", "2", "chek", CASE).stderr)
 
     def test_ranks_behind_the_command(self):
-        for words in (["tfm", "-n", "3", CASE], ["compare", CASE, "-n", "3"]):
+        for words in (["tfm", "-n", "3", CASE], ["tfm", "-n3", CASE], ["compare", CASE, "-n", "3"]):
             self.assertEqual(self.ends(WRONG_CASE, *words).stderr, f"-n stands before the command: polybed -n 3 {words[0]} ...\n")
 
 
