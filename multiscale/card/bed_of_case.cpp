@@ -91,8 +91,9 @@ void expect(const core::Scene& scene, const Balance& balance, const CarriedBed& 
   bed.state = velocity < *bed.minimum_fluidisation ? packed : fluidised;
   double fastest = 0;
   for (const SpeciesInFluid& species : bed.species) fastest = std::max(fastest, species.terminal.value_or(0));
-  if (velocity > fastest) bed.state = carried_out;
-  if (bed.state == carried_out || !balance.known() || !(scene.bed.static_height > 0)) return;
+  const bool rises = velocity > fastest;
+  if (rises) bed.state = carried(scene);
+  if (rises || !balance.known() || !(scene.bed.static_height > 0)) return;
   const double voidage = closures::carried_voidage(balance.drag(), mixture, velocity, balance.packed);
   if (voidage < 1) bed.height = scene.bed.static_height * (1 - balance.packed) / (1 - voidage);
 }
@@ -120,8 +121,14 @@ std::optional<ExpectedDischarge> expected_discharge(const core::Scene& scene, do
 
 }  // namespace
 
+Fluidisation carried(const core::Scene& scene) {
+  return scene.column.outlet == core::Outlet::screen ? Fluidisation::carried_up : Fluidisation::carried_out;
+}
+
+bool is_carried(Fluidisation state) { return state == Fluidisation::carried_up || state == Fluidisation::carried_out; }
+
 std::string name_of(Fluidisation state) {
-  const char* names[] = {"", "packed", "fluidised", "carried_out"};
+  const char* names[] = {"", "packed", "fluidised", "carried_up", "carried_out"};
   return names[std::size_t(state)];
 }
 

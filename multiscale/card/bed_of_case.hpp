@@ -10,7 +10,11 @@
 namespace polybed::multiscale {
 
 /// What the fluid does to a bed; unknown: there is no flow, or no bed.
-enum class Fluidisation { unknown, packed, fluidised, carried_out };
+enum class Fluidisation { unknown, packed, fluidised, carried_up, carried_out };
+
+/// What becomes of solids that rise with the fluid: a screen at the top holds them, an open outlet lets them out.
+[[nodiscard]] Fluidisation carried(const core::Scene& scene);
+[[nodiscard]] bool is_carried(Fluidisation state);
 
 /// As run.json has it; empty if unknown.
 [[nodiscard]] std::string name_of(Fluidisation state);

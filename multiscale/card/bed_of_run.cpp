@@ -88,7 +88,7 @@ Fluidisation state_of(const core::Scene& scene, const Window& window, const BedO
   if (!scene.fluid.present() || scene.column.closed || scene.bed.start.kind == core::StartKind::list) return unknown;
   const Inventory all = inventory_of(scene, window);
   if (all.last < 0.01 * all.first) return carried_out;
-  if (!bed.hangs && all.centre > 0.75 * scene.column.size[1]) return carried_out;
+  if (!bed.hangs && all.centre > 0.75 * scene.column.size[1]) return carried(scene);
   if (is_light(window) && !bed.hangs) return packed;  // a stream presses it onto the bottom
   if (bed.drop) return bed.drop->value >= 0.95 ? fluidised : packed;
   return unknown;

@@ -112,7 +112,7 @@ std::string bed_text(const BedOfRun& bed) {
   for (const std::string& word : {words_of(bed.state), bed.layers})
     if (!word.empty()) parts.push_back(word);
   if (bed.hangs && !parts.empty()) parts.emplace_back("hanging from the top");
-  if (bed.height && bed.state != Fluidisation::carried_out) parts.push_back(mean_text(*bed.height, 1e3, " mm high"));
+  if (bed.height && !is_carried(bed.state)) parts.push_back(mean_text(*bed.height, 1e3, " mm high"));
   if (bed.drop && bed.state != Fluidisation::unknown)
     parts.push_back("pressure drop " + mean_text(*bed.drop, 1, " of the weight"));
   return each(parts);

@@ -188,7 +188,7 @@ class Screen(Scratch):
         for line in (r"expect +fluidised, about 346 mm high", r"fluidises at +fine .* coarse .* mixture .*; u = 30 mm/s is 21 times that",
                      r"falls at +fine 46.5 mm/s, coarse 66.6 mm/s", r"left out +tfm: forces of .* % of the weight"):
             self.assertRegex(text, line)
-        for velocity, state in (("1 mm/s", "packed"), ("1 m/s", "carried out")):
+        for velocity, state in (("1 mm/s", "packed"), ("1 m/s", "carried up")):
             told = self.ends(DONE, "check", CASE, "--set", f"inlet.superficial_velocity={velocity}").stdout
             self.assertRegex(told, f"expect +{state}")
 

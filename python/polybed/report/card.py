@@ -29,8 +29,8 @@ def mean_of(entry, unit):
 
 
 def bed_of(card):
-    words = [{"carried_out": "carried out"}.get(card["state"], card["state"]), card["layers"]]
-    if card["bed_height_m"] and card["state"] != "carried_out":
+    words = [card["state"] and card["state"].replace("_", " "), card["layers"]]
+    if card["bed_height_m"] and not (card["state"] or "").startswith("carried"):
         words.append(mean_of(card["bed_height_m"], "m") + " high")
     if card["pressure_drop_over_weight"] and card["state"]:
         words.append(f"pressure drop {mean_of(card['pressure_drop_over_weight'], '1')} of the weight")
