@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "closures/terminal_velocity.hpp"
 #include "core/case/resolve.hpp"
@@ -142,10 +144,20 @@ void warn_of_fine_grid(const core::Scene& scene, Lines& warnings) {
         1e3 * least, least / largest));
 }
 
+/// Not refused: cases of a chain are checked before the run that the next one begins from.
+void warn_of_missing_start(const core::Scene& scene, Lines& warnings) {
+  const std::filesystem::path& path = scene.bed.start.file;
+  std::error_code error;
+  if (scene.bed.start.kind == core::StartKind::checkpoint && !std::filesystem::is_regular_file(path, error))
+    warnings.push_back(
+        fmt::format("bed.start = \"checkpoint:{}\": no such file yet, and a run begins from it", path.string()));
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const core::Scene& scene) {
   Lines warnings;
+  warn_of_missing_start(scene, warnings);
   if (!scene.fluid.present()) return warnings;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const double density = fluid.density;

@@ -9,8 +9,8 @@
 namespace polybed::multiscale {
 
 /// One line for each thing that can be computed and is rarely meant: an inlet that draws fluid out, a species that
-/// floats, a bed that hangs, a gas faster than an incompressible one can be, spheres packed more densely than at
-/// random. \param scene  that keeps the rules
+/// floats, a checkpoint to start from that is not there, a bed that hangs, a gas faster than an incompressible one can be,
+/// spheres packed more densely than at random. \param scene  that keeps the rules
 [[nodiscard]] std::vector<std::string> scene_warnings(const core::Scene& scene);
 
 /// Of the two-fluid model: a grid too coarse for the bed, or finer than its particles.

@@ -87,13 +87,17 @@ Descriptor new_file(const fs::path& path) {
   return Descriptor(number);
 }
 
-LineFile::LineFile(fs::path path, std::string_view text) : path_(std::move(path)), file_(begun(path_, text)) {}
+LineFile::LineFile(fs::path path, std::string_view text)
+    : path_(std::move(path)), file_(begun(path_, text)), size_(std::int64_t(text.size())) {}
 
 /// Its lines are still there behind the descriptor.
 void LineFile::put_back() {
   struct stat ours {
   }, there{};
   if (::fstat(file_.number(), &ours) != 0) cannot("write", path_, errno);
+  if (ours.st_size < size_)
+    print(stderr, "warning: {} was cut while it is being written: lines are lost\n", path_.string());
+  size_ = ours.st_size;
   if (::lstat(path_.c_str(), &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) return;
   file_ = begun(path_, read_text(fmt::format("/proc/self/fd/{}", file_.number())));
   print(stderr, "warning: {} was removed or replaced while it is being written: it is there again\n", path_.string());
@@ -107,6 +111,7 @@ void LineFile::flush() {
 void LineFile::append(std::string_view line) {
   put_back();
   if (const int reason = write_all(file_, bytes_of(line)); reason != 0) cannot("write", path_, reason);
+  size_ += std::int64_t(line.size());
 }
 
 void flush_directory(const fs::path& directory) {

@@ -63,6 +63,7 @@ class LineFile {
   void put_back();
   std::filesystem::path path_;
   Descriptor file_;
+  std::int64_t size_;  ///< bytes written
 };
 
 /// Makes a file of a size, its blocks on the disk claimed, that begins with `bytes`; the rest is zero. Not flushed.

@@ -78,19 +78,28 @@ class Removed(Scratch):
             for stop in (False, True):
                 with self.subTest(name, stop=stop):
                     directory = self.folder / f"{name}{stop}"
-                    running = self.start(*WORDS, "--until", "1 s", "-o", directory)
-                    program.wait_until(running, (directory / "checkpoint.h5").exists)
-                    running.send_signal(signal.SIGSTOP)
-                    deed(directory / "history.csv")
-                    if stop:
-                        running.send_signal(signal.SIGINT)
-                    running.send_signal(signal.SIGCONT)
-                    told = running.communicate(timeout=program.LONGEST)[1]
-                    self.assertEqual(running.returncode, STOPPED if stop else DONE, told)
+                    told = self.meddled_with(directory, deed, stop)
                     self.assertIn("history.csv was removed or replaced", told)
                     kept = (directory / "history.csv").read_text()
                     self.assertEqual(kept, rows[:len(kept)] if stop else rows)
                     self.assertGreaterEqual(history(directory)["time_s"][-1], 0.1)
+
+    def meddled_with(self, directory, deed, stop):
+        """Returns what a run said whose history.csv somebody has got at, which then ends or is stopped."""
+        running = self.start(*WORDS, "--until", "1 s", "-o", directory)
+        program.wait_until(running, (directory / "checkpoint.h5").exists)
+        running.send_signal(signal.SIGSTOP)
+        deed(directory / "history.csv")
+        if stop:
+            running.send_signal(signal.SIGINT)
+        running.send_signal(signal.SIGCONT)
+        told = running.communicate(timeout=program.LONGEST)[1]
+        self.assertEqual(running.returncode, STOPPED if stop else DONE, told)
+        return told
+
+    def test_rows_that_are_cut_off_are_told(self):
+        told = self.meddled_with(self.folder / "cut", lambda path: os.truncate(path, path.stat().st_size // 2), False)
+        self.assertEqual(told.count("history.csv was cut while it is being written: lines are lost"), 1, told)
 
 
 class Damaged(Scratch):

@@ -149,6 +149,9 @@ class Warnings(CaseTest):
         self.assertIsNone(card["bed_height_m"])
         self.assertRegex(told, "bed +fluidised, hanging from the top, pressure drop")
 
+    def test_a_checkpoint_that_is_not_there_is_warned_of(self):
+        self.assertRegex("\n".join(self.notes("bed.start=checkpoint:none.h5")), 'bed.start = "checkpoint:none.h5": no such file yet')
+
     def test_what_is_rarely_meant_is_warned_of(self):
         self.assertEqual([n for n in self.notes() if "negative" in n or "floats" in n], [])
         self.assertRegex("\n".join(self.notes("inlet.superficial_velocity=-0.01")),
