@@ -171,21 +171,25 @@ class CaseReader {
           "--resume --set effects.ROLE=LAW";
   }
 
-  /// How much there is in the bed: said once.
+  /// How much there is in the bed: said once. The layers of a bed say it, and that it starts in them.
   void check_amount() {
     const auto given = [&](const std::string& path) { return is_given(path); };
+    const bool by_layers = given("layer");
+    if (!scene_.layers.empty() && !given("bed.start")) scene_.bed.start.kind = StartKind::layered;
     const bool by_particles = given("bed.particles"), list = scene_.bed.start.kind == StartKind::list;
     for (const char* key : {"bed.volume_share", "bed.static_height"}) {
       if (by_particles && given(key))
         add({"bed.particles"}, fmt::format("{} and bed.particles both say how much there is: give one", key));
-      if (by_particles || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
-      add({key}, fmt::format("{} is missing (or give bed.particles)", key));
+      if (by_layers || by_particles || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
+      add({key}, fmt::format("{} is missing (or give bed.particles, or [[layer]])", key));
       wrong_.add(key);
     }
     // A feed is held against the packing of the settled bed, whatever the bed begins as.
     const bool anywhere = scene_.bed.start.kind == StartKind::random && by_particles;
     if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
     if ((list || anywhere) && scene_.feeds.empty()) return;
+    const auto says_itself = [](const Layer& layer) { return layer.solids_fraction.has_value(); };
+    if (by_layers && std::all_of(scene_.layers.begin(), scene_.layers.end(), says_itself)) return;
     add({"bed.solids_fraction"}, "bed.solids_fraction is missing: of the settled bed");
     wrong_.add("bed.solids_fraction");
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/case/layers.hpp"
 #include "core/numerics/schedule.hpp"
 
 namespace polybed::core {
@@ -55,12 +56,21 @@ void fill_amount(Scene& scene) {
   double total = 0;
   bed.volume_share.clear();
   for (std::size_t j = 0; j < scene.species.size(); ++j) {
-    bed.volume_share.push_back(double(bed.particles[j]) * std::numbers::pi / 6 *
-                               std::pow(scene.species[j].diameter, 3));
+    bed.volume_share.push_back(volume_of(bed.particles[j], scene.species[j]));
     total += bed.volume_share[j];
   }
   for (double& x : bed.volume_share) x /= total;
   bed.static_height = total / (area * bed.solids_fraction);
+}
+
+/// What of the bed follows from [[layer]], where there is any.
+void fill_from_layers(Scene& scene, WrongKeys& wrong) {
+  const bool sound = wrong.sound({"layer", "layer.", "species.name", "column.size", "bed.volume_share",
+                                  "bed.static_height", "bed.solids_fraction", "bed.particles"});
+  if (scene.layers.empty() && wrong.sound("layer.")) return;
+  if (sound) return fill_layers(scene);
+  for (const char* key : {"bed.volume_share", "bed.static_height"}) wrong.add(key);
+  if (!(scene.bed.solids_fraction > 0)) wrong.add("bed.solids_fraction");
 }
 
 /// A path of a list is meant from the working directory or, if nothing is there, from the folder of the case.
@@ -82,6 +92,10 @@ void fill_output(Scene& scene) {
 }
 
 }  // namespace
+
+double volume_of(std::int64_t number, const Species& species) {
+  return double(number) * std::numbers::pi / 6 * std::pow(species.diameter, 3);
+}
 
 double largest_diameter(const Scene& scene) {
   double largest = 0;
@@ -110,6 +124,7 @@ void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
     wrong.add("bed.volume_share");
     wrong.add("bed.static_height");
   }
+  fill_from_layers(scene, wrong);
   bed.start_solids_fraction = bed.start_fraction.value_or(bed.solids_fraction);
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/case/case_rules.hpp"
+#include "core/case/layers.hpp"
 #include "core/case/size_classes.hpp"
 
 namespace polybed::core {
@@ -141,7 +142,11 @@ std::vector<Rule> amount_rules() {
            true},
           {{"bed.volume_share", "bed.particles", "bed.start", "species.name"},
            "bed.volume_share has {} numbers, there are {} species",
-           [](const Scene& scene) { return miscounted(scene, scene.bed.volume_share, scene.bed.particles.empty()); },
+           [](const Scene& scene) {
+             const bool follows = !scene.bed.particles.empty() ||  // from these, or from the layers
+                                  (!scene.layers.empty() && scene.bed.volume_share.empty());
+             return miscounted(scene, scene.bed.volume_share, !follows);
+           },
            true},
           {{"bed.volume_share", "bed.particles", "bed.start"},
            "bed.volume_share sums to {}, not to 1",
@@ -160,8 +165,10 @@ Broken start_denser_than_settled(const Scene& scene) {
 
 Broken bed_above_the_column(const Scene& scene) {
   const Bed& bed = scene.bed;
-  const double height = bed.static_height * bed.solids_fraction / bed.start_solids_fraction;
-  if (is_list(scene) || !(height > scene.column.size[1])) return {};
+  if (is_list(scene)) return {};
+  const double height = scene.layers.empty() ? bed.static_height * bed.solids_fraction / bed.start_solids_fraction
+                                             : top_of(stacked(start_parts(scene)));
+  if (!(height > scene.column.size[1] * (1 + 1e-12))) return {};
   return Broken({fmt::format("{:.4g}", height), fmt::format("{:.4g}", scene.column.size[1])});
 }
 
@@ -178,7 +185,7 @@ std::vector<Rule> start_of_bed_rules() {
            "bed.start_solids_fraction = {} is denser than the settled bed, {}",
            start_denser_than_settled},
           {{"column.size", "bed.static_height", "bed.solids_fraction", "bed.start_solids_fraction", "bed.start",
-            "bed.particles"},
+            "bed.particles", "bed.volume_share"},
            "the bed at its start is {} m high, the column {} m: enlarge column.size",
            bed_above_the_column},
           {{"bed.layer", "bed.start"},

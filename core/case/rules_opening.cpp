@@ -1,5 +1,5 @@
-// What parts of the bottom and the top require: jets, feeds, and an opening that particles fall through; and what walls
-// inside the column do.
+// What parts of the cross-section require: jets, feeds, layers, and an opening that particles fall through; and what
+// walls inside the column do.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +16,9 @@ namespace {
 /// Coordinates of a corner on the bottom.
 std::size_t corner_size(const Scene& scene) { return scene.column.given_size.size() == 3 ? 2 : 1; }
 
-/// The whole end, of a feed.
+/// The whole end, of a feed; the whole cross-section, of a layer.
 bool is_all(const Feed& feed) { return feed.from.empty() && feed.to.empty(); }
+bool is_all(const Layer& layer) { return layer.from.empty() && layer.to.empty(); }
 bool is_all(const Jet&) { return false; }
 
 template <class Part>
@@ -34,7 +35,8 @@ Broken corners_miscounted(const Scene& scene, const std::vector<Part>& parts) {
 template <class Part>
 Broken beside_the_end(const Scene& scene, const std::vector<Part>& parts) {
   Broken broken;
-  const std::array<double, 2> size{scene.column.size[0], scene.column.size[2]};
+  const std::vector<double>& given = scene.column.given_size;  // width, then the depth if there are corners in it
+  const std::array<double, 2> size{given[0], given[1]};
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const Part& part = parts[k];
     for (std::size_t d = 0; d < part.from.size(); ++d)
@@ -110,6 +112,17 @@ std::vector<Rule> jet_rules() {
            "a jet from {} to {} m does not lie on the bottom, 0 to {} m",
            [](const Scene& scene) { return beside_the_end(scene, scene.jets); }},
           {{"jet.from", "jet.to", "column.size"}, "two jets overlap: [[jet]] number {} and {}", jets_overlap}};
+}
+
+std::vector<Rule> layer_corner_rules() {
+  return {{{"layer.from", "layer.to", "column.size"},
+           "layer.from and layer.to have {} and {} numbers: {} here",
+           [](const Scene& scene) { return corners_miscounted(scene, scene.layers); },
+           true},
+          {{"layer.from", "layer.to", "column.size"},
+           "a layer from {} to {} m does not lie in the column, 0 to {} m",
+           [](const Scene& scene) { return beside_the_end(scene, scene.layers); },
+           true}};
 }
 
 std::vector<Rule> feed_rules() {
@@ -230,7 +243,7 @@ std::vector<Rule> wall_rules() {
 
 std::vector<Rule> opening_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {jet_rules(), feed_rules(), bottom_rules(), wall_rules()})
+  for (const auto& part : {jet_rules(), layer_corner_rules(), feed_rules(), bottom_rules(), wall_rules()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

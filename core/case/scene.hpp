@@ -96,7 +96,8 @@ struct Bed {
   double start_solids_fraction = 0;      ///< of the bed at the start; the mass is that of the settled bed
   std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
   Start start;
-  std::vector<std::int64_t> layer;  ///< of each species in the start "layered", from the bottom; empty: each its own
+  /// Of each species in the start "layered" without [[layer]], from the bottom; empty: each its own.
+  std::vector<std::int64_t> layer;
   std::uint64_t seed = 1;
   double perturbation = 1e-3;  ///< share by which cells of a mixed start differ at random
   bool held = false;           ///< particles do not move: a fixed bed; key of [dem]
@@ -104,6 +105,15 @@ struct Bed {
 
 /// The species of each layer of a bed that starts layered, from the bottom.
 [[nodiscard]] std::vector<std::vector<std::size_t>> layers_of(const Bed& bed, std::size_t species);
+
+/// A part of the bed at its start. It lies on those before it.
+struct Layer {
+  std::string species;                    ///< its only one; resolved to volume_share
+  std::vector<double> volume_share;       ///< x_j of its solids, sums to 1
+  double height = 0;                      ///< settled, m
+  std::optional<double> solids_fraction;  ///< settled; else that of the bed
+  std::vector<double> from, to;           ///< corners of its cross-section, m, as of a feed; empty: the column's
+};
 
 struct Inlet {
   /// (time s, superficial velocity m/s): constant before the first and after the last, linear between.
@@ -276,6 +286,7 @@ struct Scene {
   Material material;
   std::vector<Species> species;
   Bed bed;
+  std::vector<Layer> layers;
   Inlet inlet;
   std::vector<Jet> jets;
   std::vector<Feed> feeds;

@@ -79,6 +79,36 @@ std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vect
   return result;
 }
 
+/// Share of a species of the case in a layer.
+double share_in(const Layer& layer, const std::vector<Species>& species, std::size_t n) {
+  if (layer.volume_share.empty()) return layer.species == species[n].name ? 1 : 0;
+  return layer.volume_share[n];
+}
+
+/// Whether the shares of the layers, where they are given, are those of so many species; else a rule tells of it.
+bool layers_fit(const std::vector<Layer>& layers, std::size_t species) {
+  return std::all_of(layers.begin(), layers.end(), [&](const Layer& layer) {
+    return layer.volume_share.empty() || layer.volume_share.size() == species;
+  });
+}
+
+/// Layers whose shares, or whose species, are those of the classes. \param classes  of each species of the case
+void expand_layers(std::vector<Layer>& layers, const std::vector<Species>& given,
+                   const std::vector<Expanded>& classes) {
+  for (Layer& layer : layers) {
+    std::vector<double> shares;
+    bool known = !layer.volume_share.empty();
+    for (std::size_t n = 0; n < given.size(); ++n) {
+      const double share = share_in(layer, given, n);
+      known = known || share > 0;
+      for (const double part : classes[n].share) shares.push_back(share * part);
+    }
+    if (!known) continue;  // no such species, or one of the classes
+    if (layer.volume_share.empty()) layer.species.clear();
+    layer.volume_share = std::move(shares);
+  }
+}
+
 /// Entries before the n-th of `size` parts; all classes of a distribution, one after the other, come from one entry.
 template <class Name>
 std::size_t entries_before(const Scene& scene, std::size_t size, std::size_t n, Name&& name_of_part) {
@@ -102,6 +132,7 @@ std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Specie
   return entries_before(scene, species.size(), n, [&](std::size_t k) { return species[k].name; });
 }
 std::optional<std::size_t> entry_of(const Scene&, const std::vector<Jet>&, std::size_t n) { return n; }
+std::optional<std::size_t> entry_of(const Scene&, const std::vector<Layer>&, std::size_t n) { return n; }
 std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Feed>& feeds, std::size_t n) {
   return entries_before(scene, feeds.size(), n, [&](std::size_t k) { return feeds[k].species; });
 }
@@ -114,24 +145,29 @@ void expand_size_classes(Scene& scene, const ClassRule& rule) {
     return;
   Bed& bed = scene.bed;
   const bool shares_fit = bed.volume_share.size() == scene.species.size();
-  if (!shares_fit && bed.start.kind != StartKind::list) return;  // a rule tells of it
+  const bool by_layers = !scene.layers.empty() && bed.volume_share.empty();
+  if (!shares_fit && !by_layers && bed.start.kind != StartKind::list) return;  // a rule tells of it
+  if (!layers_fit(scene.layers, scene.species.size())) return;
   std::vector<Species> species;
   std::vector<double> shares;
   std::vector<std::int64_t> layer;
   const bool layer_fits = bed.layer.size() == scene.species.size();
+  std::vector<Expanded> all;
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
-    const Expanded classes = expanded(scene.species[n], rule, scene.size_classes);
+    const Expanded& classes = all.emplace_back(expanded(scene.species[n], rule, scene.size_classes));
     for (std::size_t k = 0; k < classes.species.size(); ++k) {
       species.push_back(classes.species[k]);
       layer.push_back(layer_fits ? bed.layer[n] : std::int64_t(n + 1));
       if (shares_fit) shares.push_back(bed.volume_share[n] * classes.share[k]);
     }
   }
+  expand_layers(scene.layers, scene.species, all);
   scene.feeds = expanded_feeds(scene.feeds, scene.size_classes);
   scene.contact_pairs = expanded_pairs(scene.contact_pairs, scene.size_classes);
   scene.species = std::move(species);
   if (shares_fit) bed.volume_share = std::move(shares);
-  if (bed.start.kind == StartKind::layered && (layer_fits || bed.layer.empty())) bed.layer = std::move(layer);
+  if (bed.start.kind == StartKind::layered && scene.layers.empty() && (layer_fits || bed.layer.empty()))
+    bed.layer = std::move(layer);
 }
 
 }  // namespace polybed::core

@@ -16,16 +16,17 @@ namespace polybed::core {
 using ClassRule = std::function<std::vector<std::pair<double, double>>(const SizeDistribution&)>;
 
 /// Puts `name.1`, `name.2`, ... in the place of each species with a distribution: with its properties, its share of
-/// bed.volume_share divided among them, and in
-/// the contact pairs and the feeds that name it; in a layered bed they are one layer. Fills scene.size_classes. Does
-/// nothing to a scene that has no share for each species.
+/// bed.volume_share and of [[layer]] divided among them, and in the contact pairs, the feeds and the layers that name
+/// it; in a layered bed they are one layer. Fills scene.size_classes. Does nothing to a scene that has no share for
+/// each species.
 void expand_size_classes(Scene& scene, const ClassRule& rule);
 
-/// The entry in the case that the n-th species, jet, feed or contact pair of a scene comes from; none of a pair where
-/// size classes stand for species.
+/// The entry in the case that the n-th species, layer, jet, feed or contact pair of a scene comes from; none of a pair
+/// where size classes stand for species.
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Species>& species,
                                                   std::size_t n);
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Jet>& jets, std::size_t n);
+[[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Layer>& layers, std::size_t n);
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Feed>& feeds, std::size_t n);
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<ContactPair>& pairs,
                                                   std::size_t n);

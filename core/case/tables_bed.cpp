@@ -106,15 +106,17 @@ Table bed_table() {
           key(&Bed::volume_share, "volume_share", range(0, 1),
               help("x_j, share of each species in the volume of the solids; sums to 1")),
           key(&Bed::static_height, "static_height", dimension::length, range(0, 1e3), Mark::given,
-              help("of the settled bed; 0: the fluid alone")),
-          key(&Bed::solids_fraction, "solids_fraction", above(0, 0.9), Mark::given, help("of the settled bed")),
+              help("of the settled bed; 0: the fluid alone; follows from [[layer]], as volume_share does")),
+          key(&Bed::solids_fraction, "solids_fraction", above(0, 0.9), Mark::given,
+              help("of the settled bed, and of each [[layer]] that gives none")),
           key(&Bed::start_fraction, "start_solids_fraction", above(0, 0.9),
-              help("of the bed at the start, with the mass of the settled bed; default: solids_fraction")),
+              help("of the bed at the start, with the mass of the settled bed; default: solids_fraction. A "
+                   "[[layer]] starts no denser than it settles")),
           key(&Bed::particles, "particles", range(0, 1e12),
               help("numbers of particles of each species, instead of volume_share and static_height")),
           key(&Bed::start, "start",
-              help("the bed at time zero; layered: in the order of the species, the first at the bottom, the size "
-                   "classes of a species as one layer; "
+              help("the bed at time zero; layered: as [[layer]] says, or without it in the order of the species, the "
+                   "first at the bottom, the size classes of a species as one layer; "
                    "settled: in equilibrium; for the DEM only: random: anywhere in the column, list: particles "
                    "one by one, SI, columns species, x, y, z and if not zero vx, vy, vz, wx, wy, wz, y upward")),
           key(&Bed::layer, "layer", range(1, 15),
@@ -125,6 +127,26 @@ Table bed_table() {
           key(&Bed::perturbation, "perturbation", range(0, 0.1),
               help("share by which the solids fractions of a mixed start differ from cell to cell at random, so that a "
                    "bed of several cells across need not wait for round-off to break up; two-fluid model; 0: none")),
+      });
+}
+
+Table layer_table() {
+  return table(
+      "layer", &Scene::layers,
+      {
+          key(&Layer::species, "species", Mark::replaced,
+              help("name of the only species of a part of the bed at the start; of one with a distribution: all "
+                   "classes, by their shares. Each [[layer]] lies on those before it, the first on the bottom")),
+          key(&Layer::volume_share, "volume_share", range(0, 1),
+              help("x_j, share of each species in the volume of its solids, instead of species; sums to 1")),
+          key(&Layer::height, "height", dimension::length, above(0, 1e3), Mark::required,
+              help("of the settled layer; bed.start_solids_fraction makes it start higher")),
+          key(&Layer::solids_fraction, "solids_fraction", above(0, 0.9),
+              help("of the settled layer; default: bed.solids_fraction")),
+          key(&Layer::from, "from", dimension::length, range(0, 1e3),
+              help("low corner of its cross-section: [x], or [x, z] (width, depth) in three dimensions; default: the "
+                   "whole cross-section of the column")),
+          key(&Layer::to, "to", dimension::length, range(0, 1e3), help("high corner")),
       });
 }
 
@@ -202,7 +224,7 @@ Table contact_pair_table() {
 }  // namespace
 
 std::vector<Table> bed_tables() {
-  return {title_table(), column_table(), fluid_table(), species_table(), bed_table(), inlet_table()};
+  return {title_table(), column_table(), fluid_table(), species_table(), bed_table(), layer_table(), inlet_table()};
 }
 
 std::vector<Table> part_tables() { return {jet_table(), feed_table(), wall_table(), contact_pair_table()}; }

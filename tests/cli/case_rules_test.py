@@ -3,6 +3,7 @@
 import re
 
 import program
+from layer_rules import COUNTED, LAYERS
 from program import DONE, WRONG_CASE, Scratch, run, strict_json
 
 BED = """[column]
@@ -40,7 +41,7 @@ def on(role, law=None):
 
 AIR, TILTED = ["fluid.name=air", "fluid.equation_of_state=ideal_gas"], "column.gravity_direction=[1,-1]"
 JOINED, SHEARED = "column.ends=periodic", "dem.shear_rate=1"
-COUNTED, FLOW = ["bed.volume_share=!", "bed.static_height=!"], ["inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"]
+FLOW = ["inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"]
 SIZES = 'species=[{name="fine", density=1395, distribution="lognormal", median=1e-8, deviation=1}]'
 
 
@@ -121,8 +122,7 @@ KEYS = {
     "bed.volume_share sums to {}, not to 1": ["bed.volume_share=[0.9]"],
     "bed.start_solids_fraction = {} is denser than the settled bed, {}": ["bed.start_solids_fraction=0.7"],
     "the bed at its start is {} m high, the column {} m: enlarge column.size": ["bed.static_height=0.3"],
-    'bed.layer cannot act: bed.start is not "layered"': ["bed.layer=[1]"],
-    "bed.layer has {} numbers, there are {} species": ["bed.start=layered", "bed.layer=[1, 2]"],
+    **LAYERS,
     'bed.start = "{}": no such file in the working directory or beside the case file': [*COUNTED, "bed.start=list:none.csv"],
     **{f'{what} cannot act: fluid.name = "none"': [DRY, setting] for what, setting in (
         ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))),

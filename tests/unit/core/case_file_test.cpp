@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"volume_share = [1.0]", "volume_share = [0.9]", "bed.volume_share sums to 0.9, not to 1"},
         Wrong{"volume_share = [1.0]", "volume_share = [0.5, 0.5]",
               "bed.volume_share has 2 numbers, there are 1 species"},
-        Wrong{"static_height = \"60 mm\"", "", "bed.static_height is missing (or give bed.particles)"},
+        Wrong{"static_height = \"60 mm\"", "", "bed.static_height is missing (or give bed.particles, or [[layer]])"},
         Wrong{"static_height = \"60 mm\"", "static_height = \"700 mm\"", "enlarge column.size"},
         Wrong{"static_height = \"60 mm\"", "static_height = \"60 mm\"\nparticles = [100]", "give one"},
         Wrong{"solids_fraction = 0.6", "solids_fraction = 0.6\nstart = \"mxed\"", "did you mean \"mixed\"?"},

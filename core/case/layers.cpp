@@ -1,0 +1,164 @@
+#include "core/case/layers.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <numeric>
+
+#include "core/case/resolve.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+/// Axes of the column across which a layer is cut, in the order of its corners.
+constexpr std::array<std::size_t, 2> across{0, 2};
+
+/// Without its solids.
+BedPart footprint(const Scene& scene, const Layer& layer) {
+  BedPart part;
+  for (std::size_t d = 0; d < std::min({layer.from.size(), layer.to.size(), across.size()}); ++d) {
+    const double size = scene.column.size[across[d]];
+    part.from[d] = layer.from[d] / size;
+    part.to[d] = std::min(layer.to[d] / size, 1.0);
+  }
+  return part;
+}
+
+double settled_fraction_of(const Scene& scene, const Layer& layer) {
+  return layer.solids_fraction.value_or(scene.bed.solids_fraction);
+}
+
+std::vector<double> solids_of(const Scene& scene, const Layer& layer) {
+  std::vector<double> solids = layer.volume_share;
+  for (double& one : solids) one *= layer.height * settled_fraction_of(scene, layer);
+  return solids;
+}
+
+/// Volume of each species over the cross-section of the column, m.
+std::vector<double> solids_of_bed(const Scene& scene) {
+  const Bed& bed = scene.bed;
+  std::vector<double> solids;
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    solids.push_back(bed.particles.empty() ? bed.volume_share[j] * bed.static_height * bed.solids_fraction
+                                           : volume_of(bed.particles[j], scene.species[j]) /
+                                                 (scene.column.size[0] * scene.column.size[2]));
+  return solids;
+}
+
+/// The species of each part of a bed without [[layer]], from the bottom.
+std::vector<std::vector<std::size_t>> groups_of(const Scene& scene) {
+  const std::size_t species = scene.species.size();
+  const bool layered = scene.bed.start.kind == StartKind::layered, numbered = scene.bed.layer.size() == species;
+  std::map<std::int64_t, std::vector<std::size_t>> groups;
+  for (std::size_t j = 0; j < species; ++j)
+    groups[!layered ? 0 : (numbered ? scene.bed.layer[j] : std::int64_t(j))].push_back(j);
+  std::vector<std::vector<std::size_t>> from_below;
+  for (auto& [number, members] : groups) from_below.push_back(std::move(members));
+  return from_below;
+}
+
+std::vector<BedPart> parts_of_layers(const Scene& scene) {
+  std::vector<BedPart> parts;
+  for (const Layer& layer : scene.layers) {
+    parts.push_back(footprint(scene, layer));
+    parts.back().solids = solids_of(scene, layer);
+    const double settled = settled_fraction_of(scene, layer);
+    parts.back().solids_fraction = std::min(settled, scene.bed.start_fraction.value_or(settled));
+  }
+  return parts;
+}
+
+/// Of the cross-section of the column, what two parts have in common; nothing if they touch up to round-off, as 12.5 mm
+/// and 0.0125 m may.
+double common_area(const BedPart& a, const BedPart& b) {
+  constexpr double touching = 1e-9;
+  double area = 1;
+  for (std::size_t d = 0; d < across.size(); ++d) {
+    const double overlap = std::min(a.to[d], b.to[d]) - std::max(a.from[d], b.from[d]);
+    area *= overlap > touching ? overlap : 0;
+  }
+  return area;
+}
+
+}  // namespace
+
+double BedPart::all_solids() const { return std::accumulate(solids.begin(), solids.end(), 0.0); }
+
+std::vector<BedPart> start_parts(const Scene& scene) {
+  const StartKind start = scene.bed.start.kind;
+  if (!scene.layers.empty() && (start == StartKind::layered || start == StartKind::checkpoint))
+    return parts_of_layers(scene);
+  const std::vector<double> solids = solids_of_bed(scene);
+  std::vector<BedPart> parts;
+  for (const std::vector<std::size_t>& members : groups_of(scene)) {
+    BedPart& part = parts.emplace_back();
+    part.solids.assign(solids.size(), 0.0);
+    for (const std::size_t j : members) part.solids[j] = solids[j];
+    part.solids_fraction = scene.bed.start_solids_fraction;
+  }
+  return parts;
+}
+
+std::vector<Extent> stacked(const std::vector<BedPart>& parts, const std::vector<double>& height) {
+  std::vector<Extent> extents;
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    double low = 0;
+    for (std::size_t m = 0; m < n; ++m)
+      if (common_area(parts[m], parts[n]) > 0) low = std::max(low, extents[m].high);
+    extents.push_back({low, low + height[n]});
+  }
+  return extents;
+}
+
+std::vector<Extent> stacked(const std::vector<BedPart>& parts) {
+  std::vector<double> height;
+  for (const BedPart& part : parts) height.push_back(part.all_solids() / part.solids_fraction);
+  return stacked(parts, height);
+}
+
+double top_of(const std::vector<Extent>& extents) {
+  double top = 0;
+  for (const Extent& one : extents) top = std::max(top, one.high);
+  return top;
+}
+
+double supported_share(const std::vector<BedPart>& parts, const std::vector<Extent>& extents, std::size_t n) {
+  constexpr double as_high = 1 - 1e-9;
+  if (extents[n].low == 0) return 1;
+  double area = 0;
+  for (std::size_t m = 0; m < n; ++m)
+    if (extents[m].high >= as_high * extents[n].low) area += common_area(parts[m], parts[n]);
+  return area / parts[n].area();
+}
+
+LayerTotals totals_of_layers(const Scene& scene) {
+  LayerTotals totals;
+  totals.share.assign(scene.species.size(), 0.0);
+  for (const Layer& layer : scene.layers) {
+    const std::vector<double> solids = solids_of(scene, layer);
+    const double area = footprint(scene, layer).area();
+    for (std::size_t j = 0; j < totals.share.size(); ++j) totals.share[j] += area * solids[j];
+  }
+  totals.solids = std::accumulate(totals.share.begin(), totals.share.end(), 0.0);
+  for (double& share : totals.share) share /= totals.solids;
+  return totals;
+}
+
+void fill_layers(Scene& scene) {
+  Bed& bed = scene.bed;
+  double densest = 0;
+  for (Layer& layer : scene.layers) {
+    if (layer.volume_share.empty())
+      for (const Species& species : scene.species) layer.volume_share.push_back(species.name == layer.species ? 1 : 0);
+    layer.species.clear();
+    layer.solids_fraction = settled_fraction_of(scene, layer);
+    densest = std::max(densest, *layer.solids_fraction);
+  }
+  if (!(bed.solids_fraction > 0)) bed.solids_fraction = densest;
+  const LayerTotals totals = totals_of_layers(scene);
+  if (bed.volume_share.empty()) bed.volume_share = totals.share;
+  if (!(bed.static_height > 0)) bed.static_height = totals.solids / bed.solids_fraction;
+}
+
+}  // namespace polybed::core
