@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/case/layers.hpp"
 #include "core/error.hpp"
 #include "core/numerics/random.hpp"
 
@@ -16,6 +17,14 @@ using core::Index;
 double solids_height(const core::Bed& bed) { return bed.static_height * bed.solids_fraction; }
 
 namespace {
+
+/// \param top  of the bed at its start, m
+void require_room(double top, const core::Grid& grid) {
+  const double height = grid.spacing[1] * grid.column_cells(1);
+  if (top > height * (1 + 1e-12))
+    throw core::StartError(
+        fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size", top, height));
+}
 
 /// Solids fraction of the cells of a column filled evenly from the bottom; the topmost cell takes the rest.
 std::vector<double> even_column(double solids, double fraction, const core::Grid& grid) {
@@ -91,20 +100,44 @@ void perturb_layer(const core::Grid& grid, int y, double share, std::uint64_t se
     }
 }
 
-/// Volume of each species per area, m, in a layered bed between two such volumes of all solids under it.
-std::vector<double> layered_volume(const core::Bed& bed, std::size_t species, double total, double from, double to) {
-  std::vector<double> volume(species, 0.0);
-  double end = 0;
-  for (const std::vector<std::size_t>& layer : core::layers_of(bed, species)) {
-    double share = 0;
-    for (const std::size_t j : layer) share += bed.volume_share[j];
-    const double begin = end;
-    end += share * total;
-    const double overlap = std::max(0.0, std::min(to, end) - std::max(from, begin));
-    for (const std::size_t j : layer)
-      if (share > 0) volume[j] = overlap * (bed.volume_share[j] / share);
+/// Share of each of the block's cells along an axis that lies between two places, both in cells of the column.
+std::vector<double> shares_between(const core::Grid& grid, std::size_t axis, double from, double to) {
+  std::vector<double> share;
+  for (int n = 0; n < grid.cells[axis]; ++n) {
+    const double low = n + grid.before[axis];
+    share.push_back(std::clamp(to - low, 0.0, 1.0) - std::clamp(from - low, 0.0, 1.0));
   }
-  return volume;
+  return share;
+}
+
+/// Adds a part of the bed to the cells. Those that its faces cut get their share by volume, so that the mass is exact.
+void add_bed_part(const core::Grid& grid, const core::BedPart& part, const core::Extent& extent,
+                  fluid::Interphase& solids) {
+  const double height = extent.high - extent.low;
+  const auto along = [&](std::size_t axis, double from, double to) { return shares_between(grid, axis, from, to); };
+  const auto across = [&](std::size_t axis, std::size_t d) {
+    return along(axis, part.from[d] * grid.column_cells(int(axis)), part.to[d] * grid.column_cells(int(axis)));
+  };
+  const std::vector<double> x = across(0, 0), z = across(2, 1),
+                            y = along(1, extent.low / grid.spacing[1], extent.high / grid.spacing[1]);
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i) {
+        const double share = x[std::size_t(i)] * y[std::size_t(j)] * z[std::size_t(k)];
+        if (!(share > 0)) continue;
+        for (std::size_t s = 0; s < part.solids.size(); ++s)
+          solids.fraction[s][std::size_t(grid.index(i, j, k))] += share * (part.solids[s] / height);
+      }
+}
+
+/// A bed of several parts, each of an even composition.
+void fill_parts(const core::Scene& scene, const core::Grid& grid, fluid::Interphase& solids) {
+  const std::vector<core::BedPart> parts = core::start_parts(scene);
+  const std::vector<core::Extent> extents = core::stacked(parts);
+  require_room(core::top_of(extents), grid);
+  for (core::Field& phi : solids.fraction) std::fill(phi.begin(), phi.end(), 0.0);
+  for (std::size_t n = 0; n < parts.size(); ++n)
+    if (parts[n].all_solids() > 0) add_bed_part(grid, parts[n], extents[n], solids);
 }
 
 /// One layer of the block's cells; nothing if the block has none of it.
@@ -116,13 +149,13 @@ void fill_layer(const core::Grid& grid, int y, double value, core::Field& field)
 
 }  // namespace
 
-void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress, fluid::Interphase& solids) {
+void fill_bed(const core::Scene& scene, const Constants& constants, const StressEffect* stress,
+              fluid::Interphase& solids) {
+  const core::Bed& bed = scene.bed;
   const core::Grid& grid = constants.grid;
-  const double total = solids_height(bed), height = grid.spacing[1] * grid.column_cells(1);
-  if (total > bed.start_solids_fraction * height * (1 + 1e-12))
-    throw core::StartError(
-        fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size",
-                    total / bed.start_solids_fraction, height));
+  if (bed.start.kind == core::StartKind::layered) return fill_parts(scene, grid, solids);
+  const double total = solids_height(bed);
+  require_room(total / bed.start_solids_fraction, grid);
   std::vector<double> column;
   if (bed.start.kind == core::StartKind::settled) {
     if (stress == nullptr)
@@ -137,18 +170,10 @@ void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffe
   }
   const bool uneven = bed.start.kind == core::StartKind::mixed && bed.perturbation > 0 &&
                       grid.column_cells(0) * grid.column_cells(2) > 1;
-  const bool is_layered = bed.start.kind == core::StartKind::layered;
-  double below = 0;  // solids volume per area under the cell, m
   for (int y = 0; y < grid.column_cells(1); ++y) {
-    const double here = column[std::size_t(y)] * grid.spacing[1];
-    const std::vector<double> layered =
-        is_layered ? layered_volume(bed, constants.species(), total, below, below + here) : std::vector<double>();
-    for (std::size_t j = 0; j < constants.species(); ++j) {
-      const double phi = is_layered ? layered[j] / grid.spacing[1] : bed.volume_share[j] * column[std::size_t(y)];
-      fill_layer(grid, y - grid.before[1], phi, solids.fraction[j]);
-    }
+    for (std::size_t j = 0; j < constants.species(); ++j)
+      fill_layer(grid, y - grid.before[1], bed.volume_share[j] * column[std::size_t(y)], solids.fraction[j]);
     if (uneven) perturb_layer(grid, y, bed.perturbation, bed.seed, solids);
-    below += here;
   }
 }
 

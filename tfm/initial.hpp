@@ -10,8 +10,9 @@ namespace polybed::tfm {
 [[nodiscard]] double solids_height(const core::Bed& bed);
 
 /// Fills the solids fractions of all owned cells as the bed says: `mixed` (one composition), `layered`
-/// (bottom first), `settled` (one composition, held up by the solids pressure cell by cell). All velocities
+/// (core::start_parts), `settled` (one composition, held up by the solids pressure cell by cell). All velocities
 /// and the pressure are left at zero. Throws core::CaseError if the column is too low for the bed.
-void fill_bed(const core::Bed& bed, const Constants& constants, const StressEffect* stress, fluid::Interphase& solids);
+void fill_bed(const core::Scene& scene, const Constants& constants, const StressEffect* stress,
+              fluid::Interphase& solids);
 
 }  // namespace polybed::tfm

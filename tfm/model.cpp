@@ -89,7 +89,7 @@ Model::~Model() = default;
 void Model::fill_state(const core::Scene& scene) {
   const core::Grid& grid = constants().grid;
   Fields& fields = equations_.fields();
-  fill_bed(scene.bed, constants(), effects().solids_stress.get(), fields.solids);
+  fill_bed(scene, constants(), effects().solids_stress.get(), fields.solids);
   constants().openings.set_velocities(fields.solids);
   core::for_each_row(grid, core::owned_faces(grid, 1), [&](Index begin, Index end) {
     std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inlet().mean_velocity(0));

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "closures/stress_frictional.hpp"
+#include "core/case/layers.hpp"
 #include "core/error.hpp"
 #include "fluid/inlet.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -81,26 +82,18 @@ Broken bed_too_light(const Scene& scene) {
 
 /// A run stops where solids lie above the maximum packing by as much.
 Broken start_above_packing(const Scene& scene) {
-  const double start = scene.bed.start_solids_fraction;
-  if (has_rule(scene, core::PackingRule::automatic) || !has_shares(scene)) return {};
-  Broken broken;
-  const auto judge = [&](const std::vector<double>& share) {
-    const std::optional<double> most = packing_of(scene, share);
-    if (broken || !most || start - *most <= most_above_packing) return;
-    broken.add({packing_text(scene, *most), fmt::format("{:.4g}", start), fmt::format("{:g}", most_above_packing)});
-  };
-  if (scene.bed.start.kind != core::StartKind::layered || mixture_rule(scene) == nullptr) {
-    judge(scene.bed.volume_share);
-    return broken;
+  const bool held_at_settled = has_rule(scene, core::PackingRule::automatic) && scene.layers.empty();
+  if (held_at_settled || !has_shares(scene)) return {};
+  for (const core::BedPart& part : core::start_parts(scene)) {
+    std::vector<double> share = part.solids;
+    const double sum = part.all_solids(), start = part.solids_fraction;
+    if (!(sum > 0)) continue;
+    for (double& one : share) one /= sum;
+    if (const std::optional<double> most = packing_of(scene, share); most && start - *most > most_above_packing)
+      return Broken(
+          {packing_text(scene, *most), fmt::format("{:.4g}", start), fmt::format("{:g}", most_above_packing)});
   }
-  for (const std::vector<std::size_t>& layer : core::layers_of(scene.bed, scene.species.size())) {
-    std::vector<double> share(scene.species.size(), 0.0);
-    double sum = 0;
-    for (const std::size_t j : layer) sum += scene.bed.volume_share[j];
-    for (const std::size_t j : layer) share[j] = scene.bed.volume_share[j] / sum;
-    if (sum > 0) judge(share);
-  }
-  return broken;
+  return {};
 }
 
 Broken settled_without_stress(const Scene& scene) {
@@ -178,23 +171,23 @@ std::vector<core::Rule> stress_rules() {
 }
 
 std::vector<core::Rule> start_rules() {
-  return {
-      {packing_keys({"tfm.max_packing", "bed.solids_fraction", "bed.start_solids_fraction", "bed.start", "bed.layer"}),
-       "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower "
-       "bed.start_solids_fraction",
-       start_above_packing},
-      {{"bed.start", "effects.solids_stress"},
-       "bed.start = \"settled\" needs effects.solids_stress: nothing else carries a bed of this model",
-       settled_without_stress},
-      {{"bed.start", "bed.volume_share", "bed.particles", "species.density", "fluid."},
-       "bed.start = \"settled\" needs solids heavier than the fluid",
-       settled_and_light},
-      {{"tfm.integrator", "effects.drag", "fluid.equation_of_state"},
-       "tfm.integrator = \"imex\" takes the drag implicitly: it needs {}",
-       split_without_drag},
-      {{"tfm.rtol", "tfm.integrator", "fluid.", "inlet.superficial_velocity", "jet.", "feed.", "column.closed"},
-       "tfm.rtol = {} with the implicit integrator: {}",
-       implicit_tolerance}};
+  return {{packing_keys({"tfm.max_packing", "bed.solids_fraction", "bed.start_solids_fraction", "bed.start",
+                         "bed.layer", "layer."}),
+           "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower "
+           "bed.start_solids_fraction",
+           start_above_packing},
+          {{"bed.start", "effects.solids_stress"},
+           "bed.start = \"settled\" needs effects.solids_stress: nothing else carries a bed of this model",
+           settled_without_stress},
+          {{"bed.start", "bed.volume_share", "bed.particles", "species.density", "fluid."},
+           "bed.start = \"settled\" needs solids heavier than the fluid",
+           settled_and_light},
+          {{"tfm.integrator", "effects.drag", "fluid.equation_of_state"},
+           "tfm.integrator = \"imex\" takes the drag implicitly: it needs {}",
+           split_without_drag},
+          {{"tfm.rtol", "tfm.integrator", "fluid.", "inlet.superficial_velocity", "jet.", "feed.", "column.closed"},
+           "tfm.rtol = {} with the implicit integrator: {}",
+           implicit_tolerance}};
 }
 
 }  // namespace polybed::tfm

@@ -76,6 +76,72 @@ TEST(Initial, SizeClassesOfASpeciesAreOneLayer) {
     EXPECT_NEAR(volume[j], scene.bed.volume_share[j] * 0.04 * 0.62, 1e-15);  // of 0.4 of 0.1 m at 0.62
 }
 
+/// A bed whose layers are these.
+core::Scene bed_of_layers(std::vector<core::Layer> layers) {
+  core::Scene scene = uneven_bed(0);
+  scene.layers = std::move(layers);
+  scene.bed.start = {core::StartKind::layered};
+  return scene;
+}
+
+/// Volume of each species, m3.
+std::vector<double> volumes_of(const core::Grid& grid, const std::vector<core::Field>& phi) {
+  std::vector<double> volume(phi.size(), 0.0);
+  for (int z = 0; z < grid.cells[2]; ++z)
+    for (int y = 0; y < grid.cells[1]; ++y)
+      for (int x = 0; x < grid.cells[0]; ++x)
+        for (std::size_t j = 0; j < phi.size(); ++j) volume[j] += phi[j][std::size_t(grid.index(x, y, z))];
+  for (double& one : volume) one *= grid.spacing[0] * grid.spacing[1] * grid.spacing[2];
+  return volume;
+}
+
+// A dam over 12.5 of 30 mm, in cells of 5 mm: 22 mm of the first species at 0.6, on it 13 mm of one part of the first
+// to three of the second at 0.5.
+TEST(Initial, CellsThatALayerCutsGetTheirShareByVolume) {
+  core::Scene scene =
+      bed_of_layers({{"", {1, 0}, 0.022, 0.6, {0}, {0.0125}}, {"", {0.25, 0.75}, 0.013, 0.5, {0}, {0.0125}}});
+  core::Timers timers;
+  Model model(scene, timers);
+  model.show(0);
+  const auto& phi = model.fields().solids.fraction;
+  const core::Grid& grid = model.constants().grid;
+  const auto at = [&](std::size_t j, int x, int y) { return phi[j][std::size_t(grid.index(x, y))]; };
+  EXPECT_NEAR(at(0, 0, 0), 0.6, 1e-15);
+  EXPECT_NEAR(at(0, 2, 0), 0.5 * 0.6, 1e-15);
+  EXPECT_EQ(at(0, 3, 0), 0);
+  EXPECT_NEAR(at(0, 1, 4), 0.4 * 0.6 + 0.6 * 0.5 * 0.25, 1e-14);  // round-off of the layer's edges in cells
+  EXPECT_NEAR(at(1, 1, 4), 0.6 * 0.5 * 0.75, 1e-14);
+  EXPECT_NEAR(at(1, 1, 7), 0, 1e-14);
+  scene.bed.start_fraction = 0.45;
+  Model looser(scene, timers);
+  looser.show(0);
+  const double wide = 0.0125 * grid.spacing[2], lower = 0.022 * 0.6 * wide, upper = 0.013 * 0.5 * wide;
+  for (Model* one : {&model, &looser}) {
+    const std::vector<double> volume = volumes_of(grid, one->fields().solids.fraction);
+    EXPECT_NEAR(volume[0], lower + 0.25 * upper, 1e-14 * lower);  // round-off of 20 cells
+    EXPECT_NEAR(volume[1], 0.75 * upper, 1e-14 * upper);
+  }
+  EXPECT_NEAR(looser.fields().solids.fraction[0][std::size_t(grid.index(0, 4))], 0.45, 1e-15);
+}
+
+TEST(Initial, LayersLieSideBySideInThreeDimensions) {
+  core::Scene scene = bed_of_layers(
+      {{"", {1, 0}, 0.02, 0.6, {0, 0}, {0.01, 0.02}}, {"", {0, 1}, 0.03, 0.55, {0.01, 0.005}, {0.03, 0.02}}});
+  scene.column.dimensions = 3;
+  scene.column.size[2] = 0.02;
+  scene.column.cells[2] = 4;
+  core::Timers timers;
+  Model model(scene, timers);
+  model.show(0);
+  const auto& phi = model.fields().solids.fraction;
+  const core::Grid& grid = model.constants().grid;
+  const std::vector<double> volume = volumes_of(grid, phi);
+  EXPECT_NEAR(volume[0], 0.6 * 0.02 * 0.01 * 0.02, 1e-14 * volume[0]);
+  EXPECT_NEAR(volume[1], 0.55 * 0.03 * 0.02 * 0.015, 1e-14 * volume[1]);
+  EXPECT_NEAR(phi[1][std::size_t(grid.index(2, 0, 1))], 0.55, 1e-15);
+  EXPECT_NEAR(phi[1][std::size_t(grid.index(2, 0, 0))], 0, 1e-15);
+}
+
 TEST(Evenness, WarnsOfABedThatIsOneColumnOfCells) {
   core::Timers timers;
   Model even(uneven_bed(0), timers), uneven(uneven_bed(1e-3), timers);
