@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "closures/sphere.hpp"
+#include "core/case/layers.hpp"
 #include "core/case/particle_list.hpp"
 #include "core/error.hpp"
 #include "core/numerics/random.hpp"
@@ -45,15 +45,11 @@ std::vector<Particle> listed(const core::Scene& scene, const Materials& material
   return particles;
 }
 
-/// Heights between which species may lie, m.
-struct Layer {
-  double low, high;
+/// Particles that are mixed with each other at the start: how many of each species, and where.
+struct Group {
+  std::vector<std::int64_t> numbers;
+  Region region;
 };
-
-/// Solids fraction that the particles are placed at.
-double start_fraction(const core::Scene& scene) {
-  return scene.bed.start_solids_fraction > 0 ? std::min(loose, scene.bed.start_solids_fraction) : loose;
-}
 
 /// Height above which the particles are placed, m: the top of the walls inside.
 double floor_of(const core::Scene& scene) {
@@ -62,34 +58,56 @@ double floor_of(const core::Scene& scene) {
   return top;
 }
 
-/// Height of each species by itself, at the solids fraction of the start, m.
-std::vector<double> heights(const core::Scene& scene, const Materials& materials, const Box& box,
-                            const std::vector<std::int64_t>& numbers) {
-  const double area = box.size[0] * box.size[2];
-  std::vector<double> height;
+/// Of each species in a part of the bed.
+std::vector<std::int64_t> numbers_in(const core::BedPart& part, const Materials& materials, const Box& box) {
+  const double area = part.area() * box.size[0] * box.size[2];
+  std::vector<std::int64_t> numbers;
+  for (std::size_t j = 0; j < part.solids.size(); ++j)
+    numbers.push_back(std::llround(part.solids[j] * area / closures::sphere_volume(materials.species()[j].radius)));
+  return numbers;
+}
+
+/// Solids fraction that the particles of a part are placed at.
+double start_fraction(const core::BedPart& part) {
+  return part.solids_fraction > 0 ? std::min(loose, part.solids_fraction) : loose;
+}
+
+/// Height that particles fill over a part's area at the solids fraction of the start, m.
+double height_of(const std::vector<std::int64_t>& numbers, const core::BedPart& part, const Materials& materials,
+                 const Box& box) {
+  const double area = box.size[0] * box.size[2] * part.area();
+  double height = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j)
-    height.push_back(double(numbers[j]) * closures::sphere_volume(materials.species()[j].radius) /
-                     (area * start_fraction(scene)));
+    height +=
+        double(numbers[j]) * closures::sphere_volume(materials.species()[j].radius) / (area * start_fraction(part));
   return height;
 }
 
-/// Layers of a bed, each as high as the volume of its species needs; or one for all of them.
-std::vector<Layer> layers(const core::Scene& scene, const Materials& materials, const Box& box,
-                          const std::vector<std::int64_t>& numbers) {
-  const std::vector<double> height = heights(scene, materials, box, numbers);
-  double sum = std::accumulate(height.begin(), height.end(), 0.0);
-  if (scene.bed.start.kind == core::StartKind::random) sum = box.size[1];
-  const double floor = floor_of(scene);
-  std::vector<Layer> layers(numbers.size(), {floor, floor + sum});
-  if (scene.bed.start.kind != core::StartKind::layered) return layers;
-  double low = floor;
-  for (const std::vector<std::size_t>& members : core::layers_of(scene.bed, numbers.size())) {
-    double high = low;
-    for (const std::size_t j : members) high += height[j];
-    for (const std::size_t j : members) layers[j] = {low, high};
-    low = high;
+/// The groups of a bed, each as high as the volume of its particles needs; at random: in all of the box.
+std::vector<Group> groups_of(const core::Scene& scene, const Materials& materials, const Box& box) {
+  const std::vector<core::BedPart> parts = core::start_parts(scene);
+  std::vector<Group> groups;
+  std::vector<double> height;
+  for (const core::BedPart& part : parts) {
+    groups.push_back({numbers_in(part, materials, box), {}});
+    const bool anywhere = scene.bed.start.kind == core::StartKind::random;
+    height.push_back(anywhere ? box.size[1] : height_of(groups.back().numbers, part, materials, box));
   }
-  return layers;
+  const std::vector<core::Extent> extents = core::stacked(parts, height);
+  const double floor = floor_of(scene);
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    const core::BedPart& part = parts[n];
+    groups[n].region = {{part.from[0] * box.size[0], floor + extents[n].low, part.from[1] * box.size[2]},
+                        {part.to[0] * box.size[0], floor + extents[n].high, part.to[1] * box.size[2]}};
+  }
+  return groups;
+}
+
+/// Of the groups, m.
+double top_of(const std::vector<Group>& groups) {
+  double top = 0;
+  for (const Group& group : groups) top = std::max(top, group.region.high[1]);
+  return top;
 }
 
 /// Velocities of a granular temperature, without net momentum.
@@ -117,38 +135,60 @@ void shear(std::vector<Particle>& particles, double rate) {
   }
 }
 
-/// Returns what push_apart() does. \param layer  of each species
-double place_without_overlap(std::vector<Particle>& particles, const std::vector<Layer>& layer, const Box& box,
-                             const Materials& materials, std::uint64_t seed) {
+/// Returns what push_apart() does. \param group  of each particle
+double place_without_overlap(std::vector<Particle>& particles, const std::vector<std::int32_t>& group,
+                             const std::vector<Group>& groups, const Box& box, const Materials& materials,
+                             std::uint64_t seed) {
   if (particles.empty()) return 0;
   std::vector<Region> region;
-  double volume = 0, top = 0, bottom = box.size[1];
-  std::map<std::pair<double, double>, std::vector<Particle*>> together;
-  for (Particle& p : particles) {
-    const Layer& own = layer[std::size_t(p.species)];
-    region.push_back({{0, own.low, 0}, {box.size[0], own.high, box.size[2]}});
-    together[{own.low, own.high}].push_back(&p);
-    volume += closures::sphere_volume(p.place.radius);
-    top = std::max(top, own.high);
-    bottom = std::min(bottom, own.low);
+  std::vector<std::vector<Particle*>> together(groups.size());
+  double volume = 0, room = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const auto n = std::size_t(group[i]);
+    region.push_back(groups[n].region);
+    together[n].push_back(&particles[i]);
+    volume += closures::sphere_volume(particles[i].place.radius);
   }
-  for (auto& [heights, group] : together) spread(group, region[std::size_t(group.front()->id)], seed);
+  for (std::size_t n = 0; n < groups.size(); ++n) {
+    if (together[n].empty()) continue;
+    const auto& [low, high] = groups[n].region;
+    room += (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]);
+    spread(together[n], groups[n].region, seed);
+  }
   HardSpheres spheres(particles, region, box, materials);
   if (const double overlap = push_apart(spheres, gap * materials.least_diameter()); overlap > 0) return overlap;
-  equilibrate(spheres, materials.least_diameter(), volume / (box.size[0] * (top - bottom) * box.size[2]), seed);
+  equilibrate(spheres, materials.least_diameter(), volume / room, seed);
   spheres.give_back(particles);
   return 0;
+}
+
+/// Why the particles of a group have no room in it; empty if they have.
+std::string no_room_in(const Group& group, const Materials& materials, const Box& box) {
+  const auto& [low, high] = group.region;
+  for (std::size_t j = 0; j < group.numbers.size(); ++j) {
+    const double diameter = 2 * materials.species()[j].radius;
+    if (group.numbers[j] == 0) continue;
+    if (const double room = high[1] - low[1]; room < diameter && !box.periodic[1])
+      return fmt::format(
+          "their bed is {:.4g} m high, less than a particle, {:.4g} m: take more of them, or a smaller "
+          "bed.start_solids_fraction",
+          room, diameter);
+    for (const std::size_t k : {0, 2})
+      if (const double room = high[k] - low[k]; room < box.size[k] && room < diameter)
+        return fmt::format("a layer is {:.4g} m {}, less than a particle, {:.4g} m: move layer.from and layer.to apart",
+                           room, k == 0 ? "wide" : "deep", diameter);
+  }
+  return "";
 }
 
 }  // namespace
 
 std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Materials& materials, const Box& box) {
-  if (!scene.bed.particles.empty()) return scene.bed.particles;
-  const double solids = scene.bed.static_height * box.size[0] * box.size[2] * scene.bed.solids_fraction;
-  std::vector<std::int64_t> numbers;
-  for (std::size_t j = 0; j < materials.species().size(); ++j)
-    numbers.push_back(
-        std::llround(scene.bed.volume_share[j] * solids / closures::sphere_volume(materials.species()[j].radius)));
+  std::vector<std::int64_t> numbers(materials.species().size(), 0);
+  for (const core::BedPart& part : core::start_parts(scene)) {
+    const std::vector<std::int64_t> here = numbers_in(part, materials, box);
+    for (std::size_t j = 0; j < numbers.size(); ++j) numbers[j] += here[j];
+  }
   return numbers;
 }
 
@@ -156,43 +196,41 @@ double start_height(const core::Scene& scene, const Materials& materials, const 
   const core::StartKind start = scene.bed.start.kind;
   if (start != core::StartKind::mixed && start != core::StartKind::layered && start != core::StartKind::settled)
     return box.size[1];
-  const std::vector<double> height = heights(scene, materials, box, particle_numbers(scene, materials, box));
-  return std::min(box.size[1], floor_of(scene) + std::accumulate(height.begin(), height.end(), 0.0));
+  return std::min(box.size[1], top_of(groups_of(scene, materials, box)));
 }
 
 std::string no_room_for(const core::Scene& scene, const Materials& materials, const Box& box) {
   if (scene.bed.start.kind == core::StartKind::list) return "";
-  const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);
-  const std::vector<Layer> layer = layers(scene, materials, box, numbers);
-  double top = 0;
-  for (const Layer& one : layer) top = std::max(top, one.high);
-  const double floor = floor_of(scene);
+  const std::vector<Group> groups = groups_of(scene, materials, box);
+  const double top = top_of(groups), floor = floor_of(scene);
   if (top > box.size[1])
     return fmt::format(
         "they fill {:.4g} m of the column's height at a solids fraction of {:.3g}, which is more than it has{}, "
         "{:.4g} m: enlarge column.size",
-        top - floor, start_fraction(scene), floor > 0 ? " above the top of [[wall]]" : "", box.size[1] - floor);
-  for (std::size_t j = 0; j < layer.size() && !box.periodic[1]; ++j)
-    if (const double room = layer[j].high - layer[j].low, diameter = 2 * materials.species()[j].radius;
-        numbers[j] > 0 && room < diameter)
-      return fmt::format(
-          "their bed is {:.4g} m high, less than a particle, {:.4g} m: take more of them, or a smaller "
-          "bed.start_solids_fraction",
-          room, diameter);
+        top - floor, start_fraction(core::start_parts(scene).front()), floor > 0 ? " above the top of [[wall]]" : "",
+        box.size[1] - floor);
+  for (const Group& group : groups)
+    if (std::string wrong = no_room_in(group, materials, box); !wrong.empty()) return wrong;
   return "";
 }
 
 std::vector<Particle> start_particles(const core::Scene& scene, const Materials& materials, const Box& box) {
   if (scene.bed.start.kind == core::StartKind::list) return listed(scene, materials);
-  const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);
-  const std::vector<Layer> layer = layers(scene, materials, box, numbers);
+  const std::vector<Group> groups = groups_of(scene, materials, box);
   const std::uint64_t seed = scene.bed.seed;
   std::vector<Particle> particles;
-  particles.reserve(std::size_t(std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0))));
-  for (std::size_t j = 0; j < numbers.size(); ++j)
-    for (std::int64_t n = 0; n < numbers[j]; ++n)
-      particles.push_back(particle(materials, std::int32_t(j), std::int64_t(particles.size())));
-  if (const double overlap = place_without_overlap(particles, layer, box, materials, seed); overlap > 0)
+  std::vector<std::int32_t> group;
+  std::int64_t count = 0;
+  for (const Group& one : groups) count = std::accumulate(one.numbers.begin(), one.numbers.end(), count);
+  particles.reserve(std::size_t(count));
+  group.reserve(std::size_t(count));
+  for (std::size_t j = 0; j < materials.species().size(); ++j)
+    for (std::size_t n = 0; n < groups.size(); ++n)
+      for (std::int64_t k = 0; k < groups[n].numbers[j]; ++k) {
+        particles.push_back(particle(materials, std::int32_t(j), std::int64_t(particles.size())));
+        group.push_back(std::int32_t(n));
+      }
+  if (const double overlap = place_without_overlap(particles, group, groups, box, materials, seed); overlap > 0)
     throw core::StartError(std::vector{scene.places.problem(
         {"bed.start_solids_fraction", "bed.solids_fraction", "column.size"},
         fmt::format("bed: the particles do not fit: some still overlap by {:.2g} of their radius; give the bed more "

@@ -13,15 +13,6 @@ std::string text_of(const Start& start) {
   return std::string(word.substr(0, word.find("FILE"))) + start.file;
 }
 
-std::vector<std::vector<std::size_t>> layers_of(const Bed& bed, std::size_t species) {
-  std::map<std::int64_t, std::vector<std::size_t>> layers;
-  for (std::size_t j = 0; j < species; ++j)
-    layers[bed.layer.size() == species ? bed.layer[j] : std::int64_t(j)].push_back(j);
-  std::vector<std::vector<std::size_t>> from_below;
-  for (auto& [number, members] : layers) from_below.push_back(std::move(members));
-  return from_below;
-}
-
 bool is_off(const std::string& law) { return law == "none"; }
 
 bool is_law(const std::string& law) { return !is_off(law) && law != automatic; }

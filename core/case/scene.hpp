@@ -103,9 +103,6 @@ struct Bed {
   bool held = false;           ///< particles do not move: a fixed bed; key of [dem]
 };
 
-/// The species of each layer of a bed that starts layered, from the bottom.
-[[nodiscard]] std::vector<std::vector<std::size_t>> layers_of(const Bed& bed, std::size_t species);
-
 /// A part of the bed at its start. It lies on those before it.
 struct Layer {
   std::string species;                    ///< its only one; resolved to volume_share

@@ -220,6 +220,67 @@ TEST(Packing, MixesTheSpeciesOfALayer) {
   EXPECT_GT(lowest[2], border);
 }
 
+// A dam of 1 mm beads over 12 of 30 mm, 15 mm high and settled at 0.6, with a layer of both sizes on it, and 2 mm beads
+// on the right. Numbers follow from the volumes; beads keep to their own boxes, which are as high as 0.45 makes them.
+TEST(Packing, KeepsToLayersSideBySide) {
+  core::Scene scene = box_of_spheres({{1e-3, 1}, {2e-3, 1}}, 0.5);
+  scene.bed.particles.clear();
+  scene.column.size = {0.03, 0.05, 0.012};
+  scene.column.sides = scene.column.ends = core::Boundary::wall;
+  scene.bed.start = {core::StartKind::layered};
+  scene.bed.start_fraction = 0.45;
+  scene.layers = {{"", {1, 0}, 0.015, 0.6, {0, 0}, {0.012, 0.012}},
+                  {"", {0.5, 0.5}, 0.008, 0.5, {0, 0}, {0.012, 0.012}},
+                  {"", {0, 1}, 0.01, 0.6, {0.018, 0}, {0.03, 0.012}}};
+  const auto number = [](double volume, double diameter) {
+    return std::llround(volume / closures::sphere_volume(0.5 * diameter));
+  };
+  const double area = 0.012 * 0.012;
+  const std::int64_t below = number(0.6 * 0.015 * area, 1e-3), above = number(0.25 * 0.008 * area, 1e-3),
+                     coarse = number(0.25 * 0.008 * area, 2e-3), right = number(0.6 * 0.01 * area, 2e-3);
+  const Box box = box_of(scene);
+  EXPECT_EQ(no_room_for(scene, Materials(scene), box), "");
+  EXPECT_EQ(particle_numbers(scene, Materials(scene), box), (std::vector<std::int64_t>{below + above, coarse + right}));
+  const std::vector<Particle> particles = placed(scene);
+  ASSERT_EQ(std::int64_t(particles.size()), below + above + coarse + right);
+  EXPECT_GT(least_distance(particles, box), 1 - 1e-3);
+  const double border = double(below) * closures::sphere_volume(0.5e-3) / (0.45 * area);
+  std::array<std::int64_t, 3> found{};  // below and above on the left, right
+  for (const Particle& p : particles) {
+    const bool left = p.place.x[0] < 0.015;
+    EXPECT_GE(p.place.x[1], p.place.radius);
+    if (!left) {
+      EXPECT_EQ(p.species, 1);
+      EXPECT_GE(p.place.x[0], 0.018 + p.place.radius);
+      ++found[2];
+      continue;
+    }
+    EXPECT_LE(p.place.x[0], 0.012 - p.place.radius);
+    const bool high = p.place.x[1] > border;
+    ++found[high ? 1 : 0];
+    if (!high) {
+      EXPECT_EQ(p.species, 0);
+      EXPECT_LE(p.place.x[1], border - p.place.radius);
+    } else {
+      EXPECT_GE(p.place.x[1], border + p.place.radius);
+    }
+  }
+  EXPECT_EQ(found, (std::array<std::int64_t, 3>{below, above + coarse, right}));
+  EXPECT_NEAR(start_height(scene, Materials(scene), box), border + 0.008 * 0.5 / 0.45,
+              0.008 * 0.02);  // whole numbers of beads
+}
+
+TEST(Packing, ALayerNarrowerThanAParticleIsRefused) {
+  core::Scene scene = box_of_spheres({{2e-3, 1}}, 0.5);
+  scene.bed.particles.clear();
+  scene.column.size = {0.03, 0.5, 0.012};
+  scene.column.sides = scene.column.ends = core::Boundary::wall;
+  scene.bed.start = {core::StartKind::layered};
+  scene.layers = {{"", {1}, 0.015, 0.6, {0.01, 0}, {0.0115, 0.012}}};
+  EXPECT_EQ(no_room_for(scene, Materials(scene), box_of(scene)),
+            "a layer is 0.0015 m wide, less than a particle, 0.002 m: move layer.from and layer.to apart");
+}
+
 // Boxes of calibrations are this dense; overlaps of a thousandth of a radius are left there.
 TEST(Packing, ReachesTheDensestBoxes) {
   const core::Scene scene = box_of_spheres({{1e-3, 1000}}, 0.61);
