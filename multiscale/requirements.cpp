@@ -29,13 +29,17 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   column.size[axis] *= share;
   if (axis == 1) {
     scene.bed.static_height *= share;
+    for (core::Layer& layer : scene.layers) layer.height *= share;
     return;
   }
   const std::size_t direction = axis == 0 ? 0 : 1;
-  for (core::Jet& jet : scene.jets) {
-    jet.from[direction] *= share;
-    jet.to[direction] *= share;
-  }
+  const auto draw = [&](auto& part) {
+    if (part.from.size() <= direction) return;  // all across
+    part.from[direction] *= share;
+    part.to[direction] *= share;
+  };
+  for (core::Jet& jet : scene.jets) draw(jet);
+  for (core::Layer& layer : scene.layers) draw(layer);
 }
 
 int fewer(int cells, double share, int least) {

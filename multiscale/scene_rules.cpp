@@ -23,13 +23,21 @@
 
 namespace polybed::multiscale {
 
-double packing_of_sizes(const core::Scene& scene, double of_one_size) {
+namespace {
+
+double packing_of_shares(const core::Scene& scene, const std::vector<double>& share, double of_one_size) {
   std::vector<double> diameter, packing;
   for (const core::Species& species : scene.species) {
     diameter.push_back(species.diameter);
     packing.push_back(std::max(of_one_size, species.max_packing));
   }
-  return closures::packing_yu_standish(scene.bed.volume_share, diameter, packing);
+  return closures::packing_yu_standish(share, diameter, packing);
+}
+
+}  // namespace
+
+double packing_of_sizes(const core::Scene& scene, double of_one_size) {
+  return packing_of_shares(scene, scene.bed.volume_share, of_one_size);
 }
 
 namespace {
@@ -81,6 +89,17 @@ Broken denser_than_spheres_pack(const core::Scene& scene) {
   return Broken({fmt::format("{}", scene.bed.solids_fraction), fmt::format("{:.3g}", densest)});
 }
 
+Broken layers_denser_than_spheres_pack(const core::Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.layers.size(); ++n) {
+    const core::Layer& layer = scene.layers[n];
+    const double fraction = layer.solids_fraction.value_or(0);
+    const double densest = packing_of_shares(scene, layer.volume_share, closures::crystal_packing);
+    if (fraction > densest) broken.add({fmt::format("{}", fraction), fmt::format("{:.3g}", densest)}, n);
+  }
+  return broken;
+}
+
 Broken more_than_the_column_takes(const core::Scene& scene) {
   if (!shares_are_known(scene) || scene.bed.start.kind != core::StartKind::random) return {};
   const double densest = densest_packing(scene), share = share_of_column(scene);
@@ -103,6 +122,10 @@ std::vector<core::Rule> scene_rules_of_both() {
            "bed.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they "
            "settle",
            denser_than_spheres_pack},
+          {{"layer.solids_fraction", "bed.solids_fraction", "layer.", "species.", "bed.volume_share", "bed.start"},
+           "layer.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they "
+           "settle",
+           layers_denser_than_spheres_pack},
           {{"bed.start", "species.diameter", "bed.volume_share", "bed.particles", "column.", "dem.skin",
             "bed.static_height", "bed.solids_fraction"},
            "bed.start = \"random\": the particles would fill {} of the column, spheres of these sizes fill at most {}: "

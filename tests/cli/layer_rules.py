@@ -24,4 +24,6 @@ LAYERS = {
     "a layer from {} to {} m does not lie in the column, 0 to {} m": [*COUNTED, layers(FINE + ", from=[0.02], to=[0.07]")],
     "[[layer]] number {} does not lie level: only {} % of it lies on layers up to {} m high; give a [[layer]] for each part": [
         *COUNTED, layers(FINE + ", from=[0], to=[0.03]", FINE)],
+    "layer.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they settle": [
+        *COUNTED, layers(FINE + ", solids_fraction=0.85")],
 }

@@ -14,12 +14,15 @@ using testing::HasSubstr;
 TEST(NarrowPart, KeepsTheCellsAndTheBedAndNarrowsTheSides) {
   core::Scene scene = scenes::binary_bed(400, 300, 0.8, 0.6);
   scene.jets = {{{0.2}, {0.4}, {{0.0, 0.1}}}};
+  scene.layers = {{"", {1, 0}, 0.1, 0.6, {}, {}}, {"", {0, 1}, 0.1, 0.6, {0.4}, {0.8}}};
   const core::Scene part = narrow_part(scene, 12000);
   EXPECT_EQ(part.column.cells[0], 40);
   EXPECT_EQ(part.column.cells[1], 300);
   EXPECT_NEAR(part.column.size[0], 0.08, 1e-15);  // rounding
   EXPECT_EQ(part.bed.static_height, scene.bed.static_height);
   EXPECT_NEAR(part.jets[0].to[0], 0.04, 1e-15);
+  EXPECT_NEAR(part.layers[1].from[0], 0.04, 1e-15);
+  EXPECT_EQ(part.layers[1].height, 0.1);
   EXPECT_EQ(narrow_part(scene, 200000).column.cells, scene.column.cells) << "what is small stays";
 }
 
@@ -29,9 +32,11 @@ TEST(NarrowPart, IsSmallInThreeDimensionsAndForAbsurdHeights) {
   scene.column.cells[2] = 100;
   EXPECT_LE(narrow_part(scene, 12000).column.cells[0] * narrow_part(scene, 12000).column.cells[2], 48);
   core::Scene tower = scenes::binary_bed(10, 1000000, 0.01, 1000);
+  tower.layers = {{"", {0.569, 0.431}, tower.bed.static_height, 0.62, {}, {}}};
   const core::Scene part = narrow_part(tower, 12000);
   EXPECT_LE(part.column.cells[0] * part.column.cells[1], 12000);
   EXPECT_NEAR(part.bed.static_height / part.column.size[1], 0.4, 1e-12);  // rounding
+  EXPECT_EQ(part.layers[0].height, part.bed.static_height);
 }
 
 TEST(Requirements, GrowWithTheCase) {
