@@ -31,7 +31,7 @@ FORCES = ["--set", 'effects.lift="saffman_mei"', "--set", 'effects.added_mass="z
 
 
 def case_without(key):
-    """The shipped case without one of its keys."""
+    """The shipped case without one of its keys, or several in a tuple."""
     return "".join(line for line in CASE.read_text().splitlines(keepends=True) if not line.startswith(key))
 
 
@@ -94,6 +94,13 @@ class Ranks(Scratch):
 
     def test_a_deep_bed_with_joined_sides_is_the_same(self):
         self.check_equal(*DEEP, *FIXED, case=self.write("deep.toml", case_without("depth")))
+
+    def test_a_dam_in_layers_is_the_same(self):
+        """Its faces lie inside cells, and cuts between ranks inside the dam."""
+        dam = "from=[0], to=[0.027]"
+        layers = f'layer=[{{species="fine", height=0.071, {dam}}}, {{volume_share=[0.5, 0.5], height=0.034, solids_fraction=0.58, {dam}}}]'
+        self.check_equal(*FLAT, *FIXED, "--set", layers, "--set", "bed.start_solids_fraction=0.5",
+                         case=self.write("dam.toml", case_without(("volume_share", "static_height", "start"))))
 
     def test_every_stress_is_the_same(self):
         effects = {"solids_stress": "kinetic", "granular_temperature": "transported", "solids_viscosity": "schaeffer",
