@@ -85,6 +85,7 @@ struct Box {
   std::vector<Joint> joints;       ///< of the plates
   std::optional<Opening> opening;  ///< in the bottom; absent: it is whole
   double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
+  double strain_before = 0;        ///< that it has undergone before time 0
 
   /// Whether all its walls are whole faces.
   [[nodiscard]] bool plain() const { return !opening && plates.empty(); }
@@ -100,7 +101,7 @@ struct Box {
 
   /// What is added to x and v_x of the image of a particle one box up, at a time, m and m/s. The first within +-L/2.
   [[nodiscard]] double image_shift(double time) const {
-    const double shift = std::fmod(shear_rate * size[1] * time, size[0]);
+    const double shift = std::fmod(shear_rate * size[1] * time + strain_before * size[1], size[0]);
     return shift > 0.5 * size[0] ? shift - size[0] : (shift < -0.5 * size[0] ? shift + size[0] : shift);
   }
   [[nodiscard]] double image_speed() const { return shear_rate * size[1]; }

@@ -151,16 +151,20 @@ void write_clock(const Clock& clock, core::Checkpoint& checkpoint) {
   checkpoint.numbers["step_began_at"] = clock.began_at;
   checkpoint.numbers["step_speed"] = clock.speed;
   checkpoint.numbers["greatest_speed_met"] = clock.greatest_met;
+  checkpoint.numbers["strain"] = clock.strain;
+  checkpoint.numbers["strain_before"] = clock.strain_before;
 }
 
-Clock read_clock(const core::Checkpoint& checkpoint, double speed) {
+Clock read_clock(const core::Checkpoint& checkpoint, double speed, double shear_rate) {
   return {double(checkpoint.count("steps")),
           checkpoint.number("dt"),
           checkpoint.time("time"),
           number_of(checkpoint, "step_began", 0),
           number_of(checkpoint, "step_began_at", 0),
           number_of(checkpoint, "step_speed", speed),
-          number_of(checkpoint, "greatest_speed_met", 0)};
+          number_of(checkpoint, "greatest_speed_met", 0),
+          number_of(checkpoint, "strain", shear_rate * checkpoint.time("time")),
+          number_of(checkpoint, "strain_before", 0)};
 }
 
 void require_clock(const Clock& c) {
@@ -173,7 +177,7 @@ void require_clock(const Clock& c) {
 KeptState read_state(const core::Checkpoint& checkpoint, Clock clock, const KeptShape& shape,
                      const core::Ranks* ranks) {
   std::vector<double> particles, contacts;
-  std::array<double, 9> head{};
+  std::array<double, 11> head{};
   core::on_first(ranks, [&] {
     particles = checkpoint.array("particles");
     contacts = checkpoint.array("contacts");
@@ -187,7 +191,9 @@ KeptState read_state(const core::Checkpoint& checkpoint, Clock clock, const Kept
             clock.began,
             clock.began_at,
             clock.speed,
-            clock.greatest_met};
+            clock.greatest_met,
+            clock.strain,
+            clock.strain_before};
   });
   core::take_from_first(ranks, head);
   particles.resize(std::size_t(head[0]));
@@ -196,7 +202,7 @@ KeptState read_state(const core::Checkpoint& checkpoint, Clock clock, const Kept
   core::take_from_first(ranks, contacts);
   KeptState state{{},
                   read_contacts(contacts, std::size_t(shape.memory_size)),
-                  {head[2], head[3], head[4], head[5], head[6], head[7], head[8]}};
+                  {head[2], head[3], head[4], head[5], head[6], head[7], head[8], head[9], head[10]}};
   state.particles.reserve(particles.size() / particle_width);
   for (std::size_t n = 0; n < particles.size(); n += particle_width)
     state.particles.push_back(read_particle(particles.data() + n, shape.materials));

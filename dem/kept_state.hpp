@@ -24,13 +24,14 @@ namespace polybed::dem {
 
 /// Steps of one length: the number and the time of the last one, and where they began.
 struct Clock {
-  double steps = 0, dt = 0, time = 0;  ///< dt, time: s
-  double began = 0, began_at = 0;      ///< time, s, and number of the first step of this length
-  double speed = 0, greatest_met = 0;  ///< m/s, for which the length was chosen; met so far
+  double steps = 0, dt = 0, time = 0;    ///< dt, time: s
+  double began = 0, began_at = 0;        ///< time, s, and number of the first step of this length
+  double speed = 0, greatest_met = 0;    ///< m/s, for which the length was chosen; met so far
+  double strain = 0, strain_before = 0;  ///< of a sheared box now, and at time 0
 };
 void write_clock(const Clock& clock, core::Checkpoint& checkpoint);
-/// \param speed  where the checkpoint, of an older version, names none
-[[nodiscard]] Clock read_clock(const core::Checkpoint& checkpoint, double speed);
+/// \param speed, shear_rate  where the checkpoint, of an older version, names none
+[[nodiscard]] Clock read_clock(const core::Checkpoint& checkpoint, double speed, double shear_rate);
 /// The time of a run is that of its steps, or of a stop within a step of it; else throws core::FileError.
 void require_clock(const Clock& clock);
 

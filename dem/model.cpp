@@ -66,8 +66,6 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   look_ahead();
 }
 
-Model::~Model() = default;
-
 /// A sheared box has no room for a fluid's motion: there it is the flow.
 void Model::make_parts(const std::vector<Particle>& all) {
   const bool sheared = box_.shear_rate != 0;
@@ -346,20 +344,17 @@ std::vector<core::BlockData> Model::rows() const {
 core::Checkpoint Model::checkpoint_but_rows() const {
   core::Checkpoint checkpoint;
   checkpoint.integers["memory_size"] = pairs_.memory_size;
-  write_clock({double(steps_), limits_.dt, reported_, began_, double(began_at_), limits_.greatest_speed,
-               core::greatest_of_ranks(ranks_.get(), met_)},
-              checkpoint);
+  write_clock(
+      {double(steps_), limits_.dt, reported_, began_, double(began_at_), limits_.greatest_speed,
+       core::greatest_of_ranks(ranks_.get(), met_), box_.strain_before + box_.shear_rate * clock(), box_.strain_before},
+      checkpoint);
   write_sum(checkpoint, ranks_.get(), "dissipated", counted_energy().dissipated);
   for (const KeptPart* part : kept_) part->write(checkpoint, particles_, ranks_.get());
   return checkpoint;
 }
 
-void Model::resume(const core::Checkpoint& checkpoint) { restore(checkpoint, true); }
-
 void Model::start_from(const core::Checkpoint& checkpoint) {
   restore(checkpoint, false);
-  steps_ = marked_at_ = 0;
-  reported_ = 0;
   // Walls and materials need not be those of the checkpoint: what touches, and how hard, is found anew.
   std::fill(particles_.load.begin(), particles_.load.end(), Load{});
   find_forces(0);
@@ -371,10 +366,13 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
 /// On the first rank: what else than particles and contacts has to fit this model.
 Clock Model::checked_clock(const core::Checkpoint& checkpoint, bool same_run) const {
   core::require_numbers(checkpoint);
-  const Clock clock = read_clock(checkpoint, limits_.greatest_speed);
+  const Clock clock = read_clock(checkpoint, limits_.greatest_speed, box_.shear_rate);
   const double dt = step_limits(scene_, materials_, laws_, clock.speed).dt;
   if (checkpoint.integer("memory_size") != pairs_.memory_size || (same_run && clock.dt != dt))
     throw core::FileError("the checkpoint is of another law of contact or another time step");
+  if (box_.shear_rate == 0 && clock.strain != 0)
+    throw core::FileError(
+        "the checkpoint is of a sheared box, whose faces do not meet at rest: give column.shear_rate");
   if (!same_run) return clock;
   require_clock(clock);
   for (const KeptPart* part : kept_) part->require(checkpoint);
@@ -386,9 +384,10 @@ void Model::restore(const core::Checkpoint& checkpoint, bool same_run) {
   core::on_first(ranks_.get(), [&] { first = checked_clock(checkpoint, same_run); });
   KeptState state = read_state(checkpoint, first, {materials_, box_.size, pairs_.memory_size}, ranks_.get());
   const Clock& clock = state.clock;
-  steps_ = std::int64_t(clock.steps);
-  reported_ = clock.time;
+  box_.strain_before = same_run ? clock.strain_before : clock.strain;
   if (same_run) {
+    steps_ = std::int64_t(clock.steps);
+    reported_ = clock.time;
     set_step_for(clock.began, std::int64_t(clock.began_at), clock.speed);
     met_ = clock.greatest_met;
   }

@@ -57,7 +57,7 @@ class Model : public core::Simulation {
   Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks = nullptr);
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
-  ~Model() override;
+  ~Model() override = default;
 
   /// The nearest step to a time asked for counts as being there.
   [[nodiscard]] double time() const override { return reported_; }
@@ -81,7 +81,7 @@ class Model : public core::Simulation {
   /// Ghosts as their owners are now: since the forces of the last step they have moved on by half a step. Collective.
   void refresh_ghosts();
   /// Takes a run up again, on any number of ranks; only the first rank's checkpoint is read.
-  void resume(const core::Checkpoint& checkpoint);
+  void resume(const core::Checkpoint& checkpoint) { restore(checkpoint, true); }
   /// Begins at time 0 from the particles of a checkpoint.
   void start_from(const core::Checkpoint& checkpoint);
 

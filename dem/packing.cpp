@@ -83,18 +83,21 @@ double height_of(const std::vector<std::int64_t>& numbers, const core::BedPart& 
   return height;
 }
 
-/// The groups of a bed, each as high as the volume of its particles needs; at random: in all of the box.
+/// The groups of a bed, each as high as the volume of its particles needs; at random, or from a checkpoint: in all of
+/// the box.
 std::vector<Group> groups_of(const core::Scene& scene, const Materials& materials, const Box& box) {
   const std::vector<core::BedPart> parts = core::start_parts(scene);
   std::vector<Group> groups;
   std::vector<double> height;
   for (const core::BedPart& part : parts) {
     groups.push_back({numbers_in(part, materials, box), {}});
-    const bool anywhere = scene.bed.start.kind == core::StartKind::random;
-    height.push_back(anywhere ? box.size[1] : height_of(groups.back().numbers, part, materials, box));
+    height.push_back(height_of(groups.back().numbers, part, materials, box));
   }
-  const std::vector<core::Extent> extents = core::stacked(parts, height);
   const double floor = floor_of(scene);
+  std::vector<core::Extent> extents = core::stacked(parts, height);
+  // Those of a checkpoint come from anywhere in the box and take the places of these.
+  if (scene.bed.start.kind == core::StartKind::random || scene.bed.start.kind == core::StartKind::checkpoint)
+    extents.assign(parts.size(), {0, box.size[1] - floor});
   for (std::size_t n = 0; n < parts.size(); ++n) {
     const core::BedPart& part = parts[n];
     groups[n].region = {{part.from[0] * box.size[0], floor + extents[n].low, part.from[1] * box.size[2]},

@@ -287,5 +287,18 @@ TEST(Packing, ReachesTheDensestBoxes) {
   EXPECT_GT(least_distance(placed(scene), box_of(scene)), 1 - 0.5e-3);
 }
 
+// Three beads of 2 mm in a box of 20 mm make a bed of a tenth of a millimetre; in a checkpoint they are anywhere.
+TEST(Packing, FewParticlesOfACheckpointHaveRoom) {
+  core::Scene scene = box_of_spheres({{2e-3, 3}}, 1.57e-3);
+  scene.column.sides = scene.column.ends = core::Boundary::wall;
+  scene.bed.solids_fraction = scene.bed.start_solids_fraction = 0.6;
+  scene.bed.volume_share = {1};
+  scene.bed.start = {core::StartKind::mixed};
+  EXPECT_NE(no_room_for(scene, Materials(scene), box_of(scene)), "");
+  scene.bed.start = {core::StartKind::checkpoint, "first/checkpoint.h5"};
+  EXPECT_EQ(no_room_for(scene, Materials(scene), box_of(scene)), "");
+  EXPECT_EQ(placed(scene).size(), 3U);
+}
+
 }  // namespace
 }  // namespace polybed::dem::test
