@@ -7,6 +7,7 @@
 
 #include "core/case/file.hpp"
 #include "core/error.hpp"
+#include "core/numerics/schedule.hpp"
 #include "core/output/files.hpp"
 #include "core/output/history.hpp"
 #include "core/output/json.hpp"
@@ -293,10 +294,11 @@ void CaseRun::print_end(const std::string& record) {
               card_line("run", fmt::format("{}, {:.4g} s of {} in {}", state, simulation().time(), model_name_,
                                            directory_.string())));
   for (const std::string& line : result_lines(card_)) core::print(stderr, "{}\n", line);
-  if (card_.seen.steady && !*card_.seen.steady)
-    core::print(
-        stderr, "{}\n",
-        card_line("to go on", fmt::format("{} --until \"{:.4g} s\"", command_to_resume({}), 2 * scene_.run.until)));
+  if (!card_.seen.steady || *card_.seen.steady) return;
+  const bool ended = !core::is_later(scene_.run.until, simulation().time());
+  const double until = (ended ? 2 : 1) * scene_.run.until;
+  core::print(stderr, "{}\n",
+              card_line("to go on", fmt::format("{} --until \"{:.4g} s\"", command_to_resume({}), until)));
 }
 
 void print_invariants(std::span<const measures::WorstInvariant> worst) {

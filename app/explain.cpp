@@ -163,7 +163,12 @@ std::vector<Meaning> meanings_of(const std::string& word, std::vector<std::strin
 
 void run_explain(const std::string& word, bool json) {
   std::vector<std::string> names;
-  const std::vector<Meaning> found = meanings_of(word, names);
+  std::vector<Meaning> found = meanings_of(word, names);
+  if (found.empty()) {  // names of states and columns have no spaces; cards, which are read, have
+    std::string joined = word;
+    std::replace(joined.begin(), joined.end(), ' ', '_');
+    found = meanings_of(joined, names);
+  }
   if (found.empty()) {
     const std::string near = core::nearest_name(word, names);
     throw core::CaseError("nothing to explain is called '" + word + "'" +

@@ -83,7 +83,9 @@ std::unique_ptr<const core::OutputDirectory> take_directory(const fs::path& dire
     throw core::FileError(
         fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
   auto taken = std::make_unique<const core::OutputDirectory>(directory);
-  if (fs::exists(directory / "run.json") && !options.resume && !options.force)
+  // One that was stopped while its bed settled has left its record alone.
+  const bool began = has_checkpoint(directory) || fs::exists(directory / "history.csv");
+  if (fs::exists(directory / "run.json") && began && !options.resume && !options.force)
     throw core::CaseError(
         fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
                     directory.string()));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "closures/hopper_discharge.hpp"
@@ -51,14 +52,19 @@ std::string each(const std::vector<std::string>& parts) { return fmt::format("{}
 constexpr std::size_t most_species = 4;  // that a line names one by one
 
 std::string of_species(const BedOfCase& bed, std::optional<double> SpeciesInFluid::*velocity) {
-  std::vector<std::string> parts;
-  for (const SpeciesInFluid& species : bed.species)
-    if (species.*velocity) parts.push_back(species.name + " " + with_prefix(*(species.*velocity), "m/s"));
-  if (parts.size() > most_species) {
-    parts.erase(parts.begin() + 1, parts.end() - 1);
-    return parts.front() + " to " + parts.back();
+  std::vector<SpeciesInFluid> known;
+  std::copy_if(bed.species.begin(), bed.species.end(), std::back_inserter(known),
+               [&](const SpeciesInFluid& species) { return (species.*velocity).has_value(); });
+  const bool range = known.size() > most_species;
+  if (range) {
+    const auto [least, greatest] = std::minmax_element(
+        known.begin(), known.end(), [&](const auto& a, const auto& b) { return *(a.*velocity) < *(b.*velocity); });
+    known = {*least, *greatest};
   }
-  return each(parts);
+  std::vector<std::string> parts;
+  for (const SpeciesInFluid& species : known)
+    parts.push_back(species.name + " " + with_prefix(*(species.*velocity), "m/s"));
+  return range ? parts.front() + " to " + parts.back() : each(parts);
 }
 
 std::string in_kilograms(double mass) { return with_prefix(1e3 * mass, "g"); }

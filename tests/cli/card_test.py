@@ -188,6 +188,10 @@ class Screen(Scratch):
         for line in (r"expect +fluidised, about 346 mm high", r"fluidises at +fine .* coarse .* mixture .*; u = 30 mm/s is 21 times that",
                      r"falls at +fine 46.5 mm/s, coarse 66.6 mm/s", r"left out +tfm: forces of .* % of the weight"):
             self.assertRegex(text, line)
+        many = self.ends(DONE, "check", ROOT / "cases/filter-backwash/case.toml").stdout
+        for heading in ("fluidises at", "falls at"):
+            least, greatest = re.search(rf"{heading} +fines ([\d.]+ \S+) to \S+ ([\d.]+ \S+?)[,\n]", many).groups()
+            self.assertLess(*(float(value.split()[0]) * {"µm/s": 1e-6, "mm/s": 1e-3}[value.split()[1]] for value in (least, greatest)))
         for velocity, state in (("1 mm/s", "packed"), ("1 m/s", "carried up")):
             told = self.ends(DONE, "check", CASE, "--set", f"inlet.superficial_velocity={velocity}").stdout
             self.assertRegex(told, f"expect +{state}")

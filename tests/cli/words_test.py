@@ -107,6 +107,9 @@ class Explain(Scratch):
         self.assertIn("mass", words)
         self.explained(sorted(words))
 
+    def test_words_as_a_card_has_them(self):
+        self.assertEqual(*(self.ends(DONE, "explain", word).stdout for word in ("carried out", "carried_out")))
+
     def test_what_is_unknown(self):
         self.assertIn("did you mean 'cello'?", self.ends(WRONG_CASE, "explain", "celo").stderr)
         self.assertIn("did you mean 'tfm'?", self.ends(WRONG_CASE, "tmf", CASE).stderr)

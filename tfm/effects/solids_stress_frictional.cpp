@@ -143,11 +143,14 @@ void FrictionalStress::hold_surface(Fields& fields) const {
     const Index below = along > 0 ? grid.stride(axis) : -grid.stride(axis);
     core::for_each_row(grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) {
-        const double under = phi[c + below];
-        if (!(under > law_.onset && phi[c] < under)) continue;
-        for (std::size_t j = 0; j < constants_.species(); ++j) share[j] = fields.share[j][std::size_t(c + below)];
+        const double under = phi[c + below], next = phi[c + 2 * below];
+        const bool on_packed = under > law_.onset, on_held = !on_packed && next > law_.onset && under < next;
+        if (!((on_packed || on_held) && phi[c] < under)) continue;
+        const Index packed = c + (on_packed ? 1 : 2) * below;
+        for (std::size_t j = 0; j < constants_.species(); ++j) share[j] = fields.share[j][std::size_t(packed)];
         const double whole = under + 2 * phi[c];
-        const double load = along * along * law_.at(under, packing_of({share.data(), constants_.species()})).pressure;
+        double load = along * along * law_.at(phi[packed], packing_of({share.data(), constants_.species()})).pressure;
+        if (on_held) load *= under / (next + 2 * under);
         pressure[c] = std::max(pressure[c], load * phi[c] / whole);
         slope[c] = std::max(slope[c], load * under / (whole * whole));
       }
