@@ -15,6 +15,7 @@ importlib.import_module("polybed.cost")
 importlib.import_module("polybed.fit")
 
 with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it still looks for
+    from polybed.errors import show_plainly
     from polybed.files import FormatError, ReplacedError
     from polybed.particles import Particles
     from polybed.program import ProgramError, calibrate, case, check, compare, inversion, run, sweep
@@ -22,6 +23,8 @@ with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it stil
     from polybed.read import Run, read
     from polybed.solids_table import SolidsTable, read_table
     from polybed.studies import cost, fit, measure, scan, table
+
+show_plainly()
 
 __all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "__version__", "calibrate",
            "case", "check", "compare", "cost", "fit", "inversion", "measure", "read", "read_table", "run", "scan", "sweep", "table"]

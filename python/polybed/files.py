@@ -15,7 +15,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from polybed.packages import NO_FILE, plain
+from polybed.errors import PlainError
+from polybed.packages import NO_FILE
 
 VERSIONS = {
     "polybed fields": 1,
@@ -30,13 +31,6 @@ VERSIONS = {
     "polybed cost": 1,
     "polybed stability": 1,
 }
-
-
-class PlainError(Exception):
-    """Its text, which may quote a file, acts on no terminal."""
-
-    def __init__(self, text):
-        super().__init__(plain(text))
 
 
 class FormatError(PlainError):

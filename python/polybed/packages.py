@@ -35,8 +35,9 @@ def needed(of_program):
     except ImportError as missing:
         if (missing.name or "polybed").startswith("polybed"):
             raise
-        told = (f"Python's package {missing.name} is missing for {sys.executable}: apt-get install python3-numpy python3-h5py "
-                "python3-matplotlib python3-scipy, and run /usr/bin/python3")
+        package = missing.name.partition(".")[0]
+        told = (f"Python's package {package} is missing for {sys.executable}: apt-get install python3-{package}, which /usr/bin/python3 sees, "
+                f"or, in an environment of your own, pip install {package}")
         if not of_program:
             raise ImportError(told, name=missing.name) from None
         print(told, file=sys.stderr)

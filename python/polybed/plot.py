@@ -13,6 +13,7 @@ from pathlib import Path
 
 from polybed.in_place import in_place
 from polybed.packages import NO_FILE, needed
+from polybed.progress import Bar
 
 with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
@@ -124,15 +125,6 @@ def at_end(directory, time=None):
         return f"{drawn}; no report.html: {error}"
 
 
-def bar(done, count):
-    """A line on a terminal that says how far the film is."""
-    width = 40
-    full = done * width // count
-    end = "\r" if done < count else "\r" + " " * (width + 30) + "\r"
-    sys.stderr.buffer.write(f"animation [{'#' * full}{'.' * (width - full)}] {done}/{count}{end}".encode())  # print() shows no "\r"
-    sys.stderr.buffer.flush()
-
-
 def parsed(arguments):
     parser = argparse.ArgumentParser(prog="polybed plot", description="Draws a finished or a running run.")
     parser.add_argument("run", help="run directory")
@@ -164,7 +156,7 @@ def drawn(options):
         if options.picture:
             print(at_end(options.run, options.time))
             return 0
-        progress = bar if sys.stderr.isatty() and not options.quiet else None
+        progress = Bar("animation").show if sys.stderr.isatty() and not options.quiet else None
         paths = pictures(options.run, options.what, options.time, options.out, options.format, options.rate, progress)
     except CommandError as error:
         print(error, file=sys.stderr)

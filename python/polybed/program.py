@@ -14,21 +14,21 @@ of its progress goes to standard error as it comes, unless quiet.
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import itertools
 import json
 import os
 import subprocess
-import sys
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from polybed import search
-from polybed.files import FAULTS, read_json
+from polybed.errors import PlainError
+from polybed.files import FAULTS, read_json, read_text
 from polybed.overrides import Overrides, Value, plain, toml, words
+from polybed.progress import BarOfRuns, put, redrawn
 from polybed.read import Run, read
 from polybed.solids_table import SolidsTable, read_table
 
@@ -39,7 +39,7 @@ MODELS = ("tfm", "dem")
 DIGITS = 10  # of a hash in the name of a folder
 
 
-class ProgramError(Exception):
+class ProgramError(PlainError):
     """The program ended with another code than 0. The text names the function that was called and what the program said; `words` is
     the command behind it."""
 
@@ -64,17 +64,27 @@ def names_itself(function: Callable[Arguments, Answer]) -> Callable[Arguments, A
     return called
 
 
+class NoProgramError(PlainError, FileNotFoundError):
+    """There is no program to run."""
+
+
+def sources() -> Path | None:
+    """The folder of the sources that this package lies in, or that pip has installed it from."""
+    note = OWN.with_name("sources.txt")  # of setup.py
+    own = Path(read_text(note)) if note.is_file() else OWN.parents[2]
+    return own if (own / "CMakeLists.txt").is_file() else None
+
+
 def program() -> str:
-    """Path of the program: $POLYBED, or that beside which this package is installed or was built, or the one on the path."""
-    in_sources = (OWN.parents[2] / "CMakeLists.txt").is_file()
-    tried = [os.environ.get("POLYBED"), OWN.parents[2] / "build/polybed" if in_sources else OWN.parents[4] / "bin/polybed"]
+    """Path of the program: $POLYBED, or that installed beside this package, or that built in its sources, or the one on the path."""
+    built = sources()
+    installed = [] if built == OWN.parents[2] else [OWN.parents[4] / "bin/polybed"]
+    tried = [os.environ.get("POLYBED"), *installed, built and built / "build/polybed", search.find("polybed")]
     for path in tried:
         if path and os.access(path, os.X_OK) and not Path(path).is_dir():
             return str(Path(path).resolve())
-    found = search.find("polybed")
-    if not found:
-        raise FileNotFoundError("there is no program polybed: build it, install it, or name it in the environment's POLYBED")
-    return found
+    raise NoProgramError("there is no program polybed: build it by ./polybed in its sources, install it, or name it in the environment's "
+                         f"POLYBED; it is none of {', '.join(str(path) for path in tried if path)}, and not on the path")
 
 
 def line_of(words: Iterable[object], ranks: int = 1) -> list[str]:
@@ -82,46 +92,34 @@ def line_of(words: Iterable[object], ranks: int = 1) -> list[str]:
     return [program(), *(["-n", str(ranks)] if ranks > 1 else []), *map(str, words)]
 
 
-def show(label: str | None, line: str) -> None:
-    """Shows a line behind a label, unless that is None."""
-    if label is not None:
-        with contextlib.suppress(OSError, ValueError):  # a standard error that is full or closed ends no run
-            print(label + line, end="", file=sys.stderr, flush=True)
+def teller(quiet: bool, name: str = "") -> Callable[[str], None]:
+    """Shows lines of a command on standard error. Of a run among others, which has a name, only progress and warnings, behind the name."""
+    def tell(line: str) -> None:
+        if not quiet and (not name or line.startswith(("t ", "warning"))):
+            put((name and f"{name}: ") + line)
+    return tell
 
 
-def said_by(child: subprocess.Popen[str], label: str | None) -> str:
-    """What a program says on standard error, as text; shown as it comes, behind a label, unless that is None. Of a run among others, which
-    has a label, only progress and warnings are shown."""
-    lines: list[str] = []
-    for line in child.stderr or ():
-        lines.append(line)
-        if not label or line.startswith(("t ", "warning")):
-            show(label, line)
-    return "".join(lines)
-
-
-def call(*options: object, ranks: int = 1, label: str | None = None) -> str:
-    """Runs a command of the program and returns what it printed; what it says is shown behind a label, unless that is None. One that
-    is interrupted, or whose caller is, ends with a checkpoint. Raises ProgramError."""
-    line = line_of(options, ranks)
+def call(*options: object, ranks: int = 1, tell: Callable[[str], None] | None = None) -> str:
+    """Runs a command of the program and returns what it printed; each line that it says is told as it comes. One that is interrupted,
+    or whose caller is, ends with a checkpoint. Raises ProgramError."""
+    line, said = line_of(options, ranks), []
     with subprocess.Popen(line, env=dict(os.environ, PATH=search.path()), encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child, ThreadPoolExecutor(1) as reader:
         try:
             assert child.stdout is not None  # it is a pipe
             printed = reader.submit(child.stdout.read)
-            said = said_by(child, label)
+            for text in child.stderr or ():
+                said.append(text)
+                if tell:
+                    tell(text)
             child.wait()
         except BaseException:
             child.terminate()
             raise
     if child.returncode != 0:
-        raise ProgramError(line, child.returncode, said)
+        raise ProgramError(line, child.returncode, "".join(said))
     return printed.result()
-
-
-def label_of(quiet: bool, name: str = "") -> str | None:
-    """What stands before the lines that a command shows; None shows nothing."""
-    return None if quiet else name and f"{name}: "
 
 
 def settings(overrides: Overrides | None, until: Value | None = None) -> list[str]:
@@ -130,7 +128,8 @@ def settings(overrides: Overrides | None, until: Value | None = None) -> list[st
 
 def case(name: str) -> Path:
     """Path of the case file of a shipped case, by the name of its folder: case("small-binary"). Raises KeyError with the names."""
-    tried = [OWN.parents[2] / "cases", *(Path(program()).parents[1] / beside for beside in ("share/polybed/cases", "cases"))]
+    own = [found / "cases"] if (found := sources()) else []
+    tried = [*own, *(Path(program()).parents[1] / beside for beside in ("share/polybed/cases", "cases"))]
     folder = next((each for each in tried if each.is_dir()), None)
     names = sorted(path.parent.name for path in folder.glob("*/case.toml")) if folder else []
     if folder is None or name not in names:
@@ -172,15 +171,15 @@ def check(case: Place, overrides: Overrides | None = None, until: Value | None =
     return answer
 
 
-def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int, label: str | None,
-         place: Callable[[str], Path]) -> Run:
+def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int,
+         tell: Callable[[str], None] | None, place: Callable[[str], Path]) -> Run:
     """Opens the run that is in a folder, or makes it. place: the folder by the hash of the resolved case."""
     if model not in MODELS:
         raise ValueError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
     text, digest = resolved(case, overrides, until)
     output = place(digest[:DIGITS])
     if not finished(output, model, text):
-        call(model, case, *settings(overrides, until), "-o", output, "--force", "--no-picture", ranks=ranks, label=label)
+        call(model, case, *settings(overrides, until), "-o", output, "--force", "--no-picture", ranks=ranks, tell=tell)
     return read(output)
 
 
@@ -194,7 +193,7 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
     runs/<case name>-<model>-<hash of the resolved case>, so that no run replaces another
     quiet: shows no progress; label: stands before each line of it
     """
-    return made(case, model, overrides, until, ranks, label_of(quiet, label),
+    return made(case, model, overrides, until, ranks, teller(quiet, label),
                 lambda digest: Path(output) if output else folder_of(case, model, digest))
 
 
@@ -206,21 +205,26 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
     and the hash of its case. With {key: values} for several keys it runs all combinations, the last key first; see polybed.table.
 
     values: numbers in SI, texts with a unit, or an array along its first axis; until: simulated time, "20 s" or seconds
-    at_once: how many run side by side; unless quiet, a line on standard error says how many are done
+    at_once: how many run side by side; unless quiet, a bar says how far they are, or, where standard error is no terminal and no notebook, lines
     """
     axes = {key: values} if isinstance(key, str) else key
     each, done = [dict(zip(axes, point)) for point in itertools.product(*map(list, axes.values()))], itertools.count(1)
     folder = Path(output) if output else Path("runs") / f"{name_of(case)}-{model}-sweep"
+    bar = BarOfRuns(len(each)) if redrawn() and not quiet else None
 
-    def one(point: dict[str, Value]) -> Run:
+    def one(number: int) -> Run:
+        point = each[number]
         shown = ", ".join(f"{key}-{toml(plain(value, key))}" for key, value in point.items()).replace('"', "")[:60]
         name = "".join(c if c.isalnum() or c in ".-" else "_" for c in shown)
-        found = made(case, model, dict(overrides or {}) | point, until, 1, label_of(quiet, shown),
-                     lambda digest: folder / f"{name}-{digest}")
-        show(label_of(quiet), f"{next(done)} of {len(each)} runs done: {shown}\n")
+        tell = bar.hearer(number, shown) if bar else teller(quiet, shown)
+        found = made(case, model, dict(overrides or {}) | point, until, 1, tell, lambda digest: folder / f"{name}-{digest}")
+        if bar:
+            bar.finish(number)
+        else:
+            teller(quiet)(f"{next(done)} of {len(each)} runs done: {shown}\n")
         return found
     with ThreadPoolExecutor(at_once) as pool:
-        return list(pool.map(one, each))
+        return list(pool.map(one, range(len(each))))
 
 
 @names_itself
@@ -237,7 +241,7 @@ def compare(case: Place, tfm: Run | Place | None = None, dem: Run | Place | None
     for model, given in (("tfm", tfm), ("dem", dem)):
         made = run(case, model, overrides, output / model, until, quiet=quiet, label=model) if given is None else given
         options += [f"--{model}", getattr(made, "directory", made)]
-    call("compare", case, *settings(overrides, until), *options, "-o", output, *([] if page else ["--no-picture"]), label=label_of(quiet))
+    call("compare", case, *settings(overrides, until), *options, "-o", output, *([] if page else ["--no-picture"]), tell=teller(quiet))
     found: dict[str, Any] = read_json(output / "comparison.json", "polybed comparison")
     return found
 
@@ -259,7 +263,7 @@ def inversion(case: Place, scan: str | None = None, overrides: Overrides | None 
     output = Path(output) if output else folder_of(case, "inversion", resolved(case, overrides, until)[1][:DIGITS])
     for option, velocity in (("--from", begin), ("--to", end)):
         options += [] if velocity is None else [option, plain(velocity, option)]
-    call(*options, "--scan", scan, "-o", output, "--no-picture", label=label_of(quiet))
+    call(*options, "--scan", scan, "-o", output, "--no-picture", tell=teller(quiet))
     found: dict[str, Any] = read_json(output / "inversion.json", "polybed inversion")
     return found
 
@@ -275,5 +279,5 @@ def calibrate(case: Place, overrides: Overrides | None = None, output: Place | N
     jobs: boxes at once
     """
     output = Path(output) if output else Path("runs") / f"{name_of(case)}-calibrate"
-    call("calibrate", case, *settings(overrides), "-o", output, "-j", jobs, label=label_of(quiet))
+    call("calibrate", case, *settings(overrides), "-o", output, "-j", jobs, tell=teller(quiet))
     return read_table(output / "table.h5")

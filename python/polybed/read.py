@@ -74,11 +74,10 @@ class Run:
         return plain(f"Run in {self.directory}{done}")
 
     def _repr_html_(self) -> str:
-        """The card as a table, for notebooks."""
-        from polybed import labelled
-        card = labelled.table([self]).T.dropna()
-        card.columns = [repr(self)]
-        return str(card.to_html())
+        """The card, for notebooks: what the page of the run begins with."""
+        from polybed.page import markup
+        from polybed.report.card import card_of
+        return markup("<p>{}</p>{}", repr(self), card_of(self))
 
     def _open_step(self, step):
         return open_hdf5(self._folder.file("fields", f"{step + 1:06d}.h5"), "polybed fields step")
@@ -187,14 +186,14 @@ class Run:
             return file["step"][name].shape, file["step"][name].dtype
 
     def frame(self) -> Any:
-        """The history as a pandas.DataFrame over time_s; see polybed.labelled.frame."""
-        from polybed import labelled
-        return labelled.frame(self)
+        """The history as a pandas.DataFrame over time_s; see polybed.frames.frame."""
+        from polybed import frames
+        return frames.frame(self)
 
     def dataset(self, source: str = "fields") -> xarray.Dataset:
-        """Fields or profiles as an xarray.Dataset with units, read when values are asked for; see polybed.labelled."""
-        from polybed import labelled
-        return labelled.dataset(self, source)
+        """Fields or profiles as an xarray.Dataset with units, read when values are asked for; see polybed.datasets."""
+        from polybed import datasets
+        return datasets.dataset(self, source)
 
     def names(self) -> list[str]:
         """What quantity() knows."""

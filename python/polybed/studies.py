@@ -11,7 +11,7 @@ from typing import Any
 
 from polybed.files import read_json
 from polybed.overrides import Overrides, Value, plain
-from polybed.program import DIGITS, Place, call, folder_of, inversion, label_of, names_itself, resolved, settings
+from polybed.program import DIGITS, Place, call, folder_of, inversion, names_itself, resolved, settings, teller
 from polybed.read import Run, read
 
 
@@ -32,8 +32,8 @@ def table(runs: Iterable[Run | Place]) -> Any:
 
     runs: runs, or their directories, as `polybed.sweep` returns them
     """
-    from polybed import labelled
-    return labelled.table(run if isinstance(run, Run) else read(run) for run in runs)
+    from polybed import frames
+    return frames.table(run if isinstance(run, Run) else read(run) for run in runs)
 
 
 @names_itself
@@ -64,7 +64,7 @@ def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), targ
     options: list[object] = ["cost", case, *settings(overrides, until), "-o", folder, *([] if picture else ["--no-picture"])]
     for option, value in (("--model", model), ("--axes", ",".join(axes) or None), ("--target", target), ("--budget", budget)):
         options += [] if value is None else [option, plain(value, option)]
-    call(*options, *(["--resume"] if (folder / "cost.json").exists() else []), label=label_of(quiet))
+    call(*options, *(["--resume"] if (folder / "cost.json").exists() else []), tell=teller(quiet))
     found: dict[str, Any] = read_json(folder / "cost.json", "polybed cost")
     return found
 
@@ -84,5 +84,5 @@ def fit(rows: Place | Sequence[Place], form: str = "brinkman_oseen", output: Pla
     tables = [rows] if isinstance(rows, str | os.PathLike) else list(rows)
     options: list[object] = ["--form", form, "--bootstrap", bootstrap, "--seed", seed, *(["-o", output] if output else []),
                              *(["--force"] if force else []), *([] if picture else ["--no-picture"]), *(["--quiet"] if quiet else [])]
-    found: dict[str, Any] = json.loads(call("fit", *tables, *options, "--json", label=label_of(quiet)))
+    found: dict[str, Any] = json.loads(call("fit", *tables, *options, "--json", tell=teller(quiet)))
     return found

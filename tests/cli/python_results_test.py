@@ -46,7 +46,7 @@ class Results(Scratch):
         for run, row in zip(runs, table.itertuples()):
             self.assertEqual((row.run_state, row.state), ("done", run.card["state"]))
             self.assertEqual(row.bed_height_m, run.card["bed_height_m"]["value"])
-        self.assertIn(f"<td>{runs[0].card['state']}</td>", runs[0]._repr_html_())
+        self.assertRegex(runs[0]._repr_html_(), rf"Run in {runs[0].directory} by tfm.*<td>bed</td><td>{runs[0].card['state']}, mixed, .* mm high")
 
     def test_a_check_is_what_the_program_says(self):
         found = polybed.check(CASE, {"inlet.superficial_velocity": "20 mm/s"})

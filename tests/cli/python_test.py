@@ -122,12 +122,12 @@ class Package(Scratch):
                 return super().write(text)
         os.environ["POLYBED"] = str(script)
         with contextlib.redirect_stderr(Shown()) as shown:
-            package.call("tfm", label="fine: ")
+            package.call("tfm", tell=package.teller(False, "fine"))
         self.assertEqual(shown.getvalue(), "fine: t 0.1\n")
         script.write_text("#!/bin/sh\nprintf 't 1\\ncard\\nwarning: w\\n' >&2\n")
-        for label, lines in (("a: ", "a: t 1\na: warning: w\n"), ("", "t 1\ncard\nwarning: w\n")):
+        for name, lines in (("a", "a: t 1\na: warning: w\n"), ("", "t 1\ncard\nwarning: w\n")):
             with contextlib.redirect_stderr(io.StringIO()) as shown:
-                package.call("tfm", label=label)
+                package.call("tfm", tell=package.teller(False, name))
             self.assertEqual(shown.getvalue(), lines, "of a run among others the card is left out")
         os.environ["POLYBED"] = program.PROGRAM
         for quiet in (False, True):

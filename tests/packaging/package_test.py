@@ -107,7 +107,7 @@ class Wheel(unittest.TestCase):
         with tempfile.TemporaryDirectory() as scratch:
             sources, folder = pathlib.Path(scratch) / "sources", pathlib.Path(scratch) / "venv"
             sources.mkdir()
-            for name in ("pyproject.toml", "setup.cfg", "README.md"):
+            for name in ("pyproject.toml", "setup.cfg", "setup.py", "README.md", "CMakeLists.txt"):
                 shutil.copy(ROOT / name, sources)
             shutil.copytree(ROOT / "python", sources / "python", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
             done("/usr/bin/python3", "-m", "venv", "--system-site-packages", folder)
@@ -115,7 +115,8 @@ class Wheel(unittest.TestCase):
             done(folder / "bin/pip", "install", "--no-build-isolation", "--no-index", ".", cwd=sources)
             script = (f"import polybed; assert polybed.__file__.startswith('{folder}'), polybed.__file__; print(polybed.__version__); "
                       f"print(polybed.inversion('{ROOT}/cases/small-binary/case.toml')['velocity_m_s'])")
-            bare = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | {"POLYBED": program.PROGRAM}
+            bare = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "POLYBED")}
+            (sources / "build/polybed").symlink_to(program.PROGRAM)  # the program that is built in the sources is found
             version, velocity = done(folder / "bin/python", "-c", script, cwd=scratch, env=bare).split()
             self.assertEqual(version, __version__)
             self.assertGreater(float(velocity), 0)

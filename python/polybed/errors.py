@@ -1,0 +1,46 @@
+"""Errors whose text says all that a user needs: scripts and notebooks show it without a traceback."""
+
+from __future__ import annotations
+
+import itertools
+import sys
+import traceback
+from pathlib import Path
+from types import TracebackType
+
+from polybed.packages import plain
+
+PACKAGE = Path(__file__).resolve().parent
+
+
+class PlainError(Exception):
+    """Its text, which may quote a file, acts on no terminal."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(plain(text))
+
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows in place of a traceback."""
+        return [shown(self)]
+
+
+def shown(error: BaseException) -> str:
+    """The error in a line, and in another the line of the user's that has called the package."""
+    frames = traceback.extract_tb(error.__traceback__)
+    users = list(itertools.takewhile(lambda frame: PACKAGE not in Path(frame.filename).parents, frames))
+    where = f"\n  {users[-1].filename}:{users[-1].lineno}: {users[-1].line}" if users and users[-1].line else ""
+    return f"polybed.{type(error).__name__}: {error}{where}"
+
+
+def show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    """sys.excepthook: a PlainError is shown in a line, any other error as Python shows it."""
+    if isinstance(error, PlainError):
+        print(shown(error), file=sys.stderr)
+    else:
+        sys.__excepthook__(kind, error, trace)
+
+
+def show_plainly() -> None:
+    """Has this interpreter show errors by `show`, unless somebody else has chosen how."""
+    if sys.excepthook is sys.__excepthook__:
+        sys.excepthook = show
