@@ -282,7 +282,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
     const std::string text = core::resolved_case(scene);
     core::Json json = {{"case", text}, {"hash", core::case_hash(scene)}};
     write_particle_requirements(json, scene, need);
-    if (const auto discharge = bed_of_case(scene).discharge) json["expected_discharge_kg_s"] = discharge->rate;
+    write_expected(json, scene, bed_of_case(scene));
     write_size_classes(json, scene);
     json["refused"] = refusals_of(scene);
     json["notes"] = notes;
@@ -364,6 +364,7 @@ void run_check(const RunOptions& options) {
     if (derived.sound > 0) json["speed_of_sound_m_s"] = derived.sound;
     json["buoyant_weight_Pa"] = derived.weight;
     json["static_height_m"] = scene.bed.static_height;
+    write_expected(json, scene, bed_of_case(scene));
     write_requirements(json, need);
     if (particles) write_particle_requirements(json["dem"], scene, *particles);
     write_size_classes(json, scene);

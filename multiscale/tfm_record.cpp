@@ -52,14 +52,6 @@ Json well_posedness_of(const tfm::LeastWellPosed& least, int dimensions) {
           {"share_below_1", least.share_below_now}};
 }
 
-Json drift_of(const measures::Drifts& drifts) {
-  Json measures = Json::array();
-  for (const measures::DriftOfMeasure& d : drifts.judge())
-    measures.push_back(
-        {{"name", d.name}, {"rate_m_per_s", d.drift.rate}, {"error_m_per_s", d.drift.error}, {"steady", d.steady}});
-  return {{"window_s", drifts.window()}, {"measures", measures}};
-}
-
 /// Mass of each species at the start, in, out and in the column, and how well they add up.
 Json ledger_of(const tfm::Constants& constants, const RunTotals& totals, const measures::Invariants& invariants) {
   Json ledger = Json::array();
@@ -144,7 +136,6 @@ std::string run_record_text(const RunRecord& record) {
     json["ledger"] = ledger_of(model.constants(), record.totals, record.observers.invariants());
   json["pressure_drop_over_weight"] = core::or_null(record.observers.force_balance());
   json["well_posedness"] = well_posedness_of(record.observers.least_well_posed(), model.constants().grid.dimensions);
-  json["drift"] = drift_of(record.observers.drifts());
   json["guards"] = guards_of(record.totals.closures);
   write_left_out(json, record.left_out);
   if (record.promise != nullptr) write_neglected(json, *record.promise);

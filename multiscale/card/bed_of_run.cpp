@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "closures/sphere.hpp"
-#include "measures/drift.hpp"
 
 namespace polybed::multiscale {
 
@@ -171,10 +170,8 @@ void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) 
     }
     drifts.see(window.time[n], row);
   }
-  for (const measures::DriftOfMeasure& drift : drifts.judge()) {
-    bed.steady = bed.steady.value_or(true) && drift.steady;
-    if (!drift.steady) bed.drifting.push_back(drift.name);
-  }
+  bed.drifts = drifts.judge();
+  for (const measures::DriftOfMeasure& drift : bed.drifts) bed.steady = bed.steady.value_or(true) && drift.steady;
 }
 
 }  // namespace

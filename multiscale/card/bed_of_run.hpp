@@ -8,6 +8,7 @@
 
 #include "core/case/scene.hpp"
 #include "core/output/history.hpp"
+#include "measures/drift.hpp"
 #include "multiscale/card/bed_of_case.hpp"
 
 namespace polybed::multiscale {
@@ -32,7 +33,7 @@ struct BedOfRun {
   std::optional<double> discharge;         ///< kg/s, of a hopper
   bool blocked = false;                    ///< its opening is
   std::optional<bool> steady;              ///< empty: too few rows
-  std::vector<std::string> drifting;       ///< names of what is not steady
+  std::vector<measures::DriftOfMeasure> drifts;
 };
 
 /// A mean of ten parts of a series, with the interval of Student's of nine degrees of freedom: what varies within a

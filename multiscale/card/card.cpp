@@ -24,6 +24,30 @@ core::Json json_or_null(const std::map<std::string, double>& values) {
   return values.empty() ? core::Json() : core::Json(values);
 }
 
+/// What follows for the species from the case alone.
+core::Json velocities_of(const core::Scene& scene, const BedOfCase& bed) {
+  core::Json fluidisation = core::Json::object(), terminal = core::Json::object(), geldart = core::Json::object();
+  for (const SpeciesInFluid& species : bed.species) {
+    fluidisation[species.name] = core::or_null(species.minimum_fluidisation);
+    terminal[species.name] = core::or_null(species.terminal);
+    if (!species.geldart.empty()) geldart[species.name] = species.geldart;
+  }
+  const bool fluid = scene.fluid.present();
+  fluidisation["mixture"] = core::or_null(bed.minimum_fluidisation);
+  return {{"u_mf_m_s", fluid ? fluidisation : core::Json()},
+          {"u_over_u_mf", core::or_null(bed.velocity_ratio())},
+          {"terminal_m_s", fluid ? terminal : core::Json()},
+          {"geldart", geldart.empty() ? core::Json() : geldart}};
+}
+
+core::Json drift_of(const BedOfRun& bed) {
+  core::Json measures = core::Json::array();
+  for (const measures::DriftOfMeasure& d : bed.drifts)
+    measures.push_back(
+        {{"name", d.name}, {"rate_m_per_s", d.drift.rate}, {"error_m_per_s", d.drift.error}, {"steady", d.steady}});
+  return {{"window_s", bed.window}, {"measures", measures}};
+}
+
 bool matters(const LeftOut& left_out) { return left_out.sum > left_out.promise; }
 
 // ---- words
@@ -129,8 +153,11 @@ std::string steady_text(const BedOfRun& bed) {
   if (*bed.steady) return fmt::format("yes, over the last {:.3g} s", bed.window);
   if (bed.discharge)
     return fmt::format("no: particles still left in the last {:.3g} s, or what remains still moves", bed.window);
-  return fmt::format("no: {} still drift{} over the last {:.3g} s; the numbers above are not final", each(bed.drifting),
-                     bed.drifting.size() == 1 ? "s" : "", bed.window);
+  std::vector<std::string> drifting;
+  for (const measures::DriftOfMeasure& drift : bed.drifts)
+    if (!drift.steady) drifting.push_back(drift.name);
+  return fmt::format("no: {} still drift{} over the last {:.3g} s; the numbers above are not final", each(drifting),
+                     drifting.size() == 1 ? "s" : "", bed.window);
 }
 
 }  // namespace
@@ -166,32 +193,32 @@ std::string left_out_text(const LeftOut& left_out) {
 }
 
 void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
-  const BedOfCase& expected = card.expected;
   const BedOfRun& seen = card.seen;
-  core::Json fluidisation = core::Json::object(), terminal = core::Json::object(), geldart = core::Json::object();
-  for (const SpeciesInFluid& species : expected.species) {
-    fluidisation[species.name] = core::or_null(species.minimum_fluidisation);
-    terminal[species.name] = core::or_null(species.terminal);
-    if (!species.geldart.empty()) geldart[species.name] = species.geldart;
-  }
-  const bool fluid = scene.fluid.present();
-  fluidisation["mixture"] = core::or_null(expected.minimum_fluidisation);
-  json["card"] = {{"u_mf_m_s", fluid ? fluidisation : core::Json()},
-                  {"u_over_u_mf", core::or_null(expected.velocity_ratio())},
-                  {"terminal_m_s", fluid ? terminal : core::Json()},
-                  {"geldart", geldart.empty() ? core::Json() : geldart},
-                  {"state", core::text_or_null(name_of(seen.state))},
-                  {"layers", core::text_or_null(seen.layers)},
-                  {"bed_height_m", json_of(seen.height)},
-                  {"pressure_drop_over_weight", json_of(seen.drop)},
-                  {"mixing", core::or_null(seen.mixing)},
-                  {"out_kg", json_or_null(seen.out)},
-                  {"recovery", json_or_null(seen.recovery)},
-                  {"discharge_kg_s", core::or_null(seen.discharge)},
-                  {"steady", seen.steady ? core::Json(*seen.steady) : core::Json()},
-                  {"limited_by", core::text_or_null(card.limited_by)},
-                  {"left_out", left_out_text(card.left_out)},
-                  {"time_s", {{"taken", core::or_null(card.taken)}, {"predicted", card.predicted.expected}}}};
+  json["card"] = velocities_of(scene, card.expected);
+  json["card"].update({
+      {"state", core::text_or_null(name_of(seen.state))},
+      {"layers", core::text_or_null(seen.layers)},
+      {"bed_height_m", json_of(seen.height)},
+      {"pressure_drop_over_weight", json_of(seen.drop)},
+      {"mixing", core::or_null(seen.mixing)},
+      {"out_kg", json_or_null(seen.out)},
+      {"recovery", json_or_null(seen.recovery)},
+      {"discharge_kg_s", core::or_null(seen.discharge)},
+      {"steady", seen.steady ? core::Json(*seen.steady) : core::Json()},
+      {"limited_by", core::text_or_null(card.limited_by)},
+      {"left_out", left_out_text(card.left_out)},
+      {"time_s", {{"taken", core::or_null(card.taken)}, {"predicted", card.predicted.expected}}},
+  });
+  json["drift"] = drift_of(seen);
+}
+
+void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase& bed) {
+  json["expected"] = velocities_of(scene, bed);
+  json["expected"].update({
+      {"state", core::text_or_null(name_of(bed.state))},
+      {"bed_height_m", core::or_null(bed.height)},
+      {"discharge_kg_s", bed.discharge ? core::Json(bed.discharge->rate) : core::Json()},
+  });
 }
 
 std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOfCase& bed) {

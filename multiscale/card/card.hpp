@@ -22,8 +22,11 @@ struct Card {
   TimeBand predicted;
 };
 
-/// The member "card" of a record.
+/// The members "card" and "drift" of a record.
 void write_card(core::Json& json, const core::Scene& scene, const Card& card);
+
+/// The member "expected" of a check, in the words of the card.
+void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase& bed);
 
 /// Of a case that has not been run: what to expect.
 [[nodiscard]] std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOfCase& bed);

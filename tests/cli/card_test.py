@@ -141,7 +141,7 @@ class Card(Scratch):
     def test_a_hopper_is_told_what_to_expect(self):
         """By hand: 1.03 of 0.6 2500 kg/m3 sqrt(9.81) 0.01 m (20 - 1.4 4 mm)^1.5 is 83.6 g/s; 800 spheres of 4 mm are 67.0 g."""
         case = TEMPLATES / "hopper/case.toml"
-        rate = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected_discharge_kg_s"]
+        rate = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]["discharge_kg_s"]
         self.assertAlmostEqual(rate, 1.03 * 0.6 * 2500 * 9.81**0.5 * 0.01 * 0.0144**1.5, places=12)
         text = self.ends(DONE, "check", case).stdout
         self.assertRegex(text, r"expect +discharge of about 83\.6 g/s; 67 g would be out after 0\.8 s\n +estimate by Beverloo's law")
