@@ -22,7 +22,8 @@ with needed(__name__ == "__main__"):
     from polybed.drawing import comparison as drawing
     from polybed.drawing.profiles import shown_top
     from polybed.drawing.style import NAMES, STYLE
-    from polybed.files import contents_of, print_made, read_json
+    from polybed.ending import made
+    from polybed.files import contents_of, read_json
     from polybed.plot import stored_times
     from polybed.quantities import COLUMNS, unit_of_column
     from polybed.read import nearest, read
@@ -204,7 +205,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="polybed.comparison", description="Makes the page of a comparison.")
     parser.add_argument("directory", help="folder of comparison.json")
     directory = parser.parse_args(arguments).directory
-    return print_made(lambda: [write_page(directory)])
+    return made(lambda: [write_page(directory)])
 
 
 if __name__ == "__main__":

@@ -24,6 +24,27 @@ class PlainError(Exception):
         return [shown(self)]
 
 
+class ProgramError(PlainError):
+    """The program ended with another code than 0. The text names the function that was called and what the program said; `words` is
+    the command behind it."""
+
+    def __init__(self, words: list[str], code: int, said: str, called: str = "polybed") -> None:
+        super().__init__(f"{called} ended with {code}: {said.strip()}")
+        self.words, self.code, self.said = words, code, said.strip()
+
+
+class NoProgramError(PlainError, FileNotFoundError):
+    """There is no program to run."""
+
+
+class StudyError(PlainError):
+    """A study cannot go on. The text is for its user, empty where the program has said it; the code is what the command ends with."""
+
+    def __init__(self, code: int, text: str = "") -> None:
+        super().__init__(text)
+        self.code = code
+
+
 def shown(error: BaseException) -> str:
     """The error in a line, and in another the line of the user's that has called the package."""
     frames = traceback.extract_tb(error.__traceback__)

@@ -8,7 +8,6 @@ import math
 import os
 import re
 import stat
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -16,7 +15,6 @@ import h5py
 import numpy as np
 
 from polybed.errors import PlainError
-from polybed.packages import NO_FILE
 
 VERSIONS = {
     "polybed fields": 1,
@@ -52,16 +50,6 @@ class ReplacedError(PlainError):
 FAULTS = (FormatError, ReplacedError, OSError)
 # What taking apart something that does not hold what it should may raise.
 MISFITS = (KeyError, IndexError, TypeError, ValueError, AttributeError, ArithmeticError, MemoryError, RecursionError, RuntimeError)
-
-
-def print_made(make):
-    """Prints the paths of the files that `make` makes, or what is wrong with those it reads; returns the exit code."""
-    try:
-        print(*make(), sep="\n")
-    except FAULTS as error:
-        print(error, file=sys.stderr)
-        return NO_FILE
-    return 0
 
 
 def reason(error):

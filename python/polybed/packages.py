@@ -5,7 +5,7 @@ import contextlib
 import re
 import sys
 
-NO_FILE = 4  # of polybed's exit codes: a file, or a package, is missing
+DONE, WRONG_CASE, NUMBERS, FILE, MPI, STOPPED = 0, 2, 3, 4, 5, 130  # exit codes of polybed; FILE: a file, or a package, is missing
 CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 
 
@@ -41,4 +41,4 @@ def needed(of_program):
         if not of_program:
             raise ImportError(told, name=missing.name) from None
         print(told, file=sys.stderr)
-        sys.exit(NO_FILE)
+        sys.exit(FILE)

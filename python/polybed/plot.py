@@ -12,7 +12,7 @@ import warnings
 from pathlib import Path
 
 from polybed.in_place import in_place
-from polybed.packages import NO_FILE, needed
+from polybed.packages import needed
 from polybed.progress import Bar
 
 with needed(__name__ == "__main__"):
@@ -20,15 +20,11 @@ with needed(__name__ == "__main__"):
 
     from polybed.drawing import animation, fields, history, overview, particles, profiles
     from polybed.drawing.style import STYLE
+    from polybed.ending import WRONG_CASE, StudyError, made
     from polybed.files import FAULTS, contents_of
     from polybed.read import Snapshot, nearest
 
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
-WRONG_COMMAND, STOPPED = 2, 130
-
-
-class CommandError(Exception):
-    """What was asked for does not fit the run."""
 
 
 def save(figure, path):
@@ -55,7 +51,7 @@ def step_of(run, time):
         return len(stored) - 1
     first, last = stored[0], stored[-1]
     if not first <= time <= last * (1 + 1e-9):
-        raise CommandError(f"--time {time:g} s is not covered: {what} are stored from {first:g} to {last:g} s")
+        raise StudyError(WRONG_CASE, f"--time {time:g} s is not covered: {what} are stored from {first:g} to {last:g} s")
     return nearest(stored, time)
 
 
@@ -85,7 +81,7 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
     step = step_of(run, time)
     shown = stored_times(run)[step]
     if what in ("fields", "particles") and what not in kinds_of(run):
-        raise CommandError(f"--what {what}: {run.directory} holds no {what}; there are {', '.join(kinds_of(run))}")
+        raise StudyError(WRONG_CASE, f"--what {what}: {run.directory} holds no {what}; there are {', '.join(kinds_of(run))}")
     if what == "animation":
         return animation.film(run, film_path(folder), rate, progress)
     if what == "overview":
@@ -152,25 +148,14 @@ def main(arguments=None):
 
 def drawn(options):
     """Draws the pictures chosen, prints where they are or what is wrong, and returns the exit code."""
-    try:
-        if options.picture:
-            print(at_end(options.run, options.time))
-            return 0
+    if options.picture:
+        return made(lambda: [at_end(options.run, options.time)])
+
+    def paths():
         progress = Bar("animation").show if sys.stderr.isatty() and not options.quiet else None
-        paths = pictures(options.run, options.what, options.time, options.out, options.format, options.rate, progress)
-    except CommandError as error:
-        print(error, file=sys.stderr)
-        return WRONG_COMMAND
-    except FAULTS as error:
-        print(error, file=sys.stderr)
-        return NO_FILE
-    except KeyboardInterrupt:
-        return STOPPED
-    if options.json:
-        print(json.dumps({"pictures": [str(path) for path in paths]}))
-    else:
-        print("\n".join(map(str, paths)))
-    return 0
+        drawn = pictures(options.run, options.what, options.time, options.out, options.format, options.rate, progress)
+        return [json.dumps({"pictures": [str(path) for path in drawn]})] if options.json else drawn
+    return made(paths)
 
 
 if __name__ == "__main__":

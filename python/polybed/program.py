@@ -18,34 +18,22 @@ import functools
 import itertools
 import json
 import os
-import subprocess
 from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
-from polybed import search
-from polybed.errors import PlainError
-from polybed.files import FAULTS, read_json, read_text
+from polybed.errors import ProgramError
+from polybed.files import FAULTS, read_json
 from polybed.overrides import Overrides, Value, plain, toml, words
 from polybed.progress import BarOfRuns, put, redrawn
 from polybed.read import Run, read
+from polybed.runner import call, program, side_by_side, sources
 from polybed.solids_table import SolidsTable, read_table
 
 Place = str | os.PathLike[str]  # of a file or a folder
 
-OWN = Path(__file__).resolve()
 MODELS = ("tfm", "dem")
 DIGITS = 10  # of a hash in the name of a folder
-
-
-class ProgramError(PlainError):
-    """The program ended with another code than 0. The text names the function that was called and what the program said; `words` is
-    the command behind it."""
-
-    def __init__(self, words: list[str], code: int, said: str, called: str = "polybed") -> None:
-        super().__init__(f"{called} ended with {code}: {said.strip()}")
-        self.words, self.code, self.said = words, code, said.strip()
 
 
 Arguments = ParamSpec("Arguments")
@@ -64,62 +52,12 @@ def names_itself(function: Callable[Arguments, Answer]) -> Callable[Arguments, A
     return called
 
 
-class NoProgramError(PlainError, FileNotFoundError):
-    """There is no program to run."""
-
-
-def sources() -> Path | None:
-    """The folder of the sources that this package lies in, or that pip has installed it from."""
-    note = OWN.with_name("sources.txt")  # of setup.py
-    own = Path(read_text(note)) if note.is_file() else OWN.parents[2]
-    return own if (own / "CMakeLists.txt").is_file() else None
-
-
-def program() -> str:
-    """Path of the program: $POLYBED, or that installed beside this package, or that built in its sources, or the one on the path."""
-    built = sources()
-    installed = [] if built == OWN.parents[2] else [OWN.parents[4] / "bin/polybed"]
-    tried = [os.environ.get("POLYBED"), *installed, built and built / "build/polybed", search.find("polybed")]
-    for path in tried:
-        if path and os.access(path, os.X_OK) and not Path(path).is_dir():
-            return str(Path(path).resolve())
-    raise NoProgramError("there is no program polybed: build it by ./polybed in its sources, install it, or name it in the environment's "
-                         f"POLYBED; it is none of {', '.join(str(path) for path in tried if path)}, and not on the path")
-
-
-def line_of(words: Iterable[object], ranks: int = 1) -> list[str]:
-    """The command line of the program with these words on so many ranks, which it starts itself."""
-    return [program(), *(["-n", str(ranks)] if ranks > 1 else []), *map(str, words)]
-
-
 def teller(quiet: bool, name: str = "") -> Callable[[str], None]:
     """Shows lines of a command on standard error. Of a run among others, which has a name, only progress and warnings, behind the name."""
     def tell(line: str) -> None:
         if not quiet and (not name or line.startswith(("t ", "warning"))):
             put((name and f"{name}: ") + line)
     return tell
-
-
-def call(*options: object, ranks: int = 1, tell: Callable[[str], None] | None = None) -> str:
-    """Runs a command of the program and returns what it printed; each line that it says is told as it comes. One that is interrupted,
-    or whose caller is, ends with a checkpoint. Raises ProgramError."""
-    line, said = line_of(options, ranks), []
-    with subprocess.Popen(line, env=dict(os.environ, PATH=search.path()), encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child, ThreadPoolExecutor(1) as reader:
-        try:
-            assert child.stdout is not None  # it is a pipe
-            printed = reader.submit(child.stdout.read)
-            for text in child.stderr or ():
-                said.append(text)
-                if tell:
-                    tell(text)
-            child.wait()
-        except BaseException:
-            child.terminate()
-            raise
-    if child.returncode != 0:
-        raise ProgramError(line, child.returncode, "".join(said))
-    return printed.result()
 
 
 def settings(overrides: Overrides | None, until: Value | None = None) -> list[str]:
@@ -223,7 +161,7 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
         else:
             teller(quiet)(f"{next(done)} of {len(each)} runs done: {shown}\n")
         return found
-    with ThreadPoolExecutor(at_once) as pool:
+    with side_by_side(at_once) as pool:
         return list(pool.map(one, range(len(each))))
 
 

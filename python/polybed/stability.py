@@ -14,7 +14,8 @@ from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
     from polybed.drawing import hard_cases
-    from polybed.files import contents_of, print_made, read_json
+    from polybed.ending import made
+    from polybed.files import contents_of, read_json
     from polybed.plot import save
 
 
@@ -30,7 +31,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="polybed.stability", description="Draws the matrix of hard cases.")
     parser.add_argument("directory", type=Path)
     directory = parser.parse_args(arguments).directory
-    return print_made(lambda: pictures(directory))
+    return made(lambda: pictures(directory))
 
 
 if __name__ == "__main__":

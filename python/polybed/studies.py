@@ -11,8 +11,9 @@ from typing import Any
 
 from polybed.files import read_json
 from polybed.overrides import Overrides, Value, plain
-from polybed.program import DIGITS, Place, call, folder_of, inversion, names_itself, resolved, settings, teller
+from polybed.program import DIGITS, Place, folder_of, inversion, names_itself, resolved, settings, teller
 from polybed.read import Run, read
+from polybed.runner import call
 
 
 @names_itself

@@ -19,7 +19,7 @@ OPENERS = {"core/output/files.cpp", "core/output/file.cpp", "python/polybed/file
            "core/output/blocks.cpp", "core/output/disk.cpp", "python/polybed/in_place.py",  # what they have written
            "core/output/directory.cpp", "python/polybed/study/output_folder.py",  # the mark
            "core/memory.cpp", "multiscale/run_record.cpp", "python/polybed/cost/report.py",  # of the system
-           "app/process.cpp", "python/polybed/study/ending.py", "python/polybed/isolated.py"}
+           "app/process.cpp", "python/polybed/ending.py", "python/polybed/isolated.py"}
 SHIPPED = re.compile(r"__file__|\bBANDS\b")  # files of the package itself
 MACHINE = re.compile(r"(^|[^\w./])/(work|root|home|tmp)/")
 

@@ -20,9 +20,9 @@ with needed(__name__ == "__main__"):
     from polybed.calibration.check import deviation, deviation_lines, points_between
     from polybed.calibration.output import ERR, OUT, duration, refusals, say
     from polybed.calibration.plan import Plan
-    from polybed.calibration.service import FILE, STOPPED, WRONG_CASE, Failure, Service
+    from polybed.calibration.service import Service
     from polybed.calibration.text import box_lines, table_toml
-    from polybed.files import FAULTS
+    from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, guarded
     from polybed.in_place import in_place, put_text
     from polybed.solids_table import read_table
 
@@ -88,7 +88,7 @@ def check_table(options, service, plan):
     service.ask("table", options.check)  # ends for what is none
     table = read_table(options.check)
     if table.attributes["regime"] != plan.regime:
-        raise Failure(WRONG_CASE, f"{options.check} is a {table.attributes['regime']} table, the boxes of the case are {plan.regime}: "
+        raise StudyError(WRONG_CASE, f"{options.check} is a {table.attributes['regime']} table, the boxes of the case are {plan.regime}: "
                                   f"{plan.case['reason']}")
     points = points_between(table, plan.case["binary"])
     boxes = Boxes(service, options, points).run()
@@ -170,7 +170,7 @@ def calibrate(options, service):
     if options.bed:
         service.ask("bed", options.bed)  # ends for what is none
     if options.on_ranks and options.jobs > 1:
-        raise Failure(WRONG_CASE, "-j starts processes of its own: under mpirun the ranks run the boxes, leave it out")
+        raise StudyError(WRONG_CASE, "-j starts processes of its own: under mpirun the ranks run the boxes, leave it out")
     if not options.plan:
         service.ask("take", options.output)
     if options.check:
@@ -193,22 +193,14 @@ def main(arguments=None):
     options = parsed(arguments)
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, signal.default_int_handler)
-    try:
+
+    def work():
         with Service(options.on_ranks) as service:
             calibrate(options, service)
-    except Failure as failure:
-        say(f"{failure}\n" if str(failure) else "", ERR)
-        return failure.code
-    except FAULTS as fault:
-        say(f"{fault}\n", ERR)
-        return FILE
-    except KeyboardInterrupt:
-        say("stopped by the user; boxes that are finished are kept, the same command goes on\n", ERR)
-        return STOPPED
-    if refusals:
-        say(f"standard output: cannot be written ({refusals[0].strerror})\n", ERR)
-        return FILE
-    return 0
+        if refusals:
+            raise StudyError(FILE, f"standard output: cannot be written ({refusals[0].strerror})")
+        return DONE
+    return guarded(work, "stopped by the user; boxes that are finished are kept, the same command goes on")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import math
 
 from polybed.calibration.fit import Table, grouped, mean_of_seeds
-from polybed.calibration.service import NUMBERS, Failure
+from polybed.ending import NUMBERS, StudyError
 
 AGREEMENT = 0.05  # what both measures of the pressure may differ by
 UNITS = "p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity m/s"
@@ -29,15 +29,15 @@ def rows(table):
 
 
 def require_usable(table):
-    """Raises Failure where the pressure does not rise, or where both measures differ by more than AGREEMENT and two standard errors."""
+    """Raises StudyError where the pressure does not rise, or where both measures differ by more than AGREEMENT and two standard errors."""
     last = None
     for phi, slabs, slabs_error, balance, balance_error in rows(table):
         off = abs(balance - slabs)
         if off > AGREEMENT * abs(slabs) and off > 2 * math.hypot(slabs_error, balance_error):
-            raise Failure(NUMBERS, f"at phi = {phi:.3f} the pressure is {slabs:.4g} by slabs and {balance:.4g} by the balance of forces, "
+            raise StudyError(NUMBERS, f"at phi = {phi:.3f} the pressure is {slabs:.4g} by slabs and {balance:.4g} by the balance of forces, "
                                    f"over the unit: {100 * off / abs(slabs):.0f} % apart, {100 * AGREEMENT:.0f} % are allowed")
         if last and not (phi > last[0] and slabs > last[1]):
-            raise Failure(NUMBERS, f"p_bed falls between phi = {last[0]:.3f} and {phi:.3f}: {last[1]:.4g} and {slabs:.4g}")
+            raise StudyError(NUMBERS, f"p_bed falls between phi = {last[0]:.3f} and {phi:.3f}: {last[1]:.4g} and {slabs:.4g}")
         last = phi, slabs
 
 

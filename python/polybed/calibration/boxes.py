@@ -2,16 +2,13 @@
 
 import json
 import os
-import subprocess
-import threading
 import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import as_completed
 
 from polybed.calibration.output import ERR, duration, say
-from polybed.calibration.service import FILE, NUMBERS, Failure
+from polybed.ending import FILE, NUMBERS, StudyError
 from polybed.files import FAULTS, contents_of, finite, read_text
-from polybed.program import program
-
+from polybed.runner import side_by_side, start
 
 # What is read of a box: numbers, and means with their standard error.
 SINGLE = ("solids_fraction", "stokes", "restitution", "friction", "share", "seed", "balance", "drift", "shear_rate_1_s", "diameter_m",
@@ -35,46 +32,18 @@ def read_box(path, digest):
     return box
 
 
-class Pool:
-    """Runs the program several times at once."""
-
-    def __init__(self):
-        self.children, self.lock, self.stopped = set(), threading.Lock(), False
-
-    def run(self, words):
-        """The exit code of one run, whose output goes to standard error."""
-        with self.lock:
-            if self.stopped:
-                return None
-            child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=ERR, process_group=0)
-            self.children.add(child)
-        code = child.wait()
-        with self.lock:
-            self.children.discard(child)
-        return code
-
-    def stop(self):
-        with self.lock:
-            self.stopped = True
-            for child in self.children:
-                child.terminate()
-
-    def run_all(self, jobs, at_once, finished):
-        """Runs jobs, {place: words}, in their order; `finished` is called with the place of each that ended with 0. Returns the places of
-        those that failed. All are stopped when this is interrupted."""
-        failed = []
-        with ThreadPoolExecutor(at_once) as threads:
-            places = {threads.submit(self.run, words): place for place, words in jobs.items()}
-            try:
-                for future in as_completed(places):
-                    if future.result() == 0:
-                        finished(places[future])
-                    else:
-                        failed.append(places[future])
-            except BaseException:
-                self.stop()
-                raise
-        return failed
+def run_all(jobs, at_once, finished):
+    """Runs the program by jobs, {place: words}, in their order; `finished` is called with the place of each that ended with 0. Returns the
+    places of those that failed."""
+    failed = []
+    with side_by_side(at_once) as threads:
+        places = {threads.submit(lambda words: start(words, stdout=ERR, process_group=0).wait(), words): place for place, words in jobs.items()}
+        for future in as_completed(places):
+            if future.result() == 0:
+                finished(places[future])
+            else:
+                failed.append(places[future])
+    return failed
 
 
 class Boxes:
@@ -101,14 +70,14 @@ class Boxes:
         return sum(self.expected[n] for n in self.left())
 
     def run(self):
-        """Runs what is not finished; all results. Raises Failure where boxes fail; finished ones are kept."""
+        """Runs what is not finished; all results. Raises StudyError where boxes fail; finished ones are kept."""
         self.begin, self.all = time.monotonic(), self.expected_left()
         failed = self.run_on_ranks() if self.options.on_ranks else self.run_as_processes()
         if failed:
-            raise Failure(NUMBERS, f"{len(failed)} boxes failed, the first at phi = {self.points[failed[0]].phi:g}; finished ones are kept")
+            raise StudyError(NUMBERS, f"{len(failed)} boxes failed, the first at phi = {self.points[failed[0]].phi:g}; finished ones are kept")
         results = [self.read(n) for n in range(len(self.points))]
         if None in results:
-            raise Failure(FILE, f"{self.path(results.index(None))}: the box that should lie here is not whole")
+            raise StudyError(FILE, f"{self.path(results.index(None))}: the box that should lie here is not whole")
         return results
 
     def run_as_processes(self):
@@ -116,9 +85,9 @@ class Boxes:
         def finished(place):
             self.done[place] = True
             self.tell()
-        jobs = {n: [program(), "calibrate", "--box", str(os.getpid()), os.fspath(self.path(n)), self.options.case, self.points[n].text(),
+        jobs = {n: ["calibrate", "--box", str(os.getpid()), os.fspath(self.path(n)), self.options.case, self.points[n].text(),
                     *self.options.set] for n in self.left()}
-        return Pool().run_all(jobs, self.options.jobs, finished)
+        return run_all(jobs, self.options.jobs, finished)
 
     def run_on_ranks(self):
         """The same by the ranks of the program. The boxes that other ranks have finished are known by their files."""

@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
-from polybed.calibration.service import NUMBERS, Failure
+from polybed.ending import NUMBERS, StudyError
 from polybed.solids_table import AXES, checksum
 
 # Half-width of the two-sided 68.27 % interval of Student's distribution by degrees of freedom, what one standard error is of a normal one.
@@ -174,25 +174,25 @@ def add_seeds(plan, table):
 
 
 def require_exchange(table):
-    """Raises Failure where species seem to be sped up by each other."""
+    """Raises StudyError where species seem to be sped up by each other."""
     if "beta_12_ratio" not in table.arrays:
         return
     for phi, ratio, error in zip(*map(table.points, ("phi", "beta_12_ratio", "beta_12_ratio_se"))):
         if not ratio > 0:
-            raise Failure(NUMBERS, f"at phi = {phi:g} beta_12 is {ratio:.3g} of its form, +- {error:.2g}: boxes too short to tell the "
+            raise StudyError(NUMBERS, f"at phi = {phi:g} beta_12 is {ratio:.3g} of its form, +- {error:.2g}: boxes too short to tell the "
                                    "drift of species that are pushed apart; raise calibrate.particles or calibrate.strain")
 
 
 def require_usable(table, falls):
-    """Raises Failure with what is wrong with a table: where its pressure falls, its residual, or, with several seeds, a point whose
+    """Raises StudyError with what is wrong with a table: where its pressure falls, its residual, or, with several seeds, a point whose
     standard error is too great. falls: places, as the program answers"""
     if falls:
-        raise Failure(NUMBERS, "the pressure of the table falls with the solids fraction, which no bed can follow: " + "; ".join(falls))
+        raise StudyError(NUMBERS, "the pressure of the table falls with the solids fraction, which no bed can follow: " + "; ".join(falls))
     residual, allowed = table.attributes["fit_residual"], f"{100 * GREATEST_RESIDUAL:.0f} % are allowed"
     if not residual <= GREATEST_RESIDUAL:
-        raise Failure(NUMBERS, f"the curve through the other solids fractions misses one by {100 * residual:.1f} % more than two standard "
+        raise StudyError(NUMBERS, f"the curve through the other solids fractions misses one by {100 * residual:.1f} % more than two standard "
                                f"errors of both, {allowed}: the grid is too coarse for what it shows; add to calibrate.solids_fraction")
     for phi, seeds, error in zip(table.points("phi"), table.points("p_ratio_n"), relative_errors(table)):
         if seeds > 1 and not error <= GREATEST_RESIDUAL:
-            raise Failure(NUMBERS, f"at phi = {phi:g} the seeds scatter: p or mu has a standard error of {100 * error:.1f} %, {allowed}; "
+            raise StudyError(NUMBERS, f"at phi = {phi:g} the seeds scatter: p or mu has a standard error of {100 * error:.1f} %, {allowed}; "
                                    "raise calibrate.seeds or calibrate.particles")

@@ -5,17 +5,8 @@ import json
 import os
 import subprocess
 
-from polybed.program import program
-
-WRONG_CASE, NUMBERS, FILE, STOPPED = 2, 3, 4, 130  # exit codes of polybed
-
-
-class Failure(Exception):
-    """The calibration ends with a code; the text is what is said of it, empty where the program has said it."""
-
-    def __init__(self, code, text=""):
-        super().__init__(text)
-        self.code = code
+from polybed.ending import FILE, StudyError
+from polybed.runner import start
 
 
 class Service:
@@ -29,7 +20,7 @@ class Service:
             self.questions, self.answers = os.fdopen(os.dup(0), "w", **coding), os.fdopen(os.dup(0), **coding)
             return
         pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-        self.child = subprocess.Popen([program(), "calibrate", "--serve"], process_group=0, **pipes, **coding)
+        self.child = start(["calibrate", "--serve"], process_group=0, **pipes, **coding)
         self.questions, self.answers = self.child.stdin, self.child.stdout
 
     def ask(self, *words):
@@ -40,11 +31,11 @@ class Service:
         return self.answer()
 
     def answer(self):
-        """The next line that is answered. Raises Failure with the code of a program that has ended."""
+        """The next line that is answered. Raises StudyError with the code of a program that has ended."""
         line = self.answers.readline()
         if not line:
             code = self.child.wait() if self.child else FILE
-            raise Failure(code if code >= 0 else 128 - code)
+            raise StudyError(code if code >= 0 else 128 - code)
         return json.loads(line)
 
     def close(self):

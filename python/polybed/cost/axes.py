@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field, replace
 
 from polybed.cost.scene import LEAST_MODULUS
-from polybed.study.ending import WRONG_CASE, StudyError
+from polybed.ending import WRONG_CASE, StudyError
 
 NUMERICS, STATISTICS, MODEL, MACHINE = "numerics", "statistics", "model", "machine"
 DRAG_LAWS = ("cello", "vbk_theory", "gidaspow", "di_felice")

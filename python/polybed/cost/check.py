@@ -11,7 +11,7 @@ from polybed.cost.runner import Runner, RunOrder
 from polybed.cost.scene import Scene
 from polybed.files import FormatError, contents_of, read_json, read_text
 from polybed.in_place import put_text
-from polybed.study.ending import NUMBERS, WRONG_CASE, StudyError, answer
+from polybed.ending import NUMBERS, WRONG_CASE, StudyError, answer
 
 TIME_ALLOWED, DEARER_ALLOWED, AS_ACCURATE, ROUNDING = 0.25, 0.1, 1.01, 1e-9
 

@@ -16,10 +16,11 @@ from polybed.cost.runner import Runner
 from polybed.cost.scene import Scene
 from polybed.cost.sweep import SweepOptions
 from polybed.cost.sweeper import common_overrides
-from polybed.program import call, name_of
+from polybed.program import name_of
+from polybed.runner import call
 from polybed.study import output_folder
 from polybed.study.cases import words_of
-from polybed.study.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
+from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
 SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 NUMBER = r" *\+?(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?) *"

@@ -16,7 +16,8 @@ with needed(__name__ == "__main__"):
 
     from polybed.drawing import cost
     from polybed.drawing.style import STYLE
-    from polybed.files import contents_of, print_made, read_json
+    from polybed.ending import made
+    from polybed.files import contents_of, read_json
     from polybed.plot import save
 
     from polybed.cost.page import write_page
@@ -37,7 +38,7 @@ def main(arguments=None):
     parser.add_argument("directory")
     parser.add_argument("--out", help="folder of the pictures (default: that of the sweep)")
     options = parser.parse_args(arguments)
-    return print_made(lambda: [*pictures(options.directory, options.out), *([] if options.out else [write_page(options.directory)])])
+    return made(lambda: [*pictures(options.directory, options.out), *([] if options.out else [write_page(options.directory)])])
 
 
 if __name__ == "__main__":

@@ -10,8 +10,8 @@ from polybed.cost.markdown import sweep_markdown
 from polybed.cost.timing import Timing, timing_of
 from polybed.cost.work import VERSION, weighed
 from polybed.in_place import put_text
-from polybed.program import call
-from polybed.study.ending import NUMBERS, StudyError
+from polybed.runner import call
+from polybed.ending import NUMBERS, StudyError
 
 
 @dataclass

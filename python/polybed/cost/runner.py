@@ -11,8 +11,8 @@ from polybed.cost.work import counters_of, weighed
 from polybed.files import contents_of, read_json, read_text
 from polybed.in_place import put_text
 from polybed.study.cases import hash_of, words_of
-from polybed.study.child import run_child
-from polybed.study.ending import WRONG_CASE
+from polybed.runner import run_within
+from polybed.ending import WRONG_CASE
 from polybed.study.measured import Measured, measured
 from polybed.study.output_folder import mark_folder
 
@@ -111,7 +111,7 @@ class Runner:
         (folder / "end.json").unlink(missing_ok=True)
         words = [order.model, str(self.scene.path), "--quiet", "--no-picture", "--force", "-o", str(folder)]
         words += words_of([*self.overrides, *order.overrides])
-        end = run_child(words, order.ranks, folder / "output.txt", seconds)
+        end = run_within(seconds, words, order.ranks, folder / "output.txt")
         remove_not_read(folder)
         put_text(folder / "end.json", json.dumps({"code": end.code, "timed_out": end.timed_out, "wall_s": end.wall}) + "\n")
 

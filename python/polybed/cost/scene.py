@@ -4,7 +4,7 @@ import json
 import resource
 import tomllib
 
-from polybed.program import call
+from polybed.runner import call
 from polybed.study.cases import words_of
 
 LEAST_MODULUS = 5e6  # Pa, core::least_modulus: what contacts have unless the case says otherwise

@@ -11,8 +11,8 @@ from polybed.cost.judge import carries
 from polybed.cost.random import normal
 from polybed.cost.refinement import refine
 from polybed.cost.timing import is_chaotic, timing_of, too_noisy
-from polybed.program import call
-from polybed.study.ending import answer
+from polybed.runner import call
+from polybed.ending import answer
 from polybed.study.measured import Profile, measures_of
 from polybed.study.time_mean import time_mean
 

@@ -9,7 +9,7 @@ from polybed.cost.quantities import measure_on, quantities_of, quantities_of_run
 from polybed.cost.runner import RunOrder, RunOutcome
 from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
 from polybed.cost.timing import is_chaotic
-from polybed.study.ending import WRONG_CASE, StudyError
+from polybed.ending import WRONG_CASE, StudyError
 from polybed.study.measured import centre_column, species_of, within
 from polybed.study.time_mean import TimeMean
 

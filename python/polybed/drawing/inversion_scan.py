@@ -21,7 +21,8 @@ with needed(__name__ == "__main__"):
     import numpy as np
 
     from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
-    from polybed.files import contents_of, print_made, read_json
+    from polybed.ending import made
+    from polybed.files import contents_of, read_json
     from polybed.plot import save
     from polybed.read import read
     from polybed.record import title_of_case
@@ -145,7 +146,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="polybed.drawing.inversion_scan", description="Draws a scan for the inversion velocity.")
     parser.add_argument("directory", help="folder of inversion.json")
     directory = parser.parse_args(arguments).directory
-    return print_made(lambda: [drawn(directory)])
+    return made(lambda: [drawn(directory)])
 
 
 if __name__ == "__main__":

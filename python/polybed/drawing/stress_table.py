@@ -17,7 +17,8 @@ with needed(__name__ == "__main__"):
     import numpy as np
 
     from polybed.drawing.style import COLOURS, PALE, STYLE
-    from polybed.files import FormatError, contents_of, print_made
+    from polybed.ending import made
+    from polybed.files import FormatError, contents_of
     from polybed.plot import save
     from polybed.solids_table import AXES, read_table
 
@@ -63,7 +64,7 @@ def main(arguments=None):
     parser.add_argument("table", type=Path)
     parser.add_argument("-o", "--out", type=Path, help="default: beside the table")
     words = parser.parse_args(arguments)
-    return print_made(lambda: [draw(words.table, words.out or words.table.with_suffix(".png"))])
+    return made(lambda: [draw(words.table, words.out or words.table.with_suffix(".png"))])
 
 
 if __name__ == "__main__":

@@ -12,9 +12,9 @@ from polybed.fit import errors
 from polybed.fit.fitting import Problem
 from polybed.fit.page import page, write_errors
 from polybed.fit.rows import read_points
-from polybed.program import call
+from polybed.runner import call
 from polybed.study import output_folder
-from polybed.study.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
+from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.record import draw, remark, write_record
 
 INTERVAL = (2.5, 97.5)  # per cent of the draws

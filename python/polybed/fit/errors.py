@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from polybed.program import call
+from polybed.runner import call
 
 FINE = 0.5  # y below which a size is fine: ratios with it are less certain
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from polybed.files import read_text
-from polybed.study.ending import FILE, WRONG_CASE, StudyError
+from polybed.ending import FILE, WRONG_CASE, StudyError
 
 SHARES = "inferred_xj_sarkar.csv"
 

@@ -11,7 +11,7 @@ import sys
 from polybed.packages import needed
 
 with needed(True):
-    from polybed.files import print_made
+    from polybed.ending import made
     from polybed.report.build import told, write
 
 
@@ -19,7 +19,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="polybed report", description="Makes report.html of a finished or a running run.")
     parser.add_argument("run", help="run directory")
     directory = parser.parse_args(arguments).run
-    return print_made(lambda: [told(*write(directory))])
+    return made(lambda: [told(*write(directory))])
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ missing, 130 stopped.
 """
 
 import argparse
-import fcntl
 import os
 import re
 import sys
@@ -18,18 +17,19 @@ from collections import Counter
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
-from polybed.packages import NO_FILE, needed
+from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
     from polybed.drawing.units import text
+    from polybed.ending import DONE, guarded
     from polybed.files import FAULTS, contents_of, opened
     from polybed.page import markup, section
     from polybed.read import Snapshot
     from polybed.record import case_of
     from polybed.report import sections
     from polybed.report.build import drawn, embedded, page_of, parts, told, under, write
+    from polybed.study.output_folder import writes
 
-STOPPED = 130
 LOOPBACK = "127.0.0.1"
 RENEWED = 2.0  # s between two looks at the run
 SHARE = 0.1  # of the time, at most, that looking at the run may take
@@ -52,20 +52,6 @@ FOLLOW = """(async () => {
     if (found.ended) return;
   }
 })();"""
-
-
-def writes(directory):
-    """Whether a process writes into a run directory: it has the mark locked as long as it lives. The shared lock by which this is asked
-    is given back at once."""
-    try:
-        with opened(directory / ".polybed") as mark:
-            try:
-                fcntl.flock(mark, fcntl.LOCK_SH | fcntl.LOCK_NB)
-            except BlockingIOError:
-                return True
-    except FAULTS:
-        pass
-    return False
 
 
 def limits_now(directory):
@@ -229,14 +215,7 @@ def main(arguments=None):
     parser.add_argument("run", help="run directory")
     parser.add_argument("--port", type=int, default=0, help="default: any that is free")
     options = parser.parse_args(arguments)
-    try:
-        serve(options.run, options.port)
-    except FAULTS as error:
-        print(error, file=sys.stderr)
-        return NO_FILE
-    except KeyboardInterrupt:
-        return STOPPED
-    return 0
+    return guarded(lambda: serve(options.run, options.port) or DONE, "")
 
 
 if __name__ == "__main__":

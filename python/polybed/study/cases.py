@@ -3,7 +3,7 @@
 import json
 import tomllib
 
-from polybed.program import call
+from polybed.runner import call
 
 FREE = ("tfm.", "dem.", "output.")  # tables that may differ between runs of one case
 

@@ -12,8 +12,9 @@ import tempfile
 from pathlib import Path
 
 from polybed.files import contents_of, read_text
-from polybed.program import ProgramError, call
-from polybed.study.ending import FILE, WRONG_CASE, StudyError, guarded
+from polybed.errors import ProgramError
+from polybed.runner import call
+from polybed.ending import FILE, WRONG_CASE, StudyError, guarded
 
 BANDS = Path(__file__).with_name("closure_bands.json")
 WIDEST = 0.5  # of a tilt, as the law file has it

@@ -18,13 +18,13 @@ from pathlib import Path
 from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
-    from polybed.program import call
+    from polybed.runner import call
     from polybed.study import output_folder
     from polybed.study.cases import Case, words_of
     from polybed.study.closure_band import band_of, tilt_of, width_of, write_moved
-    from polybed.study.ending import DONE, NUMBERS, StudyError, answer, guarded
+    from polybed.ending import DONE, NUMBERS, StudyError, answer, guarded
     from polybed.study.record import draw, remark, write_record
-    from polybed.study.runs import flags, has_checkpoint, run
+    from polybed.runner import flags, has_checkpoint, run
     from polybed.study.stress_uncertainty import late_means
 
 FINE = 0.5  # y below which the ratio has a band of its own

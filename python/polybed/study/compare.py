@@ -18,11 +18,11 @@ with needed(__name__ == "__main__"):
     from polybed.program import name_of
     from polybed.study import compare_report as report
     from polybed.study.cases import Case, differences, roles_in_both_models, words_of
-    from polybed.study.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
+    from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
     from polybed.study.measured import measured
     from polybed.study.output_folder import taken
     from polybed.study.record import draw, write_record
-    from polybed.study.runs import flags, has_checkpoint, run
+    from polybed.runner import flags, has_checkpoint, run
     from polybed.study.scores import MODELS, add_inversion, compare
 
 

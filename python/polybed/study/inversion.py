@@ -20,13 +20,13 @@ with needed(__name__ == "__main__"):
     from polybed.read import read
     from polybed.study import inversion_report as report
     from polybed.study.cases import Case, hash_of, words_of
-    from polybed.study.ending import DONE, WRONG_CASE, StudyError, answer, guarded
+    from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
     from polybed.study.inversion_search import Mean, search
     from polybed.study.measured import Columns, WindowProfiles, centre_difference, drifts_in, history_of, measures_of, species_of, \
         window_of, within
     from polybed.study.output_folder import taken
     from polybed.study.record import draw, write_record
-    from polybed.study.runs import flags, has_checkpoint, ranks, run
+    from polybed.runner import flags, has_checkpoint, ranks, run
     from polybed.study.stress_uncertainty import moved_table
     from polybed.study.time_mean import time_mean
 

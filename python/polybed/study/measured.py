@@ -2,14 +2,13 @@
 profiles, which the program defines: `polybed measure`."""
 
 import json
-import subprocess
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
 from polybed.files import DamagedError, FormatError
-from polybed.program import ProgramError, program
+from polybed.runner import call
 from polybed.read import read
 from polybed.study.drift import drift_lines
 from polybed.study.time_mean import TimeMean, groups_left_out, jackknife_error, rows_to_drop
@@ -180,11 +179,7 @@ def measures_of(profiles, species, on=None, reference=None):
         asked["on"] = {"slab": on[0], "count": on[1]}
     if reference:
         asked["reference"] = reference.plain()
-    line = [program(), "measure", "--profiles", "-", "--json"]
-    done = subprocess.run(line, input=json.dumps(asked), capture_output=True, encoding="utf-8")
-    if done.returncode != 0:
-        raise ProgramError(line, done.returncode, done.stderr)
-    return json.loads(done.stdout)
+    return json.loads(call("measure", "--profiles", "-", "--json", given=json.dumps(asked)))
 
 
 def drifts_in(history, species, window):

@@ -11,8 +11,8 @@ import os
 import socket
 import stat
 
-from polybed.files import FAULTS, MISFITS, read_text
-from polybed.study.ending import FILE, WRONG_CASE, StudyError
+from polybed.files import FAULTS, MISFITS, opened, read_text
+from polybed.ending import FILE, WRONG_CASE, StudyError
 
 MARK = ".polybed"
 TEXT = "polybed writes this directory: it replaces and removes files of its own here\n"
@@ -92,6 +92,20 @@ def taken(folder):
         yield folder
     finally:
         os.close(mark)
+
+
+def writes(folder):
+    """Whether a process writes into a run directory: it has the mark locked as long as it lives. The shared lock by which this is asked
+    is given back at once."""
+    try:
+        with opened(folder / MARK) as mark:
+            try:
+                fcntl.flock(mark, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            except BlockingIOError:
+                return True
+    except FAULTS:
+        pass
+    return False
 
 
 def mark_folder(folder):

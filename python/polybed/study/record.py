@@ -6,7 +6,7 @@ import sys
 from contextlib import suppress
 
 from polybed.in_place import put_text
-from polybed.study.ending import FILE, NUMBERS, StudyError, answer
+from polybed.ending import FILE, NUMBERS, StudyError, answer
 
 
 def write_record(path, found):

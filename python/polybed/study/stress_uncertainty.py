@@ -15,15 +15,15 @@ from polybed.packages import needed
 
 with needed(__name__ == "__main__"):
     from polybed.calibration.fit import Table
-    from polybed.calibration.service import Failure, Service
+    from polybed.calibration.service import Service
     from polybed.in_place import in_place
     from polybed.read import read
     from polybed.solids_table import read_table
     from polybed.study.cases import Case, words_of
-    from polybed.study.ending import DONE, WRONG_CASE, StudyError, guarded
+    from polybed.ending import DONE, WRONG_CASE, StudyError, guarded
     from polybed.study.measured import centre_difference, history_of, species_of, window_of, within
     from polybed.study.record import remark, write_record
-    from polybed.study.runs import flags, has_checkpoint, run
+    from polybed.runner import flags, has_checkpoint, run
     from polybed.study.time_mean import time_mean
 
 
@@ -50,11 +50,8 @@ def require_rising(table, sigma, moved):
     """Raises StudyError if the pressure of a moved table of sheared boxes falls; the model that reads a bed's pressure looks at that itself."""
     if read_table(moved).attributes["regime"] == "bed":
         return
-    try:
-        with Service() as service:
-            falls = service.ask("table", moved)["falls"]
-    except Failure as failure:  # the program has said why
-        raise StudyError(failure.code, str(failure)) from None
+    with Service() as service:
+        falls = service.ask("table", moved)["falls"]
     if falls:
         raise StudyError(WRONG_CASE, f"{table} moved by {sigma:+g} standard errors: its pressure falls {falls[0]}")
 

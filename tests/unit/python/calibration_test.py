@@ -7,6 +7,7 @@ import os
 import sys
 import tempfile
 import unittest
+from unittest import mock
 from pathlib import Path
 
 import h5py
@@ -16,13 +17,14 @@ os.environ["POLYBED"], PACKAGE = os.path.abspath(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, PACKAGE)
 
 from polybed.calibration import bed, fit
-from polybed.calibration.boxes import MEANS, SINGLE, Pool, read_box
+from polybed.calibration.boxes import MEANS, SINGLE, read_box, run_all
 from polybed.calibration.check import deviation, deviation_lines, points_between
 from polybed.calibration.plan import Plan, Point
-from polybed.calibration.service import NUMBERS, Failure, Service
+from polybed.calibration.service import Service
 from polybed.calibration.text import box_lines
+from polybed.ending import NUMBERS, StudyError
+from polybed.runner import running
 from polybed.solids_table import checksum, read_table
-from polybed.study.ending import StudyError
 from polybed.study.stress_uncertainty import moved_table
 
 DRY = {"regime": "dry", "reference": "GD-CS e_eff", "binary": False, "seeds": 2,
@@ -91,7 +93,7 @@ class Seeds(unittest.TestCase):
         boxes[9:12] = synthetic(plan, 0.07)[9:12]  # of the fourth point
         scattered = fit.fitted(plan, boxes)
         self.assertAlmostEqual(max(fit.relative_errors(scattered)), 1.321 * 0.07 / math.sqrt(3), delta=1e-12)
-        with self.assertRaisesRegex(Failure, "at phi = 0.2 the seeds scatter"):
+        with self.assertRaisesRegex(StudyError, "at phi = 0.2 the seeds scatter"):
             fit.require_usable(scattered, [])
         self.assertTrue(fit.add_seeds(plan, scattered))
         self.assertEqual(plan.seeds, [3, 3, 3, 4, 3, 3, 3, 3, 3, 3])
@@ -127,7 +129,7 @@ class Fits(unittest.TestCase):
         table = fit.fitted(plan, boxes)
         self.assertAlmostEqual(table.attributes["left_out_residual"], 0.2 / 1.2, delta=1e-12)
         self.assertAlmostEqual(table.attributes["fit_residual"], (0.2 - 2 * math.sqrt(1.5e-4)) / 1.2, delta=1e-12)
-        with self.assertRaisesRegex(Failure, "misses one by 14.6 % more than two standard errors") as refused:
+        with self.assertRaisesRegex(StudyError, "misses one by 14.6 % more than two standard errors") as refused:
             fit.require_usable(table, [])
         self.assertEqual(refused.exception.code, NUMBERS)
         for box in boxes:
@@ -139,7 +141,7 @@ class Fits(unittest.TestCase):
     def test_seeds_that_disagree_are_refused(self):
         plan = plan_of()
         fit.require_usable(fit.fitted(plan, synthetic(plan, 0.027)), [])  # 1.837 x 0.027 = 4.96 %
-        with self.assertRaisesRegex(Failure, "standard error of 5.1 %, 5 % are allowed"):
+        with self.assertRaisesRegex(StudyError, "standard error of 5.1 %, 5 % are allowed"):
             fit.require_usable(fit.fitted(plan, synthetic(plan, 0.028)), [])
 
     def test_inertia_of_a_wet_table(self):
@@ -170,7 +172,7 @@ class Fits(unittest.TestCase):
         self.assertEqual(table["beta_12_drift"], [0.3])
         fit.require_exchange(table)
         table["beta_12_ratio"][1, 0, 1, 0, 0] = -0.1  # species that are sped up by each other
-        with self.assertRaisesRegex(Failure, "at phi = 0.2 beta_12 is -0.1 of its form"):
+        with self.assertRaisesRegex(StudyError, "at phi = 0.2 beta_12 is -0.1 of its form"):
             fit.require_exchange(table)
 
 
@@ -213,10 +215,10 @@ class Bed(unittest.TestCase):
         bed.require_usable(table)
         self.assertIn("+3.0 %", bed.bed_rows(table))
         table["p_bed_by_balance"][1] *= 1.1
-        with self.assertRaisesRegex(Failure, "at phi = 0.460 .* 13 % apart, 5 % are allowed"):
+        with self.assertRaisesRegex(StudyError, "at phi = 0.460 .* 13 % apart, 5 % are allowed"):
             bed.require_usable(table)
         table["p_bed"][1] = table["p_bed_by_balance"][1] = 0.9
-        with self.assertRaisesRegex(Failure, "p_bed falls between phi = 0.280 and 0.460"):
+        with self.assertRaisesRegex(StudyError, "p_bed falls between phi = 0.280 and 0.460"):
             bed.require_usable(table)
 
 
@@ -248,17 +250,17 @@ class Files(Scratch):
 
     def test_jobs_run_side_by_side_and_those_that_fail_are_named(self):
         done = []
-        failed = Pool().run_all({n: ["sh", "-c", f"exit {n % 2}"] for n in range(6)}, 3, done.append)
+        with mock.patch.dict(os.environ, POLYBED="/bin/sh"):
+            failed = run_all({n: ["-c", f"exit {n % 2}"] for n in range(6)}, 3, done.append)
         self.assertEqual((sorted(done), sorted(failed)), ([0, 2, 4], [1, 3, 5]))
 
     def test_jobs_are_ended_when_they_are_stopped(self):
         def stop(place):
             raise KeyboardInterrupt
-        (jobs := {n: ["sleep", "600"] for n in range(1, 4)})[0] = ["true"]
-        pool = Pool()
-        with self.assertRaises(KeyboardInterrupt):
-            pool.run_all(dict(sorted(jobs.items())), 2, stop)
-        self.assertEqual(pool.children, set())
+        jobs = {n: ["-c", "exec sleep 600" if n else "exit 0"] for n in range(4)}
+        with self.assertRaises(KeyboardInterrupt), mock.patch.dict(os.environ, POLYBED="/bin/sh"):
+            run_all(jobs, 2, stop)
+        self.assertEqual([child.args for child in running if child.poll() is None], [])
 
     def test_a_pressure_that_falls_is_refused_and_its_place_named(self):
         plan = plan_of()
@@ -269,12 +271,12 @@ class Files(Scratch):
         falls = self.judged(table)["falls"]
         self.assertEqual(len(falls), 1)
         self.assertIn("e = 0.8", falls[0])
-        with self.assertRaisesRegex(Failure, "falls with the solids fraction.*phi = 0.2"):
+        with self.assertRaisesRegex(StudyError, "falls with the solids fraction.*phi = 0.2"):
             fit.require_usable(table, falls)
 
     def test_a_table_that_no_run_reads_is_not_written(self):
         plan = plan_of()
-        with self.assertRaises(Failure) as refused:
+        with self.assertRaises(StudyError) as refused:
             self.judged(fit.fitted(plan, synthetic(plan, 0, lambda point: -1.0)))
         self.assertEqual(refused.exception.code, 4)
 
@@ -357,7 +359,7 @@ class Checks(Scratch):
         self.judged(self.table())
         with h5py.File(self.folder / "table.h5", "r+") as file:
             file["p_ratio"][0] = 0.81
-        with Service() as service, self.assertRaises(Failure) as refused:
+        with Service() as service, self.assertRaises(StudyError) as refused:
             service.ask("table", self.folder / "table.h5")
         self.assertEqual(refused.exception.code, 4)
 

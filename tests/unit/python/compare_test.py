@@ -12,7 +12,8 @@ os.environ["POLYBED"] = sys.argv.pop(1)  # has the measures of profiles
 sys.path.insert(0, sys.argv.pop(1))
 
 from polybed.files import FormatError  # noqa: E402
-from polybed.study import cases, compare_report, runs  # noqa: E402
+from polybed import runner  # noqa: E402
+from polybed.study import cases, compare_report  # noqa: E402
 from polybed.study.measured import Columns, Measured  # noqa: E402
 from polybed.study.scores import add_inversion, compare  # noqa: E402
 
@@ -203,7 +204,7 @@ class Runs(unittest.TestCase):
     def test_a_run_starts_as_if_there_were_no_launcher(self):
         users = {"OMPI_MCA_btl": "self,tcp", "OMPI_ALLOW_RUN_AS_ROOT": "0", "HOME": "there"}
         with mock.patch.dict(os.environ, self.LAUNCHER | users | {"POLYBED_RANKS": "3"}, clear=True):
-            found = runs.environment()
+            found = runner.environment()
         self.assertEqual({name: found[name] for name in users}, users)
         self.assertFalse(found.keys() & self.LAUNCHER.keys())
         self.assertNotIn("POLYBED_RANKS", found)
@@ -211,7 +212,7 @@ class Runs(unittest.TestCase):
     def test_as_many_ranks_as_the_study_was_started_with(self):
         for variables, count in (({}, 1), ({"POLYBED_RANKS": "2"}, 2), (self.LAUNCHER, 3), ({"PMI_SIZE": "4"}, 4)):
             with mock.patch.dict(os.environ, variables, clear=True):
-                self.assertEqual(runs.ranks(), count)
+                self.assertEqual(runner.ranks(), count)
 
 
 class Report(unittest.TestCase):

@@ -25,7 +25,7 @@ from polybed.cost.sweep import Row, Share, Sweep, SweepOptions  # noqa: E402
 from polybed.cost.timing import is_chaotic, timing_of, too_noisy  # noqa: E402
 from polybed.cost.work import counters_of, weighed  # noqa: E402
 from polybed.files import FormatError  # noqa: E402
-from polybed.study.ending import StudyError  # noqa: E402
+from polybed.ending import StudyError  # noqa: E402
 from polybed.study.measured import Columns, Measured, Window  # noqa: E402
 
 

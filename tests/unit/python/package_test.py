@@ -13,8 +13,8 @@ from pathlib import Path
 PACKAGE = Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(PACKAGE))
 
-import polybed.program as package  # noqa: E402
-from polybed import errors, progress  # noqa: E402
+import polybed  # noqa: E402
+from polybed import errors, progress, runner  # noqa: E402
 
 
 def shown_by(work):
@@ -70,9 +70,9 @@ class Errors(unittest.TestCase):
                                          "raise polybed.ProgramError([], 2, 'said')"))
 
     def test_a_notebook_shows_the_same_line(self):
-        self.assertEqual(package.ProgramError(["polybed"], 2, "said\n", "polybed.run('a')")._render_traceback_(),
+        self.assertEqual(polybed.ProgramError(["polybed"], 2, "said\n", "polybed.run('a')")._render_traceback_(),
                          ["polybed.ProgramError: polybed.run('a') ended with 2: said"])
-        self.assertTrue(issubclass(package.NoProgramError, (errors.PlainError, OSError)))
+        self.assertTrue(issubclass(errors.NoProgramError, (errors.PlainError, OSError)))
 
     def test_pandas_and_xarray_are_needed_by_what_returns_them_alone(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -97,10 +97,10 @@ class Program(unittest.TestCase):
         self.folder = Path(scratch.name).resolve()
         site = self.folder / "env/lib/python3/site-packages"
         site.mkdir(parents=True)
-        self.own = package.OWN
-        package.OWN = site / "polybed/program.py"
-        package.OWN.parent.mkdir()
-        self.addCleanup(setattr, package, "OWN", self.own)
+        self.own = runner.OWN
+        runner.OWN = site / "polybed/runner.py"
+        runner.OWN.parent.mkdir()
+        self.addCleanup(setattr, runner, "OWN", self.own)
         kept = dict(os.environ)
         self.addCleanup(lambda: (os.environ.clear(), os.environ.update(kept)))
         os.environ.pop("POLYBED", None)
@@ -115,20 +115,20 @@ class Program(unittest.TestCase):
 
     def test_the_order(self):
         with self.assertRaisesRegex(FileNotFoundError, "^there is no program polybed: build it by ./polybed .*env/bin/polybed, and not on the path"):
-            package.program()
+            runner.program()
         sources = self.folder / "sources"
-        (package.OWN.parent / "sources.txt").write_text(str(sources))
+        (runner.OWN.parent / "sources.txt").write_text(str(sources))
         for place in ("path/polybed", "sources/build/polybed", "env/bin/polybed"):
             found = self.program_at(place)
             sources.mkdir(exist_ok=True)
             (sources / "CMakeLists.txt").touch()
-            self.assertEqual(package.program(), found)
+            self.assertEqual(runner.program(), found)
         os.environ["POLYBED"] = self.program_at("mine")
-        self.assertEqual(package.program(), os.environ["POLYBED"])
+        self.assertEqual(runner.program(), os.environ["POLYBED"])
 
     def test_sources_that_are_gone_are_passed_over(self):
-        (package.OWN.parent / "sources.txt").write_text(str(self.folder / "gone"))
-        self.assertIsNone(package.sources())
+        (runner.OWN.parent / "sources.txt").write_text(str(self.folder / "gone"))
+        self.assertIsNone(runner.sources())
 
 
 if __name__ == "__main__":

@@ -161,7 +161,7 @@ class Film(SampleRun):
 
 class Whole(SampleRun):
     def test_a_time_that_is_not_stored_is_refused(self):
-        with self.assertRaisesRegex(plot.CommandError, "from 0 to 1 s"):
+        with self.assertRaisesRegex(plot.StudyError, "from 0 to 1 s"):
             plot.step_of(self.sample, 1.5)
         self.assertEqual([plot.step_of(self.sample, t) for t in (None, 0, 0.6, 1)], [4, 0, 2, 4])
 

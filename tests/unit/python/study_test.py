@@ -14,8 +14,9 @@ PROGRAM, PACKAGE = sys.argv[1:3]
 sys.path.insert(0, PACKAGE)
 os.environ["POLYBED"] = PROGRAM
 
-from polybed.study import ending, output_folder  # noqa: E402
-from polybed.study.child import run_child  # noqa: E402
+from polybed import ending  # noqa: E402
+from polybed.runner import run_within  # noqa: E402
+from polybed.study import output_folder  # noqa: E402
 from polybed.study.drift import drift_lines, drift_of  # noqa: E402
 from polybed.study.measured import (Columns, Profile, Window, WindowProfiles, centre_difference, measures_of, ratio, species_of, window_of,  # noqa: E402
                                     within)
@@ -193,15 +194,15 @@ class Folders(unittest.TestCase):
 
     def test_a_child_is_ended_when_its_time_is_over(self):
         output = Path(str(self.folder) + ".txt")
-        self.assertEqual(run_child(["--version"], 1, output, 60)[:2], (0, False))
+        self.assertEqual(run_within(60, ["--version"], 1, output)[:2], (0, False))
         self.assertIn("polybed", output.read_text())
-        self.assertEqual(run_child(["nonsense"], 1, output, 60).code, ending.WRONG_CASE)
+        self.assertEqual(run_within(60, ["nonsense"], 1, output).code, ending.WRONG_CASE)
         sleeping = self.folder.parent / "sleeping"
         sleeping.write_text("#!/bin/sh\nexec sleep 60\n")
         sleeping.chmod(0o755)
         begin, os.environ["POLYBED"] = time.monotonic(), str(sleeping)
         try:
-            end = run_child([], 1, output, 0.2)
+            end = run_within(0.2, [], 1, output)
         finally:
             os.environ["POLYBED"] = PROGRAM
         self.assertEqual(end[:2], (128 + 15, True))

@@ -1,21 +1,14 @@
-"""How a command that is a study ends: the exit codes of polybed, and what is wrong in a message on standard error."""
+"""How every command of this package ends: the exit codes of polybed, and what is wrong in a message on standard error."""
 
 import os
 import sys
 from contextlib import suppress
 
+from polybed.errors import ProgramError, StudyError
 from polybed.files import FAULTS
-from polybed.program import ProgramError
+from polybed.packages import DONE, FILE, MPI, NUMBERS, STOPPED, WRONG_CASE
 
-DONE, WRONG_CASE, NUMBERS, FILE, MPI, STOPPED = 0, 2, 3, 4, 5, 130
-
-
-class StudyError(Exception):
-    """A study cannot go on. The text is for its user, the code is what the command ends with."""
-
-    def __init__(self, code, text):
-        super().__init__(text)
-        self.code = code
+__all__ = ["DONE", "FILE", "MPI", "NUMBERS", "STOPPED", "WRONG_CASE", "StudyError", "answer", "guarded", "made"]
 
 
 def answer(text):
@@ -36,10 +29,11 @@ def told(error):
     return str(error)
 
 
-def guarded(work):
-    """Does the work of the whole process and returns the code that it ends with."""
+def guarded(work, stopped="stopped by the user"):
+    """Does the work of the whole process and returns the code that it ends with. stopped: what is said when the user stops it"""
     for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     try:
         return work()
     except (StudyError, ProgramError) as error:
@@ -47,8 +41,16 @@ def guarded(work):
     except FAULTS as error:
         said, code = told(error), FILE
     except KeyboardInterrupt:
-        said, code = "stopped by the user", STOPPED
+        said, code = stopped, STOPPED
     if said:  # a run that a study has made has said it itself
         with suppress(OSError):
             print(said, file=sys.stderr, flush=True)
     return code
+
+
+def made(paths):
+    """Of a command that makes files, by `paths`, which returns where they are: prints that, or what is wrong; returns the exit code."""
+    def work():
+        answer("\n".join(map(str, paths())))
+        return DONE
+    return guarded(work)
