@@ -279,8 +279,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   note_choice(scene, {"dem"}, notes);
   note_costs(scene, notes);
   if (options.json) {
-    const std::string text = core::resolved_case(scene);
-    core::Json json = {{"case", text}, {"hash", core::case_hash(scene)}};
+    core::Json json = {{"case", core::resolved_case(scene)}, {"hash", core::case_hash(scene)}};
     write_particle_requirements(json, scene, need);
     write_expected(json, scene, bed_of_case(scene));
     write_size_classes(json, scene);
@@ -356,8 +355,7 @@ void run_check(const RunOptions& options) {
   note_choice(scene, models, derived.notes);
   if (particles) note_costs(scene, derived.notes);
   if (options.json) {
-    const std::string text = core::resolved_case(scene);
-    core::Json json = {{"case", text},
+    core::Json json = {{"case", core::resolved_case(scene)},
                        {"hash", core::case_hash(scene)},
                        {"fluid_density_kg_m3", derived.fluid.density},
                        {"fluid_viscosity_Pa_s", derived.fluid.viscosity}};

@@ -14,14 +14,14 @@ velocities = [15, 25] if chosen.short else [10, 15, 20, 25, 30, 35, 40]
 runs = polybed.sweep(chosen.case, "inlet.superficial_velocity", [f"{u} mm/s" for u in velocities],
                      output=chosen.output / "expansion", until="0.2 s" if chosen.short else None)
 
-heights, spread = np.array([run.quantity("bed_height").last() for run in runs]).T
+heights, interval = np.array([list(run.card["bed_height_m"].values()) for run in runs], float).T  # NaN: too few rows for an interval
 # Volume of the solids over the cross-section, from the first profile: no drift can change it.
 first = runs[0].profiles
 solids = sum(first[f"phi_{name}"][0].sum() for name in runs[0].species) * np.diff(first["y_m"])[0]
 voidage = 1 - solids / heights
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.6), constrained_layout=True)
-left.errorbar(velocities, heights * 1e3, spread * 1e3, marker="o", capsize=2)
+left.errorbar(velocities, heights * 1e3, interval * 1e3, marker="o", capsize=2)
 left.set_xlabel("superficial velocity (mm/s)")
 left.set_ylabel("bed height (mm)")
 right.loglog(voidage, velocities, marker="o")

@@ -45,11 +45,6 @@ class Quantity:
     def __repr__(self) -> str:
         return f"Quantity of shape {self.values.shape} in {self.unit}"
 
-    def last(self, share: float = 0.25) -> tuple[Any, Any]:
-        """Mean and standard deviation over the last part of the time, a quarter, in its unit."""
-        late = self.values[self.time >= self.time[-1] - share * (self.time[-1] - self.time[0])]
-        return late.mean(axis=0), late.std(axis=0)
-
 
 def unit_of_column(name: str) -> str:
     """Unit of a column of the history; "1" for what has none, as a number of contacts."""

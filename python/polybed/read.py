@@ -5,7 +5,7 @@
     run.phi_fine[-1]                  # last stored field, [y][x]
     run.time, run.history["bed_height_m"], run.profiles["voidage"]
     height = run.quantity("bed_height")    # numbers with their unit and times: height.values, .unit, .time
-    mean, deviation = height.last()        # over the last quarter
+    run.card["bed_height_m"]          # its mean over the last quarter, with the interval
     last = run.particles[-1]          # of a run of particles
     last.position[last.of("fine")]    # [particle][x, y, z]
 

@@ -6,12 +6,11 @@ from dataclasses import dataclass, field
 import h5py
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+from scipy.special import ndtr, stdtrit
 
 from polybed.ending import NUMBERS, StudyError
 from polybed.solids_table import AXES, checksum
 
-# Half-width of the two-sided 68.27 % interval of Student's distribution by degrees of freedom, what one standard error is of a normal one.
-STUDENT = (1.837, 1.321, 1.197, 1.142, 1.111, 1.091, 1.077, 1.067, 1.059)
 SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean; points that scatter get more seeds
 MOST_SEEDS = 10  # of a point
 GREATEST_RESIDUAL = 0.05  # of a fit that may be used, and the greatest standard error of its points
@@ -50,11 +49,10 @@ class Table:
 
 
 def student_one_sigma(degrees):
-    """Student's factor of one standard error; beyond the table the first terms of its series 1 + 1/(2 n) + 1/(4 n^2) (Abramowitz and
-    Stegun 1964, 26.7.5, at 1), within 1e-4 of it."""
+    """Student's factor of one standard error: half-width of the two-sided 68.27 % interval."""
     if degrees < 1:
         raise ValueError("no degrees of freedom")
-    return STUDENT[degrees - 1] if degrees <= len(STUDENT) else 1 + 1 / (2 * degrees) + 1 / (4 * degrees**2)
+    return float(stdtrit(degrees, ndtr(1)))
 
 
 def mean_of_seeds(seeds):

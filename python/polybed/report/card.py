@@ -1,17 +1,8 @@
-"""The result card of a run: what its record says under `card`, else what follows from its history and its case."""
-
-import numpy as np
+"""The result card of a run, in the words of the card on the screen: what its record says under `card`."""
 
 from polybed.drawing.units import mean_text, text
-from polybed.outflow import discharge_rate, mass_out, recovery
 from polybed.page import markup, source, table
 from polybed.record import case_of, velocity_of
-
-LAST = 0.25  # of the time: what a mean is over
-
-
-def words_of(key):
-    return str(key).replace("_", " ")
 
 
 def listed(values, unit):
@@ -72,63 +63,12 @@ def recorded(card):
     return table([], [row for row in rows if row[1]], "words") + note
 
 
-def mean_row(run, column, unit):
-    """Mean of a column over the last quarter of the time, with its standard deviation; None without it."""
-    history = run.history
-    values = history.get(column)
-    if values is None:
-        return None
-    time = history["time_s"]
-    late = values[time >= time[-1] - LAST * (time[-1] - time[0])]
-    late = late[np.isfinite(late)]
-    if not len(late):
-        return None
-    return mean_text(float(late.mean()), float(late.std()), unit)
-
-
-def bed_rows(run):
-    """Heights, pressure drop over weight, mixing."""
-    history, rows = run.history, []
-    for column, title, unit in (("bed_height_m", "bed height", "m"), ("mixing", "mixing index (1 mixed, 0 apart)", "1")):
-        shown = mean_row(run, column, unit) if column != "mixing" or len(run.species) > 1 else None
-        if shown:
-            rows.append([title, shown])
-    if {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys() and np.any(history["pressure_drop_Pa"] != 0):
-        weight, drop = history["buoyant_weight_Pa"], history["pressure_drop_Pa"]
-        late = (history["time_s"] >= (1 - LAST) * history["time_s"][-1] + LAST * history["time_s"][0]) & (weight != 0)
-        if late.any():
-            ratio = drop[late] / weight[late]
-            rows.append(["pressure drop over weight", f"{ratio.mean():.3g} \u00b1 {ratio.std():.2g}"])
-    return rows
-
-
-def outflow_rows(run):
-    history, rows = run.history, []
-    shares = recovery(history, run.species)
-    for name, out in mass_out(history, run.species).items():
-        rows.append([f"{name} that left", f"{text(float(out[-1]), 'kg')}, recovery {100 * shares[name][-1]:.3g} %"])
-    _, rate = discharge_rate(history, run.species)
-    if len(rate):
-        rows.append(["discharge rate, all species", f"{text(float(rate.mean()), 'kg/s')} (mean of the run)"])
-    return rows
-
-
 def species_rows(case):
     rows = []
     for species in case.get("species", []):
         if {"name", "diameter", "density"} <= species.keys():
             rows.append([species["name"], f"{text(species['diameter'], 'm')}, {species['density']:.4g} kg/m\u00b3"])
     return rows
-
-
-def steady_row(record):
-    measures = record.get("drift", {}).get("measures", [])
-    moving = [words_of(m.get("name", "")) for m in measures if not m.get("steady", True)]
-    if not measures:
-        return []
-    window = record["drift"].get("window_s")
-    over = f" over the last {text(window, 's')}" if isinstance(window, (int, float)) else ""
-    return [["steady", ("no: " + ", ".join(moving) + " still changes" if moving else "yes") + over]]
 
 
 def time_row(record):
@@ -141,21 +81,17 @@ def time_row(record):
     return [["time", shown]]
 
 
-def computed(run):
-    """What follows from history and record of a run without a card."""
-    record, rows = run.record, []
+def of_case(run):
+    """Of a run that has not yet written a card: what it is of."""
+    record = run.record
     case = case_of(record)
     fluid, velocity = case.get("fluid", {}).get("name"), velocity_of(case)
-    rows += species_rows(case)
+    rows = species_rows(case) + time_row(record)
     if fluid and fluid != "none":
         rows.append(["fluid", fluid + (f", superficial velocity {text(velocity, 'm/s')}" if velocity else "")])
-    if run.history and len(run.history["time_s"]):
-        rows += bed_rows(run) + outflow_rows(run)
-    rows += steady_row(record) + time_row(record)
-    return table([], rows, "words") + source("Means over the last quarter of the time, \u00b1 standard deviation; history.csv and run.json."
-                                             ) if rows else ""
+    return table([], rows, "words") if rows else ""
 
 
 def card_of(run):
     card = run.record.get("card")
-    return markup('<div class="card">{}</div>', recorded(card) if card else computed(run))
+    return markup('<div class="card">{}</div>', recorded(card) if card else of_case(run))

@@ -18,11 +18,12 @@ with needed(__name__ == "__main__"):
     from polybed.files import contents_of, read_bytes
     from polybed.folder import read_record
     from polybed.read import read
+    from polybed.record import drift_lines
     from polybed.study import inversion_report as report
     from polybed.study.cases import Case, hash_of, words_of
     from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
     from polybed.study.inversion_search import Mean, search
-    from polybed.study.measured import Columns, WindowProfiles, centre_difference, drifts_in, history_of, measures_of, species_of, \
+    from polybed.study.measured import Columns, WindowProfiles, centre_difference, history_of, measures_of, species_of, \
         window_of, within
     from polybed.study.output_folder import taken
     from polybed.study.record import draw, write_record
@@ -109,7 +110,7 @@ def measure(directory):
     height = mean_of(directory, history, history["bed_height_m"], window)
     with contents_of(found.directory / "run.json"):
         return report.RunOfScan(b.mean, b.error, height.mean, height.error, window.begin, window.end, record["cpu_s"], directory,
-                                record["git_commit"], drifts_in(history, species, window), interface_of(found, species, window),
+                                record["git_commit"], drift_lines(record), interface_of(found, species, window),
                                 record["integrator"])
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from polybed.files import DamagedError, FormatError
 from polybed.runner import call
 from polybed.read import read
-from polybed.study.drift import drift_lines
+from polybed.record import drift_lines
 from polybed.study.time_mean import TimeMean, groups_left_out, jackknife_error, rows_to_drop
 
 WINDOW_SHARE = 0.25  # of a run: the last quarter
@@ -33,6 +33,7 @@ class Measured:
     """What a run has measured."""
     history: Columns
     profiles: Columns
+    drifts: list = field(default_factory=list)  # what still drifts at its end, a line each
 
 
 class Window(NamedTuple):
@@ -69,7 +70,7 @@ def measured(directory):
     for name in ("history.csv", "profiles.h5"):
         if not (run.directory / name).exists():
             raise FileNotFoundError(f"{run.directory / name} is missing: make it again with polybed, or restore it from a copy")
-    return Measured(history_of(run), Columns(run.directory / "profiles.h5", run.profiles))
+    return Measured(history_of(run), Columns(run.directory / "profiles.h5", run.profiles), drift_lines(run.record))
 
 
 def species_of(history):
@@ -180,10 +181,3 @@ def measures_of(profiles, species, on=None, reference=None):
     if reference:
         asked["reference"] = reference.plain()
     return json.loads(call("measure", "--profiles", "-", "--json", given=json.dumps(asked)))
-
-
-def drifts_in(history, species, window):
-    """What of a run still drifts up to the end of the window, a line each."""
-    seen = history["time_s"] <= window.end
-    heights = {name: history[f"{name}_m"][seen] for name in ("bed_height", *(f"centre_{s}" for s in species))}
-    return drift_lines(history["time_s"][seen], heights)

@@ -8,7 +8,7 @@ import numpy as np
 
 from polybed.files import FormatError
 from polybed.quantities import measure_words
-from polybed.study.measured import (WindowProfiles, centre_column, centre_difference, drifts_in, measures_of, ratio, species_of, window_of,
+from polybed.study.measured import (WindowProfiles, centre_column, centre_difference, measures_of, ratio, species_of, window_of,
                                     within)
 from polybed.study.time_mean import TimeMean, jackknife_error, student_quantile, time_mean
 
@@ -75,7 +75,7 @@ class Side:
     """A run with what it has in the window."""
 
     def __init__(self, measured, species, window):
-        self.history, self.species = measured.history, species
+        self.history, self.species, self.drifts = measured.history, species, measured.drifts
         self.profiles = WindowProfiles(measured.profiles, species, window)
         self.answer = None
 
@@ -199,7 +199,7 @@ class Comparer:
         slowest = max(times, key=times.get, default=None)
         if slowest and len(time) < ENOUGH * times[slowest]:
             warnings.append(f"window too short for {measure_words(slowest)}: run at least {WINDOW_PARTS * ENOUGH * times[slowest] * step:.3g} s")
-        self.found.warnings += [f"{model}: {line}" for line in (*warnings, *drifts_in(history, self.found.species, window))]
+        self.found.warnings += [f"{model}: {line}" for line in (*warnings, *self.sides[model].drifts)]
 
 
 def height_score(height):

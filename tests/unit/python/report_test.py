@@ -71,7 +71,7 @@ class Whole(SampleRun):
                        "limited_by": EVIL, "left_out": EVIL, "time_s": {"taken": 1.0, "predicted": 2.0}}
         case = f"title = {json.dumps(EVIL)}\n[effects]\n{json.dumps(EVIL)} = {json.dumps(EVIL)}\n"
         (self.directory / "steps.csv").write_text(f'time_s,dt_s,error_norm,limited_by\n1,1,0.1,"{EVIL}"\n')
-        for evil in ({"card": card_of_run}, {"card": None, "drift": {"measures": [{"name": EVIL, "steady": False}]}}):
+        for evil in ({"card": card_of_run}, {"card": None}):
             add_case(self.directory, **evil, case=case, state=EVIL, model=EVIL, program=EVIL, git_commit=EVIL, case_hash=EVIL,
                      timers={EVIL: 1.0}, work={EVIL: 1}, invariants=[{"name": EVIL, "worst": 1, "limit": 0}], step={"limited_by": EVIL})
             parts = build.parts(polybed.read(self.directory)) | {"all": ("", self.page())}

@@ -15,9 +15,9 @@ sys.path.insert(0, PACKAGE)
 os.environ["POLYBED"] = PROGRAM
 
 from polybed import ending  # noqa: E402
+from polybed.record import drift_lines  # noqa: E402
 from polybed.runner import run_within  # noqa: E402
 from polybed.study import output_folder  # noqa: E402
-from polybed.study.drift import drift_lines, drift_of  # noqa: E402
 from polybed.study.measured import (Columns, Profile, Window, WindowProfiles, centre_difference, measures_of, ratio, species_of, window_of,  # noqa: E402
                                     within)
 from polybed.study.time_mean import (autocorrelation_time, groups_left_out, jackknife_error, rows_to_drop, student_quantile,  # noqa: E402
@@ -137,19 +137,14 @@ class Windows(unittest.TestCase):
 
 
 class Drifts(unittest.TestCase):
-    TIME = np.linspace(0, 40, 401)
-
-    def test_the_slope_of_a_line(self):
-        rate, error = drift_of(self.TIME, 0.1 + 1e-3 * self.TIME)
-        self.assertAlmostEqual(rate, 1e-3, delta=1e-15)
-        self.assertLess(error, 1e-15)
-        self.assertIsNone(drift_of(np.array([0.0, 1.0]), np.array([1.0, 2.0])))  # parts without a row
-
-    def test_what_matters_is_told(self):
-        bed = 0.1 + 0 * self.TIME
-        lines = drift_lines(self.TIME, {"bed_height": bed, "centre_a": bed + 1e-4 * self.TIME, "centre_b": bed + 1e-6 * self.TIME})
-        self.assertEqual(len(lines), 1)  # of b: 0.04 mm in another run as long, less than a thousandth of the bed
-        self.assertRegex(lines[0], "not steady: drift of centre_a 0.1 ± .* mm/s over the last 10 s")
+    def test_what_the_program_finds_not_steady_is_told(self):
+        still, rising = ({"name": name, "rate_m_per_s": 1e-4, "error_m_per_s": 1e-6, "steady": steady} for name, steady in
+                         (("bed_height", True), ("centre_a", False)))
+        self.assertEqual(drift_lines({"drift": {"window_s": 10, "measures": [still, rising]}}),
+                         ["not steady: drift of centre_a 0.1 ± 0.001 mm/s over the last 10 s"])
+        self.assertEqual(drift_lines({}), [])
+        with self.assertRaisesRegex(ending.FAULTS, "run.json is damaged"):
+            drift_lines({"drift": {"measures": [rising]}})
 
 
 class Folders(unittest.TestCase):
