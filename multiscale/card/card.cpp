@@ -208,6 +208,7 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
       {"limited_by", core::text_or_null(card.limited_by)},
       {"left_out", left_out_text(card.left_out)},
       {"time_s", {{"taken", core::or_null(card.taken)}, {"predicted", card.predicted.expected}}},
+      {"lines", result_lines(card)},
   });
   json["drift"] = drift_of(seen);
 }

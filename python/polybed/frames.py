@@ -53,6 +53,8 @@ def table(runs: Iterable[Run]) -> pd.DataFrame:
 def card_of(card: dict[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
     """The entries of a card by dotted names; {"value", "interval"} as name and name_interval."""
     for name, value in card.items():
+        if name == "lines":  # the same in words
+            continue
         if isinstance(value, dict) and value.keys() == {"value", "interval"}:
             yield from ((above + name, value["value"]), (f"{above}{name}_interval", value["interval"]))
         elif isinstance(value, dict):

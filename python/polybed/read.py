@@ -137,7 +137,7 @@ class Run:
     def card(self) -> dict[str, Any]:
         """The result card, `card` of run.json: bed height and pressure drop with their intervals, whether the bed is steady, ...; empty if
         there is none yet. Keys end in their unit; what a case lacks is None."""
-        return self.record.get("card", {})
+        return self.record.get("card") or {}
 
     @property
     def species(self) -> list[str]:

@@ -9,7 +9,7 @@ import program
 from program import CASE, DONE, ROOT, SMALL, Scratch, history, small_bed, strict_json
 
 KEYS = {"u_mf_m_s", "u_over_u_mf", "terminal_m_s", "geldart", "state", "layers", "bed_height_m", "pressure_drop_over_weight", "mixing",
-        "out_kg", "recovery", "discharge_kg_s", "steady", "limited_by", "left_out", "time_s"}
+        "out_kg", "recovery", "discharge_kg_s", "steady", "limited_by", "left_out", "time_s", "lines"}
 HEADINGS = ("bed ", "fluidises at ", "falls at ", "mixing ", "steady ", "step ", "left out ", "time ")
 SCREEN = 25  # lines
 TEMPLATES = ROOT / "cases/templates"
@@ -30,6 +30,7 @@ class Card(Scratch):
             last = [line for line in done.stderr.splitlines() if not line.startswith("to go on ")][-len(HEADINGS):]
             for heading, line in zip(HEADINGS, last):
                 self.assertTrue(line.startswith(heading), (heading, last))
+            self.assertEqual(card["lines"], last)
             record = strict_json((run / "run.json").read_text())
             self.assertEqual(card["time_s"], {"taken": record["cpu_s"], "predicted": record["prediction"]["cpu_s"]})
             self.assertIsNone(card["discharge_kg_s"])

@@ -1,6 +1,5 @@
 """What a sweep leaves: cost.json, cost.csv, cost.md and pictures."""
 
-import json
 import os
 from dataclasses import dataclass
 from math import isfinite
@@ -11,7 +10,7 @@ from polybed.cost.timing import Timing, timing_of
 from polybed.cost.work import VERSION, weighed
 from polybed.in_place import put_text
 from polybed.runner import call
-from polybed.ending import NUMBERS, StudyError
+from polybed.study.record import json_text
 
 
 @dataclass
@@ -102,10 +101,7 @@ def sweep_json(sweep, of):
         "fit": {name: law._asdict() if law else None for name, law in laws.items()} | {"additive_off": finite(sweep.additive_off)},
         "pareto": [n for n, row in enumerate(sweep.rows) if row.status == "pareto"], "recommend": recommendation_json(sweep),
         "attribution": shares_json(sweep.attribution), "inputs": shares_json(sweep.inputs), "warnings": sweep.warnings}
-    try:
-        return json.dumps(plain(found), ensure_ascii=False, allow_nan=False)
-    except ValueError as error:
-        raise StudyError(NUMBERS, "a number that is not finite was about to be written as JSON") from error
+    return json_text(plain(found))
 
 
 def number(value):

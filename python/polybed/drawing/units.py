@@ -28,13 +28,6 @@ def fitting_prefix(greatest, power):
     return PREFIXES[-1][0] ** -power, PREFIXES[-1][1]
 
 
-def mean_text(value, spread, unit):
-    """A mean and how far it spreads, in one unit, as in 120 +- 3 mm."""
-    factor, name = fitting(unit, max(abs(value), abs(spread)))
-    spread = spread if spread > 1e-9 * abs(value) else 0.0  # less is rounding of what does not change
-    return f"{value * factor:.3g} \u00b1 {spread * factor:.2g} {name}".strip()
-
-
 def text(value, unit, digits=3):
     """A number with the unit that fits, as in 2.3 mm/s."""
     factor, name = fitting(unit, abs(value))

@@ -9,13 +9,19 @@ from polybed.in_place import put_text
 from polybed.ending import FILE, NUMBERS, StudyError, answer
 
 
-def write_record(path, found):
-    """Puts a JSON file in place whole and returns its text. Raises StudyError."""
+def json_text(found):
+    """Raises StudyError if a number is not finite."""
     try:
-        text = json.dumps(found, ensure_ascii=False, allow_nan=False)
-        put_text(path, text + "\n")
+        return json.dumps(found, ensure_ascii=False, allow_nan=False)
     except ValueError as error:
         raise StudyError(NUMBERS, "a number that is not finite was about to be written as JSON") from error
+
+
+def write_record(path, found):
+    """Puts a JSON file in place whole and returns its text. Raises StudyError."""
+    text = json_text(found)
+    try:
+        put_text(path, text + "\n")
     except OSError as error:
         raise StudyError(FILE, f"cannot write {path}: {error.strerror}") from error
     return text
