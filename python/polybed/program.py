@@ -103,8 +103,8 @@ def folder_of(case: Place, what: str, digest: str) -> Path:
 
 @names_itself
 def check(case: Place, overrides: Overrides | None = None, until: Value | None = None) -> dict[str, Any]:
-    """What `polybed check --json` says of a case, without a run: expected height and state, velocities of fluidisation and of fall, steps,
-    memory and time that a run takes, notes, and why a model refuses it."""
+    """What `polybed check --json` says of a case, without a run: in "expected" the state and the height of the bed and the velocities of
+    fluidisation and of fall, named as in a run's card; steps, memory and time that a run takes, notes, and why a model refuses it."""
     answer: dict[str, Any] = json.loads(call("check", case, *settings(overrides, until), "--json"))
     return answer
 

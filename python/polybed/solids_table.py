@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from polybed.files import DamagedError, open_hdf5
+from polybed.page import table
 
 # Units of what is no ratio and no fraction; pressures of a fluidised bed are told over the weight of a layer of one diameter.
 BED = "(rho_p - rho_f) g D"
@@ -47,6 +48,12 @@ class SolidsTable:
         if name not in self._arrays:
             raise KeyError(f"{self.path} holds no {name}; it holds {', '.join(self.names())}")
         return self._arrays[name]
+
+    def _repr_html_(self) -> str:
+        """What it contains, for notebooks."""
+        return table(["", "unit", "shape", "least", "greatest"], [
+            [name, self.unit(name), " \u00d7 ".join(map(str, data.shape)), f"{data.min():.4g}", f"{data.max():.4g}"]
+            for name, data in sorted(self._arrays.items()) if data.size])
 
     def names(self) -> list[str]:
         return sorted(self._arrays)

@@ -88,6 +88,8 @@ class Card(Scratch):
         run = self.folder / "run"
         self.ends(DONE, "tfm", CASE, *SMALL, "--until", "10 ms", "-o", run, "--quiet")
         card = self.card(run)
+        for name in ("u_mf_m_s", "u_over_u_mf", "terminal_m_s", "geldart"):
+            self.assertEqual(answer["expected"][name], card[name], "check says the same before the run")
         rho, mu = answer["fluid_density_kg_m3"], answer["fluid_viscosity_Pa_s"]
         for name, d, density in (("fine", 0.807e-3, 1395), ("coarse", 2.01e-3, 1170)):
             u = card["u_mf_m_s"][name]
@@ -193,6 +195,8 @@ class Screen(Scratch):
         for heading in ("fluidises at", "falls at"):
             least, greatest = re.search(rf"{heading} +fines ([\d.]+ \S+) to \S+ ([\d.]+ \S+?)[,\n]", many).groups()
             self.assertLess(*(float(value.split()[0]) * {"µm/s": 1e-6, "mm/s": 1e-3}[value.split()[1]] for value in (least, greatest)))
+        expected = strict_json(self.ends(DONE, "check", CASE, "--json").stdout)["expected"]
+        self.assertEqual((expected["state"], round(1e3 * expected["bed_height_m"]), expected["discharge_kg_s"]), ("fluidised", 346, None))
         for velocity, state in (("1 mm/s", "packed"), ("1 m/s", "carried up")):
             told = self.ends(DONE, "check", CASE, "--set", f"inlet.superficial_velocity={velocity}").stdout
             self.assertRegex(told, f"expect +{state}")

@@ -53,6 +53,8 @@ class Results(Scratch):
         self.assertEqual(found, strict_json(self.ends(program.DONE, "check", CASE, "--set", "inlet.superficial_velocity=20 mm/s", "--json").stdout) |
                          {key: found[key] for key in ("memory_MB", "memory", "time", "dem")})  # of this machine at this moment
         self.assertEqual(found["refused"], {"tfm": [], "dem": []})
+        self.assertEqual(found["expected"]["state"], "fluidised")
+        self.assertEqual(set(found["expected"]["u_mf_m_s"]), {"fine", "coarse", "mixture"})
 
     def test_fields_and_profiles_are_datasets_with_units(self):
         run = self.run_short()

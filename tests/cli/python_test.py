@@ -186,6 +186,7 @@ class Package(Scratch):
         self.assertEqual([table.unit(name) for name in ("phi", "p_bed_n", "velocity", "theta_bed")],
                          ["1", "1", "m/s", "(rho_p - rho_f) g D/rho_p"])
         self.assertEqual({table.unit(name) for name in ("p_bed", "p_bed_se", "p_bed_by_balance_se")}, {"(rho_p - rho_f) g D"})
+        self.assertIn("<td>velocity</td><td>m/s</td><td>2</td><td>0.1</td><td>0.2</td>", table._repr_html_())
         with h5py.File(self.folder / "table.h5", "r+") as file:
             file.attrs["version"] = 2
         with self.assertRaisesRegex(polybed.FormatError, "version 2"):
