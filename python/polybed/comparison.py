@@ -25,7 +25,7 @@ with needed(__name__ == "__main__"):
     from polybed.ending import made
     from polybed.files import contents_of, read_json
     from polybed.plot import stored_times
-    from polybed.quantities import COLUMNS, unit_of_column
+    from polybed.quantities import measure_words, unit_of_column
     from polybed.read import nearest, read
     from polybed.record import title_of_case
     from polybed.drawing.inversion_scan import commands as scan_command
@@ -66,24 +66,11 @@ def folder_of(run, *parts):
     return file_name(run["directory"], *parts) + f" (commit {run['git_commit']})"
 
 
-MEASURES = {"bed_height_m": "bed height", "interface_m": "height of the interface", "mixing": "mixing index (1 mixed, 0 apart)",
-            "centre_difference": "distance of the centres of two species over the bed height",
-            "pressure_drop_over_weight": "pressure drop over the buoyant weight"}
 SCORES = {"e_H": "bed height: two-fluid model over particles, less 1",
           "e_b": "distance of the centres of two species over the bed height: difference of the models",
           "D1": "layering: 0 if both models layer the species alike, 1 if one is upside down; "
                 "the difference in the share of species 2 over the solids counted from below, integrated",
           "u_inv": "inversion velocity: two-fluid model over particles, less 1"}
-
-
-def measure_words(name):
-    """What a measure is called in words."""
-    if name in MEASURES:
-        return MEASURES[name]
-    if name.startswith("centre_") and name.endswith("_m"):
-        return f"height of the centre of {name[len('centre_'):-len('_m')]}"
-    row = COLUMNS.get(name)
-    return row["name"].replace("_", " ") if row and row["name"] else name
 
 
 def score_words(name):

@@ -5,9 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from polybed.quantities import TABLE
 from polybed.study.measured import Profile, Window, WindowProfiles, centre_column, centre_difference, measures_of, ratio, species_of, within
 from polybed.study.time_mean import TimeMean, jackknife_error, time_mean
 
+HELP = {row["name"]: row["help"] for part in ("bed", "distances") for row in TABLE[part]}
 ENOUGH = 30  # autocorrelation times in a window
 LENGTH, SHARE, ITSELF = "length", "share", "itself"  # what errors are relative to: the reference's bed height, 1, its value
 
@@ -41,16 +43,15 @@ def measure_on(keys, begin):
 
 def quantities_of(species):
     """Of a case with these species."""
-    found = [QuantityInfo("bed_height", "m", "highest z where phi equals half of its mean between z_0.80 and z_0.95", LENGTH)]
-    found += [QuantityInfo(f"centre_{name}", "m", "mean height of the volume of the species", LENGTH) for name in species]
-    found.append(QuantityInfo("pressure_drop", "1", "over the buoyant weight", SHARE))
+    def measure(name, unit, scale, row=None):
+        return QuantityInfo(name, unit, HELP[row or name], scale)
+
+    found = [measure("bed_height", "m", LENGTH), *(measure(f"centre_{name}", "m", LENGTH, "centre_<name>") for name in species),
+             QuantityInfo("pressure_drop", "1", "over the buoyant weight", SHARE)]
     if len(species) > 1:
-        found += [QuantityInfo("centre_difference", "1", "centre of species 2 less that of species 1, over bed_height", SHARE),
-                  QuantityInfo("mixing", "1", "1 mixed, 0 separated", SHARE),
-                  QuantityInfo("interface", "m", "top of the lower layer of the mean profile, x* = 0.05", LENGTH),
-                  QuantityInfo("composition", "1", "distance in composition from the reference, over the volume", SHARE)]
-    return [*found, QuantityInfo("profile", "1", "distance of the volume fractions from the reference, mean of the species", SHARE),
-            QuantityInfo("pressure_rms", "1", "of the pressure drop over the buoyant weight", SHARE),
+        found += [measure("centre_difference", "1", SHARE), measure("mixing", "1", SHARE), measure("interface", "m", LENGTH),
+                  measure("composition", "1", SHARE)]
+    return [*found, measure("profile", "1", SHARE), QuantityInfo("pressure_rms", "1", "of the pressure drop over the buoyant weight", SHARE),
             QuantityInfo("pressure_frequency", "1/s", "of the greatest Fourier term of the pressure drop", ITSELF)]
 
 
