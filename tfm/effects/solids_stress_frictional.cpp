@@ -133,6 +133,7 @@ void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
 }
 
 void FrictionalStress::hold_surface(Fields& fields) const {
+  constexpr double thin = 1e-5;  // less is hardly held: noise in a cell without solids has no stiffness
   const core::Grid& grid = constants_.grid;
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
@@ -148,11 +149,12 @@ void FrictionalStress::hold_surface(Fields& fields) const {
         if (!((on_packed || on_held) && phi[c] < under)) continue;
         const Index packed = c + (on_packed ? 1 : 2) * below;
         for (std::size_t j = 0; j < constants_.species(); ++j) share[j] = fields.share[j][std::size_t(packed)];
-        const double whole = under + 2 * phi[c];
-        double load = along * along * law_.at(phi[packed], packing_of({share.data(), constants_.species()})).pressure;
-        if (on_held) load *= under / (next + 2 * under);
-        pressure[c] = std::max(pressure[c], load * phi[c] / whole);
-        slope[c] = std::max(slope[c], load * under / (whole * whole));
+        const double load =
+            along * along * law_.at(phi[packed], packing_of({share.data(), constants_.species()})).pressure;
+        const double between = on_held ? next + 2 * under : under, whole = between + 2 * phi[c];
+        const double held = on_held ? phi[c] / (std::abs(phi[c]) + thin) : 1;
+        pressure[c] = std::max(pressure[c], held * load * phi[c] / whole);
+        slope[c] = std::max(slope[c], held * (2 - held) * load * between / (whole * whole));
       }
     });
   }
