@@ -59,6 +59,7 @@ void add_inversion(CLI::App& app, Commands& commands);
 void add_calibrate(CLI::App& app, Commands& commands);
 void add_resolve(CLI::App& app, Commands& commands);
 void add_stability(CLI::App& app, Commands& commands);
+void add_validate(CLI::App& app, Commands& commands);
 
 /// CASE, --set and --json.
 void take_case(CLI::App& command, CaseOptions& options, bool required = true);

@@ -42,6 +42,11 @@ void add_fit(CLI::App& app, Commands& commands) {
             On::one_process);
 }
 
+void add_validate(CLI::App& app, Commands& commands) {
+  add_study(app, commands, "validate", "measured beds against the models: runs, verdicts, a page", "polybed.validation",
+            On::study);
+}
+
 void add_stability(CLI::App& app, Commands& commands) {
   CLI::App& command = add_handed_over(app, "stability", "hard cases against every scheme: what held, cell by cell");
   commands.push_back({&command, doing([&command] { become_stability(command.remaining()); })});

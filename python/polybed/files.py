@@ -28,6 +28,7 @@ VERSIONS = {
     "polybed inversion": 1,
     "polybed cost": 1,
     "polybed stability": 1,
+    "polybed validation": 1,
 }
 
 

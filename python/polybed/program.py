@@ -64,11 +64,16 @@ def settings(overrides: Overrides | None, until: Value | None = None) -> list[st
     return words(overrides) + ([] if until is None else ["--until", str(plain(until, "until"))])
 
 
-def case(name: str) -> Path:
-    """Path of the case file of a shipped case, by the name of its folder: case("small-binary"). Raises KeyError with the names."""
+def cases_folder() -> Path | None:
+    """Folder of the shipped cases: of the sources, or that installed beside the program; None without one."""
     own = [found / "cases"] if (found := sources()) else []
     tried = [*own, *(Path(program()).parents[1] / beside for beside in ("share/polybed/cases", "cases"))]
-    folder = next((each for each in tried if each.is_dir()), None)
+    return next((each for each in tried if each.is_dir()), None)
+
+
+def case(name: str) -> Path:
+    """Path of the case file of a shipped case, by the name of its folder: case("small-binary"). Raises KeyError with the names."""
+    folder = cases_folder()
     names = sorted(path.parent.name for path in folder.glob("*/case.toml")) if folder else []
     if folder is None or name not in names:
         raise KeyError(f"there is no case {name!r}; there are {', '.join(names) or 'none beside the program'}")

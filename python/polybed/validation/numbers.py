@@ -1,0 +1,160 @@
+"""Both sides of a comparison: a measured number and a number of a run, each with its 95 % interval; and the verdict.
+
+Means, intervals and windows are those of polybed.study.
+"""
+
+import json
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from polybed.errors import PlainError
+from polybed.files import FormatError, contents_of, finite
+from polybed.read import read
+from polybed.record import case_of, drift_lines
+from polybed.runner import call
+from polybed.study.measured import history_of, window_of, within
+from polybed.study.time_mean import groups_left_out, jackknife_error, student_quantile, time_mean
+from polybed.validation.entries import chosen_rows, script_of
+
+PACKED = (0.1, 0.6)  # pressure drop over weight between which the bed is packed
+INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
+
+
+class Number(NamedTuple):
+    value: float
+    error: float | None = None  # half-width of the 95 % interval
+    repeats: int = 1  # of the experiment
+    scatter: float = 0.0  # standard deviation of the repeats
+
+
+class Undecided(PlainError):
+    """A run gives no number to judge; the text says why. number: of a bed that still drifts, as it is so far"""
+
+    def __init__(self, reason, number=None):
+        super().__init__(reason)
+        self.number = number
+
+
+def of_repeats(values, error=None):
+    """Mean of repeats with Student's interval. A single value has the error that is stated. Raises FormatError for two or three."""
+    if len(values) == 1:
+        return Number(values[0], error)
+    if len(values) < 4:
+        raise FormatError("an interval needs four repeats")
+    scatter = float(np.std(values, ddof=1))
+    return Number(float(np.mean(values)), student_quantile(len(values) - 1) * scatter / math.sqrt(len(values)), len(values), scatter)
+
+
+def deviation_of(values):
+    """Standard deviation in time; its interval leaves out groups of rows in turn."""
+    values = np.asarray(values, float)
+    if not len(values):
+        raise Undecided("no row in the window")
+    return Number(float(values.std()), jackknife_error([values[kept].std() for kept in groups_left_out(len(values))]))
+
+
+def mean_of(values):
+    found = time_mean(values)
+    if found is None:
+        raise Undecided("no row in the window")
+    return Number(found.mean, found.error)
+
+
+def of_series(how, values):
+    return {"mean": mean_of, "deviation": deviation_of}[how](values)
+
+
+def measured_number(entry, run, compare):
+    """What was measured. Raises FormatError."""
+    stated = compare.get("measured_error")
+    if compare["how"] == "inversion":
+        return Number(inversion_of(entry, run)["measured_m_s"][0], stated)
+    if entry.measured is None:
+        return of_series(compare["how"], script_of(entry).measured()[compare["series"]][1])
+    rows = chosen_rows(entry.measured, run.where | compare.get("where", {}))
+    with contents_of(entry.measured):
+        error = finite(rows[0]["error"]) if rows[0].get("error") else stated
+        return of_repeats([finite(row[compare.get("value", "value")]) for row in rows], error)
+
+
+def inversion_of(entry, run):
+    words = [word for override in run.overrides for word in ("--set", override)]
+    return json.loads(call("inversion", entry.case, *words, "--json"))
+
+
+def inversion_interval(found):
+    """Between the ends of the mixed interval neither order of the layers is stable."""
+    low, high = found["mixed_interval_m_s"]
+    return Number((low + high) / 2, (high - low) / 2)
+
+
+def column_of(record, history, name):
+    """A column of the history, or `bed_voidage`: 1 less the solids of the settled bed over the bed height."""
+    if name != "bed_voidage":
+        return history[name]
+    bed = case_of(record)["bed"]
+    return 1 - bed["solids_fraction"] * bed["static_height"] / history["bed_height_m"]
+
+
+def first_time(history, compare):
+    """Time at which a column, plus a constant, first reaches another one; counted from `since`."""
+    time, above = history["time_s"], history[compare["column"]] + compare.get("plus", 0) >= history[compare["reaches"]]
+    reached = np.nonzero(above & (time > compare["since"]))[0]
+    if not len(reached):
+        raise Undecided(f"not reached within {time[-1] - compare['since']:.3g} s")
+    return Number(float(time[reached[0]] - compare["since"]), float(time[reached[0]] - time[reached[0] - 1]))
+
+
+def meeting(velocity, carried):
+    """Where the straight line through the origin that fits a packed bed meets its weight."""
+    return float((velocity @ velocity) / (velocity @ carried))
+
+
+def meets_weight(record, history):
+    """The velocity at which the line of the packed bed meets the weight, as u_mf is read off a measured curve; the velocity rises in
+    time. The interval leaves out parts of the line in turn."""
+    points = np.array(case_of(record)["inlet"]["superficial_velocity"], float)
+    carried = history["pressure_drop_Pa"] / history["buoyant_weight_Pa"]
+    packed = (carried >= PACKED[0]) & (carried <= PACKED[1]) & (np.maximum.accumulate(carried) <= PACKED[1])
+    velocity, carried = np.interp(history["time_s"], *points.T)[packed], carried[packed]
+    kept = groups_left_out(len(velocity))
+    if not len(kept):
+        raise Undecided("fewer than four rows of a packed bed")
+    return Number(meeting(velocity, carried), jackknife_error([meeting(velocity[part], carried[part]) for part in kept]))
+
+
+def run_number(entry, compare, directory):
+    """What a run gives. Raises Undecided, FormatError or FileNotFoundError."""
+    how, run = compare["how"], read(directory)
+    history = history_of(run)
+    if how == "meets_weight":
+        return meets_weight(run.record, history)
+    if how == "first_time":
+        return first_time(history, compare)
+    window = window_of(history)
+    if "series" in compare:
+        found = of_series(how, script_of(entry).simulated(run, window.begin)[compare["series"]][1])
+    else:
+        found = of_series(how, within(history["time_s"], column_of(run.record, history, compare["column"]), window))
+    if run.record.get("card", {}).get("steady") is not True:
+        raise Undecided((drift_lines(run.record) or ["too few rows to tell whether the bed drifts"])[0], found)
+    return found
+
+
+def joint_interval(measured, model):
+    """Half-width in which the difference of both lies with 95 %. One run is one more repeat of an experiment that has been repeated.
+    None if one side has no interval."""
+    if measured.error is None or model.error is None:
+        return None
+    one_more = student_quantile(measured.repeats - 1) * measured.scatter if measured.repeats > 1 else 0.0
+    return math.hypot(measured.error, model.error, one_more)
+
+
+def verdict(measured, model):
+    """(verdict, joint half-width, why there is none)"""
+    joint = joint_interval(measured, model)
+    if joint is None:
+        return UNDECIDED, None, "no interval of the measurement" if measured.error is None else "too few rows for an interval"
+    return (INSIDE if abs(model.value - measured.value) <= joint else OUTSIDE), joint, ""
