@@ -32,6 +32,22 @@ double Ramp::rate(double t) const {
   return (next->second - std::prev(next)->second) / (next->first - std::prev(next)->first);
 }
 
+double Ramp::integral(double t) const {
+  if (table_.empty() || !(t > 0)) return 0;
+  const auto& [first, at_first] = table_.front();
+  const auto& [last, at_last] = table_.back();
+  double sum = at_first * std::clamp(first, 0.0, t) + at_last * std::max(0.0, t - std::max(last, 0.0));
+  for (std::size_t n = 1; n < table_.size(); ++n) {
+    const auto& [t0, v0] = table_[n - 1];
+    const auto& [t1, v1] = table_[n];
+    const double from = std::max(t0, 0.0), to = std::min(t1, t);
+    if (!(from < to)) continue;
+    const double slope = (v1 - v0) / (t1 - t0);
+    sum += (to - from) * (v0 + slope * (0.5 * (from + to) - t0));
+  }
+  return sum;
+}
+
 double Ramp::greatest() const {
   double most = 0;
   for (const auto& [t, v] : table_) most = std::max(most, std::abs(v));

@@ -21,6 +21,8 @@ class Ramp {
   [[nodiscard]] double velocity(double t) const;
   /// Its rate, m/s2; from the right at a breakpoint.
   [[nodiscard]] double rate(double t) const;
+  /// Its integral from time 0 to t, m; 0 before.
+  [[nodiscard]] double integral(double t) const;
   /// The greatest speed at any time, m/s.
   [[nodiscard]] double greatest() const;
   [[nodiscard]] const std::vector<std::pair<double, double>>& table() const { return table_; }

@@ -18,6 +18,19 @@ TEST(Ramp, IsLinearBetweenItsPointsAndMayJump) {
   EXPECT_EQ(ramp.greatest(), 0.5);
 }
 
+// 0.1 before 1 s, then the mean of 0.1 and 0.3 to 2 s, then 0.5: to 1.5 s 0.1 + 0.5 (0.1 + 0.2)/2, to 6 s 0.1 + 0.2 + 4
+// 0.5.
+TEST(Ramp, IsIntegratedFromTimeZero) {
+  const Ramp ramp({{1.0, 0.1}, {2.0, 0.3}, {2.0, 0.5}, {4.0, 0.5}});
+  EXPECT_EQ(ramp.integral(-1), 0);
+  EXPECT_DOUBLE_EQ(ramp.integral(0.5), 0.05);
+  EXPECT_DOUBLE_EQ(ramp.integral(1.5), 0.175);
+  EXPECT_DOUBLE_EQ(ramp.integral(6), 2.3);
+  EXPECT_DOUBLE_EQ(Ramp({{0.0, 0.4}}).integral(2), 0.8);
+  EXPECT_DOUBLE_EQ(Ramp({{-1.0, 0.0}, {1.0, 2.0}}).integral(2), 1.5 + 2);
+  EXPECT_EQ(Ramp().integral(2), 0);
+}
+
 core::Scene with_jet(int dimensions) {
   core::Scene scene;
   scene.inlet.superficial_velocity = {{0.0, 0.01}};
